@@ -1,0 +1,36 @@
+"""Rule: no two messages have the same code in the same direction."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from framegen.checks.rule import Problem, StructureRule
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from framegen.spec import Spec
+    from framegen.values import Direction
+
+
+def _look(spec: Spec) -> Iterator[Problem]:
+    first: dict[tuple[Direction, int], str] = {}
+    for name, message in spec.messages.items():
+        other = first.setdefault((message.direction, message.id), name)
+        if other != name:
+            yield Problem(
+                ("messages", name, "id"),
+                f"{other} and {name} are both {message.id}, {message.direction}",
+                "mend one of the codes, or the direction",
+                also=(("messages", other, "id"), f"{other} has it first"),
+            )
+
+
+RULE = StructureRule(
+    id="duplicate-id",
+    title="No two messages have the same code in the same direction",
+    why="A receiver knows a message by its direction and its code, and by nothing else.",
+    bad="{LampOn: {id: 7, direction: host -> lamp}, LampOff: {id: 7, direction: host -> lamp}}",
+    good="{LampOn: {id: 7, direction: host -> lamp}, LampOff: {id: 8, direction: host -> lamp}}",
+    look=_look,
+)

@@ -1,0 +1,45 @@
+"""Rule: every erratum still tells a difference between the document and the frames."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from framegen.checks.rule import LayoutRule, Problem
+from framegen.codec import NotAFrame
+from framegen.facts import Fact, NoSuchFact, look_up
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from framegen.layout import Layout
+
+
+def _look(layout: Layout) -> Iterator[Problem]:
+    for index, erratum in enumerate(layout.spec.errata):
+        try:
+            fact = look_up(layout, erratum.concerns)
+        except (NoSuchFact, NotAFrame):
+            # The rules `unknown-fact` and `example` speak of these.
+            continue
+        if fact.value is None:
+            continue
+        if fact.agrees(erratum.document):
+            yield Problem(
+                ("errata", index, "document"),
+                f"the erratum no longer differs: this spec says `{fact}`, as it does",
+                "remove the erratum, or mend what it is about",
+            )
+        elif not fact.agrees(erratum.bytes_):
+            said = Fact(erratum.bytes_)
+            yield Problem(("errata", index, "bytes"), f"this spec says `{fact}`, not `{said}`")
+
+
+RULE = LayoutRule(
+    id="erratum",
+    title="Every erratum still tells a difference between the document and the frames",
+    why="An erratum is a claim about bytes, and is held to them like an example. Once the spec "
+    "says what the document says, it is out of date.",
+    bad="{document: 11, bytes: 11}",
+    good="{document: 11, bytes: 15}",
+    look=_look,
+)

@@ -1,0 +1,83 @@
+"""Rule: every example decodes to its values, and they encode to it."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from framegen.checks.rule import LayoutRule, Problem
+from framegen.codec import NotAFrame, decode, encode
+from framegen.values import to_hex
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from framegen.layout import Layout, MessageLayout
+    from framegen.spec import Example
+    from framegen.yamltree import KeyPath
+
+
+def _look(layout: Layout) -> Iterator[Problem]:
+    for name, message in layout.messages.items():
+        for index, example in enumerate(message.message.examples):
+            path = ("messages", name, "examples", index)
+            yield from _executed(layout, message, example, path)
+
+
+def _executed(
+    layout: Layout, message: MessageLayout, example: Example, path: KeyPath
+) -> Iterator[Problem]:
+    try:
+        decoded = decode(layout, message.direction, example.hex)
+    except NotAFrame as error:
+        yield Problem((*path, "hex"), f"this is no frame of {message.name}: {error}")
+        return
+    if decoded.layout is not message:
+        at, found = message.frame.id_at, decoded.layout
+        text = f"this is a frame of {found.name}: byte {at} is {found.id}, not {message.id}"
+        yield Problem((*path, "hex"), text)
+        return
+    differences = list(_differences((*path, "values"), decoded.values, example.values, message))
+    yield from differences
+    again = encode(layout, message, decoded.values)
+    if again != example.hex:
+        yield Problem((*path, "hex"), f"its values encode to {to_hex(again)}, which is not this")
+
+
+def _differences(path: KeyPath, frame: Any, said: Any, message: MessageLayout) -> Iterator[Problem]:
+    if isinstance(frame, dict) and isinstance(said, dict):
+        for key in [key for key in frame if key not in said]:
+            yield Problem(path, f"the frame has `{key}`, and the values leave it out")
+        for key, value in said.items():
+            if key in frame:
+                yield from _differences((*path, key), frame[key], value, message)
+            else:
+                counts = message.repeat is not None and key == message.repeat.counter.name
+                hint = "leave it out: the list says it" if counts else "leave it out"
+                yield Problem((*path, key), f"the frame gives no `{key}`", hint, on_key=True)
+    elif isinstance(frame, list) and isinstance(said, list):
+        if len(frame) != len(said):
+            yield Problem(path, f"{len(said)} are listed, and the frame has {len(frame)}")
+        for index, (value, other) in enumerate(zip(frame, said, strict=False)):
+            yield from _differences((*path, index), value, other, message)
+    elif frame != said or type(frame) is not type(said):
+        yield Problem(path, f"the frame says {_shown(frame)}, not {_shown(said)}")
+
+
+def _shown(value: object) -> str:
+    if isinstance(value, list | dict):
+        return "a list" if isinstance(value, list) else "an element"
+    if value is None:
+        return "nothing"
+    text = str(value).lower() if isinstance(value, bool) else str(value)
+    return text if len(text) <= 40 else text[:40] + "..."
+
+
+RULE = LayoutRule(
+    id="example",
+    title="Every example decodes to its values, and they encode to it",
+    why="Examples are the evidence for everything else: a layout that does not read them is wrong, "
+    "or they are.",
+    bad="{hex: AA 55 02 01 64, values: {percent: 50}}",
+    good="{hex: AA 55 02 01 32, values: {percent: 50}}",
+    look=_look,
+)

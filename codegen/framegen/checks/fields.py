@@ -1,0 +1,30 @@
+"""Every number of a spec with its place: what the rules about single numbers walk along."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from framegen.spec import GroupField
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from framegen.spec import Message, NumberField, Spec
+    from framegen.yamltree import KeyPath
+
+
+def numbers(spec: Spec) -> Iterator[tuple[KeyPath, NumberField]]:
+    """Walk along every number of every message, those inside elements included."""
+    for name, message in spec.messages.items():
+        yield from numbers_of(("messages", name), message)
+
+
+def numbers_of(path: KeyPath, message: Message) -> Iterator[tuple[KeyPath, NumberField]]:
+    """Walk along every number of the message at `path`."""
+    for name, field in message.fields.items():
+        here = (*path, "fields", name)
+        if not isinstance(field, GroupField):
+            yield here, field
+            continue
+        for inner_name, inner in field.fields.items():
+            yield (*here, "fields", inner_name), inner

@@ -1,0 +1,69 @@
+"""Rule: the frame is made of parts that fit together."""
+
+from __future__ import annotations
+
+from itertools import pairwise
+from typing import TYPE_CHECKING
+
+from framegen.checks.frames import part_problems
+from framegen.checks.rule import Problem, StructureRule
+from framegen.spec import AddressPart, BodyPart, ChecksumPart, ConstantPart
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from framegen.spec import Spec
+
+
+def _look(spec: Spec) -> Iterator[Problem]:
+    yield from part_problems(("frame",), spec.frame)
+    yield from _order(spec)
+    for name, part in spec.frame.items():
+        if isinstance(part, AddressPart | ChecksumPart):
+            yield Problem(
+                ("frame", name),
+                f"the protocol's own frame cannot have {part.is_} parts yet",
+                "describe it under `lookalikes`, where they are understood",
+                on_key=True,
+            )
+
+
+def _order(spec: Spec) -> Iterator[Problem]:
+    in_header = True
+    for name, part in spec.frame.items():
+        constant = isinstance(part, ConstantPart)
+        if constant and not in_header:
+            yield Problem(
+                ("frame", name),
+                f"the constant `{name}` stands after other parts",
+                "constants begin the frame",
+                on_key=True,
+            )
+        in_header = in_header and constant
+    names = list(spec.frame)
+    if names and not isinstance(spec.frame[names[0]], ConstantPart):
+        yield Problem(
+            ("frame", names[0]),
+            "the frame does not begin with a constant",
+            "a stream is searched for the constant: put it first",
+            on_key=True,
+        )
+    for name, after in pairwise(names):
+        if isinstance(spec.frame[name], BodyPart):
+            yield Problem(
+                ("frame", after),
+                f"`{after}` stands after the body",
+                "the body ends the frame",
+                on_key=True,
+            )
+
+
+RULE = StructureRule(
+    id="frame-parts",
+    title="The frame is made of parts that fit together",
+    why="Everything has its place from here: a constant to search for, one length that counts the "
+    "body, one id that says what the body holds.",
+    bad="frame: {length: ..., header: ..., parameters: ...}",
+    good="frame: {header: ..., length: ..., command: ..., parameters: ...}",
+    look=_look,
+)

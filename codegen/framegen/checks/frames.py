@@ -1,0 +1,79 @@
+"""What is asked of the parts of any frame, the protocol's own or a look-alike's."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from framegen.checks.rule import Problem
+from framegen.findings import did_you_mean
+from framegen.spec import BodyPart, ChecksumPart, LengthPart
+from framegen.wiretypes import WIRE_TYPES
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from framegen.spec import FramePart
+    from framegen.yamltree import KeyPath
+
+
+def part_problems(path: KeyPath, frame: dict[str, FramePart]) -> Iterator[Problem]:
+    """Find what keeps the parts of the frame at `path` from fitting together."""
+    for kind in ("length", "id", "body"):
+        names = [name for name, part in frame.items() if part.is_ == kind]
+        if not names:
+            yield Problem(path, f"the frame has no {kind} part", f"add a part with `is: {kind}`")
+        for name in names[1:]:
+            yield Problem(
+                (*path, name),
+                f"the frame has two {kind} parts, `{names[0]}` and `{name}`",
+                "keep one of them",
+                on_key=True,
+                also=((*path, names[0]), "the first is here"),
+            )
+    for name, part in frame.items():
+        yield from _type(path, name, part)
+        if isinstance(part, LengthPart):
+            yield from _names((*path, name, "counts"), part.counts, frame)
+            yield from _counts_body((*path, name, "counts"), name, part, frame)
+        if isinstance(part, ChecksumPart):
+            yield from _names((*path, name, "covers"), part.covers, frame)
+            if name in part.covers:
+                yield Problem(
+                    (*path, name, "covers", part.covers.index(name)),
+                    f"the checksum `{name}` covers itself",
+                    "leave it out",
+                )
+
+
+def _type(path: KeyPath, name: str, part: FramePart) -> Iterator[Problem]:
+    wire = WIRE_TYPES.get(getattr(part, "type", ""))
+    if wire is not None and wire.low < 0:
+        yield Problem(
+            (*path, name, "type"),
+            f"a part of the frame is never negative, and `{wire.name}` is signed",
+            f"write u{wire.name[1:]}",
+        )
+
+
+def _names(path: KeyPath, names: list[str], frame: dict[str, FramePart]) -> Iterator[Problem]:
+    for index, name in enumerate(names):
+        if name not in frame:
+            yield Problem(
+                (*path, index),
+                f"the frame has no part `{name}`",
+                did_you_mean(name, frame),
+            )
+        elif name in names[:index]:
+            yield Problem((*path, index), f"`{name}` is listed twice", "list it once")
+
+
+def _counts_body(
+    path: KeyPath, name: str, part: LengthPart, frame: dict[str, FramePart]
+) -> Iterator[Problem]:
+    for body, other in frame.items():
+        if isinstance(other, BodyPart) and body not in part.counts:
+            yield Problem(
+                path,
+                f"`{name}` does not count the body, so it cannot tell where a frame ends",
+                f"add `{body}`",
+            )

@@ -1,0 +1,48 @@
+"""Rule: the length rule of a message is the length of its fields, for every legal count."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from framegen.checks.rule import LayoutRule, Problem
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from framegen.layout import Layout, MessageLayout
+
+
+def _look(layout: Layout) -> Iterator[Problem]:
+    for message in layout.messages.values():
+        fault = _fault(message)
+        if fault is not None:
+            path = ("messages", message.name, "length")
+            yield Problem(path, fault, f"write {message.formula}")
+
+
+def _fault(message: MessageLayout) -> str | None:
+    declared, derived = message.message.length, message.formula
+    if declared.name is not None and declared.name != derived.name:
+        if derived.name is None:
+            return f"`{declared.name}` counts nothing in {message.name}, whose length is fixed"
+        return f"the count of {message.name} is `{derived.name}`, not `{declared.name}`"
+    # Two straight lines that agree in two places agree everywhere.
+    for count in message.counts[:2]:
+        if declared.at(count) != derived.at(count):
+            where = "" if message.repeat is None else f" with {derived.name} {count}"
+            return (
+                f"the length rule gives {declared.at(count)}{where}, "
+                f"and the fields make {derived.at(count)}"
+            )
+    return None
+
+
+RULE = LayoutRule(
+    id="length-rule",
+    title="The length rule of a message is the length of its fields, for every legal count",
+    why="The rule is what the document says, the fields are what the code does. Where the two "
+    "disagree, one of them is wrong.",
+    bad="length: 3 * lamp_count + 5  # and fields of 2 bytes a lamp",
+    good="length: 2 * lamp_count + 5",
+    look=_look,
+)

@@ -1,0 +1,39 @@
+"""Rule: a message has at most one list, and it ends the message."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from framegen.checks.rule import Problem, StructureRule
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from framegen.spec import Spec
+
+
+def _look(spec: Spec) -> Iterator[Problem]:
+    for name, message in spec.messages.items():
+        path = ("messages", name, "fields")
+        lists = [key for key, field in message.fields.items() if field.counted_by is not None]
+        if not lists:
+            continue
+        names = list(message.fields)
+        for after in names[names.index(lists[0]) + 1 :]:
+            yield Problem(
+                (*path, after),
+                f"`{after}` stands after the list `{lists[0]}`",
+                "a list ends its message, and is its only one",
+                on_key=True,
+                also=((*path, lists[0]), "the list is here"),
+            )
+
+
+RULE = StructureRule(
+    id="list-last",
+    title="A message has at most one list, and it ends the message",
+    why="So every other field has a fixed place, and the length tells the count without looking.",
+    bad="fields: {lamp_count: ..., lamps: ..., fade_ms: ...}",
+    good="fields: {lamp_count: ..., fade_ms: ..., lamps: ...}",
+    look=_look,
+)

@@ -1,0 +1,35 @@
+"""Rule: every example of a look-alike is recognised as one."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from framegen.checks.rule import LayoutRule, Problem
+from framegen.lookalikes import recognise
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from framegen.layout import Layout
+
+
+def _look(layout: Layout) -> Iterator[Problem]:
+    for name, lookalike in layout.spec.lookalikes.items():
+        for index, example in enumerate(lookalike.examples):
+            path = ("lookalikes", name, "examples", index, "hex")
+            found = recognise(layout.spec, example.hex)
+            if found is None:
+                text = f"this is no frame of {lookalike.title}"
+                yield Problem(path, text, "check its length, its checksum and its codes")
+            elif found.name != name:
+                yield Problem(path, f"this is a frame of {found.lookalike.title}")
+
+
+RULE = LayoutRule(
+    id="lookalike-example",
+    title="Every example of a look-alike is recognised as one",
+    why="People paste such frames to learn why nothing answers them: they must be told.",
+    bad="hex: AA 55 01 03 07 00  # with a wrong checksum",
+    good="hex: AA 55 01 03 07 F4",
+    look=_look,
+)

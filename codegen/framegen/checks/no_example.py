@@ -1,0 +1,33 @@
+"""Rule: every message has an example."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from framegen.checks.rule import LayoutRule, Problem
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from framegen.layout import Layout
+
+
+def _look(layout: Layout) -> Iterator[Problem]:
+    for name, message in layout.messages.items():
+        if not message.message.examples:
+            yield Problem(
+                ("messages", name),
+                f"{name} has no example",
+                "give a frame with its source, or one that was `constructed`",
+                on_key=True,
+            )
+
+
+RULE = LayoutRule(
+    id="no-example",
+    title="Every message has an example",
+    why="Without a frame to try it on, nothing shows that the layout of a message is right.",
+    bad="LampOff: {id: 2, ...}",
+    good="LampOff: {id: 2, ..., examples: [{title: Off, hex: AA 55 01 02, values: {}, ...}]}",
+    look=_look,
+)

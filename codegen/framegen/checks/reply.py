@@ -1,0 +1,53 @@
+"""Rule: replies and reports are messages of the other direction."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from framegen.checks.rule import Problem, StructureRule
+from framegen.findings import did_you_mean
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from framegen.spec import Message, Spec
+    from framegen.yamltree import KeyPath
+
+
+def _look(spec: Spec) -> Iterator[Problem]:
+    for name, message in spec.messages.items():
+        for path, answer in _answers(("messages", name), message):
+            other = spec.messages.get(answer)
+            back = [
+                key
+                for key, each in spec.messages.items()
+                if each.direction == message.direction.reversed
+            ]
+            if other is None:
+                hint = did_you_mean(answer, back)
+                yield Problem(path, f"there is no message `{answer}`", hint)
+            elif answer not in back:
+                yield Problem(
+                    path,
+                    f"{answer} goes {other.direction}, and what answers {name} "
+                    f"goes {message.direction.reversed}",
+                    did_you_mean(answer, back),
+                    also=(("messages", answer, "direction"), f"the direction of {answer}"),
+                )
+
+
+def _answers(path: KeyPath, message: Message) -> Iterator[tuple[KeyPath, str]]:
+    if message.reply is not None:
+        yield (*path, "reply"), message.reply
+    for index, report in enumerate(message.reports):
+        yield (*path, "reports", index), report
+
+
+RULE = StructureRule(
+    id="reply",
+    title="Replies and reports are messages of the other direction",
+    why="A client waits for the reply by its name: for one that cannot come, it waits in vain.",
+    bad="LampRead: {direction: host -> lamp, reply: LampRead}",
+    good="LampRead: {direction: host -> lamp, reply: LampState}",
+    look=_look,
+)

@@ -1,0 +1,47 @@
+"""Rule: what is reserved is not used."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from framegen.checks.rule import Problem, StructureRule
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from framegen.spec import Spec
+    from framegen.yamltree import KeyPath
+
+
+def _look(spec: Spec) -> Iterator[Problem]:
+    for index, reserved in enumerate(spec.reserved):
+        path: KeyPath = ("reserved", index)
+        if reserved.id is None and reserved.name is None:
+            yield Problem(path, "this reserves nothing", "give an `id`, a `name`, or both")
+        for name, message in spec.messages.items():
+            ways = (None, message.direction)
+            if message.id == reserved.id and reserved.direction in ways:
+                yield Problem(
+                    ("messages", name, "id"),
+                    f"the code {message.id} is reserved: {reserved.why}",
+                    "choose another code",
+                    also=((*path, "id"), "it is reserved here"),
+                )
+            if name == reserved.name:
+                yield Problem(
+                    ("messages", name),
+                    f"the name `{name}` is reserved: {reserved.why}",
+                    "choose another name",
+                    on_key=True,
+                    also=((*path, "name"), "it is reserved here"),
+                )
+
+
+RULE = StructureRule(
+    id="reserved",
+    title="What is reserved is not used",
+    why="A code or a name that once meant something still means it to devices and programs in use.",
+    bad="reserved: [{id: 7, why: It was LampFade until 2.0.}]  # and a message with the code 7",
+    good="reserved: [{id: 7, why: It was LampFade until 2.0.}]  # and no message with that code",
+    look=_look,
+)

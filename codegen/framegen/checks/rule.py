@@ -1,0 +1,68 @@
+"""What a rule is: its id, why it exists, an example of each side, and how it is looked for."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from framegen.findings import Finding, Related
+from framegen.yamltree import dotted
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterator
+
+    from framegen.layout import Layout
+    from framegen.spec import Spec
+    from framegen.yamltree import KeyPath, Tree
+
+
+@dataclass(frozen=True, slots=True)
+class Problem:
+    """Something that a rule found, by path; `on_key` points at the key instead of its value."""
+
+    path: KeyPath
+    message: str
+    hint: str = ""
+    on_key: bool = False
+    also: tuple[KeyPath, str] | None = None
+
+    def finding(self, rule: str, tree: Tree) -> Finding:
+        """Place the problem in the text."""
+        span = tree.key_at(self.path) if self.on_key else tree.value_at(self.path)
+        related = () if self.also is None else (Related(tree.key_at(self.also[0]), self.also[1]),)
+        return Finding(rule, span, dotted(self.path), self.message, self.hint, related)
+
+
+@dataclass(frozen=True, slots=True)
+class StructureRule:
+    """A rule about the spec as written. The layout is derived only once all of these hold."""
+
+    id: str
+    title: str
+    why: str
+    bad: str
+    good: str
+    look: Callable[[Spec], Iterator[Problem]]
+
+
+@dataclass(frozen=True, slots=True)
+class LayoutRule:
+    """A rule about what follows from the spec."""
+
+    id: str
+    title: str
+    why: str
+    bad: str
+    good: str
+    look: Callable[[Layout], Iterator[Problem]]
+
+
+@dataclass(frozen=True, slots=True)
+class ReadingRule:
+    """A rule that is looked after while a spec is read, where its text is still at hand."""
+
+    id: str
+    title: str
+    why: str
+    bad: str
+    good: str

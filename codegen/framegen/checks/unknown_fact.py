@@ -1,0 +1,54 @@
+"""Rule: every erratum and every unknown is about something that is there."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from framegen.checks.rule import LayoutRule, Problem
+from framegen.codec import NotAFrame
+from framegen.facts import NoSuchFact, look_up
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from framegen.layout import Layout
+    from framegen.spec import Concern
+    from framegen.yamltree import KeyPath
+
+
+def _look(layout: Layout) -> Iterator[Problem]:
+    for index, erratum in enumerate(layout.spec.errata):
+        path = ("errata", index, "concerns")
+        yield from _missing(layout, path, erratum.concerns, needs_value=True)
+    for index, unknown in enumerate(layout.spec.unknowns):
+        path = ("unknowns", index, "concerns")
+        yield from _missing(layout, path, unknown.concerns, needs_value=False)
+
+
+def _missing(
+    layout: Layout, path: KeyPath, concerns: Concern, *, needs_value: bool
+) -> Iterator[Problem]:
+    try:
+        fact = look_up(layout, concerns)
+    except NoSuchFact as error:
+        yield Problem((*path, error.key), str(error), error.hint)
+    except NotAFrame:
+        # The rule `example` speaks of it.
+        return
+    else:
+        if needs_value and fact.value is None:
+            yield Problem(
+                path,
+                "an erratum is about one fact, and this names none",
+                "add `fact`, `parameter`, or `example` with `field`",
+            )
+
+
+RULE = LayoutRule(
+    id="unknown-fact",
+    title="Every erratum and every unknown is about something that is there",
+    why="What is said about a field that was renamed or removed is said about nothing.",
+    bad="concerns: {message: LampSet, field: precent}",
+    good="concerns: {message: LampSet, field: percent}",
+    look=_look,
+)

@@ -1,0 +1,51 @@
+"""Rule: every source cited is declared."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from pydantic import BaseModel
+
+from framegen.checks.rule import Problem, StructureRule
+from framegen.findings import did_you_mean
+from framegen.values import Citation
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from framegen.spec import Spec
+    from framegen.yamltree import KeyPath
+
+
+def _look(spec: Spec) -> Iterator[Problem]:
+    cited = [(("protocol", "authority"), spec.protocol.authority), *_cited((), spec)]
+    for path, source in cited:
+        if source not in spec.sources:
+            hint = did_you_mean(source, spec.sources, otherwise="declare it under `sources`")
+            yield Problem(path, f"there is no source `{source}`", hint)
+
+
+def _cited(path: KeyPath, value: Any) -> Iterator[tuple[KeyPath, str]]:
+    """Find the citations in `value`, wherever the language has one now or later."""
+    if isinstance(value, Citation):
+        yield path, value.source
+    elif isinstance(value, BaseModel):
+        for name, info in type(value).model_fields.items():
+            yield from _cited((*path, info.alias or name), getattr(value, name))
+    elif isinstance(value, dict):
+        for key, item in value.items():
+            yield from _cited((*path, str(key)), item)
+    elif isinstance(value, list):
+        for index, item in enumerate(value):
+            yield from _cited((*path, index), item)
+
+
+RULE = StructureRule(
+    id="unknown-source",
+    title="Every source cited is declared",
+    why="A fact is worth what its source is worth, and a source that is not declared is worth "
+    "nothing to a reader.",
+    bad="cite: vender, section 1.1",
+    good="cite: vendor, section 1.1",
+    look=_look,
+)

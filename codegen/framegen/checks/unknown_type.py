@@ -1,0 +1,51 @@
+"""Rule: every type is one that the language has."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from framegen.checks.rule import Problem, StructureRule
+from framegen.findings import did_you_mean
+from framegen.spec import GroupField
+from framegen.wiretypes import WIRE_TYPES
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from framegen.spec import FramePart, Spec
+    from framegen.yamltree import KeyPath
+
+
+def _look(spec: Spec) -> Iterator[Problem]:
+    for path, type_ in _types(spec):
+        if type_ not in WIRE_TYPES:
+            yield Problem(path, f"unknown type `{type_}`", did_you_mean(type_, WIRE_TYPES))
+
+
+def _types(spec: Spec) -> Iterator[tuple[KeyPath, str]]:
+    frames: dict[KeyPath, dict[str, FramePart]] = {("frame",): spec.frame}
+    for key, other in spec.lookalikes.items():
+        frames["lookalikes", key, "frame"] = other.frame or {}
+    for path, frame in frames.items():
+        for name, part in frame.items():
+            type_ = getattr(part, "type", None)
+            if type_ is not None:
+                yield (*path, name, "type"), type_
+    for name, message in spec.messages.items():
+        for field_name, field in message.fields.items():
+            here = ("messages", name, "fields", field_name)
+            if isinstance(field, GroupField):
+                for inner_name, inner in field.fields.items():
+                    yield (*here, "fields", inner_name, "type"), inner.type
+            else:
+                yield (*here, "type"), field.type
+
+
+RULE = StructureRule(
+    id="unknown-type",
+    title="Every type is one that the language has",
+    why="A misspelt type has no size, and nothing after it would have a place.",
+    bad="time_ms: {type: u17}",
+    good="time_ms: {type: u16}",
+    look=_look,
+)

@@ -1,0 +1,61 @@
+"""Rule: an example shows every named value and every end of a range."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from framegen.checks.fields import numbers_of
+from framegen.checks.rule import LayoutRule, Problem
+from framegen.codec import NotAFrame, decode
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from framegen.layout import Layout, MessageLayout
+    from framegen.yamltree import KeyPath
+
+_HINT = "add an example with it; it may be `constructed`"
+
+
+def _look(layout: Layout) -> Iterator[Problem]:
+    for name, message in layout.messages.items():
+        try:
+            shown = _shown(layout, message)
+        except NotAFrame:
+            # The rule `example` speaks of a broken example, which may be the one that shows it.
+            continue
+        for path, field in numbers_of(("messages", name), message.message):
+            there = shown.get(path[3::2], set())
+            for key, named in field.values.items():
+                if named.value not in there:
+                    text = f"no example of {name} shows `{key}`, which is {named.value}"
+                    yield Problem((*path, "values", key), text, _HINT, on_key=True)
+            ends = () if field.range is None else (field.range.low, field.range.high)
+            for end in dict.fromkeys(ends):
+                if end is not None and end not in there:
+                    text = f"no example of {name} shows {end}, an end of the range"
+                    yield Problem((*path, "range"), text, _HINT)
+
+
+def _shown(layout: Layout, message: MessageLayout) -> dict[KeyPath, set[int]]:
+    """Collect the values in the examples of a message, by field. Raises NotAFrame."""
+    shown: dict[KeyPath, set[int]] = {}
+    for example in message.message.examples:
+        values = decode(layout, message.direction, example.hex).values
+        for name, value in values.items():
+            for item in value if isinstance(value, list) else [value]:
+                fields = item if isinstance(item, dict) else {None: item}
+                for inner, number in fields.items():
+                    key = (name,) if inner is None else (name, inner)
+                    shown.setdefault(key, set()).add(number)
+    return shown
+
+
+RULE = LayoutRule(
+    id="unshown-value",
+    title="An example shows every named value and every end of a range",
+    why="The values at the edge are where a width or a sign goes wrong unseen.",
+    bad="level: {type: u8, range: 0..100}  # and examples with 50 alone",
+    good="level: {type: u8, range: 0..100}  # and examples with 0 and 100",
+    look=_look,
+)

@@ -1,0 +1,79 @@
+"""`framegen check`: everything that can be said against a spec."""
+
+from __future__ import annotations
+
+import json
+import sys
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from framegen.wording import counted
+
+if TYPE_CHECKING:
+    from argparse import ArgumentParser, Namespace
+
+    from framegen.findings import Finding
+    from framegen.load import Loaded
+
+SUMMARY = "Look for everything that is wrong with a spec, its examples and errata included."
+EXAMPLES = (
+    ("framegen check", "the only spec/*.yaml, here or in a folder above"),
+    ("framegen check spec/busservo.yaml", "this spec"),
+    ("framegen check --json", "one finding a line, for programs"),
+    ("framegen rules unknown-type", "why a rule exists, and how to keep it"),
+)
+
+
+def add_arguments(parser: ArgumentParser) -> None:
+    """Declare the arguments of the verb."""
+    parser.add_argument("specs", nargs="*", type=Path, metavar="SPEC", help="a spec file")
+    parser.add_argument("--json", action="store_true", help="print each finding as a line of JSON")
+
+
+def run(arguments: Namespace) -> int:
+    """Print the findings, and to the error stream how many there are. 1 where there are any."""
+    from framegen.checks import check  # noqa: PLC0415
+    from framegen.commands.spec_argument import read_spec  # noqa: PLC0415
+
+    specs = [read_spec(file) for file in arguments.specs or [None]]
+    total = 0
+    for loaded in specs:
+        findings = check(loaded)
+        for finding in findings:
+            print(_json(loaded, finding) if arguments.json else _text(loaded, finding))
+        sys.stdout.flush()
+        print(_summary(loaded, findings), file=sys.stderr)
+        total += len(findings)
+    return 1 if total else 0
+
+
+def _text(loaded: Loaded, finding: Finding) -> str:
+    return finding.render(loaded.source) + "\n"
+
+
+def _json(loaded: Loaded, finding: Finding) -> str:
+    return json.dumps(
+        {
+            "rule": finding.rule,
+            "file": loaded.source.name,
+            "line": finding.span.line,
+            "column": finding.span.column,
+            "path": finding.path,
+            "message": finding.message,
+            "hint": finding.hint,
+        }
+    )
+
+
+def _summary(loaded: Loaded, findings: list[Finding]) -> str:
+    name, spec = loaded.source.name, loaded.spec
+    if spec is None:
+        found = f"{counted(len(findings), 'finding')} in {name}"
+        return f"{found}; check again once its shape is mended, for what it says was not looked at"
+    if findings:
+        return f"{counted(len(findings), 'finding')} in {name}"
+    examples = sum(len(message.examples) for message in spec.messages.values())
+    return (
+        f"{name}: {counted(len(spec.messages), 'message')}, {counted(examples, 'example')}, "
+        f"{counted(len(spec.errata), 'erratum', 'errata')} checked: nothing found"
+    )

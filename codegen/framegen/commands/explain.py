@@ -1,0 +1,79 @@
+"""`framegen explain`: what some bytes say."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from framegen.findings import did_you_mean
+from framegen.hextext import NoHex, read_hex
+
+if TYPE_CHECKING:
+    from argparse import ArgumentParser, Namespace
+
+    from framegen.layout import Layout
+    from framegen.values import Direction
+
+SUMMARY = "Take a frame apart byte by byte, or show where and why bytes are no frame."
+EXAMPLES = (
+    ("framegen explain 55 55 08 03 01 E8 03 01 20 03", "each byte, and what it says"),
+    ("framegen explain 5555040F4C1D --direction controller", "as sent by the controller alone"),
+    ("framegen explain 0x55,0x55,0x09,0x03,0x01,0xE8", "where and why it is no frame"),
+    ("framegen explain spec/busservo.yaml 55 55 02 07", "by this spec"),
+)
+
+
+def add_arguments(parser: ArgumentParser) -> None:
+    """Declare the arguments of the verb."""
+    parser.usage = "framegen explain [SPEC.yaml] HEX ... [--direction SENDER] [--json]"
+    parser.add_argument(
+        "words",
+        nargs="+",
+        metavar="HEX",
+        help="bytes in hex: spaced or glued, with 0x and commas or without",
+    )
+    parser.add_argument("--direction", metavar="SENDER", help="only what this end sends")
+    parser.add_argument("--json", action="store_true", help="print one JSON object")
+
+
+def run(arguments: Namespace) -> int:
+    """Print the explanation. 0 for a frame, 1 for none. Raises Unusable."""
+    from framegen.commands.spec_argument import read_layout  # noqa: PLC0415
+    from framegen.explain import explain  # noqa: PLC0415
+    from framegen.explain_text import as_json, as_text  # noqa: PLC0415
+    from framegen.yamltree import Unusable  # noqa: PLC0415
+
+    spec, words = None, arguments.words
+    if _is_spec(words[0]):
+        spec, words = Path(words[0]), words[1:]
+    try:
+        data = read_hex(" ".join(words))
+    except NoHex as error:
+        raise Unusable(str(error), hint=error.hint) from None
+    layout = read_layout(spec)
+    explanation = explain(layout, data, _directions(layout, arguments.direction))
+    print(json.dumps(as_json(explanation)) if arguments.json else as_text(explanation))
+    return 0 if explanation.readings else 1
+
+
+def _is_spec(word: str) -> bool:
+    if word.endswith((".yaml", ".yml")):
+        return True
+    try:
+        return Path(word).is_file()
+    except (OSError, ValueError):  # longer than a path can be, or with a NUL in it: bytes
+        return False
+
+
+def _directions(layout: Layout, sender: str | None) -> list[Direction]:
+    """Pick the directions of one sender, or all of them. Raises Unusable."""
+    from framegen.yamltree import Unusable  # noqa: PLC0415
+
+    if sender is None:
+        return layout.directions
+    chosen = [direction for direction in layout.directions if direction.sender == sender]
+    if not chosen:
+        senders = list(dict.fromkeys(direction.sender for direction in layout.directions))
+        raise Unusable(f"nothing is sent by {sender!r}", hint=did_you_mean(sender, senders))
+    return chosen

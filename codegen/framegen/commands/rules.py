@@ -1,0 +1,54 @@
+"""`framegen rules`: what `framegen check` looks for, and why."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, TypeAlias
+
+if TYPE_CHECKING:
+    from argparse import ArgumentParser, Namespace
+    from collections.abc import Iterator
+
+    from framegen.checks.rule import LayoutRule, ReadingRule, StructureRule
+
+    AnyRule: TypeAlias = ReadingRule | StructureRule | LayoutRule
+
+SUMMARY = "List the rules that a spec must keep, or tell why one of them exists."
+EXAMPLES = (
+    ("framegen rules", "every rule in a line"),
+    ("framegen rules unknown-type", "why it exists, what breaks it and what keeps it"),
+)
+
+
+def add_arguments(parser: ArgumentParser) -> None:
+    """Declare the arguments of the verb."""
+    parser.add_argument("id", nargs="?", metavar="ID", help="a rule, as findings name it")
+
+
+def run(arguments: Namespace) -> int:
+    """Print the rules, or one of them. Raises Unusable for a rule that there is not."""
+    from framegen.checks import LAYOUT_RULES, READING_RULES, STRUCTURE_RULES  # noqa: PLC0415
+    from framegen.findings import did_you_mean  # noqa: PLC0415
+    from framegen.yamltree import Unusable  # noqa: PLC0415
+
+    every: tuple[AnyRule, ...] = (*READING_RULES, *STRUCTURE_RULES, *LAYOUT_RULES)
+    rules = {rule.id: rule for rule in every}
+    if arguments.id is None:
+        width = max(map(len, rules))
+        for rule in rules.values():
+            print(f"{rule.id:<{width}}  {rule.title}")
+        return 0
+    if arguments.id not in rules:
+        hint = did_you_mean(arguments.id, rules, otherwise="`framegen rules` lists them")
+        raise Unusable(f"there is no rule {arguments.id!r}", hint=hint)
+    print("\n".join(_described(rules[arguments.id])))
+    return 0
+
+
+def _described(rule: AnyRule) -> Iterator[str]:
+    yield f"{rule.id}: {rule.title}"
+    yield ""
+    yield from rule.why.splitlines()
+    for verdict, example in (("refused", rule.bad), ("accepted", rule.good)):
+        yield ""
+        yield f"{verdict}:"
+        yield from (f"  {line}".rstrip() for line in example.splitlines())

@@ -1,0 +1,290 @@
+"""Takes a frame apart byte by byte; or shows where and why bytes stop being a frame.
+
+Only what there is to say: `explain_text` puts it on a page.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from framegen.codec import UNKNOWN_COMMAND, NotAFrame, decode, read_number
+from framegen.layout import part_size
+from framegen.lookalikes import recognise
+from framegen.spec import BodyPart, ConstantPart, IdPart, LengthPart
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator, Sequence
+
+    from framegen.layout import Layout, MessageLayout, WireField
+    from framegen.values import Direction
+
+# So many of the frames inside other bytes are told.
+_MOST_WITHIN = 8
+
+
+@dataclass(frozen=True, slots=True)
+class Row:
+    """Some bytes of a frame that belong together: a part of the frame, or a field.
+
+    `value` is None for constant bytes; `text` is the value as people say it, `7500 mV = 7.500 V`.
+    """
+
+    offset: int
+    data: bytes
+    path: str
+    value: int | None
+    text: str
+    meaning: str
+
+    @property
+    def end(self) -> int:
+        """The offset after the last byte."""
+        return self.offset + len(self.data)
+
+
+@dataclass(frozen=True, slots=True)
+class Reading:
+    """What a frame says in one direction; `facts` are lines of a label and a text."""
+
+    message: str
+    direction: Direction
+    summary: str
+    rows: tuple[Row, ...]
+    facts: tuple[tuple[str, str], ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Refusal:
+    """Why the bytes are no frame in one direction; `rows` are what was right up to there."""
+
+    direction: Direction
+    reason: str
+    offset: int
+    expected: str
+    rows: tuple[Row, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Hint:
+    """What the bytes may be instead; `frame` is the frame that the text speaks of, if any."""
+
+    text: str
+    frame: bytes = b""
+
+
+@dataclass(frozen=True, slots=True)
+class Explanation:
+    """Everything that can be said of some bytes. Without readings, they are no frame."""
+
+    protocol: str
+    data: bytes
+    readings: tuple[Reading, ...]
+    refusals: tuple[Refusal, ...]
+    hints: tuple[Hint, ...]
+
+
+def explain(layout: Layout, data: bytes, directions: Sequence[Direction]) -> Explanation:
+    """Explain `data` as one frame sent in any of `directions`."""
+    outcomes = [_outcome(layout, data, direction) for direction in directions]
+    readings = tuple(outcome for outcome in outcomes if isinstance(outcome, Reading))
+    refusals = [outcome for outcome in outcomes if isinstance(outcome, Refusal)]
+    refusals.sort(key=_distance)
+    hints = () if readings else tuple(dict.fromkeys(_hints(layout, data, refusals)))
+    return Explanation(layout.spec.protocol.title, data, readings, tuple(refusals), hints)
+
+
+def _outcome(layout: Layout, data: bytes, direction: Direction) -> Reading | Refusal:
+    rows = tuple(_rows(layout, direction, data))
+    try:
+        message = decode(layout, direction, data).layout
+    except NotAFrame as error:
+        right = tuple(row for row in rows if row.end <= error.offset)
+        return Refusal(direction, error.reason, error.offset, error.expected, right)
+    facts = tuple(_facts(layout, message, data))
+    return Reading(message.name, direction, message.message.summary, rows, facts)
+
+
+def _distance(refusal: Refusal) -> tuple[bool, int]:
+    """Put first the direction in which the bytes came closest to a frame."""
+    return refusal.reason == UNKNOWN_COMMAND, -len(refusal.rows)
+
+
+def _rows(layout: Layout, direction: Direction, data: bytes) -> Iterator[Row]:
+    """Name the bytes as far as they make sense: parts, then the fields of a known command."""
+    frame = layout.frame
+    if len(data) < frame.body_at:
+        message = None
+    else:
+        message = layout.sent(direction).get(read_number(layout, data, frame.id_at, frame.id.size))
+    at = 0
+    for name, part in layout.spec.frame.items():
+        if isinstance(part, BodyPart):
+            continue
+        size = part_size(part)
+        piece = data[at : at + size]
+        if len(piece) < size:
+            return
+        value = None if isinstance(part, ConstantPart) else read_number(layout, data, at, size)
+        meaning = part.about
+        if isinstance(part, LengthPart) and message is not None:
+            formula = message.formula
+            meaning = str(formula) if formula.name else f"always {formula}"
+        if isinstance(part, IdPart):
+            meaning = "" if message is None else _named(message)
+        yield Row(at, piece, name, value, "" if value is None else str(value), meaning)
+        at += size
+    if message is not None:
+        yield from _field_rows(layout, message, data)
+
+
+def _field_rows(layout: Layout, message: MessageLayout, data: bytes) -> Iterator[Row]:
+    frame = layout.frame
+    length = read_number(layout, data, frame.length_at, frame.length.size)
+    if length not in message.lengths:
+        return
+    count = message.formula.count_at(length) or 0
+    for path, offset, field in message.fields_of(count):
+        piece = data[offset : offset + field.wire.size]
+        if len(piece) < field.wire.size:
+            return
+        value = read_number(layout, data, offset, field.wire.size, signed=field.wire.low < 0)
+        if not field.low <= value <= field.high or (message.counts_with(field) and value != count):
+            return
+        text, meaning = _said(field, value)
+        yield Row(offset, piece, path, value, text, meaning)
+
+
+def _said(field: WireField, value: int) -> tuple[str, str]:
+    """Put a value in words: with its unit, in its larger unit, by its name."""
+    text = f"{value} {field.field.unit}".rstrip()
+    if field.field.scale is not None:
+        text += f" = {field.field.scale.of(value)}"
+    for name, named in field.field.values.items():
+        if named.value == value:
+            return f"{text} ({name})", named.about
+    return text, field.field.about
+
+
+def _named(message: MessageLayout) -> str:
+    vendor_name = message.message.vendor_name
+    return f"{message.name}, {vendor_name} to the vendor" if vendor_name else message.name
+
+
+def _facts(layout: Layout, message: MessageLayout, data: bytes) -> Iterator[tuple[str, str]]:
+    said = message.message
+    if said.deprecated:
+        yield "deprecated", said.deprecated
+    kind = layout.kind(message.name)
+    if kind in ("command", "query"):
+        yield "reply", said.reply or "none is due"
+    if said.reports:
+        yield "reported by", ", ".join(said.reports)
+    others = layout.spec.messages.items()
+    answers = [name for name, other in others if other.reply == message.name]
+    if answers:
+        yield "answers", ", ".join(answers)
+    reports = [name for name, other in others if message.name in other.reports]
+    if reports:
+        yield "reports on", ", ".join(reports)
+    for example in said.examples:
+        if example.hex == data:
+            cite = "" if example.cite is None else f" ({example.cite})"
+            yield "example", f"{example.title}{cite}"
+    source = layout.spec.sources.get(said.cite.source)
+    yield "source", str(said.cite) if source is None else f"{said.cite} ({source.title})"
+
+
+def _hints(layout: Layout, data: bytes, refusals: Sequence[Refusal]) -> Iterator[Hint]:
+    """Guess what the bytes are instead."""
+    otherwise = _names(layout, layout.directions, data)
+    if otherwise:
+        yield Hint(f"sent the other way, they are {otherwise}")
+        return
+    yield from _lookalike_hints(layout, data, refusals)
+    yield from _length_hints(layout, data, refusals)
+    yield from _frames_within(layout, data)
+
+
+def _lookalike_hints(layout: Layout, data: bytes, refusals: Sequence[Refusal]) -> Iterator[Hint]:
+    spec = layout.spec
+    found = recognise(spec, data)
+    if found is not None and found.lookalike.frame is not None:
+        title, about = found.lookalike.title, " ".join(found.lookalike.about.split())
+        yield Hint(f"this looks like a frame of {_the(title)}. {about}".rstrip())
+    unknown = [refusal for refusal in refusals if refusal.reason == UNKNOWN_COMMAND]
+    if not unknown:
+        return
+    code = read_number(layout, data, layout.frame.id_at, layout.frame.id.size)
+    for lookalike in spec.lookalikes.values():
+        if lookalike.frame is None and code in lookalike.commands:
+            yield Hint(f"in {_the(lookalike.title)}, {code} {lookalike.commands[code]}")
+            return
+    for reserved in spec.reserved:
+        ways = [refusal.direction for refusal in unknown]
+        if reserved.id == code and (reserved.direction is None or reserved.direction in ways):
+            yield Hint(f"{code} is reserved: {reserved.why}")
+
+
+def _the(title: str) -> str:
+    return f"the {title.removeprefix('The ')}"
+
+
+def _length_hints(layout: Layout, data: bytes, refusals: Sequence[Refusal]) -> Iterator[Hint]:
+    """Try the length that as many bytes should have."""
+    frame = layout.frame
+    length = len(data) - frame.uncounted
+    if length not in range(frame.length.high + 1) or len(data) < frame.body_at:
+        return
+    size = frame.length.size
+    mended = (
+        data[: frame.length_at]
+        + length.to_bytes(size, layout.spec.byte_order)
+        + data[frame.length_at + size :]
+    )
+    names = _names(layout, [refusal.direction for refusal in refusals], mended)
+    if names:
+        yield Hint(
+            f"{len(data)} bytes have a {frame.length_name} of {length}; with that they are {names}",
+            mended,
+        )
+
+
+def _frames_within(layout: Layout, data: bytes) -> Iterator[Hint]:
+    """Look for whole frames among the bytes, from the first byte on."""
+    found = at = 0
+    while at + layout.frame.body_at <= len(data):
+        size = _claimed_size(layout, data, at)
+        piece = data[at : at + size]
+        names = _names(layout, layout.directions, piece)
+        if not names:
+            at += 1
+            continue
+        found += 1
+        if found > _MOST_WITHIN:
+            yield Hint(f"more frames follow, from byte {at} on")
+            return
+        yield Hint(f"a frame begins at byte {at}: {names}", piece)
+        at += size
+
+
+def _claimed_size(layout: Layout, data: bytes, at: int) -> int:
+    """Tell how many bytes a frame that begins at `at` says that it has."""
+    frame = layout.frame
+    return frame.uncounted + read_number(layout, data, at + frame.length_at, frame.length.size)
+
+
+def _names(layout: Layout, directions: Sequence[Direction], data: bytes) -> str:
+    """Name the messages that `data` is, one a direction at most; nothing where it is none."""
+    return " or ".join(
+        f"{name} ({direction})"
+        for direction in directions
+        if (name := _name(layout, direction, data)) is not None
+    )
+
+
+def _name(layout: Layout, direction: Direction, data: bytes) -> str | None:
+    try:
+        return decode(layout, direction, data).layout.name
+    except NotAFrame:
+        return None

@@ -1,0 +1,142 @@
+"""What a spec says of one fact, so that errata and unknowns can be held against it."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+from framegen.codec import decode, read_number
+from framegen.findings import did_you_mean
+from framegen.formula import Formula, parse_formula
+from framegen.spec import GroupField
+
+if TYPE_CHECKING:
+    from framegen.layout import Layout, MessageLayout, WireField
+    from framegen.spec import Concern, Message
+
+
+class NoSuchFact(ValueError):  # noqa: N818 - says what the fact is
+    """What the spec says nothing of; `key` is the key of the concern that leads nowhere."""
+
+    def __init__(self, key: str, message: str, hint: str = "") -> None:
+        super().__init__(message)
+        self.key = key
+        self.hint = hint
+
+
+@dataclass(frozen=True, slots=True)
+class Fact:
+    """What the spec says; None where the subject is there but is no single value."""
+
+    value: int | str | list[Any] | Formula | None
+
+    def __str__(self) -> str:
+        return json.dumps(self.value) if isinstance(self.value, list) else str(self.value)
+
+    def agrees(self, said: object) -> bool:
+        """Whether `said` is the same; a length rule may be spaced and ordered differently."""
+        if not isinstance(self.value, Formula):
+            # As JSON, 1 and true differ.
+            return json.dumps(self.value, sort_keys=True) == json.dumps(said, sort_keys=True)
+        try:
+            return self.value == parse_formula(str(said))
+        except ValueError:
+            return False
+
+
+def look_up(layout: Layout, concern: Concern) -> Fact:
+    """Find the fact. Raises NoSuchFact; and codec.NotAFrame where it is in a broken example."""
+    message = layout.messages.get(concern.message)
+    if message is None:
+        raise NoSuchFact(
+            "message",
+            f"there is no message `{concern.message}`",
+            did_you_mean(concern.message, layout.messages),
+        )
+    chosen = [key for key in ("fact", "parameter", "example") if getattr(concern, key) is not None]
+    if len(chosen) > 1:
+        raise NoSuchFact(chosen[1], f"`{chosen[0]}` and `{chosen[1]}` are two facts, not one")
+    if concern.field is not None and chosen not in ([], ["example"]):
+        raise NoSuchFact("field", f"`{chosen[0]}` and `field` are two facts, not one")
+    if concern.fact is not None:
+        return _of_message(layout, message, concern.fact)
+    if concern.parameter is not None:
+        return Fact(_parameter(layout, message, concern.parameter))
+    if concern.example is not None:
+        return _of_example(layout, message, concern.example, concern.field)
+    if concern.field is not None:
+        _require_field(message.message, concern.message, concern.field)
+    return Fact(None)
+
+
+def _of_message(layout: Layout, message: MessageLayout, fact: str) -> Fact:
+    if fact == "id":
+        return Fact(message.id)
+    if fact == "kind":
+        return Fact(layout.kind(message.name))
+    return Fact(message.message.length)
+
+
+def _of_example(layout: Layout, message: MessageLayout, number: int, field: str | None) -> Fact:
+    examples = message.message.examples
+    if number > len(examples):
+        raise NoSuchFact(
+            "example", f"{message.name} has no example {number}: it has {len(examples)}"
+        )
+    if field is None:
+        return Fact(None)
+    data = examples[number - 1].hex
+    values = decode(layout, message.direction, data).values
+    if field in values:
+        return Fact(values[field])
+    if field == "length":
+        frame = message.frame
+        return Fact(read_number(layout, data, frame.length_at, frame.length.size))
+    raise NoSuchFact(
+        "field",
+        f"the examples of {message.name} give no field `{field}`",
+        did_you_mean(field, [*values, "length"]),
+    )
+
+
+def _require_field(message: Message, name: str, path: str) -> None:
+    outer, _, inner = path.partition(".")
+    field = message.fields.get(outer)
+    known = list(message.fields)
+    if inner and isinstance(field, GroupField):
+        known = [f"{outer}.{each}" for each in field.fields]
+    if field is None or (inner and path not in known):
+        raise NoSuchFact("field", f"{name} has no field `{path}`", did_you_mean(path, known))
+
+
+def _parameter(layout: Layout, message: MessageLayout, number: int) -> str:
+    """Name parameter byte `number`, counted from 1: `times, low byte`."""
+    at = message.frame.body_at + number - 1
+    for field in message.numbers:
+        if at < field.offset + field.wire.size:
+            return _byte(layout, field.name, field, at - field.offset)
+    repeat = message.repeat
+    if repeat is not None:
+        index, rest = divmod(at - repeat.offset, repeat.size)
+        if index < repeat.high:
+            inner = next(f for f in repeat.fields if rest < f.offset + f.wire.size)
+            path = f"{repeat.name}[{index}]"
+            if repeat.element is not None:
+                path += f".{inner.name}"
+            return _byte(layout, path, inner, rest - inner.offset)
+    most = message.largest - message.frame.body_at
+    raise NoSuchFact(
+        "parameter", f"{message.name} has no parameter byte {number}: it has {most} at most"
+    )
+
+
+def _byte(layout: Layout, path: str, field: WireField, offset: int) -> str:
+    """Name one byte of a number, the lowest being byte 0: `time_ms, low byte`."""
+    size = field.wire.size
+    if size == 1:
+        return path
+    rank = offset if layout.spec.byte_order == "little" else size - 1 - offset
+    if size == 2:
+        return f"{path}, {('low', 'high')[rank]} byte"
+    return f"{path}, bits {8 * rank}..{8 * rank + 7}"

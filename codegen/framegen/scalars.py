@@ -1,0 +1,79 @@
+"""What a plain YAML scalar means: only what YAML 1.1 and 1.2 agree on, and nothing by surprise.
+
+PyYAML reads YAML 1.1, editors read 1.2, and they differ on words (`no`), octals (`010`),
+sexagesimals (`1:30`) and more. A spec means the same to everybody, so whatever the two read
+differently is refused; the author writes what was meant, in quotes or in decimal.
+"""
+
+from __future__ import annotations
+
+import re
+
+_INTEGER = re.compile(r"[-+]?(?:0|[1-9][0-9]*)|0x[0-9a-fA-F]+")
+_NULLS = frozenset(["", "~", "null"])
+_BOOLEANS = {"true": True, "false": False}
+
+_AMBIGUOUS = (
+    (
+        re.compile(r"(?i:y|n|yes|no|on|off|true|false)"),
+        "a truth value to YAML 1.1",
+        'put it in quotes: "{text}"',
+    ),
+    (
+        re.compile(r"(?i:null)"),
+        "nothing at all to YAML",
+        'write null, or put it in quotes: "{text}"',
+    ),
+    (
+        re.compile(r"[-+]?0[0-9_]+"),
+        "octal to YAML 1.1 and decimal to YAML 1.2",
+        'write {stripped}, or put it in quotes: "{text}"',
+    ),
+    (
+        re.compile(r"[-+]?[0-9][0-9_]*(?::[0-9]+)+(?:\.[0-9]*)?"),
+        "a number of base 60 to YAML 1.1",
+        'put it in quotes: "{text}"',
+    ),
+    (
+        re.compile(r"[-+]?(?:0b[01_]+|0o[0-7_]+|0x[0-9a-fA-F_]+|[0-9][0-9_]*)"),
+        "a number to one YAML and text to another",
+        "write it in decimal, or as 0x in hexadecimal without underscores",
+    ),
+    (
+        re.compile(
+            r"[-+]?(?:[0-9][0-9_]*\.[0-9_]*|\.[0-9][0-9_]*|[0-9]+(?=[eE]))(?:[eE][-+]?[0-9]+)?|[-+]?\.(?i:inf|nan)"
+        ),
+        "a floating-point number",
+        'put it in quotes: "{text}"',
+    ),
+    (
+        re.compile(r"[0-9]{4}-[0-9]{1,2}-[0-9]{1,2}(?:[Tt ].*)?"),
+        "a date to YAML 1.1",
+        'put it in quotes: "{text}"',
+    ),
+    (re.compile(r"=|<<"), "an instruction to YAML 1.1", 'put it in quotes: "{text}"'),
+)
+
+
+class Ambiguous(ValueError):  # noqa: N818 - says what the scalar is
+    """A plain scalar that YAML readers disagree on; `hint` says what to write instead."""
+
+    def __init__(self, text: str, reads_as: str, hint: str) -> None:
+        super().__init__(f"`{text}` without quotes is {reads_as}")
+        self.hint = hint
+
+
+def resolve(text: str) -> str | int | bool | None:
+    """Find the value of a plain scalar. Raises Ambiguous where YAML readers disagree."""
+    if text in _NULLS:
+        return None
+    if text in _BOOLEANS:
+        return _BOOLEANS[text]
+    # A number of a thousand digits is text to us: Python refuses to convert it.
+    if _INTEGER.fullmatch(text) and len(text) < 40:
+        return int(text, 0)
+    for pattern, reads_as, hint in _AMBIGUOUS:
+        if pattern.fullmatch(text):
+            stripped = text.lstrip("0_") or "0"
+            raise Ambiguous(text, reads_as, hint.format(text=text, stripped=stripped))
+    return text

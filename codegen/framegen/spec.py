@@ -1,0 +1,316 @@
+"""The spec as its author wrote it: every key of the language, and nothing that follows from them.
+
+What follows (offsets, legal lengths, wire time) is in `layout`; whether it makes sense is for
+`checks` to say. Here only the shape is tested: which keys there are, and what kind of value each
+has. The descriptions are what an editor shows while the spec is written.
+"""
+
+from __future__ import annotations
+
+from typing import Annotated, Any, Literal, TypeAlias
+
+from pydantic import BaseModel, ConfigDict, Discriminator, StrictInt, Tag
+from pydantic import Field as Key
+
+from framegen.formula import Formula, parse_formula
+from framegen.notation import Notation
+from framegen.values import Citation, Direction, Range, Scale, parse_hex
+
+Cite: TypeAlias = Annotated[Citation, Notation("a citation", "vendor, section 1.1", Citation.parse)]
+Hex: TypeAlias = Annotated[bytes, Notation("hex", "55 55 02 07", parse_hex)]
+Way: TypeAlias = Annotated[
+    Direction, Notation("a direction", "host -> controller", Direction.parse)
+]
+Bounds: TypeAlias = Annotated[Range, Notation("a range", "0..1000", Range.parse)]
+Step: TypeAlias = Annotated[Scale, Notation("a scale", "0.001 V", Scale.parse)]
+Length: TypeAlias = Annotated[
+    Formula, Notation("a length rule", "3 * servo_count + 5", parse_formula, Formula)
+]
+Natural: TypeAlias = Annotated[StrictInt, Key(ge=0)]
+
+
+class Part(BaseModel):
+    """What all mappings of the language share: no key is ignored, and nothing changes once read."""
+
+    model_config = ConfigDict(extra="forbid", frozen=True, arbitrary_types_allowed=True)
+
+
+class Protocol(Part):
+    """What the protocol is."""
+
+    name: str = Key(description="The name of the library, as it is imported.")
+    title: str = Key(description="What people call the protocol.")
+    version: str = Key(description='The version of this spec, in quotes: "1.0.0".')
+    authority: str = Key(description="The source that decides; facts from any other are marked.")
+    summary: str = Key(description="What it is for, in one line.")
+    description: str = Key("", description="What a newcomer should know, in a paragraph or two.")
+
+
+class SourceDocument(Part):
+    """Something that facts are cited from."""
+
+    title: str = Key(description="What it is called.")
+    kind: Literal["document", "firmware", "implementation", "observation"] = Key(
+        description="What kind of evidence it is."
+    )
+    about: str = Key("", description="What it holds and how far it goes.")
+
+
+class Link(Part):
+    """The serial line."""
+
+    baud: Annotated[StrictInt, Key(gt=0)] = Key(description="Bits per second.")
+    data_bits: Literal[5, 6, 7, 8] = Key(8, description="Data bits of a character.")
+    parity: Literal["none", "even", "odd"] = Key("none", description="Parity bit of a character.")
+    stop_bits: Literal[1, 2] = Key(1, description="Stop bits of a character.")
+    cite: Cite | None = Key(None, description="Where this is known from.")
+
+    @property
+    def bits_per_byte(self) -> int:
+        """Start, data, parity and stop bits together."""
+        return 1 + self.data_bits + (self.parity != "none") + self.stop_bits
+
+
+class ConstantPart(Part):
+    """Bytes that never change."""
+
+    is_: Literal["constant"] = Key(alias="is")
+    bytes_: Hex = Key(alias="bytes", description="The bytes, in hex.")
+    about: str = Key("", description="What it is.")
+
+
+class LengthPart(Part):
+    """The number of bytes in some parts of the frame."""
+
+    is_: Literal["length"] = Key(alias="is")
+    type: str = Key(description="The number type, such as u8.")
+    counts: list[str] = Key(description="The parts whose bytes it counts.")
+    about: str = Key("", description="What it is.")
+
+
+class IdPart(Part):
+    """The code of the message."""
+
+    is_: Literal["id"] = Key(alias="is")
+    type: str = Key(description="The number type, such as u8.")
+    about: str = Key("", description="What it is.")
+
+
+class BodyPart(Part):
+    """Where the fields of the message stand."""
+
+    is_: Literal["body"] = Key(alias="is")
+    about: str = Key("", description="What it is.")
+
+
+class AddressPart(Part):
+    """The number of a device."""
+
+    is_: Literal["address"] = Key(alias="is")
+    type: str = Key(description="The number type, such as u8.")
+    about: str = Key("", description="What it is.")
+
+
+class ChecksumPart(Part):
+    """A number worked out from other parts."""
+
+    is_: Literal["checksum"] = Key(alias="is")
+    type: str = Key(description="The number type, such as u8.")
+    method: Literal["inverted sum"] = Key(description="How it is worked out.")
+    covers: list[str] = Key(description="The parts it is worked out from.")
+    about: str = Key("", description="What it is.")
+
+
+FramePart: TypeAlias = Annotated[
+    ConstantPart | LengthPart | IdPart | BodyPart | AddressPart | ChecksumPart,
+    Key(discriminator="is_"),
+]
+
+
+class Note(Part):
+    """Something worth knowing that no codec can enforce."""
+
+    text: str = Key(description="What there is to know.")
+    cite: Cite = Key(description="Where it is known from.")
+
+
+class NamedValue(Part):
+    """A number with a meaning of its own."""
+
+    value: StrictInt = Key(description="The number.")
+    about: str = Key(description="What it means.")
+    cite: Cite | None = Key(None, description="Where it is known from.")
+
+
+class NumberField(Part):
+    """A number; with `counted_by`, a list of them."""
+
+    type: str = Key(description="The number type: u8, u16, u32, i8, i16, i32.")
+    about: str = Key(description="What it is.")
+    unit: str = Key("", description="The unit of one step, such as ms.")
+    scale: Step | None = Key(None, description="What one step is in a larger unit.")
+    range: Bounds | None = Key(
+        None, description="The values allowed, where they are fewer than the type holds."
+    )
+    values: dict[str, NamedValue] = Key(
+        {}, description="Numbers with a meaning of their own, by name."
+    )
+    counted_by: str | None = Key(
+        None, description="The earlier field that says how many of these there are."
+    )
+    count: Bounds | None = Key(None, description="How many there may be, such as 1..")
+    notes: list[Note] = Key([], description="What else is known, each with its source.")
+    cite: Cite | None = Key(
+        None, description="Where it is known from, if not where the message is."
+    )
+
+
+class GroupField(Part):
+    """A list of elements that each have fields of their own."""
+
+    element: str = Key(description="The name of one element's class.")
+    about: str = Key(description="What the list is.")
+    counted_by: str = Key(description="The earlier field that says how many elements there are.")
+    count: Bounds | None = Key(None, description="How many there may be, such as 1..")
+    fields: dict[str, NumberField] = Key(
+        description="The fields of one element, in the order of the frame."
+    )
+    notes: list[Note] = Key([], description="What else is known, each with its source.")
+    cite: Cite | None = Key(
+        None, description="Where it is known from, if not where the message is."
+    )
+
+
+def _kind_of_field(value: object) -> str:
+    group = isinstance(value, GroupField) or (
+        isinstance(value, dict) and not value.keys().isdisjoint(("element", "fields"))
+    )
+    return "group" if group else "number"
+
+
+AnyField: TypeAlias = Annotated[
+    Annotated[GroupField, Tag("group")] | Annotated[NumberField, Tag("number")],
+    Discriminator(_kind_of_field),
+]
+
+
+class Example(Part):
+    """One frame, with what it means. Every example is executed by `framegen check`."""
+
+    title: str = Key(description="What the frame says.")
+    hex: Hex = Key(description="The frame, in hex.")
+    values: dict[str, Any] = Key(description="The fields of the message, without counts.")
+    cite: Cite | None = Key(None, description="Where the frame was published or captured.")
+    constructed: str = Key("", description="For a frame that was made up: from what.")
+
+
+class Message(Part):
+    """One message in one direction."""
+
+    id: Natural = Key(description="Its code.")
+    direction: Way = Key(description="Who sends it to whom, such as `host -> controller`.")
+    vendor_name: str = Key("", description="What the vendor calls it.")
+    summary: str = Key(description="What it does, in one line.")
+    description: str = Key("", description="What else its user should know.")
+    cite: Cite = Key(description="Where it is known from.")
+    reply: str | None = Key(None, description="The message that answers it, always.")
+    reports: list[str] = Key([], description="Messages that may follow it, sooner or later.")
+    length: Length = Key(description="The value of the length part, such as `3 * servo_count + 5`.")
+    fields: dict[str, AnyField] = Key({}, description="Its fields, in the order of the frame.")
+    examples: list[Example] = Key([], description="Frames, each with what it means.")
+    since: str = Key("", description="The first spec version that has it, if not the first of all.")
+    deprecated: str = Key("", description="Why not to use it any more, and what to use.")
+
+
+class Reserved(Part):
+    """A code or a name that must not be used, for instance because a removed message had it."""
+
+    id: Natural | None = Key(None, description="The code.")
+    direction: Way | None = Key(
+        None, description="The direction in which the code is reserved; both, if left out."
+    )
+    name: str | None = Key(None, description="The message name.")
+    why: str = Key(description="Why it is reserved.")
+    cite: Cite | None = Key(None, description="Where that is known from.")
+
+
+class Concern(Part):
+    """The fact that an erratum or an unknown is about."""
+
+    message: str = Key(description="The message.")
+    fact: Literal["id", "kind", "length"] | None = Key(
+        None, description="A fact about the message itself."
+    )
+    parameter: Annotated[StrictInt, Key(ge=1)] | None = Key(
+        None, description="What parameter byte N is, counted from 1."
+    )
+    example: Annotated[StrictInt, Key(ge=1)] | None = Key(
+        None, description="The number of an example, counted from 1."
+    )
+    field: str | None = Key(None, description="A field; in an example, also `length`.")
+
+
+class Erratum(Part):
+    """Where a document is wrong, and how that is known. `check` fails once it is not any more."""
+
+    title: str = Key(description="What is wrong, in one line.")
+    cite: Cite = Key(description="Where it is printed.")
+    concerns: Concern = Key(description="The fact in question.")
+    document: Any = Key(description="What the document says of it; null where it says nothing.")
+    bytes_: Any = Key(alias="bytes", description="What the frames say of it.")
+    here: str = Key(description="What this spec does.")
+    why: str = Key(description="Why.")
+
+
+class Unknown(Part):
+    """Something that nobody has written down."""
+
+    concerns: Concern = Key(description="What it is about.")
+    what: str = Key(description="What is not known, and what this spec does meanwhile.")
+
+
+class LookalikeExample(Part):
+    """A frame of a look-alike."""
+
+    title: str = Key(description="What the frame says.")
+    hex: Hex = Key(description="The frame, in hex.")
+
+
+class Lookalike(Part):
+    """Another protocol that is easily taken for this one."""
+
+    title: str = Key(description="What it is called.")
+    about: str = Key(description="How to tell it from this one.")
+    cite: Cite = Key(description="Where it is known from.")
+    frame: dict[str, FramePart] | None = Key(None, description="Its frame, if it differs.")
+    commands: dict[int, str] = Key({}, description="Meanings of codes there, by code.")
+    examples: list[LookalikeExample] = Key([], description="Frames of it.")
+
+
+class Release(Part):
+    """One version of the spec."""
+
+    version: str = Key(description="The version.")
+    changes: list[str] = Key(description="What changed.")
+
+
+class Spec(Part):
+    """A protocol: its frame, its messages, and what is known about them."""
+
+    framegen: Literal[1] = Key(description="The version of the spec language.")
+    protocol: Protocol = Key(description="What the protocol is.")
+    sources: dict[str, SourceDocument] = Key(
+        description="What facts are cited from, by short name."
+    )
+    endpoints: dict[str, str] = Key(description="Who talks: the name and role of each end.")
+    link: Link = Key(description="The serial line.")
+    byte_order: Literal["little", "big"] = Key(description="Which byte of a number comes first.")
+    frame: dict[str, FramePart] = Key(description="The parts of every frame, in order.")
+    messages: dict[str, Message] = Key(description="The messages, by name.")
+    reserved: list[Reserved] = Key([], description="Codes and names that must not be used.")
+    errata: list[Erratum] = Key([], description="Where the documents are wrong.")
+    unknowns: list[Unknown] = Key([], description="What nobody has written down.")
+    lookalikes: dict[str, Lookalike] = Key({}, description="Protocols easily taken for this one.")
+    history: list[Release] = Key(
+        [], description="What changed from version to version of this spec."
+    )

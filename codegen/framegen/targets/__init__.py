@@ -1,0 +1,1 @@
+"""What framegen writes: one folder for each kind of output."""

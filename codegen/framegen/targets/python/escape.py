@@ -1,0 +1,73 @@
+"""Makes text from a spec safe for the place where it goes in Python source."""
+
+from __future__ import annotations
+
+from textwrap import wrap
+
+from framegen.text import is_invisible
+
+WIDTH = 100
+
+
+def literal(text: str) -> str:
+    """`text` as a string literal in double quotes, the same on every Python version."""
+    return '"' + "".join(_escaped(character, '"\\') for character in text) + '"'
+
+
+def prose(text: str) -> str:
+    """`text` for the inside of a docstring: no quote can end it, no example in it be run."""
+    folded = " ".join(text.split())
+    safe = "".join(_escaped(character, "\\") for character in folded)
+    # doctest runs what follows three of these, so prose must not be able to say them.
+    safe = safe.replace(">>>", "> > >").replace('"""', '\\"\\"\\"')
+    return safe[:-1] + '\\"' if safe.endswith('"') else safe
+
+
+def docstring(blocks: list[str], indent: int, example: list[str] | None = None) -> str:
+    """A docstring, quotes and all: a summary, then a paragraph for each further block.
+
+    `example` goes to its end as it is: lines of Python that the generator wrote itself.
+    """
+    paragraphs = [part for block in blocks for part in block.split("\n\n") if part.strip()]
+    first, *rest = [lines(paragraph, indent) for paragraph in paragraphs]
+    margin = " " * indent
+    if not rest and not example and len(first) == 1 and len(first[0]) <= WIDTH - indent - 6:
+        return f'"""{first[0]}"""'
+    body = [*first, *(line for paragraph in rest for line in ["", *paragraph])]
+    body += ["", *example] if example else []
+    text = "\n".join(f"{margin}{line}" if line else "" for line in body)
+    return f'"""{text[indent:]}\n{margin}"""'
+
+
+def lines(text: str, indent: int) -> list[str]:
+    """Prose, wrapped to stand behind `indent` blanks, with room for the quotes of a docstring."""
+    width = WIDTH - indent - 3
+    return wrap(prose(text), width, break_long_words=False, break_on_hyphens=False)
+
+
+def fit(before: str, items: list[str], after: str, indent: int = 0, *, lone: str = "") -> str:
+    """A bracketed list on one line where it fits, or else an item a line: as the formatter has it.
+
+    `before` ends with the opening bracket and `after` begins with the closing one; `lone` follows a
+    single item, as the comma of a tuple does.
+    """
+    inside = ", ".join(items) + (lone if len(items) == 1 else "")
+    if indent + len(before) + len(inside) + len(after) <= WIDTH:
+        return f"{before}{inside}{after}"
+    margin = " " * indent
+    return f"{before}\n" + "".join(f"{margin}    {item},\n" for item in items) + f"{margin}{after}"
+
+
+def _escaped(character: str, special: str) -> str:
+    if character in special:
+        return "\\" + character
+    if not is_invisible(character):
+        return character
+    code = ord(character)
+    return (
+        f"\\x{code:02x}"
+        if code < 0x100
+        else f"\\u{code:04x}"
+        if code < 0x10000
+        else f"\\U{code:08x}"
+    )

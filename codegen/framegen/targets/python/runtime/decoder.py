@@ -1,0 +1,235 @@
+"""Decodes a stream of bytes, of which any part may be noise, into messages and noise.
+
+There is no checksum, so a header is believed only while everything after it agrees: a length that
+the command can have, a count that follows from the length. A header that is refused costs one byte,
+never the length that it claimed, so that noise cannot swallow the frame behind it.
+"""
+
+from __future__ import annotations
+
+from .codec import table_for
+from .errors import Reason
+from .noise import Noise, UnknownFrame
+from .octets import octets
+from .protocol import BODY_AT, HEADER, LENGTH_END, UNCOUNTED, read_command, read_length
+
+TYPE_CHECKING = False  # typing alone would double the time that the import takes
+if TYPE_CHECKING:
+    from .direction import Direction
+    from .message import Message
+
+_new = object.__new__
+
+
+class Counters:
+    """What a decoder has seen so far. `noise` counts bytes, those of unknown frames among them."""
+
+    __slots__ = ("fed", "messages", "noise", "unknown_frames")
+
+    def __init__(self) -> None:
+        self.fed = 0
+        self.messages = 0
+        self.noise = 0
+        self.unknown_frames = 0
+
+    def __repr__(self) -> str:
+        counts = ", ".join(f"{name}={getattr(self, name)}" for name in self.__slots__)
+        return f"Counters({counts})"
+
+
+class StreamDecoder:
+    """Turns bytes, fed in pieces of any size, into messages and noise.
+
+    Nothing is lost: the bytes of all messages and all noise, in order, are the bytes that were fed.
+    How they were cut makes no difference, save that one piece of noise may come as several. It
+    never raises on input, and never holds more than the largest legal frame.
+
+    `direction` says who sends: Direction.CONTROLLER_TO_HOST on the computer's end, and None for a
+    line on which both are heard. Where a frame is legal in both, it is the first's.
+    """
+
+    __slots__ = ("_candidate", "_held", "_reason", "_scanned", "_table", "_wake", "counters")
+
+    def __init__(self, direction: Direction | None) -> None:
+        self._table = table_for(direction)
+        self._held = b""
+        # Where in what is held the search goes on, and the size below which it need not.
+        self._scanned = 0
+        self._wake = 0
+        # Where the frame of unknown command at the start of what is held would end; 0 for none.
+        self._candidate = 0
+        # Why the noise that is being read is noise.
+        self._reason = Reason.BAD_HEADER
+        self.counters = Counters()
+
+    @property
+    def pending(self) -> int:
+        """How many bytes are held back, because a frame may have begun."""
+        return len(self._held)
+
+    def feed(self, data: bytes | bytearray | memoryview) -> list[Message | Noise]:
+        """Takes in bytes, and returns what can be told now. Empty bytes are no sign of silence."""
+        fed = octets(data)
+        self.counters.fed += len(fed)
+        held = self._held + fed if self._held else fed
+        if len(held) < self._wake:
+            self._held = held
+            return []
+        return self._search(held, quiet=False)
+
+    def flush(self) -> list[Message | Noise]:
+        """Says that the line has gone quiet: what is held is no frame, but may hide one."""
+        return self._search(self._held, quiet=True)
+
+    def _search(self, data: bytes, *, quiet: bool) -> list[Message | Noise]:
+        """Tells what can be told, and keeps the rest. `at` never goes back: time is linear."""
+        events: list[Message | Noise] = []
+        look_up = self._table.__getitem__
+        size = len(data)
+        # From `start` to `at` is noise that has not been told yet.
+        start, at, candidate = 0, self._scanned, self._candidate
+        messages = wake = 0
+        while True:
+            # Whether a frame of unknown command is shown as one is decided by its own bytes alone,
+            # or else the answer would depend on how the stream was cut.
+            whole = 0 < candidate <= size
+            limit = candidate if whole else size
+            if at == limit:
+                if whole:
+                    self._tell_unknown(events, data, start, candidate)
+                    start, candidate = candidate, 0
+                    continue
+                if quiet or not candidate:
+                    self._tell_noise(events, data, start, at)
+                    start, candidate = at, 0
+                break
+            kind: type[Message] | None = None
+            end = 0
+            entry = look_up(data[at : at + BODY_AT])
+            if entry is not None:
+                length, count_at, count_end, count, likely, shape = entry
+                end = at + length
+                if end <= limit and shape is None and data[at + count_at : at + count_end] == count:
+                    kind = likely
+            if kind is None:
+                kind, end, _ = self._weigh(data, at, limit)
+            if kind is not None:
+                if start < at:
+                    self._tell_noise(events, data, start, at)
+                message = _new(kind)
+                message._frame = data[at:end]
+                events.append(message)
+                messages += 1
+                self._reason = Reason.BAD_HEADER
+                start = at = end
+                candidate = 0
+            elif end and whole:
+                # What may begin here goes on behind the unknown frame, and is worth more than it.
+                self._tell_noise(events, data, start, at)
+                start, candidate = at, 0
+            elif end and not quiet:
+                if not candidate:
+                    self._tell_noise(events, data, start, at)
+                    start = at
+                wake = min(end, candidate) if candidate else end
+                break
+            else:
+                claimed = 0 if candidate else self._claimed(data, at)
+                if claimed:
+                    self._tell_noise(events, data, start, at)
+                    start, candidate = at, claimed
+                at = _next_header(data, at + 1, min(size, candidate) if candidate else size)
+        self._held = data[start:]
+        self._scanned = at - start
+        self._candidate = candidate - start if candidate else 0
+        self._wake = wake - start
+        self.counters.messages += messages
+        return events
+
+    def _weigh(self, data: bytes, at: int, limit: int) -> tuple[type[Message] | None, int, Reason]:
+        """What stands at `at`, by the bytes in front of `limit`.
+
+        A message and where it ends; or no message, and the size at which more can be told; or no
+        message, 0 and the reason.
+        """
+        head = data[at : min(at + BODY_AT, limit)]
+        begun = len(head) < BODY_AT
+        if not (HEADER.startswith(head) if len(head) < len(HEADER) else head.startswith(HEADER)):
+            return None, 0, Reason.BAD_HEADER
+        if begun and len(head) < LENGTH_END:
+            return None, limit + 1, Reason.TOO_SHORT
+        if not BODY_AT <= read_length(head) + UNCOUNTED <= self._table.largest:
+            return None, 0, Reason.LENGTH_MISMATCH
+        if begun:
+            return None, limit + 1, Reason.TOO_SHORT
+        known = read_command(head) in self._table.kinds
+        reason = Reason.LENGTH_MISMATCH if known else Reason.UNKNOWN_COMMAND
+        for length, count_at, count_end, count, kind, shape in self._table.entries(head):
+            if not count.startswith(data[at + count_at : min(at + count_end, limit)]):
+                reason = Reason.COUNT_MISMATCH
+            elif at + count_end > limit:
+                return None, at + count_end, Reason.TOO_SHORT
+            elif at + length > limit:
+                return None, at + length, Reason.TOO_SHORT
+            elif shape is None or shape.out_of_range(data[at : at + length]) is None:
+                return kind, at + length, reason
+            else:
+                reason = Reason.OUT_OF_RANGE
+        return None, 0, reason
+
+    def _claimed(self, data: bytes, at: int) -> int:
+        """Where a frame of unknown command at `at` would end; 0 where none begins."""
+        head = data[at : at + BODY_AT]
+        if len(head) < BODY_AT or not head.startswith(HEADER):
+            return 0
+        size = read_length(head) + UNCOUNTED
+        unknown = read_command(head) not in self._table.kinds
+        return at + size if unknown and BODY_AT <= size <= self._table.largest else 0
+
+    def _tell_unknown(
+        self, events: list[Message | Noise], data: bytes, start: int, end: int
+    ) -> None:
+        self.counters.noise += end - start
+        self.counters.unknown_frames += 1
+        self._reason = Reason.BAD_HEADER
+        events.append(UnknownFrame(data[start:end], Reason.UNKNOWN_COMMAND))
+
+    def _tell_noise(self, events: list[Message | Noise], data: bytes, start: int, end: int) -> None:
+        """Tells the bytes from `start` to `end`: a piece for each refused header and its wreck.
+
+        A run of headers, each a byte after the other, is one piece. No message is in there, but
+        frames of unknown command may be.
+        """
+        piece = at = start
+        header = -1
+        while at < end:
+            if data.startswith(HEADER, at):
+                claimed = self._claimed(data, at)
+                if 0 < claimed <= end:
+                    self._tell_piece(events, data[piece:at])
+                    self._tell_unknown(events, data, at, claimed)
+                    piece = at = claimed
+                    continue
+                reason = self._weigh(data, at, len(data))[2]
+                if reason is not self._reason or at != header + 1:
+                    self._tell_piece(events, data[piece:at])
+                    piece, self._reason = at, reason
+                header = at
+            at = _next_header(data, at + 1, end)
+        self._tell_piece(events, data[piece:end])
+
+    def _tell_piece(self, events: list[Message | Noise], data: bytes) -> None:
+        if data:
+            self.counters.noise += len(data)
+            events.append(Noise(data, self._reason))
+
+
+def _next_header(data: bytes, at: int, limit: int) -> int:
+    """The first place from `at` on where a header stands, or may begin at the very end."""
+    found = data.find(HEADER, at, limit)
+    if found >= 0:
+        return found
+    for begun in range(min(len(HEADER) - 1, limit - at), 0, -1):
+        if data.startswith(HEADER[:begun], limit - begun):
+            return limit - begun
+    return limit

@@ -1,0 +1,53 @@
+"""Every error that this library raises about frames: one small tree, all of it ValueError too."""
+
+from __future__ import annotations
+
+from enum import Enum
+
+
+class Reason(Enum):
+    """Why bytes are no frame. The value is the reason in words."""
+
+    TOO_SHORT = "too short"
+    TRAILING_BYTES = "trailing bytes"
+    BAD_HEADER = "bad header"
+    LENGTH_MISMATCH = "length mismatch"
+    COUNT_MISMATCH = "count mismatch"
+    UNKNOWN_COMMAND = "unknown command"
+    OUT_OF_RANGE = "out of range"
+
+
+class ProtocolError(Exception):
+    """The root of every error of this library."""
+
+
+class EncodeError(ProtocolError, ValueError):
+    """A value that no frame can carry.
+
+    `path` says where it was given (`targets[1].position`) and `value` what was given there.
+    """
+
+    def __init__(self, path: str, value: object, problem: str) -> None:
+        super().__init__(path, value, problem)
+        self.path = path
+        self.value = value
+        self.problem = problem
+
+    def __str__(self) -> str:
+        return f"{self.path}: {self.problem}"
+
+
+class DecodeError(ProtocolError, ValueError):
+    """Bytes that are not the frame they were taken for.
+
+    `reason` is the kind of trouble, and `offset` the first byte at which it shows, counted from 0.
+    """
+
+    def __init__(self, reason: Reason, offset: int, problem: str) -> None:
+        super().__init__(reason, offset, problem)
+        self.reason = reason
+        self.offset = offset
+        self.problem = problem
+
+    def __str__(self) -> str:
+        return f"{self.reason.value} at byte {self.offset}: {self.problem}"

@@ -1,0 +1,136 @@
+"""Describes the fields of messages, and checks the values given for them.
+
+A message that is given good values never asks for these checks: they explain what is wrong with bad
+ones, and they turn whatever counts as a whole number elsewhere (such as NumPy's) into an int.
+"""
+
+from __future__ import annotations
+
+from operator import index
+
+from .errors import EncodeError
+
+TYPE_CHECKING = False  # typing alone would double the time that the import takes
+if TYPE_CHECKING:
+    from collections.abc import Callable, Mapping
+    from typing import Any
+
+
+class Number:
+    """A whole number: its name, its letter in `struct`, its range, unit and named values.
+
+    `names` maps the names that some values have to those values, such as `{"unlimited": 0}`.
+    """
+
+    __slots__ = ("code", "high", "low", "name", "names", "unit")
+
+    def __init__(
+        self,
+        name: str,
+        code: str,
+        low: int,
+        high: int,
+        *,
+        unit: str = "",
+        names: Mapping[str, int] | None = None,
+    ) -> None:
+        self.name = name
+        self.code = code
+        self.low = low
+        self.high = high
+        self.unit = unit
+        self.names: Mapping[str, int] = names or {}
+
+    def checked(self, value: Any, path: str) -> int:
+        """`value` as an int. Raises EncodeError where it is none, or outside the range."""
+        if isinstance(value, bool):
+            raise EncodeError(path, value, f"{value} is a truth value, not a whole number")
+        try:
+            number = index(value)
+        except TypeError:
+            problem = f"{shown(value)} is not a whole number, but {_kind(value)}"
+            raise EncodeError(path, value, problem) from None
+        if not self.low <= number <= self.high:
+            raise EncodeError(path, value, f"{shown(number)} is outside {self.low}..{self.high}")
+        return number
+
+
+class Items:
+    """The list at the end of a message: its elements, how many there may be, and their count.
+
+    `element` makes one element of its fields; it is None where the elements are bare numbers.
+    `counter` is the position of the count among the numbers in front of the list.
+    """
+
+    __slots__ = ("counter", "counts", "element", "fields", "name")
+
+    def __init__(
+        self,
+        name: str,
+        fields: tuple[Number, ...],
+        counts: range,
+        *,
+        counter: int,
+        element: Callable[..., tuple[int, ...]] | None = None,
+    ) -> None:
+        self.name = name
+        self.fields = fields
+        self.counts = counts
+        self.counter = counter
+        self.element = element
+
+    def checked(self, values: Any) -> list[int]:
+        """All numbers of all elements, in order. Raises EncodeError naming the first wrong one."""
+        items = as_tuple(values)
+        if items is None:
+            raise EncodeError(self.name, values, f"{shown(values)} is not a list of {self._wanted}")
+        if len(items) not in self.counts:
+            bounds = f"{self.counts[0]}..{self.counts[-1]}"
+            raise EncodeError(self.name, values, f"{len(items)} items is outside {bounds}")
+        numbers: list[int] = []
+        for position, item in enumerate(items):
+            path = f"{self.name}[{position}]"
+            if self.element is None:
+                numbers.append(self.fields[0].checked(item, path))
+            else:
+                numbers += self._parts(item, path)
+        return numbers
+
+    def _parts(self, item: Any, path: str) -> list[int]:
+        parts = as_tuple(item)
+        if parts is None or len(parts) != len(self.fields):
+            raise EncodeError(path, item, f"{shown(item)} is not {self._wanted}")
+        return [
+            field.checked(part, f"{path}.{field.name}")
+            for field, part in zip(self.fields, parts, strict=True)
+        ]
+
+    @property
+    def _wanted(self) -> str:
+        if self.element is None:
+            return "whole numbers"
+        return f"({', '.join(field.name for field in self.fields)})"
+
+
+def as_tuple(value: Any) -> tuple[Any, ...] | None:
+    """What `value` holds; None where it holds nothing in order, or is text or bytes."""
+    if isinstance(value, (str, bytes, dict, set, frozenset)):
+        return None
+    try:
+        return tuple(value)
+    except TypeError:
+        return None
+
+
+def shown(value: object) -> str:
+    """`value` for an error message, cut short where it would flood it."""
+    # Python refuses to write out integers of thousands of digits.
+    if isinstance(value, int) and value.bit_length() > 128:
+        return f"an integer of {value.bit_length()} bits"
+    text = repr(value)
+    return text if len(text) <= 60 else text[:57] + "..."
+
+
+def _kind(value: object) -> str:
+    name = type(value).__name__
+    return "nothing" if value is None else f"{'an' if name[0] in 'aeiou' else 'a'} {name}"

@@ -1,0 +1,123 @@
+"""Which first bytes begin a legal frame of which message, and why others do not."""
+
+from __future__ import annotations
+
+from .errors import DecodeError, Reason
+from .octets import spaced
+from .protocol import BODY_AT, COMMAND_AT, HEADER, LENGTH_AT, UNCOUNTED, read_command, read_length
+
+TYPE_CHECKING = False  # typing alone would double the time that the import takes
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Iterator
+    from typing import TypeAlias
+
+    from .message import Message
+    from .shape import Shape
+
+    # The size of the frame; from where to where its count stands, and the bytes it must be; the
+    # class; its shape where values must be looked at too. Without a list, the count is b"" at 0:0.
+    Entry: TypeAlias = "tuple[int, int, int, bytes, type[Message], Shape | None]"
+
+
+class Table(dict[bytes, "Entry | None"]):
+    """Maps the head of a frame, up to its command, to what must follow for it to be legal.
+
+    It fills itself as heads are looked up. A head that begins no frame of these messages gives
+    None, and is not kept: noise must not fill the memory.
+    """
+
+    __slots__ = ("kinds", "largest")
+
+    def __init__(self, kinds: Iterable[type[Message]]) -> None:
+        super().__init__()
+        self.kinds: dict[int, list[type[Message]]] = {}
+        for kind in kinds:
+            self.kinds.setdefault(kind.COMMAND, []).append(kind)
+        self.largest = max(kind.LENGTHS[-1] for kind in kinds) + UNCOUNTED
+
+    def __missing__(self, head: bytes) -> Entry | None:
+        for entry in self.entries(head):
+            self[head] = entry
+            return entry
+        return None
+
+    def entries(self, head: bytes) -> Iterator[Entry]:
+        """What may follow `head`; where two directions share it, the first of them comes first."""
+        if len(head) < BODY_AT or not head.startswith(HEADER):
+            return
+        length = read_length(head)
+        for kind in self.kinds.get(read_command(head), ()):
+            if length in kind.LENGTHS:
+                shape = kind.SHAPE
+                at, until, count = shape.count_bytes(length)
+                yield length + UNCOUNTED, at, until, count, kind, shape if shape.narrowed else None
+
+    def legal(self, frame: bytes) -> type[Message]:
+        """The message that `frame` is, whole and with nothing after it. Raises DecodeError."""
+        entry = self[frame[:BODY_AT]]
+        if entry is not None:
+            size, at, until, count, kind, shape = entry
+            if len(frame) == size and frame[at:until] == count and shape is None:
+                return kind
+        return self._looked_at(frame)
+
+    def _looked_at(self, frame: bytes) -> type[Message]:
+        """As `legal`, for what is not legal at first sight: tries every message, then explains."""
+        errors: list[DecodeError] = []
+        for size, at, until, count, kind, _ in self.entries(frame[:BODY_AT]):
+            error = _misfit(frame, size, at, until, count, kind)
+            if error is None:
+                return kind
+            errors.append(error)
+        # Of several messages, the one that fits furthest tells most.
+        raise max(errors, key=lambda error: error.offset) if errors else self._headless(frame)
+
+    def _headless(self, frame: bytes) -> DecodeError:
+        """Why no message has the head of `frame`."""
+        expected = f"a frame begins {spaced(HEADER)}"
+        for offset, byte in enumerate(HEADER[: len(frame)]):
+            if frame[offset] != byte:
+                return DecodeError(Reason.BAD_HEADER, offset, expected)
+        if len(frame) < len(HEADER):
+            return DecodeError(Reason.TOO_SHORT, len(frame), expected)
+        if len(frame) < BODY_AT:
+            problem = f"the shortest frame has {BODY_AT} bytes"
+            return DecodeError(Reason.TOO_SHORT, len(frame), problem)
+        command, length = read_command(frame), read_length(frame)
+        kinds = self.kinds.get(command)
+        if kinds is None:
+            known = ", ".join(str(number) for number in sorted(self.kinds))
+            problem = f"the command is {command}, and only {known} can be here"
+            return DecodeError(Reason.UNKNOWN_COMMAND, COMMAND_AT, problem)
+        legal = " or ".join(f"{worded(kind.LENGTHS)} ({kind.__name__})" for kind in kinds)
+        problem = f"the length is {length}, and must be {legal}"
+        return DecodeError(Reason.LENGTH_MISMATCH, LENGTH_AT, problem)
+
+
+def _misfit(
+    frame: bytes, size: int, at: int, until: int, count: bytes, kind: type[Message]
+) -> DecodeError | None:
+    """What keeps `frame` from being the message whose head it has."""
+    if len(frame) < size:
+        problem = f"{kind.__name__} with this length has {size} bytes"
+        return DecodeError(Reason.TOO_SHORT, len(frame), problem)
+    if len(frame) > size:
+        problem = f"{kind.__name__} with this length has {size} bytes, not {len(frame)}"
+        return DecodeError(Reason.TRAILING_BYTES, size, problem)
+    if frame[at:until] != count:
+        problem = f"with this length the count is {spaced(count)}, not {spaced(frame[at:until])}"
+        return DecodeError(Reason.COUNT_MISMATCH, at, problem)
+    misplaced = kind.SHAPE.out_of_range(frame)
+    if misplaced is not None:
+        offset, problem = misplaced
+        return DecodeError(Reason.OUT_OF_RANGE, offset, problem)
+    return None
+
+
+def worded(numbers: range) -> str:
+    """A range in words: `5`, `4..255`, or `8, 11, 14 .. 254`."""
+    if len(numbers) <= 4:
+        return ", ".join(str(number) for number in numbers)
+    if numbers.step == 1:
+        return f"{numbers[0]}..{numbers[-1]}"
+    return f"{numbers[0]}, {numbers[1]}, {numbers[2]} .. {numbers[-1]}"

@@ -1,0 +1,491 @@
+"""What the Python templates show: the layout in Python's words, ready to be put in place."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from framegen.codec import describe_range
+from framegen.layout import Repeat, WireField
+from framegen.spec import IdPart, LengthPart
+from framegen.targets.python.escape import fit, literal
+
+if TYPE_CHECKING:
+    from typing import Any
+
+    from framegen.layout import Layout, MessageLayout
+    from framegen.spec import Citation, Example, Spec
+    from framegen.values import Direction
+
+# What every library exports besides its messages.
+EXPORTED = (
+    "MESSAGES",
+    "Counters",
+    "DecodeError",
+    "Direction",
+    "EncodeError",
+    "Message",
+    "Noise",
+    "ProtocolError",
+    "Reason",
+    "StreamDecoder",
+    "UnknownFrame",
+    "__version__",
+    "decode",
+)
+
+
+@dataclass(frozen=True, slots=True)
+class Constant:
+    """A named value, as a class attribute: `TIMES_UNLIMITED = 0`."""
+
+    name: str
+    value: int
+    about: str
+
+
+@dataclass(frozen=True, slots=True)
+class NumberView:
+    """A number: how it is described, checked and read."""
+
+    layout: WireField
+    spec: Spec
+
+    @property
+    def name(self) -> str:
+        return self.layout.name
+
+    @property
+    def low(self) -> int:
+        return self.layout.low
+
+    @property
+    def high(self) -> int:
+        return self.layout.high
+
+    @property
+    def doc(self) -> list[str]:
+        """What it is; its range, unit and scale; its named values; and what else is known of it."""
+        field = self.layout.field
+        unit = f" {field.unit}" if field.unit else ""
+        scale = f", a step being {field.scale}" if field.scale else ""
+        named = [f"{value.value} ({name}): {value.about}" for name, value in field.values.items()]
+        notes = [
+            f"{note.text} ({self.spec.sources[note.cite.source].title})" for note in field.notes
+        ]
+        return [field.about, f"{self.low}..{self.high}{unit}{scale}.", *named, *notes]
+
+    @property
+    def constants(self) -> list[Constant]:
+        return [
+            Constant(f"{self.name}_{name}".upper(), value.value, value.about)
+            for name, value in self.layout.field.values.items()
+        ]
+
+    @property
+    def read(self) -> str:
+        """The expression that reads it from the frame."""
+        start, end = self.layout.offset, self.layout.offset + self.layout.wire.size
+        if self.layout.wire.name == "u8":
+            return f"self._frame[{start}]"
+        signed = ", signed=True" if self.layout.wire.low < 0 else ""
+        return f'int.from_bytes(self._frame[{start}:{end}], "{self.spec.byte_order}"{signed})'
+
+    def describe(self, indent: int) -> str:
+        """The call that describes it to the runtime."""
+        field = self.layout.field
+        bounds = f"{self.low}, {self.high}"
+        items = [literal(self.name), literal(self.layout.wire.code), bounds]
+        if field.unit:
+            items.append(f"unit={literal(field.unit)}")
+        if field.values:
+            names = ", ".join(
+                f"{literal(name)}: {value.value}" for name, value in field.values.items()
+            )
+            items.append(f"names={{{names}}}")
+        return fit("Number(", items, ")", indent)
+
+
+@dataclass(frozen=True, slots=True)
+class ListView:
+    """The list of a message."""
+
+    layout: Repeat
+    spec: Spec
+
+    @property
+    def name(self) -> str:
+        return self.layout.name
+
+    @property
+    def element(self) -> str | None:
+        return self.layout.element
+
+    @property
+    def fields(self) -> list[NumberView]:
+        return [NumberView(field, self.spec) for field in self.layout.fields]
+
+    @property
+    def codes(self) -> str:
+        """The letters of one element in `struct`, behind that of the byte order."""
+        return struct_order(self.spec.byte_order) + "".join(
+            field.wire.code for field in self.layout.fields
+        )
+
+    @property
+    def match_args(self) -> str:
+        names = [literal(field.name) for field in self.fields]
+        return fit("__match_args__ = (", names, ")", 4, lone=",")
+
+    @property
+    def signature(self) -> str:
+        fields = [f"{field.name}: int" for field in self.fields]
+        return fit("def __new__(", ["cls", *fields], ") -> Self:", 4)
+
+    @property
+    def element_doc(self) -> list[str]:
+        return [f"One of the {self.name} of a message: a tuple ({self.names}) with names."]
+
+    @property
+    def types(self) -> str:
+        """The types of its fields."""
+        return ", ".join("int" for _ in self.layout.fields)
+
+    @property
+    def names(self) -> str:
+        """The names of its fields, as the tuple that one element is made of."""
+        return ", ".join(field.name for field in self.fields) + (
+            "," if len(self.fields) == 1 else ""
+        )
+
+    @property
+    def read_as(self) -> str:
+        """The type that reading it gives."""
+        return f"tuple[{self.element or 'int'}, ...]"
+
+    @property
+    def read(self) -> str:
+        """The expression that reads it from the frame."""
+        data = f"self._frame[{self.layout.offset}:]"
+        if self.element is not None:
+            return f"tuple(starmap({self.element}, iter_unpack({literal(self.codes)}, {data})))"
+        if self.layout.fields[0].wire.name == "u8":
+            return f"tuple({data})"
+        return f"tuple(chain.from_iterable(iter_unpack({literal(self.codes)}, {data})))"
+
+    @property
+    def counts(self) -> str:
+        return range_expression(range(self.layout.low, self.layout.high + 1))
+
+    @property
+    def bounds(self) -> str:
+        return f"{self.layout.low}..{self.layout.high}"
+
+    @property
+    def given_as(self) -> str:
+        """The type of the argument."""
+        if self.element is None:
+            return "Iterable[int]"
+        return f"Iterable[tuple[{self.types}]]"
+
+    @property
+    def doc(self) -> list[str]:
+        """What it is, how many there can be, and what else is known of it."""
+        field = self.layout.field
+        notes = [
+            f"{note.text} ({self.spec.sources[note.cite.source].title})" for note in field.notes
+        ]
+        return [field.about, f"{self.bounds} of them.", *notes]
+
+
+@dataclass(frozen=True, slots=True)
+class MessageView:
+    """One message class."""
+
+    layout: MessageLayout
+    whole: Layout
+
+    @property
+    def name(self) -> str:
+        return self.layout.name
+
+    @property
+    def doc(self) -> list[str]:
+        """The summary, and below it a paragraph each for what its user should know."""
+        message, frame = self.layout.message, self.layout.frame
+        found = [message.summary, message.description]
+        if message.deprecated:
+            found.append(f"Deprecated: {message.deprecated}")
+        if message.reply:
+            found.append(f"Answered by {message.reply}.")
+        identity = f"{frame.id_name.capitalize()} {self.layout.id} (0x{self.layout.id:02X})"
+        lengths = (
+            f"{frame.length_name} {self.layout.formula}: {describe_range(self.layout.lengths)}"
+        )
+        sender, receiver = self.layout.direction.sender, self.layout.direction.receiver
+        found.append(f"{identity}, {sender} to {receiver}, {lengths}.")
+        found.append(f"Source: {self.cited(message.cite)}.")
+        return found
+
+    def cited(self, cite: Citation) -> str:
+        title = self.whole.spec.sources[cite.source].title
+        return f"{title}, {cite.place}" if cite.place else title
+
+    @property
+    def vendor_name(self) -> str:
+        return self.layout.message.vendor_name
+
+    @property
+    def command(self) -> int:
+        return self.layout.id
+
+    @property
+    def direction(self) -> str:
+        return direction_member(self.layout.direction)
+
+    @property
+    def lengths(self) -> str:
+        """The legal lengths, as a range expression."""
+        return range_expression(self.layout.lengths)
+
+    @property
+    def numbers(self) -> list[NumberView]:
+        """The fields in front of the list, its count among them."""
+        return [NumberView(field, self.whole.spec) for field in self.layout.numbers]
+
+    @property
+    def given(self) -> list[NumberView]:
+        """The numbers that a user gives."""
+        return [
+            NumberView(field, self.whole.spec)
+            for field in self.layout.arguments
+            if isinstance(field, WireField)
+        ]
+
+    @property
+    def repeat(self) -> ListView | None:
+        repeat = self.layout.repeat
+        return None if repeat is None else ListView(repeat, self.whole.spec)
+
+    @property
+    def counter(self) -> int:
+        """The position of the count among the numbers."""
+        return next(
+            at for at, field in enumerate(self.layout.numbers) if self.layout.counts_with(field)
+        )
+
+    @property
+    def narrowed(self) -> bool:
+        """Whether a field has a range narrower than its type."""
+        repeat = self.layout.repeat
+        fields = [*self.layout.numbers, *(repeat.fields if repeat else ())]
+        return any(field.narrowed for field in fields)
+
+    @property
+    def arguments(self) -> list[str]:
+        """The names of the constructor's arguments."""
+        return [argument.name for argument in self.layout.arguments]
+
+    @property
+    def match_args(self) -> str:
+        names = [literal(name) for name in self.arguments]
+        return fit("__match_args__ = (", names, ")", 4, lone=",")
+
+    @property
+    def signature(self) -> str:
+        numbers = [f"{field.name}: int" for field in self.given]
+        lists = [f"{self.repeat.name}: {self.repeat.given_as}"] if self.repeat else []
+        return fit("def __init__(", ["self", *numbers, *lists], ") -> None:", 4)
+
+    @property
+    def packed(self) -> str:
+        """The arguments that the runtime makes the frame of."""
+        names = [field.name for field in self.given]
+        numbers = f"({', '.join(names)}{',' if len(names) == 1 else ''})"
+        return f"{numbers}, {self.repeat.name}" if self.repeat else numbers
+
+    @property
+    def example(self) -> Example | None:
+        """The shortest example, for the docstring."""
+        return min(self.layout.message.examples, key=lambda example: len(example.hex), default=None)
+
+    @property
+    def example_lines(self) -> list[str]:
+        """That example as an interactive session."""
+        if self.example is None:
+            return []
+        call = f">>> {self._call(self.example.values)}.encode().hex(' ')"
+        return [call, f"'{self.example.hex.hex(' ')}'"]
+
+    def _call(self, values: dict[str, Any]) -> str:
+        given = [
+            f"{argument.name}={_shown(argument, values)}" for argument in self.layout.arguments
+        ]
+        return f"{self.name}({', '.join(given)})"
+
+    @property
+    def shape(self) -> str:
+        """The description of its wire side, for the runtime."""
+        items = [str(self.command), "LENGTHS"]
+        if self.numbers:
+            numbers = [number.describe(8) for number in self.numbers]
+            items.append(fit("(", numbers, ")", 8, lone=","))
+        if self.repeat:
+            items.append(self._items(self.repeat))
+        if self.narrowed:
+            items.append("narrowed=True")
+        return fit("SHAPE: ClassVar = Shape(", items, ")", 4)
+
+    def _items(self, repeat: ListView) -> str:
+        fields = fit("(", [field.describe(12) for field in repeat.fields], ")", 12, lone=",")
+        items = [literal(repeat.name), fields, repeat.counts, f"counter={self.counter}"]
+        if repeat.element:
+            items.append(f"element={repeat.element}")
+        return fit("Items(", items, ")", 8)
+
+
+@dataclass(frozen=True, slots=True)
+class DirectionView:
+    """One member of the Direction enumeration."""
+
+    direction: Direction
+
+    @property
+    def member(self) -> str:
+        return direction_member(self.direction)
+
+    @property
+    def value(self) -> str:
+        return literal(self.direction.key)
+
+    @property
+    def sender(self) -> str:
+        return self.direction.sender
+
+    @property
+    def receiver(self) -> str:
+        return self.direction.receiver
+
+
+@dataclass(frozen=True, slots=True)
+class LibraryView:
+    """The library as a whole."""
+
+    layout: Layout
+
+    @property
+    def version(self) -> str:
+        return self.layout.spec.protocol.version
+
+    @property
+    def package(self) -> str:
+        return self.layout.spec.protocol.name
+
+    @property
+    def directions(self) -> list[DirectionView]:
+        return [DirectionView(direction) for direction in self.layout.directions]
+
+    @property
+    def messages(self) -> list[MessageView]:
+        return [MessageView(message, self.layout) for message in self.layout.messages.values()]
+
+    @property
+    def elements(self) -> list[ListView]:
+        """The lists whose elements have a class of their own."""
+        lists = [message.repeat for message in self.messages]
+        return [repeat for repeat in lists if repeat is not None and repeat.element is not None]
+
+    @property
+    def imports(self) -> list[str]:
+        """What the messages need of the standard library, by what their lists are read with."""
+        reads = " ".join(message.repeat.read for message in self.messages if message.repeat)
+        tools = [
+            name for name in ("chain", "starmap") if f"{name}(" in reads or f"{name}." in reads
+        ]
+        lines = [f"from itertools import {', '.join(tools)}"] if tools else []
+        return [*lines, "from struct import iter_unpack"] if "iter_unpack" in reads else lines
+
+    @property
+    def described_by(self) -> list[str]:
+        """What the descriptions of the fields are made with."""
+        return (
+            ["Items", "Number"] if any(message.repeat for message in self.messages) else ["Number"]
+        )
+
+    @property
+    def _from_messages(self) -> list[str]:
+        names = {message.name for message in self.messages}
+        names |= {element.element for element in self.elements if element.element is not None}
+        return sorted(names)
+
+    @property
+    def import_messages(self) -> str:
+        names = sorted(["MESSAGES", *self._from_messages], key=_export_order)
+        return "from .messages import (\n" + "".join(f"    {name},\n" for name in names) + ")"
+
+    @property
+    def exported(self) -> list[str]:
+        """Every name that the package exports, in the order that linters want."""
+        return sorted([*EXPORTED, *self._from_messages], key=_export_order)
+
+    @property
+    def doc(self) -> list[str]:
+        """The docstring of the package."""
+        protocol = self.layout.spec.protocol
+        return [f"{protocol.title}.", protocol.summary, protocol.description]
+
+    @property
+    def byte_order(self) -> str:
+        return self.layout.spec.byte_order
+
+    @property
+    def struct_order(self) -> str:
+        return struct_order(self.byte_order)
+
+    @property
+    def header(self) -> str:
+        return 'b"' + "".join(f"\\x{byte:02x}" for byte in self.layout.frame.header) + '"'
+
+    @property
+    def head(self) -> list[str]:
+        """The expressions whose sum is the head of a frame."""
+        terms: list[str] = []
+        frame = self.layout.frame
+        for part in self.layout.spec.frame.values():
+            if isinstance(part, LengthPart):
+                terms.append(f'length.to_bytes({frame.length.size}, "{self.byte_order}")')
+            elif isinstance(part, IdPart):
+                terms.append(f'command.to_bytes({frame.id.size}, "{self.byte_order}")')
+        return terms
+
+
+def range_expression(numbers: range) -> str:
+    """A range as Python writes it, with nothing that goes without saying."""
+    if numbers.step != 1:
+        return f"range({numbers.start}, {numbers.stop}, {numbers.step})"
+    return f"range({numbers.start}, {numbers.stop})" if numbers.start else f"range({numbers.stop})"
+
+
+def struct_order(byte_order: str) -> str:
+    """The byte order as `struct` writes it."""
+    return "<" if byte_order == "little" else ">"
+
+
+def direction_member(direction: Direction) -> str:
+    """The name of a direction in the enumeration: `HOST_TO_CONTROLLER`."""
+    return direction.key.upper()
+
+
+def _export_order(name: str) -> tuple[int, str]:
+    kind = 0 if name.isupper() else 1 if name[0].isupper() else 2
+    return kind, name
+
+
+def _shown(argument: WireField | Repeat, values: dict[str, Any]) -> str:
+    """A value of an example as an argument: elements as tuples, in the order of the frame."""
+    value = values[argument.name]
+    if isinstance(argument, WireField) or argument.element is None:
+        return str(value)
+    names = [field.name for field in argument.fields]
+    elements = [", ".join(str(item[name]) for name in names) for item in value]
+    return f"[{', '.join(f'({element})' for element in elements)}]"

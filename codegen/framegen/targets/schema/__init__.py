@@ -1,0 +1,87 @@
+"""The spec language as JSON Schema, for completion and help in any editor that reads one.
+
+Only the keywords listed here are passed on, in this order: what pydantic adds for other readers is
+left out, and every version of it gives the same text.
+"""
+
+from __future__ import annotations
+
+import json
+from typing import TYPE_CHECKING, Any
+
+from framegen.spec import Spec
+from framegen.wiretypes import WIRE_TYPES
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from framegen.layout import Layout
+    from framegen.source import Source
+
+_KEYWORDS = (
+    "$schema",
+    "title",
+    "$ref",
+    "description",
+    "type",
+    "const",
+    "enum",
+    "pattern",
+    "minimum",
+    "exclusiveMinimum",
+    "default",
+    "examples",
+    "items",
+    "required",
+    "properties",
+    "additionalProperties",
+    "anyOf",
+    "oneOf",
+    "$defs",
+)
+
+
+def render(_source: Source, _layout: Layout) -> dict[str, str]:
+    """The schema, by path below the project's root: beside the spec, where editors look for it."""
+    return {"spec/framegen.schema.json": schema_text()}
+
+
+def schema_text() -> str:
+    """Give the schema as JSON text, with a final newline: the same text for the same language."""
+    schema = _tidied(Spec.model_json_schema(by_alias=True, mode="validation"))
+    for model in schema["$defs"].values():
+        if "type" in model["properties"]:
+            model["properties"]["type"]["enum"] = list(WIRE_TYPES)
+    schema["$schema"] = "https://json-schema.org/draft/2020-12/schema"
+    schema["title"] = "framegen spec"
+    return json.dumps(_ordered(schema), indent=2, ensure_ascii=False) + "\n"
+
+
+def _tidied(schema: dict[str, Any]) -> dict[str, Any]:
+    """Without what repeats the key (`title`) or says nothing (an empty default)."""
+    return {
+        keyword: _mapped(keyword, value, _tidied)
+        for keyword, value in schema.items()
+        if keyword in _KEYWORDS
+        and keyword != "title"
+        and not (keyword == "default" and not value)
+        and not (keyword == "additionalProperties" and value is True)
+    }
+
+
+def _ordered(schema: dict[str, Any]) -> dict[str, Any]:
+    by_place = sorted(schema.items(), key=lambda item: _KEYWORDS.index(item[0]))
+    return {keyword: _mapped(keyword, value, _ordered) for keyword, value in by_place}
+
+
+def _mapped(keyword: str, value: Any, change: Callable[[dict[str, Any]], dict[str, Any]]) -> Any:
+    """Give the value of a keyword, with `change` made to every schema in it."""
+    if keyword == "properties":
+        return {name: change(schema) for name, schema in value.items()}
+    if keyword == "$defs":
+        return {name: change(value[name]) for name in sorted(value)}
+    if keyword in ("anyOf", "oneOf"):
+        return [change(schema) for schema in value]
+    if keyword in ("items", "additionalProperties") and isinstance(value, dict):
+        return change(value)
+    return value

@@ -1,0 +1,163 @@
+"""Test vectors for codecs in any language: frames with what they mean, and bytes that are no frame.
+
+Made from the spec's examples and the ends of its ranges by the reference codec, never by a
+generated library, so that a library can be held to them.
+"""
+
+from __future__ import annotations
+
+import json
+from typing import TYPE_CHECKING, Any
+
+from framegen import __version__
+from framegen.codec import NotAFrame, decode, encode
+from framegen.layout import Repeat
+from framegen.values import to_hex
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from framegen.layout import Layout, MessageLayout, WireField
+    from framegen.source import Source
+    from framegen.values import Direction
+
+
+def render(source: Source, layout: Layout) -> dict[str, str]:
+    """The file of vectors, by path below the project's root."""
+    protocol = layout.spec.protocol
+    valid = [vector for message in layout.messages.values() for vector in _valid(layout, message)]
+    document = {
+        "generated_by": f"framegen {__version__}",
+        "protocol": protocol.name,
+        "version": protocol.version,
+        "spec_sha256": source.digest,
+        "valid": valid,
+        "invalid": list(_invalid(layout)),
+    }
+    return {f"generated/{protocol.name}/vectors.json": _one_vector_a_line(document)}
+
+
+def _one_vector_a_line(document: dict[str, Any]) -> str:
+    """JSON in which a changed vector is a changed line."""
+    parts: list[str] = []
+    for key, value in document.items():
+        shown = json.dumps(value)
+        if isinstance(value, list):
+            shown = "[\n" + ",\n".join(f"    {json.dumps(item)}" for item in value) + "\n  ]"
+        parts.append(f"  {json.dumps(key)}: {shown}")
+    return "{\n" + ",\n".join(parts) + "\n}\n"
+
+
+def _valid(layout: Layout, message: MessageLayout) -> Iterator[dict[str, Any]]:
+    """The examples of a message, then the ends of its ranges."""
+    for example in message.message.examples:
+        yield _vector(layout, message, example.title, dict(example.values))
+    for title, values in _range_ends(message):
+        yield _vector(layout, message, title, values)
+
+
+def _vector(
+    layout: Layout, message: MessageLayout, title: str, values: dict[str, Any]
+) -> dict[str, Any]:
+    return {
+        "title": title,
+        "direction": message.direction.key,
+        "message": message.name,
+        "fields": values,
+        "hex": to_hex(encode(layout, message, values)),
+    }
+
+
+def _range_ends(message: MessageLayout) -> Iterator[tuple[str, dict[str, Any]]]:
+    """Every field at its lowest, then its highest; a list with the fewest items, then the most."""
+    if not message.arguments:
+        return
+    for end, word, count in ("low", "lowest", 0), ("high", "highest", -1):
+        values: dict[str, Any] = {}
+        for argument in message.arguments:
+            if isinstance(argument, Repeat):
+                values[argument.name] = [_item(argument, end) for _ in range(message.counts[count])]
+            else:
+                values[argument.name] = _end(argument, end)
+        yield f"every value at its {word}", values
+
+
+def _end(field: WireField, end: str) -> int:
+    return field.low if end == "low" else field.high
+
+
+def _item(repeat: Repeat, end: str) -> Any:
+    if repeat.element is None:
+        return _end(repeat.fields[0], end)
+    return {field.name: _end(field, end) for field in repeat.fields}
+
+
+def _invalid(layout: Layout) -> Iterator[dict[str, Any]]:
+    """Bytes that are no frame, with the reason: each documented frame, spoilt in every way."""
+    for direction in layout.directions:
+        seen: set[bytes] = set()
+        for message in layout.sent(direction).values():
+            for example in message.message.examples:
+                for title, data in _spoilt(layout, message, example.hex):
+                    if data not in seen:
+                        seen.add(data)
+                        yield from _refused(layout, direction, f"{message.name}: {title}", data)
+
+
+def _refused(
+    layout: Layout, direction: Direction, title: str, data: bytes
+) -> Iterator[dict[str, Any]]:
+    try:
+        decode(layout, direction, data)
+    except NotAFrame as error:
+        yield {
+            "title": title,
+            "direction": direction.key,
+            "hex": to_hex(data),
+            "reason": error.reason,
+            "offset": error.offset,
+        }
+
+
+def _spoilt(layout: Layout, message: MessageLayout, frame: bytes) -> Iterator[tuple[str, bytes]]:
+    """A frame with one thing wrong with it. Some are legal frames after all, and are left out."""
+    envelope = layout.frame
+    for size in sorted({0, 1, len(envelope.header), envelope.body_at - 1, len(frame) - 1}):
+        yield f"only the first {size} bytes", frame[:size]
+    yield "a byte too many", frame + b"\x00"
+    yield "a header byte flipped", _changed(frame, len(envelope.header) - 1, 0xFF)
+    for step in -1, 1:
+        spoilt = _stepped(layout, frame, envelope.length_at, envelope.length.size, step)
+        yield f"the length off by {step:+}", spoilt
+    unknown = next((i for i in envelope.legal_ids if i not in layout.sent(message.direction)), None)
+    if unknown is not None:
+        yield "an unknown command", _replaced(layout, frame, envelope.id_at, unknown)
+    if message.repeat is not None:
+        counter = message.repeat.counter
+        for step in -1, 1:
+            spoilt = _stepped(layout, frame, counter.offset, counter.wire.size, step)
+            yield f"the count off by {step:+}", spoilt
+    for field in message.numbers:
+        if field.narrowed and not message.counts_with(field) and field.high < field.wire.high:
+            spoilt = frame[: field.offset] + _bytes(layout, field, field.high + 1)
+            yield f"{field.name} too high", spoilt + frame[len(spoilt) :]
+
+
+def _bytes(layout: Layout, field: WireField, value: int) -> bytes:
+    order = layout.spec.byte_order
+    return value.to_bytes(field.wire.size, order, signed=field.wire.low < 0)
+
+
+def _changed(frame: bytes, at: int, mask: int) -> bytes:
+    return frame[:at] + bytes([frame[at] ^ mask]) + frame[at + 1 :]
+
+
+def _stepped(layout: Layout, frame: bytes, at: int, size: int, step: int) -> bytes:
+    """The number at `at` changed by `step`, in its lowest byte."""
+    last = at if layout.spec.byte_order == "little" else at + size - 1
+    return frame[:last] + bytes([(frame[last] + step) & 0xFF]) + frame[last + 1 :]
+
+
+def _replaced(layout: Layout, frame: bytes, at: int, value: int) -> bytes:
+    size = layout.frame.id.size
+    return frame[:at] + value.to_bytes(size, layout.spec.byte_order) + frame[at + size :]

@@ -1,0 +1,36 @@
+"""Characters that a spec may not hold, because a reader cannot see what they do."""
+
+from __future__ import annotations
+
+# Written as ranges of our own rather than taken from the Unicode database, which differs between
+# Python versions: the same spec must give the same answer everywhere.
+_INVISIBLE = (
+    (0x00, 0x09),
+    (0x0B, 0x1F),
+    (0x7F, 0x9F),
+    (0xAD, 0xAD),
+    (0x061C, 0x061C),
+    (0x180E, 0x180E),
+    (0x200B, 0x200F),
+    (0x2028, 0x202E),
+    (0x2060, 0x206F),
+    (0xD800, 0xDFFF),
+    (0xFE00, 0xFE0F),
+    (0xFEFF, 0xFEFF),
+    (0xFFF9, 0xFFFB),
+    (0xE0000, 0xE0FFF),
+)
+
+
+def is_invisible(character: str) -> bool:
+    """Whether it is a control, a direction override or another character of no width."""
+    code = ord(character)
+    return any(low <= code <= high for low, high in _INVISIBLE)
+
+
+def first_invisible(text: str) -> str | None:
+    """Find the first character of `text` that may not stand in a spec; a line feed may."""
+    # Plain ASCII is by far the commonest text, and needs no walk through the table.
+    if text.isascii() and text.isprintable():
+        return None
+    return next((character for character in text if is_invisible(character)), None)

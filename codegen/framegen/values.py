@@ -1,0 +1,127 @@
+"""The small notations of the spec language: hex, `host -> controller`, `1..`, `0.001 V`, citations.
+
+Each is a frozen value with a `parse` that raises ValueError with what is wrong and what to write.
+"""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass
+from decimal import Decimal
+
+_HEX = re.compile(r"(?:[0-9A-Fa-f]{2}\s+)*[0-9A-Fa-f]{2}")
+_DIRECTION = re.compile(r"(\S+)\s*->\s*(\S+)")
+_RANGE = re.compile(r"(-?[0-9]{1,10})\s*\.\.\s*(-?[0-9]{1,10})?")
+_SCALE = re.compile(r"([0-9]{1,6}(?:\.[0-9]{1,12})?)\s+(\S+)")
+
+
+@dataclass(frozen=True, slots=True)
+class Direction:
+    """Who sends and who receives, written `host -> controller`."""
+
+    sender: str
+    receiver: str
+
+    def __str__(self) -> str:
+        return f"{self.sender} -> {self.receiver}"
+
+    @property
+    def reversed(self) -> Direction:
+        """The way back."""
+        return Direction(self.receiver, self.sender)
+
+    @property
+    def key(self) -> str:
+        """The direction as one word, `host_to_controller`."""
+        return f"{self.sender}_to_{self.receiver}"
+
+    @classmethod
+    def parse(cls, text: str) -> Direction:
+        """Read `host -> controller`."""
+        match = _DIRECTION.fullmatch(text)
+        if match is None:
+            raise ValueError(f"`{text}` is no direction: write it like `host -> controller`")
+        return cls(match[1], match[2])
+
+
+@dataclass(frozen=True, slots=True)
+class Range:
+    """A range with both ends in it, written `0..1000`; `high` is None in an open one, `1..`."""
+
+    low: int
+    high: int | None
+
+    def __str__(self) -> str:
+        return f"{self.low}..{'' if self.high is None else self.high}"
+
+    @classmethod
+    def parse(cls, text: str) -> Range:
+        """Read `0..1000` or `1..`."""
+        match = _RANGE.fullmatch(text)
+        if match is None:
+            raise ValueError(
+                f"`{text}` is no range: write it like `0..1000`, "
+                "or `1..` where the frame sets the end"
+            )
+        return cls(int(match[1]), None if match[2] is None else int(match[2]))
+
+
+@dataclass(frozen=True, slots=True)
+class Scale:
+    """What one step of a value is in a larger unit, written `0.001 V`."""
+
+    step: Decimal
+    unit: str
+
+    def __str__(self) -> str:
+        return f"{self.step} {self.unit}"
+
+    def of(self, value: int) -> str:
+        """`value` in that unit, exactly: 7500 steps of 0.001 V are `7.500 V`."""
+        return f"{value * self.step} {self.unit}"
+
+    @classmethod
+    def parse(cls, text: str) -> Scale:
+        """Read `0.001 V`."""
+        match = _SCALE.fullmatch(text)
+        if match is None or not Decimal(match[1]):
+            raise ValueError(
+                f"`{text}` is no scale: write a step above zero and its unit, like `0.001 V`"
+            )
+        return cls(Decimal(match[1]), match[2])
+
+
+@dataclass(frozen=True, slots=True)
+class Citation:
+    """Where a fact comes from: a declared source and the place in it, `vendor, section 1.1`."""
+
+    source: str
+    place: str
+
+    def __str__(self) -> str:
+        return f"{self.source}, {self.place}" if self.place else self.source
+
+    @classmethod
+    def parse(cls, text: str) -> Citation:
+        """Read `vendor, section 1.1`."""
+        source, _, place = text.partition(",")
+        if not source.strip():
+            raise ValueError(
+                f"`{text}` is no citation: write a source and a place, like `vendor, section 1.1`"
+            )
+        return cls(source.strip(), place.strip())
+
+
+def parse_hex(text: str) -> bytes:
+    """Bytes written `55 55 02 07`, over as many lines as they need."""
+    if _HEX.fullmatch(text.strip()) is None:
+        raise ValueError(
+            f"`{text.strip()[:40]}` is no hex: "
+            "write two digits a byte with blanks between, like `55 55 02 07`"
+        )
+    return bytes.fromhex(text)
+
+
+def to_hex(data: bytes) -> str:
+    """Bytes as `55 55 02 07`."""
+    return data.hex(" ").upper()

@@ -1,0 +1,29 @@
+"""The number types that fields can have. A new type is a new row here, and nothing else."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True, slots=True)
+class WireType:
+    """A number on the wire: its name, size in bytes, range, and letter in Python's struct."""
+
+    name: str
+    size: int
+    low: int
+    high: int
+    code: str
+
+
+WIRE_TYPES = {
+    wire.name: wire
+    for wire in (
+        WireType("u8", 1, 0, 0xFF, "B"),
+        WireType("u16", 2, 0, 0xFFFF, "H"),
+        WireType("u32", 4, 0, 0xFFFF_FFFF, "I"),
+        WireType("i8", 1, -0x80, 0x7F, "b"),
+        WireType("i16", 2, -0x8000, 0x7FFF, "h"),
+        WireType("i32", 4, -0x8000_0000, 0x7FFF_FFFF, "i"),
+    )
+}

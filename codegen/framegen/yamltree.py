@@ -1,0 +1,247 @@
+"""Reads YAML text into plain values, keeping for each of them the place where it stands.
+
+Built on the parser's events, not on its loader: nothing is ever constructed from a tag, an alias
+cannot multiply, a duplicate key cannot hide, and depth is bounded before anything recurses.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Any, TypeAlias
+
+import yaml
+
+from framegen.findings import Finding, Related
+from framegen.scalars import Ambiguous, resolve
+from framegen.source import Source, Span
+from framegen.text import first_invisible
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+# The C parser is ten times as fast; both give the same events.
+_Loader: Any = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
+
+KeyPath: TypeAlias = "tuple[str | int, ...]"
+
+MAX_DEPTH = 24
+_MAX_FINDINGS = 50
+
+
+class Unusable(Exception):  # noqa: N818 - says what the input is
+    """The input is no spec at all: not there, not text, not YAML, or not a mapping.
+
+    `finding` tells the place where there is one to tell.
+    """
+
+    def __init__(self, message: str, *, hint: str = "", finding: Finding | None = None) -> None:
+        super().__init__(message)
+        self.hint = hint
+        self.finding = finding
+
+
+@dataclass(slots=True)
+class Tree:
+    """The values of a YAML file, and where each value and each key stands."""
+
+    data: dict[str, Any]
+    values: dict[KeyPath, Span] = field(default_factory=dict)
+    keys: dict[KeyPath, Span] = field(default_factory=dict)
+
+    def value_at(self, path: KeyPath) -> Span:
+        """Where the value at `path` stands, or the nearest value around it."""
+        return self._nearest(path, self.values, self.keys)
+
+    def key_at(self, path: KeyPath) -> Span:
+        """Where the key at `path` stands; in a list, where the element does."""
+        return self._nearest(path, self.keys, self.values)
+
+    @staticmethod
+    def _nearest(path: KeyPath, first: dict[KeyPath, Span], second: dict[KeyPath, Span]) -> Span:
+        while path:
+            span = first.get(path) or second.get(path)
+            if span is not None:
+                return span
+            path = path[:-1]
+        return Span(1, 1)
+
+
+def dotted(path: KeyPath) -> str:
+    """Write a path as people do: `messages.ServoMove.examples[0].hex`."""
+    text = ""
+    for step in path:
+        text += f"[{step}]" if isinstance(step, int) else f".{step}" if text else step
+    return text
+
+
+def read_tree(source: Source) -> tuple[Tree, list[Finding]]:
+    """Read one YAML document. Raises Unusable where there is none, or none that is a mapping."""
+    builder = _Builder(source)
+    try:
+        data = builder.document()
+    except yaml.MarkedYAMLError as error:
+        span = Span(1, 1)
+        if error.problem_mark is not None:
+            span = Span(error.problem_mark.line + 1, error.problem_mark.column + 1)
+        problem = ", ".join(part for part in (error.context, error.problem) if part)
+        finding = Finding("yaml-syntax", span, "", f"this is not YAML: {problem}")
+        raise Unusable("the file is not YAML", finding=finding) from None
+    except yaml.YAMLError as error:
+        raise Unusable(f"the file is not YAML: {' '.join(str(error).split())}") from None
+    if not isinstance(data, dict):
+        found = (
+            "is empty"
+            if data is None
+            else "holds " + ("a list" if isinstance(data, list) else "a single value")
+        )
+        raise Unusable(
+            f"the file {found}, where a spec is a mapping of keys",
+            hint="begin with `framegen: 1` and `protocol:`; "
+            "`framegen schema` prints the whole language",
+        )
+    builder.tree.data = data
+    return builder.tree, builder.findings
+
+
+class _Builder:
+    """Turns the parser's events into values; one use."""
+
+    def __init__(self, source: Source) -> None:
+        self._source = source
+        self._events: Iterator[Any] = yaml.parse(source.text, Loader=_Loader)
+        self.tree = Tree({})
+        self.findings: list[Finding] = []
+
+    def document(self) -> Any:
+        data: Any = None
+        documents = 0
+        for event in self._events:
+            if isinstance(event, yaml.DocumentStartEvent):
+                documents += 1
+                if documents > 1:
+                    self._report(
+                        "yaml-document",
+                        event,
+                        (),
+                        "a second document begins here",
+                        "keep one spec in one file",
+                    )
+                    break
+                data = self._value(next(self._events), ())
+        return data
+
+    def _value(self, event: Any, path: KeyPath) -> Any:
+        span = self._span(event)
+        self.tree.values[path] = span
+        if len(path) > MAX_DEPTH:
+            finding = Finding("yaml-nesting", span, "", f"nested deeper than {MAX_DEPTH} levels")
+            raise Unusable("the file is no spec: it is nested too deeply", finding=finding)
+        if isinstance(event, yaml.AliasEvent):
+            self._report(
+                "yaml-anchor",
+                event,
+                path,
+                f"`*{event.anchor}` repeats a value by reference",
+                "write the value out again",
+            )
+            return None
+        if event.anchor is not None:
+            self._report(
+                "yaml-anchor",
+                event,
+                path,
+                f"`&{event.anchor}` names a value for reuse",
+                "remove the anchor",
+            )
+        # "!" alone is what the parser gives a quoted scalar; it is no tag of the author's.
+        if event.tag not in (None, "!"):
+            self._report(
+                "yaml-tag",
+                event,
+                path,
+                f"the tag `{event.tag}` has no meaning here",
+                "remove the tag",
+            )
+        if isinstance(event, yaml.ScalarEvent):
+            return self._scalar(event, path)
+        if isinstance(event, yaml.SequenceStartEvent):
+            return self._sequence(path)
+        return self._mapping(path)
+
+    def _sequence(self, path: KeyPath) -> list[Any]:
+        items: list[Any] = []
+        while not isinstance(event := next(self._events), yaml.SequenceEndEvent):
+            items.append(self._value(event, (*path, len(items))))
+        return items
+
+    def _mapping(self, path: KeyPath) -> dict[str, Any]:
+        entries: dict[str, Any] = {}
+        while not isinstance(event := next(self._events), yaml.MappingEndEvent):
+            key = self._key(event, path)
+            here = (*path, key)
+            span = self._span(event)
+            if key in entries:
+                first = Related(self.tree.keys[here], "it stands here first")
+                self._report(
+                    "yaml-duplicate-key",
+                    event,
+                    here,
+                    f"the key `{key}` is given twice",
+                    "keep one of them",
+                    first,
+                )
+                self._value(next(self._events), (*path, f"{key} (again)"))
+                continue
+            self.tree.keys[here] = span
+            entries[key] = self._value(next(self._events), here)
+        return entries
+
+    def _key(self, event: Any, path: KeyPath) -> str:
+        if not isinstance(event, yaml.ScalarEvent):
+            self._value(event, (*path, "(key)"))
+            self._report(
+                "yaml-key",
+                event,
+                path,
+                "a key must be a single word or number",
+                "write the key as plain text",
+            )
+            return "(key)"
+        key = self._scalar(event, path)
+        return str(event.value if key is None else key)
+
+    def _scalar(self, event: Any, path: KeyPath) -> str | int | bool | None:
+        text: str = event.value
+        character = first_invisible(text)
+        if character is not None:
+            self._report(
+                "invisible-character",
+                event,
+                path,
+                f"the text holds U+{ord(character):04X}, which no reader can see",
+                "remove it",
+            )
+        if not event.implicit[0]:
+            return text
+        try:
+            return resolve(text)
+        except Ambiguous as error:
+            self._report("yaml-ambiguous", event, path, str(error), error.hint)
+            return text
+
+    def _report(
+        self, rule: str, event: Any, path: KeyPath, message: str, hint: str, *related: Related
+    ) -> None:
+        self.findings.append(Finding(rule, self._span(event), dotted(path), message, hint, related))
+        if len(self.findings) >= _MAX_FINDINGS:
+            raise Unusable(
+                "the file is no spec: too much in it is not the YAML of a spec",
+                finding=self.findings[0],
+            )
+
+    def _span(self, event: Any) -> Span:
+        start, end = event.start_mark, event.end_mark
+        line = start.line + 1
+        if end.line == start.line:
+            return Span(line, start.column + 1, max(1, end.column - start.column))
+        return Span(line, start.column + 1, max(1, len(self._source.line(line)) - start.column))
