@@ -201,17 +201,20 @@ def _hints(layout: Layout, data: bytes, refusals: Sequence[Refusal]) -> Iterator
     if otherwise:
         yield Hint(f"sent the other way, they are {otherwise}")
         return
-    yield from _lookalike_hints(layout, data, refusals)
-    yield from _length_hints(layout, data, refusals)
-    yield from _frames_within(layout, data)
-
-
-def _lookalike_hints(layout: Layout, data: bytes, refusals: Sequence[Refusal]) -> Iterator[Hint]:
-    spec = layout.spec
-    found = recognise(spec, data)
+    found = recognise(layout.spec, data)
     if found is not None and found.lookalike.frame is not None:
         title, about = found.lookalike.title, " ".join(found.lookalike.about.split())
-        yield Hint(f"this looks like a frame of {_the(title)}. {about}".rstrip())
+        yield Hint(f"this looks like a frame of {_the(title)}. {about}")
+    within = list(_frames_within(layout, data))
+    if not within:
+        yield from _command_hints(layout, data, refusals)
+    yield from _length_hints(layout, data, refusals)
+    yield from within
+
+
+def _command_hints(layout: Layout, data: bytes, refusals: Sequence[Refusal]) -> Iterator[Hint]:
+    """Say what an unknown command means elsewhere, or why it is kept free."""
+    spec = layout.spec
     unknown = [refusal for refusal in refusals if refusal.reason == UNKNOWN_COMMAND]
     if not unknown:
         return

@@ -14,6 +14,7 @@ if TYPE_CHECKING:
     from framegen.explain import Explanation, Reading, Refusal, Row
 
 _BYTES_A_LINE = 16
+_LINES_AROUND = 2
 _WIDTH = 96
 _INDENT = " " * len("hint: ")
 
@@ -128,10 +129,17 @@ def _reasons(refusals: Sequence[Refusal]) -> Iterator[str]:
 
 
 def _pointed(data: bytes, offset: int) -> Iterator[str]:
-    """Show the bytes, with a caret under the one at `offset`, or where it is missing."""
-    for start in range(0, max(len(data), offset + 1), _BYTES_A_LINE):
+    """Show the bytes around `offset`, with a caret under the one there, or where it is missing."""
+    at = offset - offset % _BYTES_A_LINE
+    first = max(0, at - _LINES_AROUND * _BYTES_A_LINE)
+    end = at + (_LINES_AROUND + 1) * _BYTES_A_LINE
+    if first:
+        yield f"  ... {first} bytes before"
+    for start in range(first, end, _BYTES_A_LINE):
         line = data[start : start + _BYTES_A_LINE]
         if line:
             yield f"  {to_hex(line)}"
-        if start <= offset < start + _BYTES_A_LINE:
-            yield f"  {'   ' * (offset - start)}^^ byte {offset}"
+        if start == at:
+            yield f"  {'   ' * (offset - at)}^^ byte {offset}"
+    if end < len(data):
+        yield f"  ... {len(data) - end} bytes after"

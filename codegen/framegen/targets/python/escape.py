@@ -45,15 +45,18 @@ def lines(text: str, indent: int) -> list[str]:
     return wrap(prose(text), width, break_long_words=False, break_on_hyphens=False)
 
 
-def fit(before: str, items: list[str], after: str, indent: int = 0, *, lone: str = "") -> str:
+def fit(
+    before: str, items: list[str], after: str, indent: int = 0, *, lone: str = "", first: str = ""
+) -> str:
     """A bracketed list on one line where it fits, or else an item a line: as the formatter has it.
 
     `before` ends with the opening bracket and `after` begins with the closing one; `lone` follows a
-    single item, as the comma of a tuple does.
+    single item, as the comma of a tuple does; `first` is what stands in front of it on its line.
     """
     inside = ", ".join(items) + (lone if len(items) == 1 else "")
-    if indent + len(before) + len(inside) + len(after) <= WIDTH:
-        return f"{before}{inside}{after}"
+    whole = f"{before}{inside}{after}"
+    if "\n" not in inside and indent + len(first) + len(whole) <= WIDTH:
+        return whole
     margin = " " * indent
     return f"{before}\n" + "".join(f"{margin}    {item},\n" for item in items) + f"{margin}{after}"
 

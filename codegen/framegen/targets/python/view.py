@@ -2,15 +2,17 @@
 
 from __future__ import annotations
 
+import re
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from framegen.codec import describe_range
 from framegen.layout import Repeat, WireField
 from framegen.spec import IdPart, LengthPart
-from framegen.targets.python.escape import fit, literal
+from framegen.targets.python.escape import WIDTH, fit, literal
 
 if TYPE_CHECKING:
+    from collections.abc import Iterable
     from typing import Any
 
     from framegen.layout import Layout, MessageLayout
@@ -91,6 +93,11 @@ class NumberView:
         signed = ", signed=True" if self.layout.wire.low < 0 else ""
         return f'int.from_bytes(self._frame[{start}:{end}], "{self.spec.byte_order}"{signed})'
 
+    @property
+    def strategy(self) -> str:
+        """Hypothesis's strategy for it."""
+        return f"st.integers({self.low}, {self.high})"
+
     def describe(self, indent: int) -> str:
         """The call that describes it to the runtime."""
         field = self.layout.field
@@ -157,6 +164,14 @@ class ListView:
         return ", ".join(field.name for field in self.fields) + (
             "," if len(self.fields) == 1 else ""
         )
+
+    @property
+    def strategy(self) -> str:
+        """Hypothesis's strategy for it."""
+        items = [field.strategy for field in self.fields]
+        element = items[0] if self.element is None else f"st.tuples({', '.join(items)})"
+        sizes = [f"min_size={self.layout.low}", f"max_size={self.layout.high}"]
+        return fit("st.lists(", [element, *sizes], ")", 8, first=f"{self.name}=")
 
     @property
     def read_as(self) -> str:
@@ -323,6 +338,36 @@ class MessageView:
         ]
         return f"{self.name}({', '.join(given)})"
 
+    def command_words(self, values: dict[str, Any]) -> list[str]:
+        """The fields of an example as the command takes them: `targets=1:800,9:800`."""
+        words: list[str] = []
+        for argument in self.layout.arguments:
+            value = values[argument.name]
+            if isinstance(argument, Repeat):
+                names = [field.name for field in argument.fields]
+                parts = [
+                    [str(item)] if argument.element is None else [str(item[name]) for name in names]
+                    for item in value
+                ]
+                value = ",".join(":".join(part) for part in parts)
+            words.append(f"{argument.name}={value}")
+        return words
+
+    @property
+    def function(self) -> str:
+        """The name of its strategy: `servo_move` for ServoMove."""
+        return snake_case(self.name)
+
+    @property
+    def strategy(self) -> str:
+        """The call that makes its strategy."""
+        if not self.arguments:
+            return f"st.just({self.name}())"
+        items = [self.name, *(f"{field.name}={field.strategy}" for field in self.given)]
+        if self.repeat:
+            items.append(f"{self.repeat.name}={self.repeat.strategy}")
+        return fit("st.builds(", items, ")", 4, first="return ")
+
     @property
     def shape(self) -> str:
         """The description of its wire side, for the runtime."""
@@ -421,7 +466,11 @@ class LibraryView:
     @property
     def import_messages(self) -> str:
         names = sorted(["MESSAGES", *self._from_messages], key=_export_order)
-        return "from .messages import (\n" + "".join(f"    {name},\n" for name in names) + ")"
+        return _import("messages", names)
+
+    @property
+    def import_message_classes(self) -> str:
+        return _import("messages", sorted(message.name for message in self.messages))
 
     @property
     def exported(self) -> list[str]:
@@ -433,6 +482,37 @@ class LibraryView:
         """The docstring of the package."""
         protocol = self.layout.spec.protocol
         return [f"{protocol.title}.", protocol.summary, protocol.description]
+
+    @property
+    def command_summary(self) -> str:
+        """What the command is for."""
+        return f"Encode and decode the frames of: {self.layout.spec.protocol.title}."
+
+    @property
+    def decode_examples(self) -> list[str]:
+        """Command lines for the help of `decode`, each with what it does."""
+        program, sender = self.package, self.layout.directions[0].sender
+        frame = next(m.example.hex for m in self.messages if m.example)
+        hex_ = frame.hex(" ").upper()
+        examples = [
+            (f"{program} decode {hex_}", "bytes in hex, however they are written"),
+            (f"{program} decode line.bin", "a recording, raw or in hex"),
+            (f"{program} decode --direction {sender} -", "what arrives on standard input"),
+            (f"{program} decode --json line.bin", "a line of JSON for each message and noise"),
+        ]
+        return _pairs(examples)
+
+    @property
+    def encode_examples(self) -> list[str]:
+        """Command lines for the help of `encode`: an example of each shape of message."""
+        shapes: dict[tuple[bool, bool], tuple[str, str]] = {}
+        for message in self.messages:
+            if message.example is not None:
+                words = message.command_words(message.example.values)
+                line = " ".join([self.package, "encode", message.name, *words])
+                shape = bool(message.given), message.repeat is not None
+                shapes.setdefault(shape, (line, message.layout.message.summary))
+        return _pairs(shapes.values())
 
     @property
     def byte_order(self) -> str:
@@ -474,6 +554,23 @@ def struct_order(byte_order: str) -> str:
 def direction_member(direction: Direction) -> str:
     """The name of a direction in the enumeration: `HOST_TO_CONTROLLER`."""
     return direction.key.upper()
+
+
+def snake_case(name: str) -> str:
+    """`ServoMove` as `servo_move`."""
+    return re.sub(r"(?<=[a-z0-9])(?=[A-Z])|(?<=[A-Z])(?=[A-Z][a-z])", "_", name).lower()
+
+
+def _pairs(examples: Iterable[tuple[str, str]]) -> list[str]:
+    """Command lines and what they do, as the lines of a tuple."""
+    return [fit("(", [literal(line), literal(what)], "),", 8) for line, what in examples]
+
+
+def _import(module: str, names: list[str]) -> str:
+    line = f"from .{module} import {', '.join(names)}"
+    if len(line) <= WIDTH:
+        return line
+    return f"from .{module} import (\n" + "".join(f"    {name},\n" for name in names) + ")"
 
 
 def _export_order(name: str) -> tuple[int, str]:

@@ -89,7 +89,10 @@ class Table(dict[bytes, "Entry | None"]):
             known = ", ".join(str(number) for number in sorted(self.kinds))
             problem = f"the command is {command}, and only {known} can be here"
             return DecodeError(Reason.UNKNOWN_COMMAND, COMMAND_AT, problem)
-        legal = " or ".join(f"{worded(kind.LENGTHS)} ({kind.__name__})" for kind in kinds)
+        names: dict[str, list[str]] = {}
+        for kind in kinds:
+            names.setdefault(worded(kind.LENGTHS), []).append(kind.__name__)
+        legal = " or ".join(f"{words} ({', '.join(who)})" for words, who in names.items())
         problem = f"the length is {length}, and must be {legal}"
         return DecodeError(Reason.LENGTH_MISMATCH, LENGTH_AT, problem)
 

@@ -1,0 +1,120 @@
+"""The fields of a message as text: shown with units and names, read back from the same notation."""
+
+from __future__ import annotations
+
+from ..errors import EncodeError
+from .unusable import UnusableError
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from typing import Any
+
+    from ..fields import Items, Number
+    from ..message import Message
+
+
+def fields_as_json(message: Message) -> dict[str, Any]:
+    """The fields by name; each element of a list as a mapping of its own fields."""
+    return {name: _plain(getattr(message, name)) for name in message.__match_args__}
+
+
+def _plain(value: Any) -> Any:
+    if not isinstance(value, tuple):
+        return value
+    names: tuple[str, ...] | None = getattr(value, "__match_args__", None)
+    if names is not None:
+        return dict(zip(names, value, strict=True))
+    return [_plain(item) for item in value]
+
+
+def fields_as_text(message: Message) -> str:
+    """The fields as `time_ms=1000 ms targets=1:800,9:800`."""
+    items = message.SHAPE.items
+    shown: list[str] = []
+    for name in message.__match_args__:
+        value = getattr(message, name)
+        if items is not None and items.name == name:
+            shown.append(f"{name}={','.join(_element_as_text(items, item) for item in value)}")
+        else:
+            shown.append(f"{name}={_number_as_text(_number(message.SHAPE.numbers, name), value)}")
+    return " ".join(shown)
+
+
+def _element_as_text(items: Items, item: Any) -> str:
+    return str(item) if items.element is None else ":".join(str(part) for part in item)
+
+
+def _number(numbers: tuple[Number, ...], name: str) -> Number:
+    return next(number for number in numbers if number.name == name)
+
+
+def _number_as_text(number: Number, value: int) -> str:
+    named = [f" ({name})" for name, known in number.names.items() if known == value]
+    return f"{value}{' ' + number.unit if number.unit else ''}{''.join(named)}"
+
+
+def message_from_text(kind: type[Message], words: list[str]) -> Message:
+    """The message with the fields given as `time_ms=1000 targets=1:800,9:800`."""
+    given: dict[str, Any] = {}
+    for word in words:
+        name, equals, text = word.partition("=")
+        if not equals:
+            raise UnusableError(f"{word!r} is no field: write it as NAME=VALUE; {_usage(kind)}")
+        if name not in kind.__match_args__:
+            raise UnusableError(f"{kind.__name__} has no field {name!r}; {_usage(kind)}")
+        if name in given:
+            raise UnusableError(f"{name} is given twice")
+        given[name] = _read_field(kind, name, text)
+    missing = [name for name in kind.__match_args__ if name not in given]
+    if missing:
+        raise UnusableError(f"{kind.__name__} needs {' and '.join(missing)}; {_usage(kind)}")
+    try:
+        return kind(**given)
+    except EncodeError as error:
+        raise UnusableError(str(error)) from None
+
+
+def _usage(kind: type[Message]) -> str:
+    items = kind.SHAPE.items
+    fields: list[str] = []
+    for name in kind.__match_args__:
+        if items is None or items.name != name:
+            fields.append(f"{name}={name.upper()}")
+        else:
+            element = ":".join(field.name.upper() for field in items.fields)
+            fields.append(f"{name}={element},...")
+    return f"it is written {' '.join([kind.__name__, *fields])}"
+
+
+def _read_field(kind: type[Message], name: str, text: str) -> Any:
+    items = kind.SHAPE.items
+    if items is None or items.name != name:
+        return _read_number(_number(kind.SHAPE.numbers, name), text, name)
+    words = text.split(",") if text else []
+    return [_read_element(items, word, f"{name}[{at}]") for at, word in enumerate(words)]
+
+
+def _read_element(items: Items, word: str, path: str) -> Any:
+    if items.element is None:
+        return _read_number(items.fields[0], word, path)
+    parts = word.split(":")
+    if len(parts) != len(items.fields):
+        wanted = ":".join(field.name for field in items.fields)
+        raise UnusableError(f"{path}: {word!r} is not {wanted}")
+    return tuple(
+        _read_number(field, part, f"{path}.{field.name}")
+        for field, part in zip(items.fields, parts, strict=True)
+    )
+
+
+def _read_number(number: Number, text: str, path: str) -> int:
+    named = number.names.get(text)
+    if named is not None:
+        return named
+    try:
+        return int(text, 0)
+    except ValueError:
+        names = "".join(f", or {name}" for name in number.names)
+        raise UnusableError(
+            f"{path}: {text[:40]!r} is no number: write it like 12 or 0x0C{names}"
+        ) from None
