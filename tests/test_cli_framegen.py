@@ -1,0 +1,486 @@
+"""The framegen command: its verbs, its exit codes, and plain words instead of tracebacks."""
+
+import contextlib
+import io
+import json
+import os
+import subprocess
+import sys
+from pathlib import Path
+from typing import TYPE_CHECKING, TypeAlias
+
+import pytest
+from framegen import __version__
+from framegen.checks import LAYOUT_RULES, READING_RULES, STRUCTURE_RULES
+from framegen.cli import INTERRUPTED, READER_GONE, VERBS, main
+from framegen.project import default_spec, project_root
+from framegen.yamltree import Unusable
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+if TYPE_CHECKING:
+    from framegen.checks.rule import LayoutRule, ReadingRule, StructureRule
+
+Capture: TypeAlias = "pytest.CaptureFixture[str]"
+AnyRule: TypeAlias = "ReadingRule | StructureRule | LayoutRule"
+
+ROOT = Path(__file__).parent.parent
+SPEC = ROOT / "spec" / "busservo.yaml"
+STOP = "55 55 02 07"
+RULES: tuple[AnyRule, ...] = (*READING_RULES, *STRUCTURE_RULES, *LAYOUT_RULES)
+
+
+@pytest.fixture(autouse=True)
+def _in_the_project(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(ROOT)
+
+
+@pytest.fixture
+def misspelt(tmp_path: Path) -> Path:
+    """A spec with one type that there is not, on a known line."""
+    file = tmp_path / "misspelt.yaml"
+    text = SPEC.read_text(encoding="utf-8")
+    file.write_text(text.replace("type: u16\n", "type: u17\n", 1), encoding="utf-8")
+    return file
+
+
+def line_of(file: Path, text: str) -> int:
+    """The number of the first line that holds `text`."""
+    lines = file.read_text(encoding="utf-8").splitlines()
+    return next(number for number, line in enumerate(lines, 1) if text in line)
+
+
+def run(*words: str) -> tuple[int, str, str]:
+    """The exit code and both outputs of a real process."""
+    result = subprocess.run(
+        [sys.executable, "-m", "framegen", *words],
+        capture_output=True,
+        encoding="utf-8",
+        timeout=60,
+        check=False,
+    )
+    return result.returncode, result.stdout, result.stderr
+
+
+# ---------------------------------------------------------------------------- exit codes
+
+EXIT_CODES = [
+    (["--version"], 0),
+    (["--help"], 0),
+    (["check"], 0),
+    (["check", "spec/busservo.yaml"], 0),
+    (["check", "--help"], 0),
+    (["check", "--json"], 0),
+    (["explain", STOP], 0),
+    (["explain", "--help"], 0),
+    (["explain", "--json", STOP], 0),
+    (["rules"], 0),
+    (["rules", "unknown-type"], 0),
+    (["schema"], 0),
+    (["explain", "55 55 02 08"], 1),
+    (["explain", "--json", "55 55 02 08"], 1),
+    ([], 2),
+    (["chekc"], 2),
+    (["--nonsense"], 2),
+    (["check", "--nonsense"], 2),
+    (["check", "missing.yaml"], 2),
+    (["check", "spec"], 2),
+    (["check", ""], 2),
+    (["check", "a\0b"], 2),
+    (["explain"], 2),
+    (["explain", ""], 2),
+    (["explain", "5"], 2),
+    (["explain", "spec/busservo.yaml"], 2),
+    (["explain", "missing.yaml", STOP], 2),
+    (["explain", "--direction", "nobody", STOP], 2),
+    (["rules", "no-such-rule"], 2),
+    (["rules", "two", "rules"], 2),
+    (["schema", "superfluous"], 2),
+]
+
+
+@pytest.mark.parametrize(("words", "code"), EXIT_CODES, ids=repr)
+def test_exit_code(words: list[str], code: int, capsys: Capture) -> None:
+    assert main(words) == code
+    printed = capsys.readouterr()
+    assert "Traceback" not in printed.err
+    if code == 2 and words:
+        assert printed.err.startswith("framegen: error: ")
+        assert printed.out == ""
+
+
+def test_main_reads_the_command_line_of_the_process(
+    monkeypatch: pytest.MonkeyPatch, capsys: Capture
+) -> None:
+    monkeypatch.setattr(sys, "argv", ["framegen", "--version"])
+    assert main() == 0
+    assert capsys.readouterr().out == f"framegen {__version__}\n"
+
+
+# ---------------------------------------------------------------------------- help
+
+
+def test_help_lists_every_verb_and_an_example_of_each(capsys: Capture) -> None:
+    assert main(["--help"]) == 0
+    shown = capsys.readouterr().out
+    listed = shown.split("\nverbs:\n")[1].split("\n\n")[0].splitlines()
+    assert [line.split()[0] for line in listed] == list(VERBS)
+    for verb in VERBS:
+        assert f"\n  framegen {verb}" in shown
+
+
+def test_without_a_verb_the_help_goes_to_the_error_stream(capsys: Capture) -> None:
+    assert main([]) == 2
+    printed = capsys.readouterr()
+    assert printed.out == ""
+    assert "\nverbs:\n" in printed.err
+
+
+@pytest.mark.parametrize("verb", VERBS)
+def test_help_of_a_verb_teaches_by_example(verb: str, capsys: Capture) -> None:
+    assert main([verb, "--help"]) == 0
+    shown = capsys.readouterr().out
+    assert shown.startswith(f"usage: framegen {verb} ")
+    assert f"\nexamples:\n  framegen {verb}" in shown
+
+
+def test_a_mistyped_verb_is_guessed(capsys: Capture) -> None:
+    assert main(["expalin", STOP]) == 2
+    assert capsys.readouterr().err == (
+        "framegen: error: there is no verb `expalin`\n  hint: did you mean `explain`?\n"
+    )
+
+
+# ---------------------------------------------------------------------------- check
+
+
+def test_check_says_what_it_looked_at(capsys: Capture) -> None:
+    assert main(["check"]) == 0
+    printed = capsys.readouterr()
+    assert printed.out == ""
+    assert printed.err == (
+        "spec/busservo.yaml: 12 messages, 19 examples, 10 errata checked: nothing found\n"
+    )
+
+
+def test_check_shows_a_finding_at_its_place(misspelt: Path, capsys: Capture) -> None:
+    assert main(["check", str(misspelt)]) == 1
+    printed = capsys.readouterr()
+    line = line_of(misspelt, "u17")
+    assert printed.out == (
+        f"{misspelt.as_posix()}:{line}:15: unknown-type: unknown type `u17`\n"
+        f"{line} |         type: u17\n"
+        f"{' ' * len(str(line))} |               ^^^\n"
+        f"{' ' * len(str(line))} = at: messages.ServoMove.fields.time_ms.type\n"
+        f"{' ' * len(str(line))} = hint: did you mean `u16`?\n\n"
+    )
+    assert printed.err == f"1 finding in {misspelt.as_posix()}\n"
+
+
+def test_check_gives_findings_as_lines_of_json(misspelt: Path, capsys: Capture) -> None:
+    assert main(["check", "--json", str(misspelt)]) == 1
+    assert [json.loads(line) for line in capsys.readouterr().out.splitlines()] == [
+        {
+            "rule": "unknown-type",
+            "file": misspelt.as_posix(),
+            "line": line_of(misspelt, "u17"),
+            "column": 15,
+            "path": "messages.ServoMove.fields.time_ms.type",
+            "message": "unknown type `u17`",
+            "hint": "did you mean `u16`?",
+        }
+    ]
+
+
+def test_check_says_when_it_did_not_get_past_the_shape(tmp_path: Path, capsys: Capture) -> None:
+    file = tmp_path / "shapeless.yaml"
+    file.write_text(SPEC.read_text(encoding="utf-8").replace("link:\n", "lnik:\n", 1))
+    assert main(["check", str(file)]) == 1
+    assert capsys.readouterr().err == (
+        f"2 findings in {file.as_posix()}; "
+        "check again once its shape is mended, for what it says was not looked at\n"
+    )
+
+
+def test_check_takes_several_specs(misspelt: Path, capsys: Capture) -> None:
+    assert main(["check", "spec/busservo.yaml", str(misspelt)]) == 1
+    clean, found = capsys.readouterr().err.splitlines()
+    assert clean.startswith("spec/busservo.yaml: 12 messages, ")
+    assert found == f"1 finding in {misspelt.as_posix()}"
+
+
+def test_what_is_not_yaml_is_shown_at_its_place(tmp_path: Path, capsys: Capture) -> None:
+    file = tmp_path / "broken.yaml"
+    file.write_text("framegen: [1\nprotocol: 2\n")
+    assert main(["check", str(file)]) == 2
+    first, second, *_, excerpt, caret = capsys.readouterr().err.splitlines()
+    assert first == f"framegen: error: {file.as_posix()}: the file is not YAML"
+    assert second.startswith(f"{file.as_posix()}:2:9: yaml-syntax: this is not YAML: ")
+    assert (excerpt, caret) == ("2 | protocol: 2", "  |         ^")
+
+
+def test_an_empty_spec_gets_a_hint(tmp_path: Path, capsys: Capture) -> None:
+    file = tmp_path / "empty.yaml"
+    file.write_text("")
+    assert main(["check", str(file)]) == 2
+    error, hint = capsys.readouterr().err.splitlines()
+    assert error == (
+        f"framegen: error: {file.as_posix()}: the file is empty, where a spec is a mapping of keys"
+    )
+    assert hint.startswith("  hint: begin with `framegen: 1`")
+
+
+def test_a_spec_with_findings_explains_nothing(misspelt: Path, capsys: Capture) -> None:
+    assert main(["explain", str(misspelt), STOP]) == 2
+    lines = capsys.readouterr().err.splitlines()
+    name = misspelt.as_posix()
+    assert lines[0] == f"framegen: error: {name} has 1 finding; the first is"
+    assert lines[1].endswith("unknown-type: unknown type `u17`")
+    assert lines[-1] == f"  hint: `framegen check {name}` shows them all"
+
+
+# ---------------------------------------------------------------------------- rules
+
+
+def test_rules_lists_every_rule(capsys: Capture) -> None:
+    assert main(["rules"]) == 0
+    listed = [line.split(maxsplit=1) for line in capsys.readouterr().out.splitlines()]
+    assert listed == [[rule.id, rule.title] for rule in RULES]
+
+
+def test_a_rule_says_why_and_shows_both_sides(capsys: Capture) -> None:
+    assert main(["rules", "unknown-type"]) == 0
+    assert capsys.readouterr().out == (
+        "unknown-type: Every type is one that the language has\n"
+        "\n"
+        "A misspelt type has no size, and nothing after it would have a place.\n"
+        "\n"
+        "refused:\n"
+        "  time_ms: {type: u17}\n"
+        "\n"
+        "accepted:\n"
+        "  time_ms: {type: u16}\n"
+    )
+
+
+@pytest.mark.parametrize("rule", RULES, ids=lambda rule: rule.id)
+def test_every_rule_can_be_looked_up(rule: AnyRule, capsys: Capture) -> None:
+    assert main(["rules", rule.id]) == 0
+    shown = capsys.readouterr().out
+    assert shown.startswith(f"{rule.id}: {rule.title}\n\n{rule.why.splitlines()[0]}\n")
+    assert rule.bad.splitlines()[0] in shown
+    assert rule.good.splitlines()[0] in shown
+
+
+def test_an_unknown_rule_is_guessed(capsys: Capture) -> None:
+    assert main(["rules", "unknown-tpye"]) == 2
+    assert capsys.readouterr().err == (
+        "framegen: error: there is no rule 'unknown-tpye'\n  hint: did you mean `unknown-type`?\n"
+    )
+
+
+# ---------------------------------------------------------------------------- the project
+
+
+def project(folder: Path, *specs: str) -> Path:
+    """Makes a project with these specs, empty."""
+    (folder / "spec").mkdir(parents=True)
+    for name in specs:
+        (folder / "spec" / name).write_text("")
+    return folder
+
+
+def test_the_default_spec_is_the_only_one_here(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(project(tmp_path / "here", "one.yaml"))
+    assert default_spec() == Path("spec/one.yaml")
+
+
+def test_the_default_spec_is_found_from_below(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    below = project(tmp_path / "here", "one.yaml") / "docs" / "guides"
+    below.mkdir(parents=True)
+    monkeypatch.chdir(below)
+    assert default_spec() == Path("../../spec/one.yaml")
+
+
+def test_the_nearest_project_wins(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    inner = project(project(tmp_path / "outer", "outer.yaml") / "inner", "inner.yaml")
+    monkeypatch.chdir(inner)
+    assert default_spec() == Path("spec/inner.yaml")
+
+
+def test_two_specs_leave_a_choice(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: Capture
+) -> None:
+    monkeypatch.chdir(project(tmp_path / "here", "b.yaml", "a.yaml"))
+    assert main(["check"]) == 2
+    assert capsys.readouterr().err == (
+        "framegen: error: there are 2 specs to choose from: a.yaml, b.yaml\n"
+        "  hint: name the one you mean, such as spec/a.yaml\n"
+    )
+
+
+def test_without_a_spec_anywhere_the_error_says_what_to_do(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    with pytest.raises(Unusable, match=r"no spec is named, .* has spec/\*\.yaml") as caught:
+        default_spec()
+    assert caught.value.hint == "name a spec file, or run this where the project is"
+
+
+@pytest.mark.parametrize(
+    ("spec", "root"),
+    [
+        ("here/spec/one.yaml", "here"),
+        ("here/one.yaml", "here"),
+        ("one.yaml", "."),
+        ("spec/one.yaml", "."),
+        ("here/../spec/one.yaml", "."),
+    ],
+)
+def test_the_project_root_is_above_the_spec_folder(
+    spec: str, root: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    (tmp_path / "here").mkdir()
+    monkeypatch.chdir(tmp_path)
+    assert project_root(Path(spec)) == (tmp_path / root).resolve()
+
+
+def test_the_project_root_is_found_from_within_the_spec_folder(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(project(tmp_path / "here", "one.yaml") / "spec")
+    assert project_root(Path("one.yaml")) == (tmp_path / "here").resolve()
+
+
+# ---------------------------------------------------------------------------- what goes wrong
+
+
+def test_control_c_is_quiet(monkeypatch: pytest.MonkeyPatch, capsys: Capture) -> None:
+    def interrupted(_arguments: object) -> None:
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr("framegen.commands.rules.run", interrupted)
+    assert main(["rules"]) == INTERRUPTED
+    assert capsys.readouterr() == ("", "")
+
+
+def test_a_reader_that_has_seen_enough_is_no_error() -> None:
+    read, write = os.pipe()
+    os.close(read)
+    result = subprocess.run(
+        [sys.executable, "-m", "framegen", "schema"],
+        stdout=write,
+        stderr=subprocess.PIPE,
+        timeout=60,
+        check=False,
+    )
+    os.close(write)
+    assert (result.returncode, result.stderr) == (READER_GONE, b"")
+
+
+@pytest.mark.skipif(not Path("/dev/full").exists(), reason="needs a device that is always full")
+def test_a_full_disk_is_told() -> None:
+    with Path("/dev/full").open("wb") as full:
+        result = subprocess.run(
+            [sys.executable, "-m", "framegen", "schema"],
+            stdout=full,
+            stderr=subprocess.PIPE,
+            timeout=60,
+            check=False,
+        )
+    assert result.returncode == 2
+    assert result.stderr == b"framegen: error: No space left on device\n"
+
+
+def test_characters_that_the_terminal_lacks_are_escaped() -> None:
+    script = "import sys; from framegen.cli import main; sys.exit(main(['expl\\u00e4in']))"
+    result = subprocess.run(
+        [sys.executable, "-c", script],
+        env={**os.environ, "PYTHONIOENCODING": "ascii:strict"},
+        capture_output=True,
+        timeout=60,
+        check=False,
+    )
+    assert result.returncode == 2
+    assert result.stderr.startswith(b"framegen: error: there is no verb `expl\\xe4in`")
+
+
+def test_a_missing_package_is_named_with_its_cure() -> None:
+    script = (
+        "import sys; sys.modules['yaml'] = None\n"
+        "from framegen.cli import main; sys.exit(main(['check']))"
+    )
+    result = subprocess.run(
+        [sys.executable, "-c", script], capture_output=True, timeout=60, check=False
+    )
+    assert result.returncode == 2
+    assert result.stderr.decode().splitlines() == [
+        "framegen: error: the generator needs `yaml`, which is not installed",
+        "  hint: pip install 'busservo[codegen]'",
+    ]
+
+
+@pytest.mark.parametrize("words", [["--version"], ["--help"], ["chekc"]])
+def test_what_runs_no_verb_imports_nothing_heavy(words: list[str]) -> None:
+    script = (
+        "import sys\n"
+        "from framegen.cli import main\n"
+        f"main({words!r})\n"
+        "heavy = {'yaml', 'pydantic', 'jinja2', 'framegen.spec'} & set(sys.modules)\n"
+        "sys.exit(f'imported {heavy}' if heavy else 0)"
+    )
+    result = subprocess.run(
+        [sys.executable, "-c", script], capture_output=True, timeout=60, check=False
+    )
+    assert (result.returncode, result.stderr.decode().partition("imported")[2]) == (0, "")
+
+
+def test_a_real_process_finds_and_explains() -> None:
+    code, out, err = run("explain", "55", "55", "02", "07")
+    assert (code, err) == (0, "")
+    assert out.startswith("ActionGroupStop, host -> controller\n")
+    assert run("check")[0] == 0
+
+
+def test_a_real_process_complains_on_the_error_stream() -> None:
+    code, out, err = run("check", "missing.yaml")
+    assert (code, out) == (2, "")
+    assert err == (
+        "framegen: error: missing.yaml does not exist\n"
+        "  hint: name a spec file, or run this where spec/*.yaml is\n"
+    )
+
+
+# Nothing that writes files, and nothing that ends in .yaml and might be there.
+WORDS = st.one_of(
+    st.text(max_size=8),
+    st.sampled_from(["--json", "--help", "-h", "--", "--direction", "host", "55", "0x", "."]),
+)
+
+
+@settings(max_examples=120, deadline=None, derandomize=True)
+@given(
+    verb=st.sampled_from(["check", "explain", "rules", "schema"]),
+    words=st.lists(WORDS, min_size=1, max_size=4),
+)
+def test_no_command_line_ends_in_a_traceback(verb: str, words: list[str]) -> None:
+    out, err = io.StringIO(), io.StringIO()
+    with contextlib.redirect_stdout(out), contextlib.redirect_stderr(err):
+        code = main([verb, *words])
+    assert code in (0, 1, 2)
+    assert code != 2 or err.getvalue().startswith("framegen: error: ")
+
+
+@settings(max_examples=100, deadline=None, derandomize=True)
+@given(words=st.lists(st.text(), min_size=1, max_size=3))
+def test_no_wrong_verb_ends_in_a_traceback(words: list[str]) -> None:
+    out, err = io.StringIO(), io.StringIO()
+    with contextlib.redirect_stdout(out), contextlib.redirect_stderr(err):
+        code = main(words)
+    assert code == 2 or {"-h", "--help", "--version"} & set(words)
+    assert out.getvalue() or err.getvalue()
