@@ -52,11 +52,12 @@ PYTHON_CLASSES = _words(
     """
 )
 
-# What the library exports whatever the protocol.
+# What the library exports or is built of, whatever the protocol.
 LIBRARY_NAMES = _words(
     """
-    AsyncController Controller Counters DecodeError Device Direction EncodeError MESSAGES
-    Message Noise ProtocolError Reason StreamDecoder Transport UnknownFrame decode
+    AsyncController Controller Counters DecodeError Device Direction Element EncodeError HEADER
+    Items MESSAGES Message Noise Number ProtocolError Reason SearchStrategy Shape StreamDecoder
+    Transport UnknownFrame decode
     """
 )
 

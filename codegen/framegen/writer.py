@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+import re
+from contextlib import ExitStack, suppress
 from dataclasses import dataclass
 from difflib import unified_diff
+from io import StringIO
 from typing import TYPE_CHECKING, Literal
 
 from framegen.yamltree import Unusable
@@ -17,7 +20,8 @@ if TYPE_CHECKING:
 # What Python and the desktop leave behind in any folder, and nobody wrote.
 _LITTER = frozenset(["__pycache__", ".DS_Store", "Thumbs.db"])
 _STAGED, _KEPT = ".framegen-new", ".framegen-old"
-_MARK = "framegen"
+# How every file of the output begins, whatever its language.
+_MARK = re.compile(r"\W*generated[ _]by\W+framegen ", re.IGNORECASE)
 
 
 @dataclass(frozen=True, slots=True)
@@ -31,16 +35,15 @@ class Change:
 
     def diff(self) -> str:
         """The change as a unified diff."""
-        old, new = self.old or "", self.new or ""
-        return "".join(
+        before = "/dev/null" if self.old is None else f"a/{self.path}"
+        after = "/dev/null" if self.new is None else f"b/{self.path}"
+        old, new = (list(StringIO(text or "")) for text in (self.old, self.new))
+        shown = "".join(
             line if line.endswith("\n") else f"{line}\n\\ No newline at end of file\n"
-            for line in unified_diff(
-                old.splitlines(keepends=True),
-                new.splitlines(keepends=True),
-                "/dev/null" if self.old is None else f"a/{self.path}",
-                "/dev/null" if self.new is None else f"b/{self.path}",
-            )
+            for line in unified_diff(old, new, before, after)
         )
+        # An empty file that comes or goes has no lines to show.
+        return shown or f"--- {before}\n+++ {after}\n"
 
 
 def changes(root: Path, rendered: Rendered) -> list[Change]:
@@ -68,7 +71,7 @@ def write(root: Path, rendered: Rendered) -> list[Change]:
     """
     found = changes(root, rendered)
     for change in found:
-        if change.new is None and _MARK not in (change.old or "").partition('"""')[0]:
+        if change.new is None and _MARK.match(change.old or "") is None:
             raise Unusable(
                 f"{change.path} was not written by framegen, and stands where only its output is",
                 hint="move it elsewhere; nothing was changed",
@@ -83,24 +86,36 @@ def write(root: Path, rendered: Rendered) -> list[Change]:
 
 
 def _apply(root: Path, found: list[Change]) -> None:
-    begun: list[Path] = []
-    try:
+    """Stages, then swaps. How each step is undone is settled before it is taken."""
+    with ExitStack() as undo:
         for change in found:
             if change.new is not None:
                 target = root / change.path
-                target.parent.mkdir(parents=True, exist_ok=True)
-                begun.append(target)
-                _beside(target, _STAGED).write_bytes(change.new.encode())
+                _make_folder(target.parent, undo)
+                staged = _beside(target, _STAGED)
+                undo.callback(staged.unlink, missing_ok=True)
+                staged.write_bytes(change.new.encode())
         for change in found:
-            _swap(root / change.path, change)
-    except BaseException:
+            target = root / change.path
+            undo.callback(_restore, target, change)
+            _swap(target, change)
+        undo.pop_all()
+    # All is in place. An old file that resists is in nobody's way, and an orphan next time.
+    with suppress(OSError), ExitStack() as tidy:
         for change in found:
-            _restore(root / change.path, change)
-        for target in begun:
-            _beside(target, _STAGED).unlink(missing_ok=True)
-        raise
-    for change in found:
-        _beside(root / change.path, _KEPT).unlink(missing_ok=True)
+            tidy.callback(_beside(root / change.path, _KEPT).unlink, missing_ok=True)
+
+
+def _make_folder(folder: Path, undo: ExitStack) -> None:
+    missing = [each for each in (folder, *folder.parents) if not each.exists()]
+    for each in reversed(missing):
+        undo.callback(_remove_empty, each)
+        each.mkdir(exist_ok=True)
+
+
+def _remove_empty(folder: Path) -> None:
+    with suppress(OSError):
+        folder.rmdir()
 
 
 def _swap(target: Path, change: Change) -> None:

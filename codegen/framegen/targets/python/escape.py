@@ -2,11 +2,16 @@
 
 from __future__ import annotations
 
+import re
 from textwrap import wrap
 
 from framegen.text import is_invisible
 
 WIDTH = 100
+# A quote that stands first, last or before another could begin or end a docstring.
+_RISKY_QUOTE = re.compile(r'\A"|"(?="|\Z)')
+# In a comment at the top of a file, `coding:` would change how Python reads the rest.
+_RISKY_IN_COMMENT = re.compile(r"[^A-Za-z0-9 ._+-]")
 
 
 def literal(text: str) -> str:
@@ -14,13 +19,17 @@ def literal(text: str) -> str:
     return '"' + "".join(_escaped(character, '"\\') for character in text) + '"'
 
 
+def comment(text: str) -> str:
+    """`text` for a comment: all that it can do is to be read."""
+    return _RISKY_IN_COMMENT.sub("_", text)
+
+
 def prose(text: str) -> str:
     """`text` for the inside of a docstring: no quote can end it, no example in it be run."""
     folded = " ".join(text.split())
     safe = "".join(_escaped(character, "\\") for character in folded)
     # doctest runs what follows three of these, so prose must not be able to say them.
-    safe = safe.replace(">>>", "> > >").replace('"""', '\\"\\"\\"')
-    return safe[:-1] + '\\"' if safe.endswith('"') else safe
+    return _RISKY_QUOTE.sub(r'\\"', safe.replace(">>>", "> > >"))
 
 
 def docstring(blocks: list[str], indent: int, example: list[str] | None = None) -> str:
@@ -29,7 +38,7 @@ def docstring(blocks: list[str], indent: int, example: list[str] | None = None) 
     `example` goes to its end as it is: lines of Python that the generator wrote itself.
     """
     paragraphs = [part for block in blocks for part in block.split("\n\n") if part.strip()]
-    first, *rest = [lines(paragraph, indent) for paragraph in paragraphs]
+    first, *rest = [lines(paragraph, indent) for paragraph in paragraphs] or [[""]]
     margin = " " * indent
     if not rest and not example and len(first) == 1 and len(first[0]) <= WIDTH - indent - 6:
         return f'"""{first[0]}"""'
@@ -64,6 +73,8 @@ def fit(
 def _escaped(character: str, special: str) -> str:
     if character in special:
         return "\\" + character
+    if character == "\n":
+        return "\\n"
     if not is_invisible(character):
         return character
     code = ord(character)

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 from framegen.codec import describe_range
 from framegen.layout import Repeat, WireField
+from framegen.names import PYTHON_BUILTINS, PYTHON_KEYWORDS
 from framegen.spec import IdPart, LengthPart
 from framegen.targets.python.escape import WIDTH, fit, literal
 
@@ -16,8 +17,8 @@ if TYPE_CHECKING:
     from typing import Any
 
     from framegen.layout import Layout, MessageLayout
-    from framegen.spec import Citation, Example, Spec
-    from framegen.values import Direction
+    from framegen.spec import Example, Spec
+    from framegen.values import Citation, Direction
 
 # What every library exports besides its messages.
 EXPORTED = (
@@ -35,6 +36,9 @@ EXPORTED = (
     "__version__",
     "decode",
 )
+
+# What the function of a strategy cannot be called.
+_TAKEN_FUNCTIONS = {"messages", "noise", "noisy_streams", "st", *PYTHON_KEYWORDS, *PYTHON_BUILTINS}
 
 
 @dataclass(frozen=True, slots=True)
@@ -174,6 +178,17 @@ class ListView:
         return fit("st.lists(", [element, *sizes], ")", 8, first=f"{self.name}=")
 
     @property
+    def snake(self) -> str:
+        """The name of its element, for the functions that make and read one."""
+        return snake_case(self.element or "")
+
+    @property
+    def maker(self) -> str:
+        """The function that makes an element of a tuple."""
+        first = f"_make_{self.snake}: Callable[[tuple[int, ...]], {self.element}] = "
+        return first + fit("partial(", ["tuple.__new__", str(self.element)], ")", first=first)
+
+    @property
     def read_as(self) -> str:
         """The type that reading it gives."""
         return f"tuple[{self.element or 'int'}, ...]"
@@ -183,7 +198,7 @@ class ListView:
         """The expression that reads it from the frame."""
         data = f"self._frame[{self.layout.offset}:]"
         if self.element is not None:
-            return f"tuple(starmap({self.element}, iter_unpack({literal(self.codes)}, {data})))"
+            return f"tuple(map(_make_{self.snake}, _read_{self.snake}({data})))"
         if self.layout.fields[0].wire.name == "u8":
             return f"tuple({data})"
         return f"tuple(chain.from_iterable(iter_unpack({literal(self.codes)}, {data})))"
@@ -314,9 +329,19 @@ class MessageView:
 
     @property
     def packed(self) -> str:
-        """The arguments that the runtime makes the frame of."""
+        """The count and the values that the runtime packs, once they are flat."""
         names = [field.name for field in self.given]
-        numbers = f"({', '.join(names)}{',' if len(names) == 1 else ''})"
+        repeat = self.repeat
+        if repeat is None:
+            return f"0, ({_items(names)})"
+        names.insert(self.counter, f"len({repeat.name})")
+        names.append(f"*{repeat.name if repeat.element is None else 'flat'}")
+        return f"len({repeat.name}), ({_items(names)})"
+
+    @property
+    def checked(self) -> str:
+        """The values as they were given."""
+        numbers = f"({_items([field.name for field in self.given])})"
         return f"{numbers}, {self.repeat.name}" if self.repeat else numbers
 
     @property
@@ -356,7 +381,8 @@ class MessageView:
     @property
     def function(self) -> str:
         """The name of its strategy: `servo_move` for ServoMove."""
-        return snake_case(self.name)
+        name = snake_case(self.name)
+        return f"{name}_" if name in _TAKEN_FUNCTIONS else name
 
     @property
     def strategy(self) -> str:
@@ -443,19 +469,24 @@ class LibraryView:
     @property
     def imports(self) -> list[str]:
         """What the messages need of the standard library, by what their lists are read with."""
-        reads = " ".join(message.repeat.read for message in self.messages if message.repeat)
-        tools = [
-            name for name in ("chain", "starmap") if f"{name}(" in reads or f"{name}." in reads
-        ]
-        lines = [f"from itertools import {', '.join(tools)}"] if tools else []
-        return [*lines, "from struct import iter_unpack"] if "iter_unpack" in reads else lines
+        chained = any(
+            "chain." in message.repeat.read for message in self.messages if message.repeat
+        )
+        structs = [*(["Struct"] if self.elements else []), *(["iter_unpack"] if chained else [])]
+        wanted = {
+            "functools": ["partial"] if self.elements else [],
+            "itertools": ["chain"] if chained else [],
+            "struct": structs,
+        }
+        return [f"from {module} import {', '.join(n)}" for module, n in wanted.items() if n]
 
     @property
-    def described_by(self) -> list[str]:
-        """What the descriptions of the fields are made with."""
-        return (
-            ["Items", "Number"] if any(message.repeat for message in self.messages) else ["Number"]
-        )
+    def from_fields(self) -> list[str]:
+        """What describes and takes in the fields."""
+        lists = any(message.repeat for message in self.messages)
+        numbers = any(message.numbers for message in self.messages)
+        names = {"Items": lists, "Number": numbers, "listed": lists}
+        return [name for name, needed in names.items() if needed]
 
     @property
     def _from_messages(self) -> list[str]:
@@ -566,6 +597,11 @@ def _pairs(examples: Iterable[tuple[str, str]]) -> list[str]:
     return [fit("(", [literal(line), literal(what)], "),", 8) for line, what in examples]
 
 
+def _items(names: list[str]) -> str:
+    """Names as the inside of a tuple."""
+    return ", ".join(names) + ("," if len(names) == 1 else "")
+
+
 def _import(module: str, names: list[str]) -> str:
     line = f"from .{module} import {', '.join(names)}"
     if len(line) <= WIDTH:
@@ -584,5 +620,5 @@ def _shown(argument: WireField | Repeat, values: dict[str, Any]) -> str:
     if isinstance(argument, WireField) or argument.element is None:
         return str(value)
     names = [field.name for field in argument.fields]
-    elements = [", ".join(str(item[name]) for name in names) for item in value]
-    return f"[{', '.join(f'({element})' for element in elements)}]"
+    elements = [tuple(item[name] for name in names) for item in value]
+    return f"[{', '.join(str(element) for element in elements)}]"

@@ -22,15 +22,15 @@ _new = object.__new__
 
 
 class Counters:
-    """What a decoder has seen so far. `noise` counts bytes, those of unknown frames among them."""
+    """What a decoder has seen: bytes fed, messages, bytes of noise, unknown frames in it."""
 
     __slots__ = ("fed", "messages", "noise", "unknown_frames")
 
-    def __init__(self) -> None:
-        self.fed = 0
-        self.messages = 0
-        self.noise = 0
-        self.unknown_frames = 0
+    def __init__(self, fed: int, messages: int, noise: int, unknown_frames: int) -> None:
+        self.fed = fed
+        self.messages = messages
+        self.noise = noise
+        self.unknown_frames = unknown_frames
 
     def __repr__(self) -> str:
         counts = ", ".join(f"{name}={getattr(self, name)}" for name in self.__slots__)
@@ -48,7 +48,18 @@ class StreamDecoder:
     line on which both are heard. Where a frame is legal in both, it is the first's.
     """
 
-    __slots__ = ("_candidate", "_held", "_reason", "_scanned", "_table", "_wake", "counters")
+    __slots__ = (
+        "_candidate",
+        "_held",
+        "_messages",
+        "_noise",
+        "_reason",
+        "_scanned",
+        "_table",
+        "_told",
+        "_unknown",
+        "_wake",
+    )
 
     def __init__(self, direction: Direction | None) -> None:
         self._table = table_for(direction)
@@ -60,18 +71,23 @@ class StreamDecoder:
         self._candidate = 0
         # Why the noise that is being read is noise.
         self._reason = Reason.BAD_HEADER
-        self.counters = Counters()
+        # Bytes told, messages, bytes of noise, and frames of unknown command.
+        self._told = self._messages = self._noise = self._unknown = 0
 
     @property
     def pending(self) -> int:
         """How many bytes are held back, because a frame may have begun."""
         return len(self._held)
 
+    @property
+    def counters(self) -> Counters:
+        """What has been seen so far."""
+        fed = self._told + len(self._held)
+        return Counters(fed, self._messages, self._noise, self._unknown)
+
     def feed(self, data: bytes | bytearray | memoryview) -> list[Message | Noise]:
         """Takes in bytes, and returns what can be told now. Empty bytes are no sign of silence."""
-        fed = octets(data)
-        self.counters.fed += len(fed)
-        held = self._held + fed if self._held else fed
+        held = self._held + (data if type(data) is bytes else octets(data))
         if len(held) < self._wake:
             self._held = held
             return []
@@ -104,14 +120,18 @@ class StreamDecoder:
                     start, candidate = at, 0
                 break
             kind: type[Message] | None = None
-            end = 0
-            entry = look_up(data[at : at + BODY_AT])
-            if entry is not None:
-                length, count_at, count_end, count, likely, shape = entry
+            entry = look_up(data[at : at + BODY_AT]) if limit - at >= BODY_AT else None
+            if entry is not None and entry[5] is None:
+                length, count_at, count_end, count, likely, _ = entry
                 end = at + length
-                if end <= limit and shape is None and data[at + count_at : at + count_end] == count:
+                counted = at + count_end
+                begun = data[at + count_at : min(counted, limit)]
+                if begun != count:
+                    # Either the count is not here yet, or it refuses the header.
+                    end = counted if count.startswith(begun) else 0
+                elif end <= limit:
                     kind = likely
-            if kind is None:
+            else:
                 kind, end, _ = self._weigh(data, at, limit)
             if kind is not None:
                 if start < at:
@@ -143,7 +163,8 @@ class StreamDecoder:
         self._scanned = at - start
         self._candidate = candidate - start if candidate else 0
         self._wake = wake - start
-        self.counters.messages += messages
+        self._told += start
+        self._messages += messages
         return events
 
     def _weigh(self, data: bytes, at: int, limit: int) -> tuple[type[Message] | None, int, Reason]:
@@ -153,14 +174,11 @@ class StreamDecoder:
         message, 0 and the reason.
         """
         head = data[at : min(at + BODY_AT, limit)]
-        begun = len(head) < BODY_AT
-        if not (HEADER.startswith(head) if len(head) < len(HEADER) else head.startswith(HEADER)):
+        if not HEADER.startswith(head[: len(HEADER)]):
             return None, 0, Reason.BAD_HEADER
-        if begun and len(head) < LENGTH_END:
-            return None, limit + 1, Reason.TOO_SHORT
-        if not BODY_AT <= read_length(head) + UNCOUNTED <= self._table.largest:
+        if len(head) >= LENGTH_END and not self._table.may_have(read_length(head)):
             return None, 0, Reason.LENGTH_MISMATCH
-        if begun:
+        if len(head) < BODY_AT:
             return None, limit + 1, Reason.TOO_SHORT
         known = read_command(head) in self._table.kinds
         reason = Reason.LENGTH_MISMATCH if known else Reason.UNKNOWN_COMMAND
@@ -182,15 +200,15 @@ class StreamDecoder:
         head = data[at : at + BODY_AT]
         if len(head) < BODY_AT or not head.startswith(HEADER):
             return 0
-        size = read_length(head) + UNCOUNTED
+        length = read_length(head)
         unknown = read_command(head) not in self._table.kinds
-        return at + size if unknown and BODY_AT <= size <= self._table.largest else 0
+        return at + length + UNCOUNTED if unknown and self._table.may_have(length) else 0
 
     def _tell_unknown(
         self, events: list[Message | Noise], data: bytes, start: int, end: int
     ) -> None:
-        self.counters.noise += end - start
-        self.counters.unknown_frames += 1
+        self._noise += end - start
+        self._unknown += 1
         self._reason = Reason.BAD_HEADER
         events.append(UnknownFrame(data[start:end], Reason.UNKNOWN_COMMAND))
 
@@ -200,15 +218,17 @@ class StreamDecoder:
         A run of headers, each a byte after the other, is one piece. No message is in there, but
         frames of unknown command may be.
         """
-        piece = at = start
+        piece = start
         header = -1
+        at = _next_header(data, start, end)
         while at < end:
             if data.startswith(HEADER, at):
                 claimed = self._claimed(data, at)
                 if 0 < claimed <= end:
                     self._tell_piece(events, data[piece:at])
                     self._tell_unknown(events, data, at, claimed)
-                    piece = at = claimed
+                    piece = claimed
+                    at = _next_header(data, claimed, end)
                     continue
                 reason = self._weigh(data, at, len(data))[2]
                 if reason is not self._reason or at != header + 1:
@@ -220,7 +240,7 @@ class StreamDecoder:
 
     def _tell_piece(self, events: list[Message | Noise], data: bytes) -> None:
         if data:
-            self.counters.noise += len(data)
+            self._noise += len(data)
             events.append(Noise(data, self._reason))
 
 

@@ -12,7 +12,7 @@ from .errors import EncodeError
 
 TYPE_CHECKING = False  # typing alone would double the time that the import takes
 if TYPE_CHECKING:
-    from collections.abc import Callable, Mapping
+    from collections.abc import Callable, Mapping, Sequence
     from typing import Any
 
 
@@ -62,7 +62,7 @@ class Items:
     `counter` is the position of the count among the numbers in front of the list.
     """
 
-    __slots__ = ("counter", "counts", "element", "fields", "name")
+    __slots__ = ("counter", "counts", "element", "fields", "name", "width")
 
     def __init__(
         self,
@@ -75,6 +75,7 @@ class Items:
     ) -> None:
         self.name = name
         self.fields = fields
+        self.width = len(fields)
         self.counts = counts
         self.counter = counter
         self.element = element
@@ -110,6 +111,16 @@ class Items:
         if self.element is None:
             return "whole numbers"
         return f"({', '.join(field.name for field in self.fields)})"
+
+
+def listed(values: Any) -> Sequence[Any]:
+    """`values` as something that can be gone through twice; what cannot at all, as it is."""
+    kind = type(values)
+    if kind is list or kind is tuple:
+        known: Sequence[Any] = values
+        return known
+    items = as_tuple(values)
+    return values if items is None else items
 
 
 def as_tuple(value: Any) -> tuple[Any, ...] | None:

@@ -7,7 +7,7 @@ from .table import Table
 
 TYPE_CHECKING = False  # typing alone would double the time that the import takes
 if TYPE_CHECKING:
-    from typing import ClassVar
+    from typing import Any, ClassVar
 
     from typing_extensions import Self
 
@@ -32,6 +32,10 @@ class Message:
     SHAPE: ClassVar[Shape]
 
     _frame: bytes
+    _table: ClassVar[Any]
+
+    def __init_subclass__(cls) -> None:
+        cls._table = Table([cls])
 
     def encode(self) -> bytes:
         """The frame, from its header to its last byte."""
@@ -40,10 +44,7 @@ class Message:
     @classmethod
     def decode(cls, frame: bytes | bytearray | memoryview) -> Self:
         """Reads one frame of this message, whole and with nothing after it. Raises DecodeError."""
-        data = octets(frame)
-        Table([cls]).legal(data)
-        message = object.__new__(cls)
-        message._frame = data
+        message: Self = cls._table.read(octets(frame))
         return message
 
     def __eq__(self, other: object) -> bool:

@@ -5,15 +5,17 @@ from __future__ import annotations
 import struct
 from itertools import chain, cycle
 
-from .fields import as_tuple
 from .protocol import BODY_AT, STRUCT_ORDER, head
 
 TYPE_CHECKING = False  # typing alone would double the time that the import takes
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable
+    from collections.abc import Callable, Sequence
     from typing import Any
 
     from .fields import Items, Number
+
+# What `packed` raises on values that are not as they should be.
+UNFIT = (TypeError, ValueError, struct.error)
 
 _INTEGERS = frozenset([int])
 
@@ -25,7 +27,7 @@ class Shape:
     (its count among them), and `items` the list itself, where there is one.
     """
 
-    __slots__ = ("_packers", "_width", "command", "items", "lengths", "narrowed", "numbers")
+    __slots__ = ("_packers", "command", "items", "lengths", "narrowed", "numbers")
 
     def __init__(
         self,
@@ -42,7 +44,6 @@ class Shape:
         self.items = items
         # Whether a field has a range of its own, which what struct accepts says nothing about.
         self.narrowed = narrowed
-        self._width = 1 if items is None or items.element is None else len(items.fields)
         self._packers: dict[int, tuple[Callable[..., bytes], bytes]] = {}
 
     def count_bytes(self, length: int) -> tuple[int, int, bytes]:
@@ -70,53 +71,40 @@ class Shape:
             at += struct.calcsize(STRUCT_ORDER + field.code)
         return None
 
-    def frame(self, numbers: tuple[int, ...], values: Iterable[Any] = ()) -> bytes:
-        """The frame that carries these values. Raises EncodeError.
+    def packed(self, count: int, values: Sequence[int]) -> bytes:
+        """The frame with these values, its count among them, if all of them are good.
 
-        Good values are packed at once; anything else is looked at one by one, and comes back
-        either converted or explained.
+        Raises one of UNFIT if any is not, or may not be: `checked` then tells which and why.
         """
-        items = as_tuple(values)
-        if items is not None and not self.narrowed:
-            try:
-                flat = items if self._width == 1 else (*chain.from_iterable(items),)
-                integers = _INTEGERS.issuperset(map(type, numbers)) and _INTEGERS.issuperset(
-                    map(type, flat)
-                )
-                if integers and (self._width == 1 or {*map(len, items)} == {self._width}):
-                    return self._packed(len(items), numbers, flat)
-            except (TypeError, KeyError, struct.error):
-                pass  # explained below
-        return self._explained(numbers, values if items is None else items)
+        if self.narrowed or not _INTEGERS.issuperset(map(type, values)):
+            raise TypeError
+        pack, front = self._packers.get(count) or self._packer(count)
+        return pack(front, *values)
 
-    def _explained(self, numbers: tuple[Any, ...], values: Any) -> bytes:
-        fields = [number for number in self.numbers if not self._is_counter(number)]
-        checked = [
-            field.checked(value, field.name) for field, value in zip(fields, numbers, strict=True)
+    def checked(self, numbers: Sequence[Any], items: Any = ()) -> bytes:
+        """The frame with these values, looked at one by one. Raises EncodeError.
+
+        `numbers` are the fields in front of the list without its count, and `items` is the list.
+        """
+        counter = None if self.items is None else self.numbers[self.items.counter]
+        fields = [field for field in self.numbers if field is not counter]
+        values = [
+            field.checked(number, field.name) for field, number in zip(fields, numbers, strict=True)
         ]
         if self.items is None:
-            return self._packed(0, checked, ())
-        flat = self.items.checked(values)
-        return self._packed(len(flat) // self._width, checked, flat)
-
-    def _is_counter(self, number: Number) -> bool:
-        return self.items is not None and self.numbers[self.items.counter] is number
-
-    def _packed(self, count: int, numbers: Iterable[int], flat: Iterable[int]) -> bytes:
-        packer, front = self._packers.get(count) or self._packer(count)
-        if self.items is None:
-            return packer(front, *numbers)
-        before = [*numbers]
-        before.insert(self.items.counter, count)
-        return packer(front, *before, *flat)
+            pack, front = self._packer(0)
+            return pack(front, *values)
+        flat = self.items.checked(items)
+        count = len(flat) // self.items.width
+        pack, front = self._packer(count)
+        values.insert(self.items.counter, count)
+        return pack(front, *values, *flat)
 
     def _packer(self, count: int) -> tuple[Callable[..., bytes], bytes]:
         """For `count` items: what packs them, and the bytes in front. Made once for each count."""
         length = self.lengths[0]
         codes = "".join(number.code for number in self.numbers)
         if self.items is not None:
-            if count not in self.items.counts:
-                raise KeyError(count)
             length = self.lengths[self.items.counts.index(count)]
             codes += "".join(field.code for field in self.items.fields) * count
         made = struct.Struct(f"{STRUCT_ORDER}{BODY_AT}s{codes}").pack, head(self.command, length)

@@ -15,8 +15,11 @@ if TYPE_CHECKING:
     from .shape import Shape
 
     # The size of the frame; from where to where its count stands, and the bytes it must be; the
-    # class; its shape where values must be looked at too. Without a list, the count is b"" at 0:0.
+    # class; its shape, where more must be looked at. Without a list, the count is b"" at 0:0.
     Entry: TypeAlias = "tuple[int, int, int, bytes, type[Message], Shape | None]"
+
+
+_new = object.__new__
 
 
 class Table(dict[bytes, "Entry | None"]):
@@ -36,10 +39,14 @@ class Table(dict[bytes, "Entry | None"]):
         self.largest = max(kind.LENGTHS[-1] for kind in kinds) + UNCOUNTED
 
     def __missing__(self, head: bytes) -> Entry | None:
-        for entry in self.entries(head):
-            self[head] = entry
-            return entry
-        return None
+        entries = [*self.entries(head)]
+        if not entries:
+            return None
+        size, at, until, count, kind, shape = entries[0]
+        if len(entries) > 1:
+            shape = kind.SHAPE  # it may be the other: look closely
+        self[head] = size, at, until, count, kind, shape
+        return self[head]
 
     def entries(self, head: bytes) -> Iterator[Entry]:
         """What may follow `head`; where two directions share it, the first of them comes first."""
@@ -52,17 +59,25 @@ class Table(dict[bytes, "Entry | None"]):
                 at, until, count = shape.count_bytes(length)
                 yield length + UNCOUNTED, at, until, count, kind, shape if shape.narrowed else None
 
-    def legal(self, frame: bytes) -> type[Message]:
+    def may_have(self, length: int) -> bool:
+        """Whether some frame could have this length, if its command were not known."""
+        return BODY_AT <= length + UNCOUNTED <= self.largest
+
+    def read(self, frame: bytes) -> Message:
         """The message that `frame` is, whole and with nothing after it. Raises DecodeError."""
         entry = self[frame[:BODY_AT]]
         if entry is not None:
             size, at, until, count, kind, shape = entry
             if len(frame) == size and frame[at:until] == count and shape is None:
-                return kind
-        return self._looked_at(frame)
+                message = _new(kind)
+                message._frame = frame
+                return message
+        message = _new(self._looked_at(frame))
+        message._frame = frame
+        return message
 
     def _looked_at(self, frame: bytes) -> type[Message]:
-        """As `legal`, for what is not legal at first sight: tries every message, then explains."""
+        """The message that `frame` is, though not at first sight; or else why it is none."""
         errors: list[DecodeError] = []
         for size, at, until, count, kind, _ in self.entries(frame[:BODY_AT]):
             error = _misfit(frame, size, at, until, count, kind)

@@ -186,7 +186,7 @@ def _twins(message: Message, direction: Direction | None) -> list[type[Message]]
 def _why(noise: Noise, direction: Direction | None) -> str:
     """The reason, and what was expected, where the bytes themselves tell."""
     try:
-        table_for(direction).legal(noise.data)
+        table_for(direction).read(noise.data)
     except DecodeError as error:
         if error.reason is noise.reason:
             return f"{noise.reason.value}: {error.problem}"
