@@ -1,0 +1,406 @@
+"""`framegen check`: every rule finds what it is there for, at its place, and nothing else."""
+
+from __future__ import annotations
+
+import json
+import re
+import time
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import pytest
+from framegen import checks
+from framegen.checks import LAYOUT_RULES, READING_RULES, STRUCTURE_RULES, check
+from framegen.layout import derive
+from framegen.load import MAX_BYTES, load, read_source
+from framegen.lookalikes import recognise
+from framegen.source import Source
+from framegen.yamltree import Unusable
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+if TYPE_CHECKING:
+    from framegen.checks.rule import LayoutRule, ReadingRule, StructureRule
+    from framegen.findings import Finding
+
+ROOT = Path(__file__).parent.parent
+SPECS = ROOT / "tests" / "specs"
+BAD = sorted((SPECS / "bad").glob("*.yaml"))
+GOOD = [ROOT / "spec" / "busservo.yaml", SPECS / "demo.yaml"]
+RULES: list[StructureRule | LayoutRule | ReadingRule] = [
+    *READING_RULES,
+    *STRUCTURE_RULES,
+    *LAYOUT_RULES,
+]
+
+EXPECT = "# expect: "
+
+
+def said_of(source: Source) -> list[str]:
+    """Findings as `rule line:column: message`, and a refusal as `unusable: message`."""
+    try:
+        findings = check(load(source))
+    except Unusable as refusal:
+        if refusal.finding is None:
+            return [f"unusable: {refusal}"]
+        findings = [refusal.finding]
+    return [f"{f.rule} {f.span.line}:{f.span.column}: {f.message}" for f in findings]
+
+
+def expected_of(source: Source) -> list[str]:
+    return [
+        line.removeprefix(EXPECT) for line in source.text.split("\n") if line.startswith(EXPECT)
+    ]
+
+
+def only_finding(name: str) -> tuple[Source, Finding]:
+    source = Source(f"{name}.yaml", (SPECS / "bad" / f"{name}.yaml").read_text(encoding="utf-8"))
+    [finding] = check(load(source))
+    return source, finding
+
+
+# ------------------------------------------------------------------ what is found
+
+
+@pytest.mark.parametrize("file", BAD, ids=lambda file: file.stem)
+def test_a_bad_spec_gives_exactly_its_findings(file: Path) -> None:
+    source = read_source(file)
+    assert expected_of(source), "the first line says what to expect"
+    assert expected_of(source) == said_of(source)
+
+
+@pytest.mark.parametrize("file", GOOD, ids=lambda file: file.stem)
+def test_a_good_spec_is_clean(file: Path) -> None:
+    assert said_of(read_source(file)) == []
+
+
+def test_every_rule_has_a_bad_spec_named_after_it() -> None:
+    shown = {
+        expected.split()[0]
+        for file in BAD
+        for expected in expected_of(read_source(file))
+        if file.stem.startswith(expected.split()[0])
+    }
+    assert {rule.id for rule in RULES} <= shown
+
+
+def test_a_spec_that_yaml_readers_disagree_on_is_not_read_further() -> None:
+    loaded = load(read_source(SPECS / "bad" / "yaml-ambiguous-float.yaml"))
+    assert loaded.spec is None
+    assert [finding.rule for finding in loaded.findings] == ["yaml-ambiguous"]
+
+
+def test_aliases_that_multiply_cost_no_time() -> None:
+    started = time.process_time()
+    said_of(read_source(SPECS / "bad" / "yaml-anchor-exploding.yaml"))
+    assert time.process_time() - started < 1
+
+
+def test_an_example_that_would_be_encoded_otherwise_is_found(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.setattr(checks.example, "encode", lambda *_: b"\x55")
+    messages = {finding.message for finding in check(load(read_source(SPECS / "demo.yaml")))}
+    assert messages == {"its values encode to 55, which is not this"}
+
+
+# ------------------------------------------------------------------ the rules themselves
+
+
+@pytest.mark.parametrize("rule", RULES, ids=lambda rule: rule.id)
+def test_a_rule_says_what_it_is_for(rule: StructureRule | LayoutRule | ReadingRule) -> None:
+    assert re.fullmatch(r"[a-z]+(?:-[a-z]+)*", rule.id)
+    assert rule.title
+    assert not rule.title.endswith(".")
+    assert rule.why.endswith(".")
+    assert rule.bad
+    assert rule.good
+    assert rule.bad != rule.good
+
+
+def test_no_two_rules_share_an_id() -> None:
+    ids = [rule.id for rule in RULES]
+    assert sorted(set(ids)) == sorted(ids)
+
+
+@pytest.mark.parametrize("rule", [*STRUCTURE_RULES, *LAYOUT_RULES], ids=lambda rule: rule.id)
+def test_a_rule_is_a_file_of_its_own(rule: StructureRule | LayoutRule) -> None:
+    module = getattr(checks, rule.id.replace("-", "_"))
+    assert module.RULE is rule
+
+
+# ------------------------------------------------------------------ how it is shown
+
+
+def test_a_finding_is_shown_with_its_line_and_a_caret() -> None:
+    source, finding = only_finding("unknown-type")
+    assert finding.render(source) == (
+        "unknown-type.yaml:59:21: unknown-type: unknown type `u17`\n"
+        "59 |       level: {type: u17, about: How bright.}\n"
+        "   |                     ^^^\n"
+        "   = at: messages.LampState.fields.level.type\n"
+        "   = hint: did you mean `u16`?"
+    )
+
+
+def test_a_finding_in_two_places_is_shown_with_both() -> None:
+    source, finding = only_finding("duplicate-id")
+    assert finding.render(source) == (
+        "duplicate-id.yaml:42:9: duplicate-id: LampsSet and LampRead are both 7, host -> lamp\n"
+        "42 |     id: 7\n"
+        "   |         ^\n"
+        "   = LampsSet has it first, at duplicate-id.yaml:21:5\n"
+        "21 |     id: 7\n"
+        "   |     ^^\n"
+        "   = at: messages.LampRead.id\n"
+        "   = hint: mend one of the codes, or the direction"
+    )
+
+
+def test_findings_come_from_the_top_of_the_file_down() -> None:
+    text = (SPECS / "demo.yaml").read_text(encoding="utf-8")
+    broken = text.replace("cite: manual, section 2\n", "cite: manaul, section 2\n")
+    findings = check(load(Source("demo.yaml", broken)))
+    assert len(findings) > 1
+    assert [f.span for f in findings] == sorted(f.span for f in findings)
+
+
+# ------------------------------------------------------------------ look-alikes
+
+
+@pytest.mark.parametrize(
+    ("hex_", "name", "command", "meaning"),
+    [
+        ("C3 5A A5 04 02 20 01 D8", "orchard", 0x20, ""),
+        ("C3 5A A5 04 01 20 DA", "orchard", 0x20, ""),
+        ("C3 5A A5 21 00 00", "old_stations", 0x21, "asks for the firmware"),
+        ("C3 5A A5 22 00 00", None, None, None),  # no code of theirs
+        ("C3 5A A5 04 02 20 01 D9", None, None, None),  # a wrong checksum
+        ("C3 5A A5 04 03 20 01 D7", None, None, None),  # a wrong length
+        ("C3 5A A5 04 02 20 01 D8 00", None, None, None),  # a byte too many
+        ("C3 5A A6 04 02 20 01 D8", None, None, None),  # a wrong preamble
+        ("C3 5A", None, None, None),  # too short for any frame
+        ("", None, None, None),
+    ],
+)
+def test_a_lookalike_is_recognised(
+    hex_: str, name: str | None, command: int | None, meaning: str | None
+) -> None:
+    spec = load(read_source(SPECS / "demo.yaml")).spec
+    assert spec is not None
+    found = recognise(spec, bytes.fromhex(hex_))
+    told = (None, None, None) if found is None else (found.name, found.command, found.meaning)
+    assert told == (name, command, meaning)
+
+
+# ------------------------------------------------------------------ what is no spec at all
+
+
+@pytest.mark.parametrize(
+    ("data", "refusal"),
+    [
+        (b"", "the file is empty, where a spec is a mapping of keys"),
+        (b"\n\n", "the file is empty, where a spec is a mapping of keys"),
+        (b"framegen: 1\n\xff", "is not UTF-8 text: byte 12 is 0xFF"),
+        (bytes(range(128, 256)), "is not UTF-8 text: byte 0 is 0x80"),
+        (b"\x7fELF\x02\x01\x00", "the file is not YAML"),
+        (b"#" * (MAX_BYTES + 1), "has 1.0 MB, and a spec has at most 1 MB"),
+    ],
+    ids=["empty", "blank", "half text", "binary", "a program", "huge"],
+)
+def test_a_file_that_is_no_spec_is_refused(tmp_path: Path, data: bytes, refusal: str) -> None:
+    file = tmp_path / "spec.yaml"
+    file.write_bytes(data)
+    with pytest.raises(Unusable, match=re.escape(refusal)):
+        check(load(read_source(file)))
+
+
+def test_a_file_that_is_not_there_is_refused(tmp_path: Path) -> None:
+    with pytest.raises(Unusable, match="does not exist"):
+        read_source(tmp_path / "spec.yaml")
+    with pytest.raises(Unusable, match="is not a file"):
+        read_source(tmp_path)
+
+
+@pytest.mark.parametrize("start", [b"", b"\xef\xbb\xbf"], ids=["plain", "byte order mark"])
+@pytest.mark.parametrize("end", [b"\n", b"\r\n"], ids=["lf", "crlf"])
+def test_line_ends_and_a_byte_order_mark_change_nothing(
+    tmp_path: Path, start: bytes, end: bytes
+) -> None:
+    plain = (SPECS / "bad" / "duplicate-id.yaml").read_bytes()
+    file = tmp_path / "spec.yaml"
+    file.write_bytes(start + plain.replace(b"\n", end))
+    source = read_source(file)
+    assert source.text.encode() == plain
+    assert expected_of(source) == said_of(source)
+
+
+# ------------------------------------------------------------------ whatever comes
+
+brisk = settings(max_examples=100, deadline=None)
+
+words = st.sampled_from(
+    [
+        "u8",
+        "u17",
+        "i8",
+        "host -> controller",
+        "host",
+        "1..",
+        "0..0",
+        "-5..99999",
+        "55 55",
+        "length",
+        "id",
+        "servo_count + 3",
+        "vendor",
+        "vendor, 1",
+        "query",
+        "1.0.0",
+        "ServoMove",
+        "targets.position",
+    ]
+)
+scalars = (
+    st.none() | st.booleans() | st.integers(-2, 300) | st.integers() | words | st.text(max_size=20)
+)
+structures = st.recursive(
+    scalars,
+    lambda inner: (
+        st.lists(inner, max_size=4)
+        | st.dictionaries(words | st.text(max_size=8), inner, max_size=4)
+    ),
+    max_leaves=20,
+)
+TREE: Any = load(read_source(GOOD[0])).tree.data
+TOP_KEYS = list(TREE)
+
+
+def paths(value: Any, path: tuple[str | int, ...] = ()) -> list[tuple[str | int, ...]]:
+    steps: list[tuple[str | int, Any]] = []
+    if isinstance(value, dict):
+        steps = list(value.items())
+    elif isinstance(value, list):
+        steps = list(enumerate(value))
+    return [path, *(found for step, inner in steps for found in paths(inner, (*path, step)))]
+
+
+PATHS = paths(TREE)[1:]
+
+
+def at(tree: Any, path: tuple[str | int, ...]) -> Any:
+    for step in path:
+        tree = tree[step]
+    return tree
+
+
+def copied(tree: Any) -> Any:
+    return json.loads(json.dumps(tree))
+
+
+def survives(text: str) -> None:
+    """Checks `text`, shows what is found, and derives what is clean: no step may raise."""
+    source = Source("spec.yaml", text)
+    try:
+        loaded = load(source)
+        findings = check(loaded)
+    except Unusable as refusal:
+        findings = [] if refusal.finding is None else [refusal.finding]
+    else:
+        assert findings or loaded.spec is not None
+        if loaded.spec is not None and not findings:
+            assert all(message.counts for message in derive(loaded.spec).messages.values())
+    for finding in findings:
+        assert finding.render(source)
+
+
+@brisk
+@given(st.text() | st.text(alphabet="ab01:-?,[]{}&*!|>'\"%@#~ \n\t"))
+def test_any_text_is_checked_without_a_crash(text: str) -> None:
+    survives(text)
+
+
+@brisk
+@given(st.dictionaries(st.sampled_from(TOP_KEYS) | st.text(max_size=8), structures))
+def test_any_structure_is_checked_without_a_crash(tree: dict[str, Any]) -> None:
+    survives(json.dumps(tree))
+
+
+@st.composite
+def mutated(draw: st.DrawFn) -> str:
+    """The spec of busservo with one to three of its values replaced, removed or put in twice."""
+    tree = copied(TREE)
+    for _ in range(draw(st.integers(1, 3))):
+        path = draw(st.sampled_from(PATHS))
+        try:
+            around = at(tree, path[:-1])
+            value = around[path[-1]]
+        except (KeyError, IndexError, TypeError):
+            continue
+        action = draw(st.sampled_from(["replace", "borrow", "remove", "repeat", "rename"]))
+        if action == "replace":
+            around[path[-1]] = draw(structures)
+        elif action == "borrow":
+            around[path[-1]] = copied(at(TREE, draw(st.sampled_from(PATHS))))
+        elif action == "remove":
+            del around[path[-1]]
+        elif isinstance(around, list):
+            around.insert(draw(st.integers(0, len(around))), copied(value))
+        elif action == "repeat":
+            around[draw(words)] = copied(value)
+        else:
+            around[draw(words)] = around.pop(path[-1])
+    return json.dumps(tree)
+
+
+@brisk
+@given(mutated())
+def test_any_mutation_of_a_spec_is_checked_without_a_crash(text: str) -> None:
+    survives(text)
+
+
+def shaped(name: str, type_: str) -> dict[str, Any]:
+    parts: dict[str, dict[str, Any]] = {
+        "header": {"is": "constant", "bytes": "AA 55"},
+        "length": {"is": "length", "type": type_, "counts": ["parameters", "length"]},
+        "command": {"is": "id", "type": type_},
+        "parameters": {"is": "body"},
+        "address": {"is": "address", "type": type_},
+    }
+    return parts[name]
+
+
+types = st.sampled_from(["u8", "u16", "u32", "i8", "i16", "i32"])
+counts = st.builds("{}..{}".format, st.integers(-1, 90), st.integers(0, 300) | st.just(""))
+plain = st.fixed_dictionaries({"type": types, "about": st.just("A number.")})
+groups = st.fixed_dictionaries(
+    {
+        "element": st.just("Item"),
+        "about": st.just("Items."),
+        "fields": st.dictionaries(st.sampled_from("xyz"), plain, max_size=3),
+    }
+)
+lists = st.builds(
+    lambda field, counter, count: {**field, **counter, **count},
+    plain | groups,
+    st.sampled_from("abc").map(lambda name: {"counted_by": name}) | st.just({}),
+    counts.map(lambda count: {"count": count}) | st.just({}),
+)
+whole = ["header", "length", "command", "parameters"]
+orders = st.just(whole) | st.permutations(whole) | st.lists(st.sampled_from([*whole, "address"]))
+frames = st.builds(
+    lambda order, type_: {name: shaped(name, type_) for name in order},
+    orders,
+    st.sampled_from(["u8", "u8", "u16", "u32", "i8"]),
+)
+
+
+@settings(max_examples=200, deadline=None)
+@given(frames, st.dictionaries(st.sampled_from("abc"), plain), st.none() | lists)
+def test_any_frame_with_any_fields_is_checked_without_a_crash(
+    frame: dict[str, Any], fields: dict[str, Any], last: dict[str, Any] | None
+) -> None:
+    tree = {key: TREE[key] for key in TREE if key not in ("errata", "unknowns", "lookalikes")}
+    message = {**TREE["messages"]["ActionGroupStop"], "reports": [], "examples": []}
+    message["fields"] = fields if last is None else {**fields, "last": last}
+    survives(json.dumps({**tree, "frame": frame, "messages": {"Ask": message}}))
