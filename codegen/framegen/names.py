@@ -34,7 +34,7 @@ PYTHON_BUILTINS = _words(
 # Classes that Python has without an import, or that generated modules import.
 PYTHON_CLASSES = _words(
     """
-    ArithmeticError AssertionError AttributeError BaseException BaseExceptionGroup
+    False None True ArithmeticError AssertionError AttributeError BaseException BaseExceptionGroup
     BlockingIOError BrokenPipeError BufferError BytesWarning ChildProcessError
     ConnectionAbortedError ConnectionError ConnectionRefusedError ConnectionResetError
     DeprecationWarning EOFError Ellipsis EncodingWarning EnvironmentError Exception
@@ -57,10 +57,10 @@ LIBRARY_NAMES = _words(
     """
     AsyncController Controller Counters DecodeError Device Direction Element EncodeError HEADER
     Items MESSAGES Message Noise Number ProtocolError Reason SearchStrategy Shape StreamDecoder
-    Transport UnknownFrame decode
+    Transport UNFIT UnknownFrame decode
     """
 )
 
-# What every message class has, and what every element has as a tuple.
-MESSAGE_ATTRIBUTES = frozenset(["COMMAND", "DIRECTION", "LENGTHS", "decode", "encode"])
+# What every message class has or calls, and what every element has as a tuple.
+MESSAGE_ATTRIBUTES = frozenset(["COMMAND", "DIRECTION", "LENGTHS", "decode", "encode", "listed"])
 ELEMENT_ATTRIBUTES = frozenset(["count", "index"])

@@ -30,7 +30,7 @@ _AMBIGUOUS = (
         'write {stripped}, or put it in quotes: "{text}"',
     ),
     (
-        re.compile(r"[-+]?[0-9][0-9_]*(?::[0-9]+)+(?:\.[0-9]*)?"),
+        re.compile(r"[-+]?[0-9][0-9_]*(?::[0-9]+)+(?:\.[0-9_]*)?"),
         "a number of base 60 to YAML 1.1",
         'put it in quotes: "{text}"',
     ),

@@ -11,7 +11,7 @@ from decimal import Decimal
 
 _HEX = re.compile(r"(?:[0-9A-Fa-f]{2}\s+)*[0-9A-Fa-f]{2}")
 _DIRECTION = re.compile(r"(\S+)\s*->\s*(\S+)")
-_RANGE = re.compile(r"(-?[0-9]{1,10})\s*\.\.\s*(-?[0-9]{1,10})?")
+_RANGE = re.compile(r"(-?[0-9]{1,20})\s*\.\.\s*(-?[0-9]{1,20})?")
 _SCALE = re.compile(r"([0-9]{1,6}(?:\.[0-9]{1,12})?)\s+(\S+)")
 
 

@@ -100,7 +100,18 @@ def read_tree(source: Source) -> tuple[Tree, list[Finding]]:
             "`framegen schema` prints the whole language",
         )
     builder.tree.data = data
-    return builder.tree, builder.findings
+    return builder.tree, [*builder.findings, *_hidden(source, builder.findings)]
+
+
+def _hidden(source: Source, known: list[Finding]) -> Iterator[Finding]:
+    """Find what no reader can see outside of values: in comments, or between things."""
+    told = {finding.span.line for finding in known if finding.rule == "invisible-character"}
+    for number, line in enumerate(source.lines, start=1):
+        character = first_invisible(line.replace("\t", " "))
+        if character is not None and number not in told:
+            span = Span(number, line.index(character) + 1)
+            message = f"U+{ord(character):04X} stands here, which no reader can see"
+            yield Finding("invisible-character", span, "", message, "remove it")
 
 
 class _Builder:

@@ -35,5 +35,8 @@ def decode(frame: bytes | bytearray | memoryview, direction: Direction | None) -
     With None it may be of either direction; a frame that is legal in both is the first's, which is
     the one declared first. Raises DecodeError, which tells the reason and the offset.
     """
-    table = _tables.get(direction) or table_for(direction)
+    try:
+        table = _tables[direction]
+    except KeyError:
+        table = table_for(direction)
     return table.read(frame if type(frame) is bytes else octets(frame))

@@ -22,6 +22,9 @@ if TYPE_CHECKING:
 
 _new = object.__new__
 
+# The beginnings of frames that are remembered, with what they wait for, are of this size at most.
+_REMEMBERED = BODY_AT + 1
+
 
 class Counters:
     """What a decoder has seen: bytes fed, messages, bytes of noise, unknown frames in it."""
@@ -90,9 +93,15 @@ class StreamDecoder:
     def feed(self, data: bytes | bytearray | memoryview) -> list[Message | Noise]:
         """Takes in bytes, and returns what can be told now. Empty bytes are no sign of silence."""
         held = self._held + (data if type(data) is bytes else octets(data))
-        if len(held) < self._wake:
+        size = len(held)
+        if size < self._wake:
             self._held = held
             return []
+        if size <= _REMEMBERED and not self._candidate:
+            wake = self._table.waits.get(held)
+            if wake is not None:
+                self._held, self._wake = held, wake
+                return []
         return self._search(held, quiet=False)
 
     def flush(self) -> list[Message | Noise]:
@@ -102,7 +111,7 @@ class StreamDecoder:
     def _search(self, data: bytes, *, quiet: bool) -> list[Message | Noise]:
         """Tells what can be told, and keeps the rest. `at` never goes back: time is linear."""
         events: list[Message | Noise] = []
-        look_up = self._table.__getitem__
+        look_up = self._table.get
         size = len(data)
         # From `start` to `at` is noise that has not been told yet.
         start, at, candidate = 0, self._scanned, self._candidate
@@ -122,7 +131,13 @@ class StreamDecoder:
                     start, candidate = at, 0
                 break
             kind: type[Message] | None = None
-            entry = look_up(data[at : at + BODY_AT]) if limit - at >= BODY_AT else None
+            head = data[at : at + BODY_AT]
+            entry = look_up(head)
+            if entry is None and limit - at >= BODY_AT:
+                if not head.startswith(HEADER):
+                    at = _next_header(data, at + 1, limit)
+                    continue
+                entry = self._table[head]
             if entry is not None and entry[5] is None:
                 length, count_at, count_end, count, likely, _ = entry
                 end = at + length
@@ -161,10 +176,12 @@ class StreamDecoder:
                     self._tell_noise(events, data, start, at)
                     start, candidate = at, claimed
                 at = _next_header(data, at + 1, min(size, candidate) if candidate else size)
-        self._held = data[start:]
+        self._held = held = data[start:]
         self._scanned = at - start
         self._candidate = candidate - start if candidate else 0
         self._wake = wake - start
+        if held and not candidate and len(held) <= _REMEMBERED:
+            self._table.waits[held] = self._wake
         self._told += start
         self._messages += messages
         return events
@@ -220,6 +237,9 @@ class StreamDecoder:
         A run of headers, each a byte after the other, is one piece. No message is in there, but
         frames of unknown command may be.
         """
+        if data.find(HEADER, start, end + len(HEADER) - 1) < 0:
+            self._tell_piece(events, data[start:end])
+            return
         piece = start
         header = -1
         at = _next_header(data, start, end)

@@ -9,9 +9,9 @@ from struct import Struct
 
 from .direction import Direction
 from .element import Element
-from .fields import Items, Number, listed
+from .fields import Items, Number
 from .message import Message
-from .shape import UNFIT, Shape
+from .shape import Shape
 
 TYPE_CHECKING = False  # typing alone would double the time that the import takes
 if TYPE_CHECKING:
@@ -139,14 +139,7 @@ class ServoMove(Message):
     )
 
     def __init__(self, time_ms: int, targets: Iterable[tuple[int, int]]) -> None:
-        targets = listed(targets)
-        try:
-            flat: list[int] = []
-            for servo_id, position in targets:
-                flat += servo_id, position
-            self._frame = self.SHAPE.packed(len(targets), (len(targets), time_ms, *flat))
-        except UNFIT:
-            self._frame = self.SHAPE.checked((time_ms,), targets)
+        self._frame = self.SHAPE.frame((time_ms,), targets)
 
     @property
     def time_ms(self) -> int:
@@ -201,10 +194,7 @@ class ActionGroupRun(Message):
     """Run until it is stopped."""
 
     def __init__(self, group: int, times: int) -> None:
-        try:
-            self._frame = self.SHAPE.packed(0, (group, times))
-        except UNFIT:
-            self._frame = self.SHAPE.checked((group, times))
+        self._frame = self.SHAPE.frame((group, times))
 
     @property
     def group(self) -> int:
@@ -249,10 +239,7 @@ class ActionGroupStop(Message):
     SHAPE: ClassVar = Shape(7, LENGTHS)
 
     def __init__(self) -> None:
-        try:
-            self._frame = self.SHAPE.packed(0, ())
-        except UNFIT:
-            self._frame = self.SHAPE.checked(())
+        self._frame = self.SHAPE.frame(())
 
 
 class ActionGroupSpeed(Message):
@@ -289,10 +276,7 @@ class ActionGroupSpeed(Message):
     """Every action group stored on the controller."""
 
     def __init__(self, group: int, percent: int) -> None:
-        try:
-            self._frame = self.SHAPE.packed(0, (group, percent))
-        except UNFIT:
-            self._frame = self.SHAPE.checked((group, percent))
+        self._frame = self.SHAPE.frame((group, percent))
 
     @property
     def group(self) -> int:
@@ -338,10 +322,7 @@ class BatteryVoltageRead(Message):
     SHAPE: ClassVar = Shape(15, LENGTHS)
 
     def __init__(self) -> None:
-        try:
-            self._frame = self.SHAPE.packed(0, ())
-        except UNFIT:
-            self._frame = self.SHAPE.checked(())
+        self._frame = self.SHAPE.frame(())
 
 
 class ServoUnload(Message):
@@ -373,11 +354,7 @@ class ServoUnload(Message):
     )
 
     def __init__(self, servo_ids: Iterable[int]) -> None:
-        servo_ids = listed(servo_ids)
-        try:
-            self._frame = self.SHAPE.packed(len(servo_ids), (len(servo_ids), *servo_ids))
-        except UNFIT:
-            self._frame = self.SHAPE.checked((), servo_ids)
+        self._frame = self.SHAPE.frame((), servo_ids)
 
     @property
     def servo_ids(self) -> tuple[int, ...]:
@@ -419,11 +396,7 @@ class ServoPositionsRead(Message):
     )
 
     def __init__(self, servo_ids: Iterable[int]) -> None:
-        servo_ids = listed(servo_ids)
-        try:
-            self._frame = self.SHAPE.packed(len(servo_ids), (len(servo_ids), *servo_ids))
-        except UNFIT:
-            self._frame = self.SHAPE.checked((), servo_ids)
+        self._frame = self.SHAPE.frame((), servo_ids)
 
     @property
     def servo_ids(self) -> tuple[int, ...]:
@@ -465,10 +438,7 @@ class ActionGroupStarted(Message):
     """It runs until it is stopped."""
 
     def __init__(self, group: int, times: int) -> None:
-        try:
-            self._frame = self.SHAPE.packed(0, (group, times))
-        except UNFIT:
-            self._frame = self.SHAPE.checked((group, times))
+        self._frame = self.SHAPE.frame((group, times))
 
     @property
     def group(self) -> int:
@@ -512,10 +482,7 @@ class ActionGroupStopped(Message):
     SHAPE: ClassVar = Shape(7, LENGTHS)
 
     def __init__(self) -> None:
-        try:
-            self._frame = self.SHAPE.packed(0, ())
-        except UNFIT:
-            self._frame = self.SHAPE.checked(())
+        self._frame = self.SHAPE.frame(())
 
 
 class ActionGroupCompleted(Message):
@@ -545,10 +512,7 @@ class ActionGroupCompleted(Message):
     )
 
     def __init__(self, group: int, times: int) -> None:
-        try:
-            self._frame = self.SHAPE.packed(0, (group, times))
-        except UNFIT:
-            self._frame = self.SHAPE.checked((group, times))
+        self._frame = self.SHAPE.frame((group, times))
 
     @property
     def group(self) -> int:
@@ -588,10 +552,7 @@ class BatteryVoltage(Message):
     SHAPE: ClassVar = Shape(15, LENGTHS, (Number("voltage_mv", "H", 0, 65535, unit="mV"),))
 
     def __init__(self, voltage_mv: int) -> None:
-        try:
-            self._frame = self.SHAPE.packed(0, (voltage_mv,))
-        except UNFIT:
-            self._frame = self.SHAPE.checked((voltage_mv,))
+        self._frame = self.SHAPE.frame((voltage_mv,))
 
     @property
     def voltage_mv(self) -> int:
@@ -640,14 +601,7 @@ class ServoPositions(Message):
     )
 
     def __init__(self, positions: Iterable[tuple[int, int]]) -> None:
-        positions = listed(positions)
-        try:
-            flat: list[int] = []
-            for servo_id, position in positions:
-                flat += servo_id, position
-            self._frame = self.SHAPE.packed(len(positions), (len(positions), *flat))
-        except UNFIT:
-            self._frame = self.SHAPE.checked((), positions)
+        self._frame = self.SHAPE.frame((), positions)
 
     @property
     def positions(self) -> tuple[ServoPosition, ...]:

@@ -42,7 +42,7 @@ def _kind(name: str) -> type[Message]:
     for kind in MESSAGES:
         if _folded(kind.__name__) == _folded(name):
             return kind
-    from difflib import get_close_matches  # noqa: PLC0415 - only for those who mistype
+    from difflib import get_close_matches  # only for those who mistype
 
     names = [kind.__name__ for kind in MESSAGES]
     near = get_close_matches(name, names, n=1)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import cache
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -46,15 +47,7 @@ def _runtime() -> list[tuple[str, str]]:
 
 
 def _from_templates(library: LibraryView) -> list[tuple[str, str]]:
-    environment = Environment(
-        loader=FileSystemLoader(_HERE / "templates"),
-        undefined=StrictUndefined,
-        trim_blocks=True,
-        lstrip_blocks=True,
-        keep_trailing_newline=True,
-        autoescape=False,  # noqa: S701 - this is Python, not HTML: the filters below escape
-    )
-    environment.filters.update(docstring=docstring, literal=literal)
+    environment = _environment()
     names = sorted(environment.list_templates(extensions=["jinja"]))
     return [
         (
@@ -65,3 +58,17 @@ def _from_templates(library: LibraryView) -> list[tuple[str, str]]:
         )
         for name in names
     ]
+
+
+@cache
+def _environment() -> Environment:
+    environment = Environment(
+        loader=FileSystemLoader(_HERE / "templates"),
+        undefined=StrictUndefined,
+        trim_blocks=True,
+        lstrip_blocks=True,
+        keep_trailing_newline=True,
+        autoescape=False,  # noqa: S701 - this is Python, not HTML: the filters below escape
+    )
+    environment.filters.update(docstring=docstring, literal=literal)
+    return environment

@@ -3,9 +3,14 @@
 from __future__ import annotations
 
 import re
+from dataclasses import dataclass
 from textwrap import wrap
+from typing import TYPE_CHECKING
 
 from framegen.text import is_invisible
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
 
 WIDTH = 100
 # A quote that stands first, last or before another could begin or end a docstring.
@@ -15,8 +20,9 @@ _RISKY_IN_COMMENT = re.compile(r"[^A-Za-z0-9 ._+-]")
 
 
 def literal(text: str) -> str:
-    """`text` as a string literal in double quotes, the same on every Python version."""
-    return '"' + "".join(_escaped(character, '"\\') for character in text) + '"'
+    """`text` as a string literal, in the quotes that the formatter would choose."""
+    quote = "'" if text.count('"') > text.count("'") else '"'
+    return quote + "".join(_escaped(character, f"{quote}\\") for character in text) + quote
 
 
 def comment(text: str) -> str:
@@ -54,20 +60,36 @@ def lines(text: str, indent: int) -> list[str]:
     return wrap(prose(text), width, break_long_words=False, break_on_hyphens=False)
 
 
-def fit(
-    before: str, items: list[str], after: str, indent: int = 0, *, lone: str = "", first: str = ""
-) -> str:
-    """A bracketed list on one line where it fits, or else an item a line: as the formatter has it.
+@dataclass(frozen=True, slots=True)
+class Bracketed:
+    """A bracketed list of code: as text it is one line, and `fitted` breaks it where it must.
 
     `before` ends with the opening bracket and `after` begins with the closing one; `lone` follows a
-    single item, as the comma of a tuple does; `first` is what stands in front of it on its line.
+    single item, as the comma of a tuple does.
     """
-    inside = ", ".join(items) + (lone if len(items) == 1 else "")
-    whole = f"{before}{inside}{after}"
-    if "\n" not in inside and indent + len(first) + len(whole) <= WIDTH:
-        return whole
-    margin = " " * indent
-    return f"{before}\n" + "".join(f"{margin}    {item},\n" for item in items) + f"{margin}{after}"
+
+    before: str
+    items: Sequence[str | Bracketed]
+    after: str
+    lone: str = ""
+
+    def __str__(self) -> str:
+        inside = ", ".join(map(str, self.items)) + (self.lone if len(self.items) == 1 else "")
+        return f"{self.before}{inside}{self.after}"
+
+    def fitted(self, indent: int, *, last: str = "") -> str:
+        """On one line where it fits, `last` included, or else an item a line: as formatters do."""
+        whole = str(self)
+        if indent + len(whole) + len(last) <= WIDTH:
+            return whole
+        margin = " " * indent
+        lines = [
+            item if isinstance(item, str) else item.fitted(indent + 4, last=",")
+            for item in self.items
+        ]
+        return "\n".join(
+            [self.before, *(f"{margin}    {line}," for line in lines), f"{margin}{self.after}"]
+        )
 
 
 def _escaped(character: str, special: str) -> str:

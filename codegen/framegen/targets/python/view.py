@@ -10,7 +10,7 @@ from framegen.codec import describe_range
 from framegen.layout import Repeat, WireField
 from framegen.names import PYTHON_BUILTINS, PYTHON_KEYWORDS
 from framegen.spec import IdPart, LengthPart
-from framegen.targets.python.escape import WIDTH, fit, literal
+from framegen.targets.python.escape import WIDTH, Bracketed, literal
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
@@ -102,19 +102,18 @@ class NumberView:
         """Hypothesis's strategy for it."""
         return f"st.integers({self.low}, {self.high})"
 
-    def describe(self, indent: int) -> str:
+    @property
+    def described(self) -> Bracketed:
         """The call that describes it to the runtime."""
         field = self.layout.field
-        bounds = f"{self.low}, {self.high}"
-        items = [literal(self.name), literal(self.layout.wire.code), bounds]
+        items: list[str | Bracketed] = [literal(self.name), literal(self.layout.wire.code)]
+        items += [str(self.low), str(self.high)]
         if field.unit:
             items.append(f"unit={literal(field.unit)}")
         if field.values:
-            names = ", ".join(
-                f"{literal(name)}: {value.value}" for name, value in field.values.items()
-            )
-            items.append(f"names={{{names}}}")
-        return fit("Number(", items, ")", indent)
+            names = [f"{literal(name)}: {value.value}" for name, value in field.values.items()]
+            items.append(Bracketed("names={", names, "}"))
+        return Bracketed("Number(", items, ")")
 
 
 @dataclass(frozen=True, slots=True)
@@ -146,12 +145,12 @@ class ListView:
     @property
     def match_args(self) -> str:
         names = [literal(field.name) for field in self.fields]
-        return fit("__match_args__ = (", names, ")", 4, lone=",")
+        return Bracketed("__match_args__ = (", names, ")", lone=",").fitted(4)
 
     @property
     def signature(self) -> str:
         fields = [f"{field.name}: int" for field in self.fields]
-        return fit("def __new__(", ["cls", *fields], ") -> Self:", 4)
+        return Bracketed("def __new__(", ["cls", *fields], ") -> Self:").fitted(4)
 
     @property
     def element_doc(self) -> list[str]:
@@ -170,12 +169,12 @@ class ListView:
         )
 
     @property
-    def strategy(self) -> str:
-        """Hypothesis's strategy for it."""
+    def strategy(self) -> Bracketed:
+        """Hypothesis's strategy for it, as an argument."""
         items = [field.strategy for field in self.fields]
-        element = items[0] if self.element is None else f"st.tuples({', '.join(items)})"
+        element = items[0] if self.element is None else Bracketed("st.tuples(", items, ")")
         sizes = [f"min_size={self.layout.low}", f"max_size={self.layout.high}"]
-        return fit("st.lists(", [element, *sizes], ")", 8, first=f"{self.name}=")
+        return Bracketed(f"{self.name}=st.lists(", [element, *sizes], ")")
 
     @property
     def snake(self) -> str:
@@ -185,8 +184,9 @@ class ListView:
     @property
     def maker(self) -> str:
         """The function that makes an element of a tuple."""
-        first = f"_make_{self.snake}: Callable[[tuple[int, ...]], {self.element}] = "
-        return first + fit("partial(", ["tuple.__new__", str(self.element)], ")", first=first)
+        name = f"_make_{self.snake}: Callable[[tuple[int, ...]], {self.element}]"
+        items = ["tuple.__new__", str(self.element)]
+        return Bracketed(f"{name} = partial(", items, ")").fitted(0)
 
     @property
     def read_as(self) -> str:
@@ -319,28 +319,17 @@ class MessageView:
     @property
     def match_args(self) -> str:
         names = [literal(name) for name in self.arguments]
-        return fit("__match_args__ = (", names, ")", 4, lone=",")
+        return Bracketed("__match_args__ = (", names, ")", lone=",").fitted(4)
 
     @property
     def signature(self) -> str:
         numbers = [f"{field.name}: int" for field in self.given]
         lists = [f"{self.repeat.name}: {self.repeat.given_as}"] if self.repeat else []
-        return fit("def __init__(", ["self", *numbers, *lists], ") -> None:", 4)
+        return Bracketed("def __init__(", ["self", *numbers, *lists], ") -> None:").fitted(4)
 
     @property
-    def packed(self) -> str:
-        """The count and the values that the runtime packs, once they are flat."""
-        names = [field.name for field in self.given]
-        repeat = self.repeat
-        if repeat is None:
-            return f"0, ({_items(names)})"
-        names.insert(self.counter, f"len({repeat.name})")
-        names.append(f"*{repeat.name if repeat.element is None else 'flat'}")
-        return f"len({repeat.name}), ({_items(names)})"
-
-    @property
-    def checked(self) -> str:
-        """The values as they were given."""
+    def values(self) -> str:
+        """What the constructor was given: the numbers, and the list."""
         numbers = f"({_items([field.name for field in self.given])})"
         return f"{numbers}, {self.repeat.name}" if self.repeat else numbers
 
@@ -386,33 +375,32 @@ class MessageView:
 
     @property
     def strategy(self) -> str:
-        """The call that makes its strategy."""
+        """The statement that makes its strategy."""
         if not self.arguments:
-            return f"st.just({self.name}())"
-        items = [self.name, *(f"{field.name}={field.strategy}" for field in self.given)]
-        if self.repeat:
-            items.append(f"{self.repeat.name}={self.repeat.strategy}")
-        return fit("st.builds(", items, ")", 4, first="return ")
+            return f"return st.just({self.name}())"
+        numbers = [f"{field.name}={field.strategy}" for field in self.given]
+        lists = [self.repeat.strategy] if self.repeat else []
+        return Bracketed("return st.builds(", [self.name, *numbers, *lists], ")").fitted(4)
 
     @property
     def shape(self) -> str:
         """The description of its wire side, for the runtime."""
-        items = [str(self.command), "LENGTHS"]
+        items: list[str | Bracketed] = [str(self.command), "LENGTHS"]
         if self.numbers:
-            numbers = [number.describe(8) for number in self.numbers]
-            items.append(fit("(", numbers, ")", 8, lone=","))
+            items.append(Bracketed("(", [each.described for each in self.numbers], ")", lone=","))
         if self.repeat:
             items.append(self._items(self.repeat))
         if self.narrowed:
             items.append("narrowed=True")
-        return fit("SHAPE: ClassVar = Shape(", items, ")", 4)
+        return Bracketed("SHAPE: ClassVar = Shape(", items, ")").fitted(4)
 
-    def _items(self, repeat: ListView) -> str:
-        fields = fit("(", [field.describe(12) for field in repeat.fields], ")", 12, lone=",")
-        items = [literal(repeat.name), fields, repeat.counts, f"counter={self.counter}"]
+    def _items(self, repeat: ListView) -> Bracketed:
+        fields = Bracketed("(", [field.described for field in repeat.fields], ")", lone=",")
+        items: list[str | Bracketed] = [literal(repeat.name), fields, repeat.counts]
+        items.append(f"counter={self.counter}")
         if repeat.element:
             items.append(f"element={repeat.element}")
-        return fit("Items(", items, ")", 8)
+        return Bracketed("Items(", items, ")")
 
 
 @dataclass(frozen=True, slots=True)
@@ -481,11 +469,27 @@ class LibraryView:
         return [f"from {module} import {', '.join(n)}" for module, n in wanted.items() if n]
 
     @property
+    def typing_imports(self) -> list[str]:
+        """What the annotations of the messages need of the standard library."""
+        lists = any(message.repeat for message in self.messages)
+        fields = [field for message in self.messages for field in message.given]
+        fields += [field for element in self.elements for field in element.fields]
+        wanted: dict[str, dict[str, object]] = {
+            "collections.abc": {"Callable": self.elements, "Iterable": lists},
+            "typing": {"ClassVar": True, "Final": any(field.constants for field in fields)},
+        }
+        found = {
+            module: [name for name, needed in names.items() if needed]
+            for module, names in wanted.items()
+        }
+        return [f"from {module} import {', '.join(n)}" for module, n in found.items() if n]
+
+    @property
     def from_fields(self) -> list[str]:
         """What describes and takes in the fields."""
         lists = any(message.repeat for message in self.messages)
         numbers = any(message.numbers for message in self.messages)
-        names = {"Items": lists, "Number": numbers, "listed": lists}
+        names = {"Items": lists, "Number": numbers}
         return [name for name, needed in names.items() if needed]
 
     @property
@@ -594,7 +598,9 @@ def snake_case(name: str) -> str:
 
 def _pairs(examples: Iterable[tuple[str, str]]) -> list[str]:
     """Command lines and what they do, as the lines of a tuple."""
-    return [fit("(", [literal(line), literal(what)], "),", 8) for line, what in examples]
+    return [
+        Bracketed("(", [literal(line), literal(what)], "),").fitted(8) for line, what in examples
+    ]
 
 
 def _items(names: list[str]) -> str:

@@ -16,6 +16,9 @@ if TYPE_CHECKING:
     from typing import Any
 
 
+_LISTS = (list, tuple)
+
+
 class Number:
     """A whole number: its name, its letter in `struct`, its range, unit and named values.
 
@@ -62,7 +65,7 @@ class Items:
     `counter` is the position of the count among the numbers in front of the list.
     """
 
-    __slots__ = ("counter", "counts", "element", "fields", "name", "width")
+    __slots__ = ("_plain", "counter", "counts", "element", "fields", "name", "width")
 
     def __init__(
         self,
@@ -78,7 +81,26 @@ class Items:
         self.width = len(fields)
         self.counts = counts
         self.counter = counter
+        self._plain = frozenset([*_LISTS, element])
         self.element = element
+
+    def flat(self, values: Any) -> Sequence[int]:
+        """All numbers of all elements, if every element is a plain one. Raises TypeError if not.
+
+        The numbers themselves are not looked at.
+        """
+        if type(values) not in _LISTS:
+            raise TypeError
+        if self.element is None:
+            known: Sequence[int] = values
+            return known
+        plain, width = self._plain, self.width
+        numbers: list[int] = []
+        for item in values:
+            if type(item) not in plain or len(item) != width:
+                raise TypeError
+            numbers += item
+        return numbers
 
     def checked(self, values: Any) -> list[int]:
         """All numbers of all elements, in order. Raises EncodeError naming the first wrong one."""
@@ -113,24 +135,15 @@ class Items:
         return f"({', '.join(field.name for field in self.fields)})"
 
 
-def listed(values: Any) -> Sequence[Any]:
-    """`values` as something that can be gone through twice; what cannot at all, as it is."""
-    kind = type(values)
-    if kind is list or kind is tuple:
-        known: Sequence[Any] = values
-        return known
-    items = as_tuple(values)
-    return values if items is None else items
-
-
 def as_tuple(value: Any) -> tuple[Any, ...] | None:
     """What `value` holds; None where it holds nothing in order, or is text or bytes."""
     if isinstance(value, (str, bytes, dict, set, frozenset)):
         return None
     try:
-        return tuple(value)
+        iterator = iter(value)
     except TypeError:
         return None
+    return tuple(iterator)
 
 
 def shown(value: object) -> str:

@@ -5,17 +5,15 @@ from __future__ import annotations
 import struct
 from itertools import chain, cycle
 
+from .fields import as_tuple
 from .protocol import BODY_AT, STRUCT_ORDER, head
 
 TYPE_CHECKING = False  # typing alone would double the time that the import takes
 if TYPE_CHECKING:
-    from collections.abc import Callable, Sequence
+    from collections.abc import Callable, Iterable, Sequence
     from typing import Any
 
     from .fields import Items, Number
-
-# What `packed` raises on values that are not as they should be.
-UNFIT = (TypeError, ValueError, struct.error)
 
 _INTEGERS = frozenset([int])
 
@@ -71,21 +69,32 @@ class Shape:
             at += struct.calcsize(STRUCT_ORDER + field.code)
         return None
 
-    def packed(self, count: int, values: Sequence[int]) -> bytes:
-        """The frame with these values, its count among them, if all of them are good.
+    def frame(self, numbers: tuple[Any, ...], given: Iterable[Any] = ()) -> bytes:
+        """The frame with these values. Raises EncodeError.
 
-        Raises one of UNFIT if any is not, or may not be: `checked` then tells which and why.
+        `numbers` are the fields in front of the list, without its count, and `given` is the list.
+        Good values are packed at once; any others are looked at one by one, and either come to
+        something after all, as those of NumPy do, or are explained.
         """
-        if self.narrowed or not _INTEGERS.issuperset(map(type, values)):
-            raise TypeError
-        pack, front = self._packers.get(count) or self._packer(count)
-        return pack(front, *values)
+        items: Any = given
+        if type(given) not in (list, tuple):
+            held = as_tuple(given)
+            items = given if held is None else held
+        try:
+            values: Sequence[Any] = numbers
+            count = 0
+            if self.items is not None:
+                at, count = self.items.counter, len(items)
+                values = (*numbers[:at], count, *numbers[at:], *self.items.flat(items))
+            if not self.narrowed and _INTEGERS.issuperset(map(type, values)):
+                pack, front = self._packers.get(count) or self._packer(count)
+                return pack(front, *values)
+        except (TypeError, ValueError, struct.error):
+            pass
+        return self._checked(numbers, items)
 
-    def checked(self, numbers: Sequence[Any], items: Any = ()) -> bytes:
-        """The frame with these values, looked at one by one. Raises EncodeError.
-
-        `numbers` are the fields in front of the list without its count, and `items` is the list.
-        """
+    def _checked(self, numbers: Sequence[Any], items: Any) -> bytes:
+        """The frame with these values, looked at one by one. Raises EncodeError."""
         counter = None if self.items is None else self.numbers[self.items.counter]
         fields = [field for field in self.numbers if field is not counter]
         values = [

@@ -29,13 +29,15 @@ class Table(dict[bytes, "Entry | None"]):
     None, and is not kept: noise must not fill the memory.
     """
 
-    __slots__ = ("kinds", "largest")
+    __slots__ = ("kinds", "largest", "waits")
 
     def __init__(self, kinds: Iterable[type[Message]]) -> None:
         super().__init__()
         self.kinds: dict[int, list[type[Message]]] = {}
         for kind in kinds:
             self.kinds.setdefault(kind.COMMAND, []).append(kind)
+        # The beginnings of frames that were seen, and the size at which more can be told of each.
+        self.waits: dict[bytes, int] = {}
         self.largest = max(kind.LENGTHS[-1] for kind in kinds) + UNCOUNTED
 
     def __missing__(self, head: bytes) -> Entry | None:
@@ -65,10 +67,10 @@ class Table(dict[bytes, "Entry | None"]):
 
     def read(self, frame: bytes) -> Message:
         """The message that `frame` is, whole and with nothing after it. Raises DecodeError."""
-        entry = self[frame[:BODY_AT]]
+        entry = self.get(frame[:BODY_AT])
         if entry is not None:
             size, at, until, count, kind, shape = entry
-            if len(frame) == size and frame[at:until] == count and shape is None:
+            if len(frame) == size and shape is None and (not until or frame[at:until] == count):
                 message = _new(kind)
                 message._frame = frame
                 return message
@@ -79,6 +81,7 @@ class Table(dict[bytes, "Entry | None"]):
     def _looked_at(self, frame: bytes) -> type[Message]:
         """The message that `frame` is, though not at first sight; or else why it is none."""
         errors: list[DecodeError] = []
+        self[frame[:BODY_AT]]  # learns the head for the next time
         for size, at, until, count, kind, _ in self.entries(frame[:BODY_AT]):
             error = _misfit(frame, size, at, until, count, kind)
             if error is None:

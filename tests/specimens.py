@@ -1,0 +1,129 @@
+"""Specs as data that tests can change, and the files and libraries that follow from them."""
+
+import importlib
+import re
+import sys
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from types import ModuleType
+from typing import Any, TypeAlias
+
+from framegen.checks import check
+from framegen.layout import Layout, derive
+from framegen.load import Loaded, load, read_source
+from framegen.source import Source
+from framegen.targets import python, vectors
+from framegen.yamltree import Unusable, read_tree
+
+ROOT = Path(__file__).parent.parent
+BUSSERVO = ROOT / "spec" / "busservo.yaml"
+DEMO = ROOT / "tests" / "specs" / "demo.yaml"
+
+Data: TypeAlias = "dict[str, Any]"
+Steps: TypeAlias = "tuple[str | int, ...]"
+
+
+def data_of(file: Path) -> Data:
+    """What a spec file says."""
+    return read_tree(read_source(file))[0].data
+
+
+def yaml_of(value: object) -> str:
+    """`value` as YAML, every text in double quotes and in ASCII, whatever it holds."""
+    if isinstance(value, dict):
+        return "{" + ", ".join(f"{yaml_of(k)}: {yaml_of(v)}" for k, v in value.items()) + "}"
+    if isinstance(value, list):
+        return "[" + ", ".join(map(yaml_of, value)) + "]"
+    if isinstance(value, str):
+        return '"' + "".join(map(_escaped, value)) + '"'
+    if value is None:
+        return "null"
+    return str(value).lower() if isinstance(value, bool) else str(value)
+
+
+def _escaped(character: str) -> str:
+    code = ord(character)
+    if character.isascii() and character.isprintable() and character not in '"\\':
+        return character
+    return f"\\u{code:04x}" if code < 0x10000 else f"\\U{code:08x}"
+
+
+def loaded_of(data: Data, name: str = "made_up.yaml") -> Loaded:
+    """The spec that `data` says, by way of its text. Raises Unusable."""
+    return load(Source(name, yaml_of(data)))
+
+
+def rules_broken(data: Data) -> list[str]:
+    """The rules that a spec breaks, or `unusable` for one that cannot be read at all."""
+    try:
+        return [finding.rule for finding in check(loaded_of(data))]
+    except Unusable:
+        return ["unusable"]
+
+
+def layout_of(data: Data) -> Layout:
+    """The layout of a spec without findings."""
+    loaded = loaded_of(data)
+    assert [finding.message for finding in check(loaded)] == []
+    assert loaded.spec is not None
+    return derive(loaded.spec)
+
+
+def files_of(data: Data, name: str = "made_up.yaml") -> dict[str, str]:
+    """The library and the vectors of a spec without findings; its schema says nothing of it."""
+    loaded = loaded_of(data, name)
+    assert [finding.message for finding in check(loaded)] == []
+    assert loaded.spec is not None
+    layout = derive(loaded.spec)
+    return python.render(loaded.source, layout) | vectors.render(loaded.source, layout)
+
+
+def leaves(value: Any, path: Steps = ()) -> Iterator[tuple[Steps, str]]:
+    """Every text in a spec, with the steps to it."""
+    if isinstance(value, dict):
+        for key, item in value.items():
+            yield from leaves(item, (*path, key))
+    elif isinstance(value, list):
+        for index, item in enumerate(value):
+            yield from leaves(item, (*path, index))
+    elif isinstance(value, str):
+        yield path, value
+
+
+def changed(value: Any, change: Callable[[Steps, str], str], path: Steps = ()) -> Any:
+    """A copy in which every text is what `change` makes of it."""
+    if isinstance(value, dict):
+        return {key: changed(item, change, (*path, key)) for key, item in value.items()}
+    if isinstance(value, list):
+        return [changed(item, change, (*path, index)) for index, item in enumerate(value)]
+    return change(path, value) if isinstance(value, str) else value
+
+
+def renamed(value: Any, old: str, new: str) -> Any:
+    """A copy in which the name `old` is `new` wherever it stands, keys and formulas included."""
+    if isinstance(value, dict):
+        return {renamed(key, old, new): renamed(item, old, new) for key, item in value.items()}
+    if isinstance(value, list):
+        return [renamed(item, old, new) for item in value]
+    if isinstance(value, str):
+        return re.sub(rf"\b{re.escape(old)}\b", lambda _: new, value)
+    return value
+
+
+@contextmanager
+def library(files: dict[str, str], folder: Path) -> Iterator[ModuleType]:
+    """The library among `files`, written below `folder`, imported, and forgotten again."""
+    for path, text in files.items():
+        (folder / path).parent.mkdir(parents=True, exist_ok=True)
+        (folder / path).write_text(text, encoding="utf-8", newline="")
+    name = next(path for path in files if path.startswith("generated/")).split("/")[1]
+    assert name not in sys.modules
+    sys.path.insert(0, str(folder / "generated"))
+    importlib.invalidate_caches()
+    try:
+        yield importlib.import_module(name)
+    finally:
+        sys.path.remove(str(folder / "generated"))
+        for module in [module for module in sys.modules if module.split(".")[0] == name]:
+            del sys.modules[module]

@@ -1,0 +1,731 @@
+"""The library of another protocol: all that the language can say, held to the reference codec."""
+
+import doctest
+import importlib
+import itertools
+import re
+import shutil
+import subprocess
+import sys
+from collections.abc import Iterator
+from pathlib import Path
+from types import ModuleType
+from typing import Any
+
+import pytest
+from framegen import codec, wiretypes
+from framegen.codec import NotAFrame
+from framegen.layout import Layout, MessageLayout, Repeat, WireField
+from framegen.wiretypes import WIRE_TYPES, WireType
+from hypothesis import given
+from hypothesis import strategies as st
+
+from tests.specimens import DEMO, ROOT, Data, data_of, files_of, layout_of, library, rules_broken
+
+SPEC = data_of(DEMO)
+LAYOUT = layout_of(SPEC)
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    return tmp_path_factory.mktemp("greenhouse")
+
+
+@pytest.fixture(scope="module", autouse=True)
+def greenhouse(folder: Path) -> Iterator[ModuleType]:
+    """The library, imported under its own name."""
+    with library(files_of(SPEC), folder) as made:
+        yield made
+
+
+def lib() -> Any:
+    """The same, for Hypothesis, which takes no fixtures."""
+    return importlib.import_module("greenhouse")
+
+
+# ------------------------------------------------------------------ values, both ways
+
+
+def numbers(field: WireField) -> st.SearchStrategy[int]:
+    ends = [field.low, field.low + 1, field.high - 1, field.high, 0, 1, -1]
+    legal = [end for end in ends if field.low <= end <= field.high]
+    return st.sampled_from(legal) | st.integers(field.low, field.high)
+
+
+def items(repeat: Repeat) -> st.SearchStrategy[Any]:
+    if repeat.element is None:
+        return numbers(repeat.fields[0])
+    names = [field.name for field in repeat.fields]
+    return st.tuples(*map(numbers, repeat.fields)).map(
+        lambda item: dict(zip(names, item, strict=True))
+    )
+
+
+def values_of(message: MessageLayout) -> st.SearchStrategy[dict[str, Any]]:
+    return st.fixed_dictionaries(
+        {
+            argument.name: st.lists(items(argument), min_size=argument.low, max_size=8)
+            if isinstance(argument, Repeat)
+            else numbers(argument)
+            for argument in message.arguments
+        }
+    )
+
+
+def frames(layout: Layout = LAYOUT) -> st.SearchStrategy[tuple[MessageLayout, dict[str, Any]]]:
+    return st.sampled_from(list(layout.messages.values())).flatmap(
+        lambda message: st.tuples(st.just(message), values_of(message))
+    )
+
+
+def arguments(values: dict[str, Any]) -> dict[str, Any]:
+    """Values of the reference codec as arguments of the library: elements as tuples."""
+    return {
+        name: [tuple(item.values()) if isinstance(item, dict) else item for item in value]
+        if isinstance(value, list)
+        else value
+        for name, value in values.items()
+    }
+
+
+def said_by(message: Any) -> dict[str, Any]:
+    """The fields of a message, comparable with `arguments`."""
+    fields = {name: getattr(message, name) for name in message.__match_args__}
+    return {
+        name: [tuple(item) if isinstance(item, tuple) else item for item in value]
+        if isinstance(value, tuple)
+        else value
+        for name, value in fields.items()
+    }
+
+
+def direction_of(message: MessageLayout) -> Any:
+    return lib().Direction(message.direction.key)
+
+
+@given(frames())
+def test_it_encodes_as_the_reference_codec_does(
+    case: tuple[MessageLayout, dict[str, Any]],
+) -> None:
+    message, values = case
+    kind = getattr(lib(), message.name)
+    made = kind(**arguments(values))
+    frame = codec.encode(LAYOUT, message, values)
+    assert made.encode() == frame
+    assert lib().decode(frame, direction_of(message)) == made == kind.decode(frame)
+    assert said_by(kind.decode(frame)) == arguments(values)
+
+
+def outcome_here(data: bytes, direction: Any) -> tuple[Any, ...]:
+    try:
+        message = lib().decode(data, direction)
+    except lib().DecodeError as error:
+        return error.reason.value, error.offset
+    return type(message).__name__, said_by(message)
+
+
+def outcome_there(data: bytes, direction: str, layout: Layout = LAYOUT) -> tuple[Any, ...]:
+    [way] = [way for way in layout.directions if way.key == direction]
+    try:
+        decoded = codec.decode(layout, way, data)
+    except NotAFrame as error:
+        return error.reason, error.offset
+    return decoded.layout.name, arguments(decoded.values)
+
+
+@st.composite
+def damaged(draw: st.DrawFn) -> bytes:
+    message, values = draw(frames())
+    data = bytearray(codec.encode(LAYOUT, message, values))
+    for _ in range(draw(st.integers(0, 3))):
+        at = draw(st.integers(0, len(data)))
+        kind = draw(st.sampled_from(["flip", "cut", "insert", "step", "end"]))
+        if kind == "insert":
+            data[at:at] = draw(st.binary(min_size=1, max_size=3))
+        elif kind == "end":
+            del data[at:]
+        elif at < len(data):
+            if kind == "cut":
+                del data[at]
+            elif kind == "flip":
+                data[at] ^= draw(st.integers(1, 255))
+            else:
+                data[at] = (data[at] + draw(st.sampled_from([-1, 1]))) & 0xFF
+    return bytes(data)
+
+
+@given(damaged(), st.sampled_from([way.key for way in LAYOUT.directions]))
+def test_it_refuses_what_the_reference_codec_refuses_and_says_the_same(
+    data: bytes, direction: str
+) -> None:
+    assert outcome_here(data, lib().Direction(direction)) == outcome_there(data, direction)
+
+
+@given(st.binary(max_size=30), st.sampled_from([way.key for way in LAYOUT.directions]))
+def test_of_any_bytes_both_say_the_same(data: bytes, direction: str) -> None:
+    for bytes_ in (data, LAYOUT.frame.header + data):
+        assert outcome_here(bytes_, lib().Direction(direction)) == outcome_there(bytes_, direction)
+
+
+@given(frames())
+def test_every_byte_of_a_frame_matters(case: tuple[MessageLayout, dict[str, Any]]) -> None:
+    """Cut short anywhere and changed anywhere, both codecs agree on what is left."""
+    message, values = case
+    frame = codec.encode(LAYOUT, message, values)
+    direction = direction_of(message)
+    for at in range(min(len(frame), 24)):
+        for data in (frame[:at], frame[:at] + bytes([frame[at] ^ 0x81]) + frame[at + 1 :]):
+            assert outcome_here(data, direction) == outcome_there(data, message.direction.key)
+
+
+def test_it_says_no_to_every_bad_vector_for_the_reason_given(folder: Path) -> None:
+    vectors = importlib.import_module("json").loads(
+        (folder / "generated" / "greenhouse" / "vectors.json").read_text(encoding="utf-8")
+    )
+    assert len(vectors["valid"]) >= 13
+    for vector in vectors["valid"]:
+        frame = bytes.fromhex(vector["hex"])
+        expected = vector["message"], arguments(vector["fields"])
+        assert outcome_here(frame, lib().Direction(vector["direction"])) == expected
+    reasons = set()
+    for vector in vectors["invalid"]:
+        frame = bytes.fromhex(vector["hex"])
+        expected = vector["reason"], vector["offset"]
+        assert outcome_here(frame, lib().Direction(vector["direction"])) == expected, vector
+        reasons.add(vector["reason"])
+    assert reasons == {reason.value for reason in lib().Reason} - {"out of range"}
+
+
+# ------------------------------------------------------------------ facts, by hand
+
+# A message, its frame worked out on paper, and who sends it.
+BY_HAND: list[tuple[str, dict[str, Any], str, str]] = [
+    ("StationRead", {}, "C3 5A A5 11 00 00", "GATEWAY_TO_STATION"),
+    ("VentJammed", {"vent_id": 255, "trim": -128}, "C3 5A A5 12 00 02 FF 80", "STATION_TO_GATEWAY"),
+    ("TextShow", {"number": -(2**31)}, "C3 5A A5 10 00 04 80 00 00 00", "GATEWAY_TO_DISPLAY"),
+    ("TextShow", {"number": 0x01020304}, "C3 5A A5 10 00 04 01 02 03 04", "GATEWAY_TO_DISPLAY"),
+    (
+        "VentsOpen",
+        {"ramp_s": 0x1234, "vents": [(7, -900), (8, 900), (9, -1)]},
+        "C3 5A A5 10 00 0C 12 34 03 07 FC 7C 08 03 84 09 FF FF",
+        "GATEWAY_TO_STATION",
+    ),
+    (
+        "StationState",
+        {"uptime_s": 0xFFFFFFFE, "readings": []},
+        "C3 5A A5 11 00 05 FF FF FF FE 00",
+        "STATION_TO_GATEWAY",
+    ),
+    (
+        "StationState",
+        {"uptime_s": 1, "readings": [-32768, 32767, -2]},
+        "C3 5A A5 11 00 0B 00 00 00 01 03 80 00 7F FF FF FE",
+        "STATION_TO_GATEWAY",
+    ),
+]
+
+
+@pytest.mark.parametrize(("name", "fields", "text", "direction"), BY_HAND)
+def test_frames_worked_out_on_paper(
+    greenhouse: Any, name: str, fields: dict[str, Any], text: str, direction: str
+) -> None:
+    frame = bytes.fromhex(text)
+    message = getattr(greenhouse, name)(**fields)
+    assert message.encode() == frame
+    assert direction == message.DIRECTION.name
+    assert greenhouse.decode(frame, message.DIRECTION) == message
+    assert said_by(message) == fields
+
+
+def test_what_each_class_says_of_itself(greenhouse: Any) -> None:
+    facts = {
+        kind.__name__: (kind.COMMAND, kind.LENGTHS, kind.__match_args__)
+        for kind in greenhouse.MESSAGES
+    }
+    assert facts == {
+        "VentsOpen": (0x10, range(6, 28, 3), ("ramp_s", "vents")),
+        "StationRead": (0x11, range(1), ()),
+        "StationState": (0x11, range(5, 516, 2), ("uptime_s", "readings")),
+        "VentJammed": (0x12, range(2, 3), ("vent_id", "trim")),
+        "TextShow": (0x10, range(4, 5), ("number",)),
+    }
+    assert greenhouse.VentsOpen.RAMP_S_AT_ONCE == 0
+    assert greenhouse.Vent.__match_args__ == ("vent_id", "angle")
+    assert greenhouse.__doc__.startswith("Greenhouse bus.\n")
+    assert "Deprecated: The display reads the bus by itself" in greenhouse.TextShow.__doc__
+    assert "Answered by StationState." in greenhouse.StationRead.__doc__
+    assert "-900..900 0.1 degree." in greenhouse.Vent.angle.__doc__
+    assert "a step being 0.01 K" not in greenhouse.StationState.uptime_s.__doc__
+
+
+def test_an_id_means_what_its_direction_says(greenhouse: Any) -> None:
+    """0x10 is sent two ways by one endpoint, and 0x11 by either end of one line."""
+    direction = greenhouse.Direction
+    assert [way.name for way in direction] == [
+        "GATEWAY_TO_STATION",
+        "STATION_TO_GATEWAY",
+        "GATEWAY_TO_DISPLAY",
+    ]
+    show = bytes.fromhex("C3 5A A5 10 00 04 FF FF FF FE")
+    assert greenhouse.decode(show, direction.GATEWAY_TO_DISPLAY) == greenhouse.TextShow(-2)
+    with pytest.raises(greenhouse.DecodeError) as refused:
+        greenhouse.decode(show, direction.GATEWAY_TO_STATION)
+    assert (refused.value.reason.value, refused.value.offset) == ("length mismatch", 4)
+    assert greenhouse.decode(show, None) == greenhouse.TextShow(-2)
+    read = greenhouse.StationRead().encode()
+    with pytest.raises(greenhouse.DecodeError) as refused:
+        greenhouse.decode(read, direction.STATION_TO_GATEWAY)
+    assert (refused.value.reason.value, refused.value.offset) == ("length mismatch", 4)
+    with pytest.raises(greenhouse.DecodeError) as refused:
+        greenhouse.decode(read, direction.GATEWAY_TO_DISPLAY)
+    assert (refused.value.reason.value, refused.value.offset) == ("unknown command", 3)
+    assert (direction.GATEWAY_TO_DISPLAY.sender, direction.GATEWAY_TO_DISPLAY.receiver) == (
+        "gateway",
+        "display",
+    )
+
+
+@pytest.mark.parametrize("angle", [-901, 901, -32768, 32767])
+def test_a_narrowed_range_is_held_both_ways(greenhouse: Any, angle: int) -> None:
+    frame = bytes.fromhex("C3 5A A5 10 00 09 00 00 02 01 00 00 02") + angle.to_bytes(
+        2, "big", signed=True
+    )
+    with pytest.raises(greenhouse.DecodeError) as refused:
+        greenhouse.VentsOpen.decode(frame)
+    assert (refused.value.reason, refused.value.offset) == (greenhouse.Reason.OUT_OF_RANGE, 13)
+    assert f"{angle}, outside -900..900" in str(refused.value)
+    with pytest.raises(greenhouse.EncodeError) as unfit:
+        greenhouse.VentsOpen(ramp_s=0, vents=[(1, 0), (2, angle)])
+    assert (unfit.value.path, unfit.value.value) == ("vents[1].angle", angle)
+    assert str(unfit.value) == f"vents[1].angle: {angle} is outside -900..900"
+
+
+@pytest.mark.parametrize(
+    ("name", "fields", "said"),
+    [
+        ("VentsOpen", {"ramp_s": 0, "vents": []}, "vents: 0 items is outside 1..8"),
+        ("VentsOpen", {"ramp_s": 0, "vents": [(1, 0)] * 9}, "vents: 9 items is outside 1..8"),
+        ("VentsOpen", {"ramp_s": 65536, "vents": [(1, 0)]}, "ramp_s: 65536 is outside 0..65535"),
+        (
+            "VentsOpen",
+            {"ramp_s": 0, "vents": [(256, 0)]},
+            "vents[0].vent_id: 256 is outside 0..255",
+        ),
+        (
+            "StationState",
+            {"uptime_s": 2**32, "readings": []},
+            "uptime_s: 4294967296 is outside 0..4294967295",
+        ),
+        (
+            "StationState",
+            {"uptime_s": 0, "readings": [0, -32769]},
+            "readings[1]: -32769 is outside -32768..32767",
+        ),
+        (
+            "StationState",
+            {"uptime_s": 0, "readings": [0] * 256},
+            "readings: 256 items is outside 0..255",
+        ),
+        ("VentJammed", {"vent_id": 0, "trim": 128}, "trim: 128 is outside -128..127"),
+        ("VentJammed", {"vent_id": -1, "trim": 0}, "vent_id: -1 is outside 0..255"),
+        (
+            "TextShow",
+            {"number": 2**31},
+            "number: 2147483648 is outside -2147483648..2147483647",
+        ),
+    ],
+)
+def test_what_no_frame_can_carry_is_refused(
+    greenhouse: Any, name: str, fields: dict[str, Any], said: str
+) -> None:
+    with pytest.raises(greenhouse.EncodeError) as refused:
+        getattr(greenhouse, name)(**fields)
+    assert str(refused.value) == said
+
+
+def test_the_docstrings_of_the_library_run(greenhouse: ModuleType) -> None:
+    module = importlib.import_module("greenhouse.messages")
+    globals_ = {**vars(greenhouse)}
+    result = doctest.testmod(module, extraglobs=globals_, verbose=False)
+    assert (result.failed, result.attempted) == (0, 5)
+
+
+# ------------------------------------------------------------------ streams
+
+
+@st.composite
+def lines(draw: st.DrawFn) -> tuple[bytes, list[Any]]:
+    """Frames of stations with noise between that holds no whole header, and their messages."""
+    line, sent = b"", []
+    kinds = [m for m in LAYOUT.messages.values() if m.direction.sender == "station"]
+    for _ in range(draw(st.integers(0, 5))):
+        noise = draw(st.lists(st.sampled_from([0xC3, 0x5A, 0xA5, 0x11, 0, 2]), max_size=6))
+        noisy = bytes(noise)
+        if LAYOUT.frame.header not in noisy:
+            line += noisy
+        message = draw(st.sampled_from(kinds))
+        values = draw(values_of(message))
+        line += codec.encode(LAYOUT, message, values)
+        sent.append((message.name, arguments(values)))
+    return line, sent
+
+
+@given(lines(), st.data())
+def test_a_stream_gives_every_frame_whatever_is_between_and_however_it_is_cut(
+    line: tuple[bytes, list[Any]], data: st.DataObject
+) -> None:
+    bytes_, sent = line
+    decoder = lib().StreamDecoder(lib().Direction.STATION_TO_GATEWAY)
+    cuts = sorted(data.draw(st.lists(st.integers(0, len(bytes_)), max_size=6)))
+    events = []
+    for start, end in itertools.pairwise([0, *cuts, len(bytes_)]):
+        events += decoder.feed(bytes_[start:end])
+    events += decoder.flush()
+    messages = [event for event in events if isinstance(event, lib().Message)]
+    assert [(type(each).__name__, said_by(each)) for each in messages] == sent
+    told = b"".join(e.encode() if isinstance(e, lib().Message) else e.data for e in events)
+    assert told == bytes_
+    assert decoder.pending == 0
+
+
+@given(st.lists(damaged(), max_size=4).map(b"".join))
+def test_of_a_stream_nothing_is_lost_and_nothing_is_made_up(data: bytes) -> None:
+    for direction in (None, *lib().Direction):
+        decoder = lib().StreamDecoder(direction)
+        events = decoder.feed(data) + decoder.flush()
+        assert data == b"".join(
+            e.encode() if isinstance(e, lib().Message) else e.data for e in events
+        )
+        for event in events:
+            if isinstance(event, lib().Message):
+                key = event.DIRECTION.value
+                expected = type(event).__name__, said_by(event)
+                assert outcome_there(event.encode(), key) == expected
+
+
+def test_a_frame_out_of_range_is_noise_and_costs_nothing_behind_it(greenhouse: Any) -> None:
+    bad = bytes.fromhex("C3 5A A5 10 00 06 00 00 01 01 03 85")
+    good = greenhouse.VentsOpen(ramp_s=1, vents=[(1, 900)])
+    decoder = greenhouse.StreamDecoder(greenhouse.Direction.GATEWAY_TO_STATION)
+    assert decoder.feed(bad + good.encode()) == [
+        greenhouse.Noise(bad, greenhouse.Reason.OUT_OF_RANGE),
+        good,
+    ]
+
+
+def test_its_strategies_make_what_the_reference_codec_reads(greenhouse: Any) -> None:
+    strategies = importlib.import_module("greenhouse.strategies")
+
+    @given(strategies.messages())
+    def agrees(message: Any) -> None:
+        expected = type(message).__name__, said_by(message)
+        assert outcome_there(message.encode(), message.DIRECTION.value) == expected
+
+    agrees()
+
+
+# ------------------------------------------------------------------ other shapes
+
+
+def message_of(number: int, fields: dict[str, Any], *examples: tuple[dict[str, Any], str]) -> Data:
+    return {
+        "id": number,
+        "direction": "gateway -> station",
+        "summary": "Made up.",
+        "cite": "manual, nowhere",
+        "length": 0,
+        "fields": {name: {"about": "Made up.", **field} for name, field in fields.items()},
+        "examples": [
+            {"title": "One", "hex": text, "values": values, "constructed": "By hand."}
+            for values, text in examples
+        ],
+    }
+
+
+def spec_with(name: str, message: Data, length: str | int, **frame: Any) -> Data:
+    """A small protocol of one message."""
+    spec = {key: SPEC[key] for key in ("framegen", "sources", "endpoints", "link")}
+    part = {"preamble": {"is": "constant", "bytes": "AA"}, **frame}
+    return {
+        **spec,
+        "protocol": {**SPEC["protocol"], "name": "made_up", "version": "1"},
+        "byte_order": "big",
+        "frame": part,
+        "messages": {name: {**message, "length": length}},
+    }
+
+
+FRAME: dict[str, Any] = {
+    "size": {"is": "length", "type": "u8", "counts": ["body"]},
+    "kind": {"is": "id", "type": "u8"},
+    "body": {"is": "body"},
+}
+
+
+def holds(data: Data, folder: Path) -> None:
+    """A library agrees with the reference codec on each of its messages, ends included."""
+    layout = layout_of(data)
+    with library(files_of(data), folder) as made:
+        library_: Any = made
+        for vector in importlib.import_module("json").loads(
+            (folder / "generated" / made.__name__ / "vectors.json").read_text(encoding="utf-8")
+        )["valid"]:
+            frame = bytes.fromhex(vector["hex"])
+            kind = getattr(library_, vector["message"])
+            assert kind(**arguments(vector["fields"])).encode() == frame
+            message = library_.decode(frame, library_.Direction(vector["direction"]))
+            assert said_by(message) == arguments(vector["fields"])
+            for at in range(len(frame)):
+                for data_ in (frame[:at], frame[:at] + bytes([frame[at] ^ 1]) + frame[at + 1 :]):
+                    try:
+                        here: tuple[Any, ...] = (
+                            vector["message"],
+                            said_by(library_.decode(data_, message.DIRECTION)),
+                        )
+                    except library_.DecodeError as error:
+                        here = error.reason.value, error.offset
+                    assert here == outcome_there(data_, vector["direction"], layout)
+        doctest_ = doctest.testmod(
+            importlib.import_module("made_up.messages"), extraglobs=vars(made)
+        )
+        assert (doctest_.failed, doctest_.attempted > 0) == (0, True)
+
+
+COUNT = {"type": "u8"}
+SHAPES: dict[str, tuple[Data, str | int]] = {
+    "bare u16 numbers": (
+        message_of(
+            1,
+            {"n": COUNT, "numbers": {"type": "u16", "counted_by": "n"}},
+            ({"numbers": [1, 515]}, "AA 05 01 02 00 01 02 03"),
+        ),
+        "2 * n + 1",
+    ),
+    "a count between other fields": (
+        message_of(
+            2,
+            {
+                "first": {"type": "u16"},
+                "n": COUNT,
+                "last": {"type": "i16"},
+                "numbers": {"type": "i8", "counted_by": "n", "count": "2..3"},
+            },
+            ({"first": 1, "last": -1, "numbers": [-1, 1]}, "AA 07 02 00 01 02 FF FF FF 01"),
+        ),
+        "n + 5",
+    ),
+    "a count of two bytes": (
+        message_of(
+            3,
+            {"n": {"type": "u16"}, "numbers": {"type": "u8", "counted_by": "n"}},
+            ({"numbers": [7]}, "AA 03 03 00 01 07"),
+        ),
+        "n + 2",
+    ),
+    "elements of one field": (
+        message_of(
+            4,
+            {
+                "n": COUNT,
+                "steps": {
+                    "element": "Step",
+                    "counted_by": "n",
+                    "fields": {"angle": {"type": "i16", "about": "It."}},
+                },
+            },
+            ({"steps": [{"angle": -2}]}, "AA 03 04 01 FF FE"),
+        ),
+        "2 * n + 1",
+    ),
+    "elements of one narrowed field": (
+        message_of(
+            5,
+            {
+                "n": COUNT,
+                "steps": {
+                    "element": "Step",
+                    "counted_by": "n",
+                    "fields": {"angle": {"type": "i16", "about": "It.", "range": "-9..9"}},
+                },
+            },
+            ({"steps": [{"angle": -9}, {"angle": 9}]}, "AA 05 05 02 FF F7 00 09"),
+        ),
+        "2 * n + 1",
+    ),
+    "narrowed numbers in front of a list": (
+        message_of(
+            6,
+            {
+                "mode": {"type": "u8", "range": "1..3"},
+                "n": COUNT,
+                "numbers": {"type": "u8", "counted_by": "n", "range": "10.."},
+            },
+            ({"mode": 1, "numbers": [10, 255]}, "AA 04 06 01 02 0A FF"),
+            ({"mode": 3, "numbers": []}, "AA 02 06 03 00"),
+        ),
+        "n + 2",
+    ),
+    "no fields at all": (message_of(7, {}, ({}, "AA 00 07")), 0),
+    "one field": (message_of(8, {"only": {"type": "u8"}}, ({"only": 5}, "AA 01 08 05")), 1),
+    "many named values": (
+        message_of(
+            9,
+            {
+                "mode": {
+                    "type": "u8",
+                    "unit": "mode",
+                    "values": {
+                        f"mode_number_{n}": {"value": n, "about": f"Mode {n}."} for n in range(6)
+                    },
+                }
+            },
+            *[({"mode": n}, f"AA 01 09 0{n}") for n in range(6)],
+        ),
+        1,
+    ),
+}
+
+
+@pytest.mark.parametrize("shape", SHAPES)
+def test_a_message_of_any_shape_works(shape: str, tmp_path: Path) -> None:
+    message, length = SHAPES[shape]
+    data = spec_with("Made", message, length, **FRAME)
+    assert rules_broken(data) == []
+    holds(data, tmp_path)
+
+
+@pytest.mark.parametrize("order", ["little", "big"])
+@pytest.mark.parametrize(
+    "parts",
+    [
+        ["size", "kind", "body"],
+        ["kind", "size", "body"],
+    ],
+)
+@pytest.mark.parametrize("size", ["u8", "u16"])
+@pytest.mark.parametrize("kind", ["u8", "u16"])
+@pytest.mark.parametrize("counts", [["body"], ["size", "kind", "body"], ["kind", "body"]])
+def test_a_frame_of_any_layout_works(
+    tmp_path: Path, order: str, parts: list[str], size: str, kind: str, counts: list[str]
+) -> None:
+    widths = {"size": WIRE_TYPES[size].size, "kind": WIRE_TYPES[kind].size, "body": 3}
+    length = sum(widths[part] for part in counts)
+    values = {"size": length, "kind": 9}
+    head = b"".join(
+        values[part].to_bytes(widths[part], "little" if order == "little" else "big")
+        for part in parts
+        if part != "body"
+    )
+    body = "01 07 00" if order == "little" else "01 00 07"
+    fields = {"n": COUNT, "numbers": {"type": "u16", "counted_by": "n"}}
+    made_of = {
+        "size": {"is": "length", "type": size, "counts": counts},
+        "kind": {"is": "id", "type": kind},
+        "body": {"is": "body"},
+    }
+    message = message_of(9, fields, ({"numbers": [7]}, f"AA {head.hex(' ')} {body}"))
+    data = spec_with("Made", message, f"2 * n + {length - 2}", **{p: made_of[p] for p in parts})
+    data["byte_order"] = order
+    assert rules_broken(data) == []
+    files = files_of(data)
+    layout = layout_of(data)
+    with library(files, tmp_path) as made:
+        any_made: Any = made
+        frame = b"\xaa" + head + bytes.fromhex(body)
+        assert any_made.Made([7]).encode() == frame
+        assert codec.encode(layout, layout.messages["Made"], {"numbers": [7]}) == frame
+        decoder = any_made.StreamDecoder(None)
+        events = decoder.feed(b"\xaa" + frame * 3 + b"\x00") + decoder.flush()
+        assert [e for e in events if isinstance(e, any_made.Message)] == [any_made.Made([7])] * 3
+
+
+def test_a_new_field_type_takes_one_new_row(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    message = message_of(
+        1,
+        {
+            "stamp": {"type": "u64"},
+            "n": COUNT,
+            "stamps": {"type": "u64", "counted_by": "n"},
+        },
+        (
+            {"stamp": 1, "stamps": [2**63]},
+            "AA 11 01 00 00 00 00 00 00 00 01 01 80 00 00 00 00 00 00 00",
+        ),
+        ({"stamp": 2**64 - 2, "stamps": []}, "AA 09 01 FF FF FF FF FF FF FF FE 00"),
+    )
+    data = spec_with("Made", message, "8 * n + 9", **FRAME)
+    assert set(rules_broken(data)) == {"unknown-type"}
+    monkeypatch.setitem(wiretypes.WIRE_TYPES, "u64", WireType("u64", 8, 0, 2**64 - 1, "Q"))
+    assert rules_broken(data) == []
+    holds(data, tmp_path / "wide")
+    data["messages"]["Made"]["fields"]["stamp"]["range"] = f"1..{2**64 - 2}"
+    holds(data, tmp_path / "narrow")
+
+
+# ------------------------------------------------------------------ the tools of the trade
+
+
+def tool(name: str) -> str:
+    beside = Path(sys.executable).with_name(name)
+    found = str(beside) if beside.exists() else shutil.which(name)
+    if found is None:
+        pytest.skip(f"{name} is not installed: `pip install --group lint`")
+    return found
+
+
+@pytest.fixture(scope="module")
+def many(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """The library of the demo spec, one of all the shapes above, and one of hardly anything."""
+    folder = tmp_path_factory.mktemp("many")
+    specs = [SPEC]
+    for name, shapes in {"shapes": list(SHAPES), "bare": ["no fields at all"]}.items():
+        messages = {
+            f"Made{number}": {**SHAPES[shape][0], "length": SHAPES[shape][1]}
+            for number, shape in enumerate(shapes)
+        }
+        for number, message in enumerate(messages.values()):
+            _rename_element(message, f"Step{number}")
+        data = spec_with("Made", {}, 0, **FRAME)
+        specs.append({**data, "protocol": {**data["protocol"], "name": name}, "messages": messages})
+    for data in specs:
+        for path, text in files_of(data).items():
+            (folder / path).parent.mkdir(parents=True, exist_ok=True)
+            (folder / path).write_text(text, encoding="utf-8", newline="")
+    return folder / "generated"
+
+
+def _rename_element(message: Data, name: str) -> None:
+    message["fields"] = {
+        key: {**field, "element": name} if "element" in field else field
+        for key, field in message["fields"].items()
+    }
+
+
+@pytest.mark.parametrize(
+    "words",
+    [
+        ("ruff", "check", "--no-cache", "--config", str(ROOT / "pyproject.toml"), "."),
+        # A tuple of one message, where the formatter has another opinion, is left out.
+        ("ruff", "format", "--check", "--no-cache", "--line-length=100", "greenhouse", "shapes"),
+        ("mypy", "--strict", "--no-error-summary", "--python-version", "3.10", "."),
+    ],
+    ids=["ruff check", "ruff format", "mypy"],
+)
+def test_the_libraries_are_clean(many: Path, words: tuple[str, ...], tmp_path: Path) -> None:
+    name, *options = words
+    if name == "mypy":
+        options += ["--config-file=", f"--cache-dir={tmp_path}"]
+    done = subprocess.run(
+        [tool(name), *options], cwd=many, capture_output=True, encoding="utf-8", check=False
+    )
+    assert done.returncode == 0, done.stdout + done.stderr
+
+
+def test_no_check_is_switched_off_in_the_generated_part(folder: Path) -> None:
+    """In what templates made; the runtime is code like any other, and gives its reasons."""
+    package = folder / "generated" / "greenhouse"
+    for name in ("__init__.py", "messages.py", "protocol.py", "direction.py", "strategies.py"):
+        text = (package / name).read_text(encoding="utf-8")
+        assert re.findall(r"#\s*(?:noqa|type:|pyright:|mypy:|fmt:|pragma)", text) == [], name

@@ -1,0 +1,186 @@
+"""The same spec gives the same bytes: in any folder, locale, time zone, hash order and Python."""
+
+import os
+import shutil
+import subprocess
+import sys
+from functools import cache
+from pathlib import Path
+
+import pytest
+from framegen.layout import derive
+from framegen.load import load, read_source
+from framegen.render import TARGETS, render
+from framegen.source import Source
+
+ROOT = Path(__file__).parent.parent
+SPECS = {
+    "busservo": ROOT / "spec" / "busservo.yaml",
+    "greenhouse": ROOT / "tests" / "specs" / "demo.yaml",
+}
+
+# Prints a digest of each file that follows from the specs that it is given.
+DIGESTS = """
+import sys
+from hashlib import sha256
+from pathlib import Path
+from framegen.layout import derive
+from framegen.load import load, read_source
+from framegen.render import render
+
+for name in sys.argv[1:]:
+    loaded = load(read_source(Path(name)))
+    for path, text in render(loaded.source, derive(loaded.spec)).files.items():
+        print(sha256(text.encode()).hexdigest(), path)
+"""
+
+
+def digests(
+    python: str = sys.executable,
+    *,
+    cwd: Path = ROOT,
+    specs: list[Path],
+    environment: dict[str, str] | None = None,
+) -> str:
+    """What that program prints in a fresh interpreter, in that folder and environment."""
+    done = subprocess.run(
+        [python, "-c", DIGESTS, *map(str, specs)],
+        cwd=cwd,
+        env={**os.environ, "PYTHONPATH": str(ROOT / "codegen"), **(environment or {})},
+        capture_output=True,
+        encoding="utf-8",
+        check=False,
+    )
+    assert done.returncode == 0, done.stderr
+    return done.stdout
+
+
+@cache
+def expected() -> str:
+    return digests(specs=list(SPECS.values()), environment={"PYTHONHASHSEED": "0"})
+
+
+def test_every_file_has_a_digest() -> None:
+    paths = [line.split(" ", 1)[1] for line in expected().splitlines()]
+    assert {path.split("/")[1] for path in paths} == {*SPECS, "framegen.schema.json"}
+    assert len(paths) > 40
+
+
+@pytest.mark.parametrize(
+    "environment",
+    [
+        {"PYTHONHASHSEED": "1"},
+        {"PYTHONHASHSEED": "4294967295"},
+        {"LC_ALL": "C", "PYTHONUTF8": "0", "PYTHONCOERCECLOCALE": "0"},
+        {"LC_ALL": "tr_TR.UTF-8", "LANG": "tr_TR.UTF-8"},
+        {"TZ": "Pacific/Kiritimati", "SOURCE_DATE_EPOCH": "0"},
+        {"TZ": "America/Caracas", "USER": "somebody", "HOME": "/", "HOSTNAME": "elsewhere"},
+        {"PYTHONOPTIMIZE": "1"},
+        {"PYTHONDONTWRITEBYTECODE": "1", "COLUMNS": "20", "NO_COLOR": "1", "TERM": "dumb"},
+    ],
+    ids=" ".join,
+)
+def test_the_environment_makes_no_difference(environment: dict[str, str]) -> None:
+    assert digests(specs=list(SPECS.values()), environment=environment) == expected()
+
+
+def test_where_it_runs_makes_no_difference(tmp_path: Path) -> None:
+    assert digests(cwd=tmp_path, specs=list(SPECS.values())) == expected()
+    relative = [Path(os.path.relpath(spec, ROOT / "tests")) for spec in SPECS.values()]
+    assert digests(cwd=ROOT / "tests", specs=relative) == expected()
+
+
+def test_where_the_spec_lies_makes_no_difference(tmp_path: Path) -> None:
+    copies = [tmp_path / "a b" / "ü" / spec.name for spec in SPECS.values()]
+    for spec, copy in zip(SPECS.values(), copies, strict=True):
+        copy.parent.mkdir(parents=True, exist_ok=True)
+        shutil.copyfile(spec, copy)
+    assert digests(specs=copies) == expected()
+
+
+def other_pythons() -> list[str]:
+    """Every Python from 3.10 on that is at hand, the running one apart."""
+    names = [f"python3.{minor}" for minor in range(10, 15)]
+    found = [path for name in names if (path := shutil.which(name)) is not None]
+    running = Path(sys.executable).resolve()
+    return [path for path in found if Path(path).resolve() != running]
+
+
+def test_every_python_at_hand_gives_the_same_bytes() -> None:
+    """The running Python always, and every other that can import what the generator needs.
+
+    What is committed was written by one of them: `framegen generate --check` under each Python of
+    the test matrix, here and in CI, compares them all with each other.
+    """
+    assert digests(specs=list(SPECS.values())) == expected()
+    for python in other_pythons():
+        needs = subprocess.run(
+            [python, "-c", "import jinja2, pydantic, yaml"], capture_output=True, check=False
+        )
+        if needs.returncode == 0:
+            assert digests(python, specs=list(SPECS.values())) == expected()
+
+
+def test_the_committed_output_comes_out_of_this_python() -> None:
+    done = subprocess.run(
+        [sys.executable, "-m", "framegen", "generate", "--check"],
+        cwd=ROOT,
+        env={**os.environ, "PYTHONPATH": str(ROOT / "codegen")},
+        capture_output=True,
+        encoding="utf-8",
+        check=False,
+    )
+    assert (done.returncode, done.stdout) == (0, ""), done.stderr
+
+
+@pytest.mark.parametrize("name", SPECS)
+def test_rendering_twice_gives_the_same_and_touches_no_disk(
+    name: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    loaded = load(read_source(SPECS[name]))
+    assert loaded.spec is not None
+    monkeypatch.chdir(tmp_path)
+    first = render(loaded.source, derive(loaded.spec))
+    assert render(loaded.source, derive(loaded.spec)) == first
+    assert list(tmp_path.iterdir()) == []
+
+
+@pytest.mark.parametrize("name", SPECS)
+def test_no_file_tells_where_when_or_by_whom_it_was_made(name: str) -> None:
+    loaded = load(read_source(SPECS[name]))
+    assert loaded.spec is not None
+    forbidden = [str(ROOT), str(Path.home()) + os.sep, sys.prefix, os.sep + "home" + os.sep]
+    for path, text in render(loaded.source, derive(loaded.spec)).files.items():
+        assert [word for word in forbidden if word in text] == [], path
+
+
+@pytest.mark.parametrize("name", SPECS)
+def test_every_file_ends_in_one_line_feed_and_holds_nothing_unseen(name: str) -> None:
+    loaded = load(read_source(SPECS[name]))
+    assert loaded.spec is not None
+    for path, text in render(loaded.source, derive(loaded.spec)).files.items():
+        assert text == "" or (text.endswith("\n") and not text.endswith("\n\n")), path
+        assert text.replace("\n", "").isprintable(), path
+        assert [line for line in text.split("\n") if line != line.rstrip()] == [], path
+
+
+def test_no_two_targets_write_the_same_file() -> None:
+    loaded = load(read_source(SPECS["greenhouse"]))
+    assert loaded.spec is not None
+    layout = derive(loaded.spec)
+    paths = [path for target in TARGETS for path in target.render(loaded.source, layout)]
+    assert len(paths) == len(set(paths))
+
+
+def test_a_comment_in_the_spec_changes_its_digest_and_nothing_else() -> None:
+    source = read_source(SPECS["greenhouse"])
+    commented = Source(source.name, source.text + "# a comment\n")
+    files = []
+    for each in (source, commented):
+        spec = load(each).spec
+        assert spec is not None
+        rendered = render(each, derive(spec))
+        assert rendered.digest == each.digest
+        files.append({p: t.replace(each.digest, "") for p, t in rendered.files.items()})
+    assert source.digest != commented.digest
+    assert files[0] == files[1]

@@ -1,0 +1,720 @@
+"""A hostile spec: whatever its texts and names hold, it ends in a finding or in inert text."""
+
+import ast
+import doctest
+import io
+import json
+import re
+import subprocess
+import sys
+import tokenize
+from collections import Counter
+from functools import cache
+from pathlib import Path
+from shutil import which
+from typing import Any, TypeAlias
+
+import pytest
+from framegen.names import LIBRARY_NAMES, PYTHON_BUILTINS, PYTHON_CLASSES, PYTHON_KEYWORDS
+from framegen.targets.python.escape import comment, docstring, literal, prose
+from framegen.text import is_invisible
+from hypothesis import given
+from hypothesis import strategies as st
+
+from tests.specimens import (
+    BUSSERVO,
+    DEMO,
+    ROOT,
+    Data,
+    Steps,
+    changed,
+    data_of,
+    files_of,
+    leaves,
+    library,
+    renamed,
+    rules_broken,
+)
+
+SPECS = {"busservo": data_of(BUSSERVO), "greenhouse": data_of(DEMO)}
+HARMLESS = "Plain words."
+
+# Text that a reader of the output may take for something else, were it not made safe.
+INERT = [
+    '"',
+    "'",
+    '""',
+    "''",
+    '"""',
+    "'''",
+    '""""""',
+    '"quoted"',
+    'ends with """',
+    '""" begins with it',
+    'half an escape \\"""',
+    '\\" and \\""" and \\\\"""',
+    "trailing \\",
+    "trailing \\\\",
+    "\\",
+    "\\N{BULLET} \\x41 \\u0041 \\101 \\n",
+    "two\nlines",
+    "a paragraph\n\nand another",
+    '"""\nimport os\nos.system("x")\n"""',
+    "\nimport os\n",
+    "{{ 7*7 }}",
+    "{% raise %}{# comment #}{%- endfor %}",
+    "{% raw %}{{ messages }}{% endraw %}",
+    "{0} {self} {x!r:>10} %s %(name)s %",
+    "</script><script>alert(1)</script>",
+    "<!-- --> & &lt; ]]>",
+    '>>> import os; os.system("x")',
+    ">>>> print(1)\n... print(2)\n>>> 1/0",
+    "> >> >>> 1/0",
+    ">>>\n>>> 1/0\n1",
+    "# type: ignore",
+    "# noqa # fmt: off",
+    "# -*- coding: utf-7 -*-",
+    "coding: latin-1",
+    "+ACIAIgAi- import os",
+    "r'''",
+    'f"{1/0}"',
+    'b"x"',
+    "$(touch x) `touch x` ; rm -rf / | cat && true",
+    "../../../etc/passwd",
+    "C:\\new\\table\\x",
+    "\uff50rint \ufb01 ① \uff21",
+    "\u0440\u0430ypal is Cyrillic",
+    "e\u0301 a\u0308\u0323",
+    "\U0001f600 \U00010000 \U0001d4d0",
+    "漢字仮名交じり文",
+    "\u00a0\u2003\u3000",
+    "-",
+    "- item\n- item",
+    "=====\n:param x: y\n.. code::",
+    ":",
+    "x" * 300,
+    "word " * 60,
+    '" ' * 60,
+    "\\ " * 60,
+    ">>> " * 60,
+    " ",
+]
+# Text that nobody can see, or that turns what is seen around: no spec may hold it.
+UNSEEN = [
+    "a\x00b",
+    "a\x07b",
+    "a\tb",
+    "a\rb",
+    "a\x1bb[2J",
+    "a\x7fb",
+    "a\x85b",
+    "a\xadb",
+    "a\u061cb",
+    "a\u200bb",
+    "a\u200fb",
+    "a\u2028b",
+    "a\u2029b",
+    "a\u202eb",
+    "a\u2066b",
+    "a\ufe0fb",
+    "a\ufeffb",
+    "a\U000e0041b",
+    "a\ud800b",
+]
+
+# The keys whose values are prose; endpoints and the commands of look-alikes are prose by place.
+PROSE = frozenset(
+    [
+        "about",
+        "changes",
+        "constructed",
+        "deprecated",
+        "description",
+        "here",
+        "summary",
+        "text",
+        "title",
+        "unit",
+        "vendor_name",
+        "what",
+        "why",
+    ]
+)
+
+
+def is_prose(path: Steps) -> bool:
+    words = [step for step in path if isinstance(step, str)]
+    return words[-1] in PROSE or words[0] == "endpoints" or "commands" in words
+
+
+def with_prose(data: Data, text: str) -> Data:
+    """The spec with `text` wherever prose stands, and for the place of every citation."""
+
+    def change(path: Steps, old: str) -> str:
+        if path[-1] == "cite":
+            return f"{old.partition(',')[0]}, {text}"
+        return text if is_prose(path) else old
+
+    told: Data = changed(data, change)
+    # Fields that the specs leave without them would hide a place from these tests.
+    for message in told["messages"].values():
+        message["vendor_name"] = message["deprecated"] = message["description"] = text
+        for field in _numbers(message.get("fields", {})):
+            field["unit"] = text
+            field.setdefault("notes", []).append({"text": text, "cite": _cite(told, text)})
+    return told
+
+
+def _cite(data: Data, text: str) -> str:
+    return f"{data['protocol']['authority']}, {text}"
+
+
+def _numbers(fields: dict[str, Any]) -> list[dict[str, Any]]:
+    return [
+        number
+        for field in fields.values()
+        for number in (field["fields"].values() if "element" in field else [field])
+    ]
+
+
+def python_of(files: dict[str, str]) -> dict[str, str]:
+    return {path: text for path, text in files.items() if path.endswith(".py")}
+
+
+def skeleton(text: str) -> str:
+    """A module without its strings: two modules that differ in text alone have the same."""
+    tree = ast.parse(text.encode())
+    for node in ast.walk(tree):
+        if isinstance(node, ast.Constant) and isinstance(node.value, str):
+            node.value = ""
+    return ast.dump(tree)
+
+
+def comments(text: str) -> list[str]:
+    tokens = tokenize.generate_tokens(io.StringIO(text).readline)
+    return [token.string for token in tokens if token.type == tokenize.COMMENT]
+
+
+def doctests(text: str) -> list[str]:
+    """The code that doctest would run."""
+    parser = doctest.DocTestParser()
+    return [
+        example.source
+        for node in ast.walk(ast.parse(text.encode()))
+        if isinstance(node, ast.Expr) and isinstance(node.value, ast.Constant)
+        for example in parser.get_examples(str(node.value.value))
+    ]
+
+
+def imports(text: str) -> list[str]:
+    found = (ast.Import, ast.ImportFrom)
+    return [
+        ast.dump(node) for node in ast.walk(ast.parse(text.encode())) if isinstance(node, found)
+    ]
+
+
+Traits: TypeAlias = "tuple[str, list[str], list[str]]"
+
+
+@cache
+def _traits(text: str) -> Traits:
+    return skeleton(text), comments(text), doctests(text)
+
+
+def traits(files: dict[str, str]) -> dict[str, Traits]:
+    """All of the modules that texts must not change; of their heads, all but the digest."""
+    [digest] = {text.split("\n")[1].rpartition(" ")[2] for text in python_of(files).values()}
+    return {path: _traits(text.replace(digest, "", 1)) for path, text in python_of(files).items()}
+
+
+@cache
+def harmless(name: str) -> dict[str, Traits]:
+    return traits(files_of(with_prose(SPECS[name], HARMLESS)))
+
+
+def vectors(files: dict[str, str]) -> dict[str, Any]:
+    [text] = [text for path, text in files.items() if path.endswith("vectors.json")]
+    assert text.isascii()
+    loaded: dict[str, Any] = json.loads(text)
+    return loaded
+
+
+# ------------------------------------------------------------------ text
+
+
+@pytest.mark.parametrize("text", INERT)
+def test_text_of_any_kind_is_inert_everywhere_at_once(text: str) -> None:
+    data = with_prose(SPECS["greenhouse"], text)
+    assert rules_broken(data) == []
+    files = files_of(data)
+    assert traits(files) == harmless("greenhouse")
+    examples = [v for v in vectors(files)["valid"] if not v["title"].startswith("every value")]
+    assert {example["title"] for example in examples} == {text}
+
+
+ALL_AT_ONCE = "\n\n".join(INERT)
+
+
+def test_text_of_every_kind_is_inert_in_each_place_in_turn() -> None:
+    data = with_prose(SPECS["greenhouse"], HARMLESS)
+    places: dict[Steps, Steps] = {}
+    for path, text in leaves(data):
+        if HARMLESS in text:
+            # One of each kind of place is enough: the first of the fields, the first of the notes.
+            kind = tuple(step for step in path if step in PROSE or step in _STRUCTURE)
+            places.setdefault(kind, path)
+    assert len(places) > 25
+    for place in places.values():
+        hostile = _with(data, place, ALL_AT_ONCE)
+        assert rules_broken(hostile) == [], place
+        assert traits(files_of(hostile)) == harmless("greenhouse"), place
+
+
+def test_text_of_every_kind_is_inert_in_the_real_spec() -> None:
+    data = with_prose(SPECS["busservo"], ALL_AT_ONCE)
+    assert rules_broken(data) == []
+    assert traits(files_of(data)) == harmless("busservo")
+
+
+_STRUCTURE = frozenset(
+    re.findall(
+        r"\w+",
+        "protocol sources endpoints link frame messages fields values notes examples reserved "
+        "errata unknowns lookalikes history cite commands",
+    )
+)
+
+
+def _with(data: Data, place: Steps, text: str) -> Data:
+    def change(path: Steps, old: str) -> str:
+        if path != place:
+            return old
+        return f"{old.partition(',')[0]}, {text}" if path[-1] == "cite" else text
+
+    changed_: Data = changed(data, change)
+    return changed_
+
+
+@pytest.mark.parametrize("text", UNSEEN, ids=ascii)
+def test_text_that_nobody_can_see_is_a_finding_everywhere(text: str) -> None:
+    data = SPECS["greenhouse"]
+    some = [path for path, _ in leaves(data) if is_prose(path)][::10]
+    assert len(some) > 3
+    for place in some:
+        assert set(rules_broken(_with(data, place, text))) <= {"invisible-character", "unusable"}
+
+
+# What no table above has thought of. A backslash and a quote are where it would go wrong.
+TEXT = st.text(
+    st.one_of(
+        st.sampled_from("\"'\\>{}%# \n"),
+        st.characters(exclude_categories=["Cs"]).filter(lambda c: not is_invisible(c)),
+    ),
+    min_size=1,
+)
+
+
+@given(TEXT)
+def test_any_text_is_inert(text: str) -> None:
+    files = files_of(with_prose(SPECS["greenhouse"], text))
+    assert traits(files) == harmless("greenhouse")
+    assert any(vector["title"] == text for vector in vectors(files)["valid"])
+
+
+@given(st.text(st.characters(max_codepoint=0x10FFFF), min_size=1))
+def test_any_text_at_all_is_inert_or_a_finding(text: str) -> None:
+    data = _with(SPECS["greenhouse"], ("messages", "VentsOpen", "summary"), text)
+    broken = rules_broken(data)
+    if any(map(is_invisible, text)):
+        assert set(broken) <= {"invisible-character", "unusable"}
+        assert broken
+    else:
+        assert broken == []
+        for module in python_of(files_of(data)).values():
+            ast.parse(module.encode())
+
+
+def test_hostile_modules_stay_as_the_formatter_has_them(tmp_path: Path) -> None:
+    ruff = Path(sys.executable).with_name("ruff")
+    command = str(ruff) if ruff.exists() else which("ruff")
+    if command is None:
+        pytest.skip("ruff is not installed: `pip install --group lint`")
+    for number, text in enumerate(INERT):
+        files = files_of(with_prose(SPECS["greenhouse"], text))
+        for path, module in python_of(files).items():
+            file = tmp_path / str(number) / path
+            file.parent.mkdir(parents=True, exist_ok=True)
+            file.write_text(module, encoding="utf-8", newline="")
+    done = subprocess.run(
+        [command, "format", "--check", "--no-cache", "--config", ROOT / "pyproject.toml", tmp_path],
+        capture_output=True,
+        encoding="utf-8",
+        check=False,
+    )
+    assert done.returncode == 0, done.stdout
+
+
+# ------------------------------------------------------------------ what is not prose
+
+
+def test_what_is_no_prose_is_a_finding_or_inert() -> None:
+    """Types, ids, formulas, citations, versions: each with text that belongs in none of them."""
+    data = SPECS["greenhouse"]
+    places = [path for path, _ in leaves(data) if not is_prose(path)]
+    assert len(places) > 90
+    outcomes: Counter[str] = Counter()
+    plain = python_of(files_of(data))
+    for number, place in enumerate(places):
+        for text in (INERT[number % len(INERT)], '"""\nimport os\n'):
+            hostile = _with(data, place, text)
+            broken = rules_broken(hostile)
+            outcomes["finding" if broken else "inert"] += 1
+            if not broken:
+                for path, module in python_of(files_of(hostile)).items():
+                    assert imports(module) == imports(plain[path])
+    assert outcomes["finding"] > outcomes["inert"] > 0
+
+
+@pytest.mark.parametrize(
+    "version",
+    [
+        *INERT[::7],
+        "coding",
+        "coding=utf-7",
+        "coding: utf-7",
+        "x coding",
+        '1.0\nimport os; os.system("x")\n#',
+    ],
+)
+def test_a_hostile_version_stays_in_its_comment_and_its_string(version: str) -> None:
+    data: Data = {**with_prose(SPECS["greenhouse"], HARMLESS)}
+    data["protocol"] = {**data["protocol"], "version": version}
+    data["history"] = [{"version": version, "changes": ["It."]}]
+    for message in data["messages"].values():
+        message.pop("since", None)
+    if rules_broken(data):
+        return
+    expected = harmless("greenhouse")
+    for path, module in python_of(files_of(data)).items():
+        assert (skeleton(module), doctests(module)) == (expected[path][0], expected[path][2])
+        first, second, rest = module.split("\n", 2)
+        assert first.startswith("# Generated by framegen ")
+        assert second.startswith("# SHA-256 of the spec: ")
+        assert rest.startswith('"""')
+    assert vectors(files_of(data))["version"] == version
+
+
+@pytest.mark.parametrize(
+    "name",
+    [
+        "a\nimport os\n.yaml",
+        "coding: utf-7.yaml",
+        "coding:utf-7",
+        "# vim: fileencoding=latin-1",
+        '"""',
+        "ünïcode.yaml",
+        "folder/../x\\y.yaml",
+    ],
+)
+def test_a_hostile_file_name_stays_in_its_comment(name: str) -> None:
+    expected = harmless("greenhouse")
+    files = files_of(with_prose(SPECS["greenhouse"], HARMLESS), name)
+    for path, module in python_of(files).items():
+        assert skeleton(module) == expected[path][0]
+        assert comments(module)[2:] == expected[path][1][2:]
+        assert tokenize.detect_encoding(io.BytesIO(module.encode()).readline)[0] == "utf-8"
+
+
+# ------------------------------------------------------------------ names
+
+NO_NAMES = [
+    "",
+    " ",
+    "a b",
+    "a-b",
+    "a.b",
+    "a;b",
+    'a"b',
+    "a'b",
+    "a\nb",
+    "a\\b",
+    "1st",
+    "_",
+    "_private",
+    "__init__",
+    "__class__",
+    "__import__('os')",
+    "x = 1\nimport os",
+    "{{ 7*7 }}",
+    "{% endfor %}",
+    "../evil",
+    "/etc/passwd",
+    "naïve",
+    "\uff50rint",
+    "ﬁeld",
+    "vent_\u0456d",  # with a Cyrillic letter
+    "\u210cost",
+    "x²",
+    "名",
+    "a\u200bb",
+    "None",
+    "True",
+]
+# A name of each kind in the demo spec.
+NAMED = {
+    "protocol": "greenhouse",
+    "source": "manual",
+    "endpoint": "station",
+    "part of the frame": "preamble",
+    "message": "StationRead",
+    "element": "Vent",
+    "field": "uptime_s",
+    "count": "reading_count",
+    "list": "readings",
+    "field of an element": "vent_id",
+    "named value": "at_once",
+    "look-alike": "orchard",
+}
+
+
+@pytest.mark.parametrize("kind", NAMED)
+def test_what_is_no_plain_name_is_a_finding(kind: str) -> None:
+    for name in NO_NAMES:
+        assert rules_broken(renamed(SPECS["greenhouse"], NAMED[kind], name)), name
+
+
+@pytest.mark.parametrize("kind", NAMED)
+def test_a_word_of_python_is_no_name(kind: str) -> None:
+    words = PYTHON_KEYWORDS if kind not in ("message", "element") else {"None", "True", "False"}
+    taken = {word for word in words if word.isidentifier()}
+    if kind in ("field", "count", "list", "field of an element"):
+        taken |= PYTHON_BUILTINS
+    if kind in ("message", "element"):
+        taken |= LIBRARY_NAMES | PYTHON_CLASSES
+    free = [
+        name
+        for name in sorted(taken)
+        if not set(rules_broken(renamed(SPECS["greenhouse"], NAMED[kind], name)))
+        & {"identifier", "duplicate-name"}
+    ]
+    assert free == []
+
+
+def test_no_message_can_take_a_name_that_the_generated_modules_use() -> None:
+    """Whatever modules that import or define the messages have besides them."""
+    used: set[str] = set()
+    for path, text in python_of(files_of(SPECS["greenhouse"])).items():
+        if path.split("/")[2] not in ("__init__.py", "messages.py", "strategies.py"):
+            continue
+        module = ast.parse(text)
+        for node in ast.walk(module):
+            if isinstance(node, ast.ImportFrom | ast.Import):
+                used |= {alias.asname or alias.name for alias in node.names}
+            elif isinstance(node, ast.Name) and isinstance(node.ctx, ast.Load):
+                used.add(node.id)
+        # What the body of a class defines, it finds there.
+        used -= {
+            target.id
+            for node in module.body
+            if isinstance(node, ast.ClassDef)
+            for statement in node.body
+            if isinstance(statement, ast.Assign)
+            for target in statement.targets
+            if isinstance(target, ast.Name)
+        }
+    spec = SPECS["greenhouse"]
+    own = {*spec["messages"], "Vent"}
+    risky = {name for name in used - own if name[0].isupper() and "_" not in name}
+    assert len(risky) > 10
+    free = [name for name in risky if not rules_broken(renamed(spec, "StationRead", name))]
+    assert free == []
+
+
+ODD_MESSAGES = [
+    "Print",
+    "Import",
+    "Return",
+    "Class",
+    "Lambda",
+    "Is",
+    "St",
+    "NoisyStreams",
+    "Filter",
+    "Struct2",
+    "X",
+    "HTTP",
+    "A1B2",
+    "Int",
+    "Object",
+    "Partial",
+    "Chain",
+    "Listed",
+    "Flat",
+    "Table",
+    "Octets",
+    "Main",
+    "Fields",
+    "Codec",
+    "Test",
+]
+ODD_FIELDS = [
+    "flat",
+    "listed",
+    "numbers",
+    "values",
+    "message",
+    "frame",
+    "head",
+    "struct",
+    "shape",
+    "kind",
+    "data",
+    "chain",
+    "partial",
+    "starmap",
+    "iter_unpack",
+    "item",
+    "items",
+    "element",
+    "path",
+    "value",
+    "code",
+    "name",
+    "result",
+    "command",
+    "direction",
+    "lengths",
+    "st",
+    "case",
+    "match",
+    "a",
+    "l",
+]
+
+
+def _works(data: Data, folder: Path) -> None:
+    """The library loads, its strategies too, and every vector goes through it both ways."""
+    files = files_of(data)
+    with library(files, folder) as made:
+        for vector in vectors(files)["valid"]:
+            frame = bytes.fromhex(vector["hex"])
+            message = made.decode(frame, made.Direction(vector["direction"]))
+            assert type(message).__name__ == vector["message"]
+            given_ = {
+                name: [tuple(item.values()) if isinstance(item, dict) else item for item in value]
+                if isinstance(value, list)
+                else value
+                for name, value in vector["fields"].items()
+            }
+            assert type(message)(**given_).encode() == frame
+            assert {name: _plain(getattr(message, name)) for name in given_} == given_
+        for module in ("strategies", "cli"):
+            __import__(f"{made.__name__}.{module}")
+
+
+def _plain(value: Any) -> Any:
+    return (
+        [tuple(i) if isinstance(i, tuple) else i for i in value]
+        if isinstance(value, tuple)
+        else value
+    )
+
+
+@pytest.mark.parametrize("name", ODD_MESSAGES)
+def test_a_message_of_an_odd_name_works_or_is_a_finding(name: str, tmp_path: Path) -> None:
+    for kind in ("StationState", "Vent"):
+        data = renamed(SPECS["greenhouse"], kind, name)
+        if not rules_broken(data):
+            _works(data, tmp_path / kind)
+
+
+@pytest.mark.parametrize("name", ODD_FIELDS)
+def test_a_field_of_an_odd_name_works_or_is_a_finding(name: str, tmp_path: Path) -> None:
+    for kind in ("ramp_s", "vent_count", "vents", "angle", "readings"):
+        data = renamed(SPECS["greenhouse"], kind, name)
+        if not rules_broken(data):
+            _works(data, tmp_path / kind)
+
+
+def test_a_field_of_an_element_may_be_called_as_one_of_its_message(tmp_path: Path) -> None:
+    _works(renamed(SPECS["greenhouse"], "ramp_s", "angle"), tmp_path / "number")
+    _works(renamed(SPECS["greenhouse"], "vents", "angle"), tmp_path / "list")
+    _works(renamed(SPECS["greenhouse"], "vent_count", "angle"), tmp_path / "count")
+
+
+# ------------------------------------------------------------------ the filters alone
+
+
+@given(TEXT)
+def test_a_literal_says_its_text(text: str) -> None:
+    assert ast.literal_eval(literal(text)) == text
+    assert "\n" not in literal(text)
+
+
+@given(st.text())
+def test_a_literal_says_any_text_in_visible_characters(text: str) -> None:
+    shown = literal(text)
+    assert ast.literal_eval(shown) == text
+    assert not any(map(is_invisible, shown))
+
+
+@given(st.text(), st.sampled_from([0, 4, 8]))
+def test_a_docstring_says_its_text_but_for_blanks_and_prompts(text: str, indent: int) -> None:
+    shown = docstring([text], indent)
+    said = ast.literal_eval(shown)
+    assert said.replace("> > >", ">>>").split() == text.replace("> > >", ">>>").split()
+    assert ">>>" not in said
+
+
+@given(st.lists(st.text(), max_size=4), st.sampled_from([0, 4, 8]))
+def test_a_docstring_is_one_string_behind_its_margin(blocks: list[str], indent: int) -> None:
+    shown = docstring(blocks, indent, [">>> 1 + 1", "2"])
+    said = ast.literal_eval(shown)
+    assert [example.source for example in doctest.DocTestParser().get_examples(said)] == ["1 + 1\n"]
+    first, *rest = shown.split("\n")
+    assert first.startswith('"""')
+    assert all(line == "" or line.startswith(" " * indent) for line in rest)
+    assert shown.endswith('"""')
+
+
+@pytest.mark.parametrize(
+    ("text", "said"),
+    [
+        ('a "quoted" word', 'a "quoted" word'),
+        ('"quoted"', '\\"quoted\\"'),
+        ('"""', '\\"\\"\\"'),
+        ('x ""', 'x \\"\\"'),
+        ('x "" y', 'x \\"" y'),
+        ("back\\slash", "back\\\\slash"),
+        ('\\"', '\\\\\\"'),
+        ("  folded \n  lines ", "folded lines"),
+        (">>> x", "> > > x"),
+        ("", ""),
+    ],
+)
+def test_prose_escapes_no_more_than_it_must(text: str, said: str) -> None:
+    assert prose(text) == said
+
+
+def test_a_docstring_breaks_its_lines_at_the_width() -> None:
+    text = docstring(["word " * 60, "word " * 30], 4)
+    assert max(map(len, (" " * 4 + text).split("\n"))) <= 100
+    assert text.count("\n\n") == 1
+
+
+def test_a_docstring_of_nothing_is_an_empty_one() -> None:
+    assert docstring([], 4) == docstring(["", " \n\n "], 4) == '""""""'
+
+
+@given(st.text())
+def test_a_comment_holds_nothing_that_python_reads(text: str) -> None:
+    said = comment(text)
+    assert said.isascii()
+    assert said.isprintable()
+    source = f"# {said}\n# {said}\nx = 1\n".encode()
+    assert tokenize.detect_encoding(io.BytesIO(source).readline)[0] == "utf-8"
+
+
+@pytest.mark.parametrize("text", ["busservo.yaml", "1.0.0", "my spec-2.yaml", "2024.1+rc_1"])
+def test_an_ordinary_name_is_kept_in_a_comment(text: str) -> None:
+    assert comment(text) == text

@@ -1,0 +1,425 @@
+"""What follows from a spec: offsets, lengths and times, against numbers worked out by hand."""
+
+from typing import Any, NamedTuple
+
+import pytest
+from framegen.codec import NotAFrame, Unencodable, decode, describe_range, encode
+from framegen.layout import Layout, MessageLayout, derive_frame, part_size
+from framegen.spec import Spec
+from framegen.values import Direction
+from hypothesis import given
+from hypothesis import strategies as st
+
+from tests.specimens import BUSSERVO, DEMO, Data, data_of, layout_of
+
+SPECS = {"busservo": data_of(BUSSERVO), "greenhouse": data_of(DEMO)}
+LAYOUTS = {name: layout_of(data) for name, data in SPECS.items()}
+SERVO = LAYOUTS["busservo"]
+HOUSE = LAYOUTS["greenhouse"]
+HOST = Direction("host", "controller")
+CONTROLLER = Direction("controller", "host")
+
+
+class Row(NamedTuple):
+    """A line of the protocol document, as numbers: from the header's first byte on."""
+
+    id: int
+    sender: str
+    offsets: dict[str, int]
+    lengths: list[int]
+    largest: int
+    kind: str
+
+
+# The command is byte 3 and the first parameter byte 4; the length counts the parameters and two
+# more, and no length is above 255.
+DOCUMENT = {
+    "ServoMove": Row(
+        3,
+        "host",
+        {"servo_count": 4, "time_ms": 5, "targets": 7},
+        [*range(8, 255, 3)],
+        256,
+        "command",
+    ),
+    "ActionGroupRun": Row(6, "host", {"group": 4, "times": 5}, [5], 7, "command"),
+    "ActionGroupStop": Row(7, "host", {}, [2], 4, "command"),
+    "ActionGroupSpeed": Row(11, "host", {"group": 4, "percent": 5}, [5], 7, "command"),
+    "BatteryVoltageRead": Row(15, "host", {}, [2], 4, "query"),
+    "ServoUnload": Row(
+        20, "host", {"servo_count": 4, "servo_ids": 5}, [*range(4, 256)], 257, "command"
+    ),
+    "ServoPositionsRead": Row(
+        21, "host", {"servo_count": 4, "servo_ids": 5}, [*range(4, 256)], 257, "query"
+    ),
+    "ActionGroupStarted": Row(6, "controller", {"group": 4, "times": 5}, [5], 7, "report"),
+    "ActionGroupStopped": Row(7, "controller", {}, [2], 4, "report"),
+    "ActionGroupCompleted": Row(8, "controller", {"group": 4, "times": 5}, [5], 7, "report"),
+    "BatteryVoltage": Row(15, "controller", {"voltage_mv": 4}, [4], 6, "reply"),
+    "ServoPositions": Row(
+        21, "controller", {"servo_count": 4, "positions": 5}, [*range(3, 256, 3)], 257, "reply"
+    ),
+}
+
+
+def test_the_document_names_twelve_messages() -> None:
+    assert sorted(SERVO.messages) == sorted(DOCUMENT)
+
+
+@pytest.mark.parametrize("name", DOCUMENT)
+def test_a_message_lies_as_the_document_has_it(name: str) -> None:
+    row, message = DOCUMENT[name], SERVO.messages[name]
+    offsets = {field.name: field.offset for field in message.numbers}
+    if message.repeat is not None:
+        offsets[message.repeat.name] = message.repeat.offset
+    assert (
+        Row(
+            message.id,
+            message.direction.sender,
+            offsets,
+            list(message.lengths),
+            message.largest,
+            SERVO.kind(name),
+        )
+        == row
+    )
+
+
+def test_how_many_servos_a_frame_has_room_for() -> None:
+    counts = {
+        name: (message.counts[0], message.counts[-1])
+        for name, message in SERVO.messages.items()
+        if message.repeat is not None
+    }
+    assert counts == {
+        "ServoMove": (1, 83),
+        "ServoUnload": (1, 252),
+        "ServoPositionsRead": (1, 252),
+        "ServoPositions": (0, 84),
+    }
+    assert SERVO.messages["ActionGroupStop"].counts == range(1)
+
+
+def test_the_frame_of_bus_servos() -> None:
+    frame = SERVO.frame
+    assert frame.header == b"\x55\x55"
+    assert (frame.length_name, frame.length_at, frame.length.name) == ("length", 2, "u8")
+    assert (frame.id_name, frame.id_at, frame.id.name) == ("command", 3, "u8")
+    assert (frame.body_at, frame.uncounted, frame.counted) == (4, 2, 2)
+    assert frame.legal_ids == range(256)
+
+
+def test_the_frame_of_the_greenhouse() -> None:
+    frame = HOUSE.frame
+    assert frame.header == b"\xc3\x5a\xa5"
+    assert (frame.id_at, frame.length_at, frame.body_at) == (3, 4, 6)
+    assert (frame.uncounted, frame.counted) == (6, 0)
+    assert HOUSE.messages["VentsOpen"].largest == 33
+    assert HOUSE.messages["StationState"].largest == 521
+
+
+def test_a_frame_takes_its_time_on_the_line() -> None:
+    """9600 8N1 is 960 bytes a second; 19200 8E2 has twelve bits a byte."""
+    move = SERVO.messages["ServoMove"]
+    assert move.wire_seconds(25) == pytest.approx(0.02604, abs=1e-5)
+    assert move.wire_seconds(11 + 23) == pytest.approx(0.0354, abs=1e-4)
+    assert move.wire_seconds(move.largest) == pytest.approx(256 / 960)
+    assert HOUSE.messages["StationRead"].wire_seconds(6) == pytest.approx(6 * 12 / 19200)
+
+
+@pytest.mark.parametrize(
+    ("link", "bits"),
+    [
+        ({}, 10),
+        ({"data_bits": 7}, 9),
+        ({"parity": "odd"}, 11),
+        ({"parity": "even", "stop_bits": 2}, 12),
+        ({"data_bits": 5, "stop_bits": 2}, 8),
+    ],
+)
+def test_a_byte_has_its_start_parity_and_stop_bits(link: dict[str, Any], bits: int) -> None:
+    data = {**SPECS["busservo"], "link": {"baud": 9600, **link}}
+    assert layout_of(data).spec.link.bits_per_byte == bits
+
+
+def test_every_number_of_a_frame_has_its_place() -> None:
+    move = SERVO.messages["ServoMove"]
+    assert [(path, at, field.wire.size) for path, at, field in move.fields_of(2)] == [
+        ("servo_count", 4, 1),
+        ("time_ms", 5, 2),
+        ("targets[0].servo_id", 7, 1),
+        ("targets[0].position", 8, 2),
+        ("targets[1].servo_id", 10, 1),
+        ("targets[1].position", 11, 2),
+    ]
+    state = HOUSE.messages["StationState"]
+    assert [(path, at) for path, at, _ in state.fields_of(2)] == [
+        ("uptime_s", 6),
+        ("reading_count", 10),
+        ("readings[0]", 11),
+        ("readings[1]", 13),
+    ]
+    assert list(SERVO.messages["ActionGroupStop"].fields_of(0)) == []
+
+
+def every_message() -> list[Any]:
+    return [
+        pytest.param(message, id=f"{house} {name}")
+        for house, layout in LAYOUTS.items()
+        for name, message in layout.messages.items()
+    ]
+
+
+@pytest.mark.parametrize("message", every_message())
+def test_the_fields_of_every_legal_frame_fill_it_without_gap_or_overlap(
+    message: MessageLayout,
+) -> None:
+    for count in message.counts:
+        taken = [
+            at + byte
+            for _, at, field in message.fields_of(count)
+            for byte in range(field.wire.size)
+        ]
+        size = message.formula.at(count) + message.frame.uncounted
+        assert taken == list(range(message.frame.body_at, size))
+
+
+@pytest.mark.parametrize("message", every_message())
+def test_each_legal_length_has_one_count_and_each_count_one_length(message: MessageLayout) -> None:
+    lengths = [message.formula.at(count) for count in message.counts]
+    assert lengths == list(message.lengths)
+    assert [message.formula.count_at(length) for length in lengths] == list(message.counts)
+    assert message.lengths[-1] <= message.frame.length.high
+    assert message.largest == len(
+        encode(_layout_of(message), message, _values(message, message.counts[-1]))
+    )
+
+
+def _layout_of(message: MessageLayout) -> Layout:
+    [layout] = [each for each in LAYOUTS.values() if message in each.messages.values()]
+    return layout
+
+
+def _values(message: MessageLayout, count: int) -> dict[str, Any]:
+    values: dict[str, Any] = {field.name: field.low for field in message.numbers}
+    for field in message.numbers:
+        if message.counts_with(field):
+            del values[field.name]
+    if message.repeat is not None:
+        item: Any = {field.name: field.high for field in message.repeat.fields}
+        if message.repeat.element is None:
+            item = message.repeat.fields[0].high
+        values[message.repeat.name] = [item] * count
+    return values
+
+
+def test_what_a_user_gives_is_everything_but_the_count() -> None:
+    given_ = {
+        name: [argument.name for argument in message.arguments]
+        for name, message in SERVO.messages.items()
+    }
+    assert given_["ServoMove"] == ["time_ms", "targets"]
+    assert given_["ServoPositions"] == ["positions"]
+    assert given_["ActionGroupRun"] == ["group", "times"]
+    assert given_["ActionGroupStop"] == []
+
+
+def test_a_field_is_narrowed_by_a_range_of_its_own() -> None:
+    [vent_id, angle] = HOUSE.messages["VentsOpen"].repeat.fields  # type: ignore[union-attr]
+    assert (vent_id.low, vent_id.high, vent_id.narrowed) == (0, 255, False)
+    assert (angle.low, angle.high, angle.narrowed) == (-900, 900, True)
+    assert not any(
+        field.narrowed for message in SERVO.messages.values() for field in message.numbers
+    )
+
+
+@pytest.mark.parametrize(
+    ("declared", "low", "high"),
+    [(None, 0, 65535), ("5..", 5, 65535), ("0..7", 0, 7), ("0..65535", 0, 65535)],
+)
+def test_an_open_range_ends_where_the_type_does(declared: str | None, low: int, high: int) -> None:
+    changed: Data = {**SPECS["busservo"]}
+    voltage = {"type": "u16", "about": "It.", **({"range": declared} if declared else {})}
+    message = {**changed["messages"]["BatteryVoltage"], "fields": {"voltage_mv": voltage}}
+    message["examples"] = [
+        {
+            "title": "An end",
+            "hex": f"55 55 04 0F {end.to_bytes(2, 'little').hex(' ')}",
+            "values": {"voltage_mv": end},
+            "constructed": "By hand.",
+        }
+        for end in dict.fromkeys([low, high])
+    ]
+    changed["messages"] = {**changed["messages"], "BatteryVoltage": message}
+    [field] = layout_of(changed).messages["BatteryVoltage"].numbers
+    assert (field.low, field.high) == (low, high)
+    assert field.narrowed == ((low, high) != (0, 65535))
+
+
+def test_directions_come_in_the_order_in_which_they_first_appear() -> None:
+    assert SERVO.directions == [HOST, CONTROLLER]
+    assert [str(way) for way in HOUSE.directions] == [
+        "gateway -> station",
+        "station -> gateway",
+        "gateway -> display",
+    ]
+    assert sorted(SERVO.sent(HOST)) == [3, 6, 7, 11, 15, 20, 21]
+    assert sorted(SERVO.sent(CONTROLLER)) == [6, 7, 8, 15, 21]
+    assert SERVO.sent(Direction("host", "host")) == {}
+
+
+def test_kinds_are_told_by_who_asks_and_who_answers() -> None:
+    assert {name: HOUSE.kind(name) for name in HOUSE.messages} == {
+        "VentsOpen": "command",
+        "StationRead": "query",
+        "StationState": "reply",
+        "VentJammed": "report",
+        "TextShow": "command",
+    }
+
+
+def test_the_parts_of_a_frame_have_their_sizes() -> None:
+    spec = Spec.model_validate(SPECS["greenhouse"])
+    assert {name: part_size(part) for name, part in spec.frame.items()} == {
+        "preamble": 3,
+        "kind": 1,
+        "size": 2,
+        "payload": 0,
+    }
+    lookalike = spec.lookalikes["orchard"].frame
+    assert lookalike is not None
+    assert {name: part_size(part) for name, part in lookalike.items()}["check"] == 1
+
+
+@pytest.mark.parametrize("gone", ["length", "command"])
+def test_a_frame_without_its_length_or_id_is_for_the_checks_to_refuse(gone: str) -> None:
+    spec = Spec.model_validate(SPECS["busservo"])
+    parts = {name: part for name, part in spec.frame.items() if name != gone}
+    with pytest.raises(AssertionError, match="frame-parts"):
+        derive_frame(spec.model_copy(update={"frame": parts}))
+
+
+# ------------------------------------------------------------------ the reference codec
+
+
+def examples() -> list[Any]:
+    return [
+        pytest.param(house, name, example["hex"], example["values"], id=f"{name} {number}")
+        for house, data in SPECS.items()
+        for name, message in data["messages"].items()
+        for number, example in enumerate(message["examples"])
+    ]
+
+
+@pytest.mark.parametrize(("house", "name", "text", "values"), examples())
+def test_the_reference_codec_reads_and_writes_every_example(
+    house: str, name: str, text: str, values: dict[str, Any]
+) -> None:
+    layout, frame = LAYOUTS[house], bytes.fromhex(text)
+    message = layout.messages[name]
+    decoded = decode(layout, message.direction, frame)
+    assert (decoded.layout, decoded.values) == (message, values)
+    assert encode(layout, message, values) == frame
+
+
+@pytest.mark.parametrize(
+    ("text", "reason", "offset"),
+    [
+        ("", "too short", 0),
+        ("55", "too short", 1),
+        ("54", "bad header", 0),
+        ("55 54", "bad header", 1),
+        ("55 55", "too short", 2),
+        ("55 55 08", "too short", 3),
+        ("55 55 08 09", "unknown command", 3),
+        ("55 55 07 03", "length mismatch", 2),
+        ("55 55 05 03", "length mismatch", 2),
+        ("55 55 FF 03", "length mismatch", 2),
+        ("55 55 00 07", "length mismatch", 2),
+        ("55 55 08 03 01 E8 03 01 20", "too short", 9),
+        ("55 55 08 03 01 E8 03 01 20 03 00", "trailing bytes", 10),
+        ("55 55 08 03 02 E8 03 01 20 03", "count mismatch", 4),
+        ("55 55 08 03 00 E8 03 01 20 03", "count mismatch", 4),
+        ("55 55 02 07 00", "trailing bytes", 4),
+        ("55 55 03 14 00", "length mismatch", 2),
+    ],
+)
+def test_the_reference_codec_refuses_what_is_no_frame(text: str, reason: str, offset: int) -> None:
+    with pytest.raises(NotAFrame) as refused:
+        decode(SERVO, HOST, bytes.fromhex(text))
+    assert (refused.value.reason, refused.value.offset) == (reason, offset)
+    assert str(refused.value) == f"{reason} at byte {offset}: {refused.value.expected}"
+
+
+@pytest.mark.parametrize("angle", ["FC 7B", "03 85", "80 00"])
+def test_the_reference_codec_holds_to_ranges(angle: str) -> None:
+    frame = bytes.fromhex(f"C3 5A A5 10 00 06 00 00 01 01 {angle}")
+    with pytest.raises(NotAFrame) as refused:
+        decode(HOUSE, Direction("gateway", "station"), frame)
+    assert (refused.value.reason, refused.value.offset) == ("out of range", 10)
+    assert "vents[0].angle is " in str(refused.value)
+
+
+@pytest.mark.parametrize(
+    ("name", "values", "said"),
+    [
+        ("ServoMove", {"targets": []}, "`time_ms` is missing"),
+        ("ServoMove", {"time_ms": 1, "targets": [], "x": 1}, "ServoMove has no field `x`"),
+        ("ServoMove", {"time_ms": 1, "targets": {}}, "targets must be a list"),
+        ("ServoMove", {"time_ms": 1, "targets": []}, "targets: 0 items is outside 1..83"),
+        (
+            "ServoMove",
+            {"time_ms": 1, "targets": [5]},
+            "targets[0] must have the keys servo_id, pos",
+        ),
+        (
+            "ServoMove",
+            {"time_ms": 1, "targets": [{"servo_id": 1}]},
+            "targets[0] must have the keys servo_id, position",
+        ),
+        ("ServoUnload", {"servo_ids": [1, 256]}, "servo_ids[1]: 256 is outside 0..255"),
+        ("ServoUnload", {"servo_ids": [True]}, "servo_ids[0]: True is not a whole number"),
+        ("ActionGroupRun", {"group": "1", "times": 0}, "group: '1' is not a whole number"),
+        ("ActionGroupRun", {"group": 1, "times": -1}, "times: -1 is outside 0..65535"),
+    ],
+)
+def test_the_reference_codec_refuses_what_no_frame_can_carry(
+    name: str, values: dict[str, Any], said: str
+) -> None:
+    with pytest.raises(Unencodable) as refused:
+        encode(SERVO, SERVO.messages[name], values)
+    assert str(refused.value).startswith(said)
+
+
+@given(st.sampled_from(list(LAYOUTS)), st.data())
+def test_what_the_reference_codec_accepts_it_writes_again(house: str, data: st.DataObject) -> None:
+    layout = LAYOUTS[house]
+    way = data.draw(st.sampled_from(layout.directions))
+    message = data.draw(st.sampled_from(list(layout.sent(way).values())))
+    count = data.draw(st.integers(message.counts[0], min(message.counts[-1], 5)))
+    frame = bytearray(encode(layout, message, _values(message, count)))
+    for _ in range(data.draw(st.integers(0, 3))):
+        frame[data.draw(st.integers(0, len(frame) - 1))] = data.draw(st.integers(0, 255))
+    try:
+        decoded = decode(layout, way, bytes(frame))
+    except NotAFrame as error:
+        offset = error.offset
+    else:
+        offset = 0
+        assert encode(layout, decoded.layout, decoded.values) == frame
+    assert 0 <= offset <= len(frame)
+
+
+@pytest.mark.parametrize(
+    ("numbers", "words"),
+    [
+        (range(5, 6), "5"),
+        (range(3, 7), "3, 4, 5, 6"),
+        (range(8, 20, 3), "8, 11, 14, 17"),
+        (range(4, 256), "4..255"),
+        (range(8, 255, 3), "8, 11, 14 .. 254"),
+        (range(5, 516, 2), "5, 7, 9 .. 515"),
+    ],
+)
+def test_a_range_in_words(numbers: range, words: str) -> None:
+    assert describe_range(numbers) == words

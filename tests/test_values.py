@@ -1,0 +1,146 @@
+"""The small notations of a spec: what each means, what none is, and that all of them read back."""
+
+from collections.abc import Callable
+from decimal import Decimal
+from typing import Any
+
+import pytest
+from framegen.values import Citation, Direction, Range, Scale, parse_hex, to_hex
+from hypothesis import given
+from hypothesis import strategies as st
+
+WORDS = st.from_regex(r"[a-z][a-z0-9_]{0,8}", fullmatch=True)
+
+
+@pytest.mark.parametrize(
+    ("parse", "text", "value"),
+    [
+        (Direction.parse, "host -> controller", Direction("host", "controller")),
+        (Direction.parse, "a->b", Direction("a", "b")),
+        (Range.parse, "0..1000", Range(0, 1000)),
+        (Range.parse, "1..", Range(1, None)),
+        (Range.parse, "-900..900", Range(-900, 900)),
+        (Range.parse, "-9..-3", Range(-9, -3)),
+        (Range.parse, "0 .. 7", Range(0, 7)),
+        (Range.parse, "0..18446744073709551615", Range(0, 2**64 - 1)),
+        (Scale.parse, "0.001 V", Scale(Decimal("0.001"), "V")),
+        (Scale.parse, "5 mm", Scale(Decimal(5), "mm")),
+        (Scale.parse, "0.24 °", Scale(Decimal("0.24"), "°")),
+        (Citation.parse, "vendor, section 1.1", Citation("vendor", "section 1.1")),
+        (Citation.parse, "vendor", Citation("vendor", "")),
+        (Citation.parse, " vendor ,  a, b ", Citation("vendor", "a, b")),
+        (parse_hex, "55 55 02 07", b"\x55\x55\x02\x07"),
+        (parse_hex, "fF", b"\xff"),
+        (parse_hex, "  01\n  02\t03 ", b"\x01\x02\x03"),
+    ],
+)
+def test_a_notation_is_read(parse: Callable[[str], Any], text: str, value: object) -> None:
+    assert parse(text) == value
+
+
+@pytest.mark.parametrize(
+    ("parse", "text", "hint"),
+    [
+        (Direction.parse, "", "write it like `host -> controller`"),
+        (Direction.parse, "host", "write it like `host -> controller`"),
+        (Direction.parse, "host -> ", "write it like `host -> controller`"),
+        (Direction.parse, "host to controller", "write it like `host -> controller`"),
+        (Direction.parse, "a b -> c", "write it like `host -> controller`"),
+        (Direction.parse, "a -> b\n", "write it like `host -> controller`"),
+        (Range.parse, "", "write it like `0..1000`"),
+        (Range.parse, "..5", "write it like `0..1000`"),
+        (Range.parse, "0-5", "write it like `0..1000`"),
+        (Range.parse, "0...5", "write it like `0..1000`"),
+        (Range.parse, "0x1..5", "write it like `0..1000`"),
+        (Range.parse, "+1..5", "write it like `0..1000`"),
+        (Range.parse, "\u0663..\u0665", "write it like `0..1000`"),
+        (Range.parse, f"0..{10**20}", "write it like `0..1000`"),
+        (Range.parse, "1..5\n", "write it like `0..1000`"),
+        (Scale.parse, "", "like `0.001 V`"),
+        (Scale.parse, "0.001", "like `0.001 V`"),
+        (Scale.parse, "0.001V", "like `0.001 V`"),
+        (Scale.parse, "0 V", "a step above zero"),
+        (Scale.parse, "0.000 V", "a step above zero"),
+        (Scale.parse, "-1 V", "a step above zero"),
+        (Scale.parse, "1e3 V", "like `0.001 V`"),
+        (Scale.parse, "nan V", "like `0.001 V`"),
+        (Scale.parse, "1 V s", "like `0.001 V`"),
+        (Citation.parse, "", "like `vendor, section 1.1`"),
+        (Citation.parse, " , section 1.1", "like `vendor, section 1.1`"),
+        (parse_hex, "", "two digits a byte"),
+        (parse_hex, "5", "two digits a byte"),
+        (parse_hex, "5555", "two digits a byte"),
+        (parse_hex, "55 5", "two digits a byte"),
+        (parse_hex, "0x55", "two digits a byte"),
+        (parse_hex, "55, 55", "two digits a byte"),
+        (parse_hex, "\uff15\uff15", "two digits a byte"),
+    ],
+)
+def test_what_is_none_is_told_with_what_to_write(
+    parse: Callable[[str], Any], text: str, hint: str
+) -> None:
+    with pytest.raises(ValueError, match=r"^`|depends") as refused:
+        parse(text)
+    assert str(refused.value).startswith("`")
+    assert hint in str(refused.value)
+
+
+def test_a_long_text_that_is_no_hex_is_cut_short() -> None:
+    with pytest.raises(ValueError, match=rf"^`{'zz ' * 13}z` is no hex"):
+        parse_hex("zz " * 500)
+
+
+@given(WORDS, WORDS)
+def test_a_direction_reads_back_and_turns_round(sender: str, receiver: str) -> None:
+    direction = Direction(sender, receiver)
+    assert Direction.parse(str(direction)) == direction
+    assert direction.reversed == Direction(receiver, sender)
+    assert direction.reversed.reversed == direction
+    assert direction.key == f"{sender}_to_{receiver}"
+
+
+@given(st.integers(-(10**20) + 1, 10**20 - 1), st.none() | st.integers(0, 10**20 - 1))
+def test_a_range_reads_back(low: int, high: int | None) -> None:
+    range_ = Range(low, high)
+    assert Range.parse(str(range_)) == range_
+
+
+@given(st.binary(min_size=1))
+def test_hex_reads_back(data: bytes) -> None:
+    assert parse_hex(to_hex(data)) == data
+    assert to_hex(data) == " ".join(f"{byte:02X}" for byte in data)
+
+
+@given(WORDS, st.text(alphabet="abc 1.,-", max_size=12).map(lambda place: place.strip()))
+def test_a_citation_reads_back(source: str, place: str) -> None:
+    citation = Citation(source, place)
+    assert Citation.parse(str(citation)) == citation
+
+
+@pytest.mark.parametrize(
+    ("scale", "value", "said"),
+    [
+        ("0.001 V", 7500, "7.500 V"),
+        ("0.001 V", 7881, "7.881 V"),
+        ("0.001 V", 0, "0.000 V"),
+        ("0.01 K", -150, "-1.50 K"),
+        ("0.24 °", 1000, "240.00 °"),
+        ("5 mm", 3, "15 mm"),
+        ("0.1 V", 3, "0.3 V"),
+    ],
+)
+def test_a_scaled_value_is_exact(scale: str, value: int, said: str) -> None:
+    read = Scale.parse(scale)
+    assert read.of(value) == said
+    assert str(read) == scale
+
+
+@given(st.text())
+def test_any_text_is_read_or_refused_in_words(text: str) -> None:
+    for parse in (Direction.parse, Range.parse, Scale.parse, Citation.parse, parse_hex):
+        said = "`"
+        try:
+            parse(text)
+        except ValueError as error:
+            said = str(error)
+        assert said.startswith("`")
