@@ -150,10 +150,12 @@ def as_tuple(value: Any) -> tuple[Any, ...] | None:
 
 def shown(value: object) -> str:
     """`value` for an error message, cut short where it would flood it."""
-    # Python refuses to write out integers of thousands of digits.
     if isinstance(value, int) and value.bit_length() > 128:
         return f"an integer of {value.bit_length()} bits"
-    text = repr(value)
+    try:
+        text = repr(value)
+    except ValueError:  # Python refuses to write out integers of thousands of digits
+        return _kind(value)
     return text if len(text) <= 60 else text[:57] + "..."
 
 

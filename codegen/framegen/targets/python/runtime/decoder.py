@@ -104,7 +104,9 @@ class StreamDecoder:
 
     def flush(self) -> list[Message | Noise]:
         """Says that the line has gone quiet: what is held is no frame, but may hide one."""
-        return self._search(self._held, quiet=True)
+        events = self._search(self._held, quiet=True)
+        self._reason = Reason.BAD_HEADER
+        return events
 
     def _search(self, data: bytes, *, quiet: bool) -> list[Message | Noise]:
         """Tells what can be told, and keeps the rest. `at` never goes back: time is linear."""
