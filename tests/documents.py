@@ -1,0 +1,193 @@
+"""Plays the examples in our pages: runs what they tell the reader to run, and says what is printed.
+
+Fenced blocks are played from the top of a page to its end, in a copy of the project: `console`
+(commands after `$`, with what they print), `pycon` (a Python session), `python` (a program),
+`output` (what the last program printed) and `diff`, which is applied to the file that it names.
+What is printed may leave lines out with `...`; all else must agree to the letter.
+
+    python -m tests.documents
+
+writes what is really printed into the pages.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import doctest
+import io
+import os
+import re
+import shlex
+import shutil
+import subprocess
+import sys
+import tempfile
+import traceback
+from pathlib import Path
+from typing import Any
+from unittest import mock
+
+from busservo import BatteryVoltage, BatteryVoltageRead
+
+ROOT = Path(__file__).parent.parent
+PAGES = [ROOT / "README.md", ROOT / "CONTRIBUTING.md", *sorted((ROOT / "docs").glob("*.md"))]
+
+_NEEDED = ("spec", "generated", "codegen", "tests/captures")
+_COMMANDS = {"busservo", "framegen"}
+_BLOCK = re.compile(r"^```(console|pycon|python|output|diff)\n(.*?)^```$", re.MULTILINE | re.DOTALL)
+_COMMAND = re.compile(r"^\$ (.*)\n", re.MULTILINE)
+
+
+def played(page: str, folder: Path) -> str:
+    """The page as it should be, with what its examples print in `folder`, which they may change."""
+    player = _Player(folder)
+    return _BLOCK.sub(lambda block: f"```{block[1]}\n{player.play(block[1], block[2])}```", page)
+
+
+def copy_project(folder: Path) -> Path:
+    """A copy of all that the examples work on."""
+    for name in _NEEDED:
+        litter = shutil.ignore_patterns("__pycache__")
+        shutil.copytree(ROOT / name, folder / name, ignore=litter)
+    return folder
+
+
+class _Player:
+    def __init__(self, folder: Path) -> None:
+        self._folder = folder
+        self._names: dict[str, Any] = {"__name__": "__main__"}
+        self._printed = ""
+
+    def play(self, kind: str, block: str) -> str:
+        match kind:
+            case "console":
+                return self._console(block)
+            case "pycon":
+                return self._session(block)
+            case "output":
+                return _told(block, self._printed)
+            case "python":
+                self._printed = self._program(block)
+            case _:
+                _apply(block, self._folder)
+        return block
+
+    def _program(self, source: str) -> str:
+        output = io.StringIO()
+        with mock.patch("serial.Serial", _Board), contextlib.redirect_stdout(output):
+            exec(source, self._names)  # noqa: S102 - our own pages
+        return output.getvalue()
+
+    def _console(self, block: str) -> str:
+        before, *parts = _COMMAND.split(block)
+        assert not before, f"a console block begins with a command, not with {before!r}"
+        shown = ""
+        for command, expected in zip(parts[::2], parts[1::2], strict=True):
+            shown += f"$ {command}\n" + _told(expected, self._run(command))
+        return shown
+
+    def _run(self, line: str) -> str:
+        """What a terminal shows for a command line, which may hold pipes."""
+        environment = os.environ | {
+            "COLUMNS": "80",
+            "PYTHONPATH": os.pathsep.join(
+                [str(self._folder / "generated"), str(self._folder / "codegen")]
+            ),
+            "PYTHONUTF8": "1",
+        }
+        output = ""
+        for command in line.split(" | "):
+            name, *arguments = shlex.split(command)
+            assert name in _COMMANDS, f"{name} is not run here: put it into a block of `sh`"
+            output = subprocess.run(
+                [sys.executable, "-m", name, *arguments],
+                cwd=self._folder,
+                env=environment,
+                input=output,
+                stdout=subprocess.PIPE,
+                stderr=subprocess.STDOUT,
+                encoding="utf-8",
+                timeout=60,
+                check=False,
+            ).stdout
+        return output
+
+    def _session(self, block: str) -> str:
+        shown = ""
+        for part in doctest.DocTestParser().parse(block):
+            if isinstance(part, str):
+                shown += part
+            else:
+                first, *more = part.source.splitlines()
+                shown += "".join([f">>> {first}\n", *(f"... {line}\n" for line in more)])
+                shown += _told(part.want, self._evaluate(part.source))
+        return shown
+
+    def _evaluate(self, source: str) -> str:
+        """What an interactive Python prints."""
+        output = io.StringIO()
+        with contextlib.redirect_stdout(output):
+            try:
+                exec(compile(source, "<page>", "single"), self._names)  # noqa: S102 - our own pages
+            except Exception as error:  # noqa: BLE001 - it is shown
+                print("Traceback (most recent call last):", "  ...", sep="\n")
+                print("".join(traceback.format_exception_only(error)), end="")
+        return output.getvalue()
+
+
+def _told(expected: str, actual: str) -> str:
+    """What is expected, where it agrees with what is, save for lines left out; else what is."""
+    pieces = re.split(r"^\.\.\.\n", expected, flags=re.MULTILINE)
+    pattern = r"(?:.*\n)*".join(map(re.escape, pieces))
+    return expected if re.fullmatch(pattern, actual) else actual
+
+
+def _apply(diff: str, folder: Path) -> None:
+    """Change a file as a diff says. Lines are found by what they hold, so `@@` has no numbers."""
+    _, target, *hunks = re.split(r"^(?:--- .*\n\+\+\+ (.*)\n|@@\n)", diff, flags=re.MULTILINE)
+    file = folder / target
+    text = file.read_text(encoding="utf-8")
+    for hunk in filter(None, hunks):
+        lines = hunk.splitlines(keepends=True)
+        old = "".join(line[1:] for line in lines if line[0] in " -")
+        new = "".join(line[1:] for line in lines if line[0] in " +")
+        assert text.count(old) == 1, f"{target} holds {text.count(old)} times:\n{old}"
+        text = text.replace(old, new)
+    file.write_text(text, encoding="utf-8", newline="\n")
+
+
+class _Board(contextlib.AbstractContextManager["_Board"]):
+    """A port with a controller behind it that knows its battery, on a line that is not clean."""
+
+    def __init__(self, port: str, baudrate: int, timeout: float) -> None:
+        assert (type(port), baudrate, timeout > 0) == (str, 9600, True)
+        self._waiting = b"\x13"
+
+    def __exit__(self, *_: object) -> None:
+        assert self._waiting == b"", "something was not read"
+
+    @property
+    def in_waiting(self) -> int:
+        return len(self._waiting)
+
+    def write(self, data: bytes) -> None:
+        assert data == BatteryVoltageRead().encode()
+        self._waiting += BatteryVoltage(7881).encode()
+
+    def read(self, size: int) -> bytes:
+        data, self._waiting = self._waiting[:size], self._waiting[size:]
+        return data
+
+
+def _refresh() -> None:
+    for page in PAGES:
+        text = page.read_text(encoding="utf-8")
+        with tempfile.TemporaryDirectory() as folder:
+            new = played(text, copy_project(Path(folder)))
+        if new != text:
+            page.write_text(new, encoding="utf-8", newline="\n")
+            print(f"wrote {page.relative_to(ROOT)}")
+
+
+if __name__ == "__main__":
+    _refresh()

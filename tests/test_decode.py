@@ -1,0 +1,262 @@
+"""Single frames: what `decode` reads, what it refuses and why, and the way there and back."""
+
+import re
+from collections.abc import Callable
+from typing import Any
+
+import busservo
+import pytest
+from busservo import MESSAGES, DecodeError, Direction, Message, ProtocolError, Reason, strategies
+from hypothesis import given
+from hypothesis import strategies as st
+
+from tests.cases import (
+    CASES,
+    CONTROLLER,
+    EITHER,
+    HOST,
+    BadFrame,
+    Case,
+    each_bad_frame,
+    each_case,
+)
+from tests.lines import HEADS, damaged_frames, directions
+
+each_message = pytest.mark.parametrize("kind", MESSAGES, ids=lambda kind: kind.__name__)
+
+
+def strategy_of(kind: type[Message]) -> st.SearchStrategy[Message]:
+    """The strategy that busservo.strategies names after a message."""
+    name = re.sub(r"(?<!^)(?=[A-Z])", "_", kind.__name__).lower()
+    strategy: st.SearchStrategy[Message] = getattr(strategies, name)()
+    return strategy
+
+
+# --- Frames --------------------------------------------------------------------------------------
+
+
+@each_case
+def test_a_frame_is_decoded_by_its_direction(case: Case) -> None:
+    assert busservo.decode(case.frame, case.direction) == case.message
+
+
+@each_case
+def test_a_frame_is_decoded_by_its_class(case: Case) -> None:
+    assert type(case.message).decode(case.frame) == case.message
+
+
+@each_case
+def test_a_frame_is_decoded_without_a_direction(case: Case) -> None:
+    # ids 6 and 7 look the same both ways, and are then the host's.
+    hosts = [other.message for other in CASES if other.direction is HOST and other.hex == case.hex]
+
+    assert busservo.decode(case.frame, EITHER) == (hosts or [case.message])[0]
+
+
+@each_case
+@pytest.mark.parametrize("convert", [bytes, bytearray, memoryview])
+def test_a_frame_is_any_kind_of_bytes(case: Case, convert: Any) -> None:
+    assert busservo.decode(convert(case.frame), case.direction) == case.message
+    assert type(case.message).decode(convert(case.frame)) == case.message
+
+
+def test_a_message_does_not_change_with_the_buffer_that_it_was_read_from() -> None:
+    buffer = bytearray.fromhex("55 55 04 0F C9 1E")
+    message = busservo.decode(buffer, CONTROLLER)
+    buffer[4] = 0
+
+    assert message == busservo.BatteryVoltage(voltage_mv=7881)
+
+
+def test_a_view_may_have_gaps() -> None:
+    frame = bytes.fromhex("55 00 55 00 02 00 07 00")
+
+    assert busservo.decode(memoryview(frame)[::2], HOST) == busservo.ActionGroupStop()
+
+
+@pytest.mark.parametrize("frame", ["55 55 02 07", None, 4, [0x55, 0x55, 2, 7], object()])
+def test_what_is_no_bytes_is_no_frame(frame: Any) -> None:
+    with pytest.raises(TypeError, match="bytes, bytearray or memoryview expected, not "):
+        busservo.decode(frame, HOST)
+    with pytest.raises(TypeError, match="bytes, bytearray or memoryview expected, not "):
+        busservo.ActionGroupStop.decode(frame)
+
+
+def test_text_is_told_how_to_become_bytes() -> None:
+    text: Any = "55 55 02 07"
+
+    with pytest.raises(TypeError, match=re.escape("bytes.fromhex()")):
+        busservo.decode(text, HOST)
+
+
+@pytest.mark.parametrize("direction", ["host_to_controller", "host", 0, False, MESSAGES])
+def test_what_is_no_direction_is_refused(direction: Any) -> None:
+    with pytest.raises(TypeError, match="a Direction expected, such as "):
+        busservo.decode(b"", direction)
+
+
+def test_the_same_command_is_another_message_the_other_way() -> None:
+    for frame, host, controller in (
+        ("55 55 05 06 08 01 00", "ActionGroupRun", "ActionGroupStarted"),
+        ("55 55 02 07", "ActionGroupStop", "ActionGroupStopped"),
+    ):
+        data = bytes.fromhex(frame)
+        assert type(busservo.decode(data, HOST)).__name__ == host
+        assert type(busservo.decode(data, CONTROLLER)).__name__ == controller
+        assert busservo.decode(data, HOST) != busservo.decode(data, CONTROLLER)
+
+
+# --- Bad frames ----------------------------------------------------------------------------------
+
+
+@each_bad_frame
+def test_a_bad_frame_is_refused_with_reason_and_offset(bad: BadFrame) -> None:
+    with pytest.raises(DecodeError) as caught:
+        busservo.decode(bad.frame, bad.direction)
+
+    assert (caught.value.reason, caught.value.offset) == (bad.reason, bad.offset)
+    assert str(caught.value).startswith(f"{bad.reason.value} at byte {bad.offset}: ")
+    assert isinstance(caught.value, ProtocolError)
+    assert isinstance(caught.value, ValueError)
+
+
+@pytest.mark.parametrize(
+    ("frame", "direction", "text"),
+    [
+        ("55 54", HOST, "bad header at byte 1: a frame begins 55 55"),
+        ("55", HOST, "too short at byte 1: a frame begins 55 55"),
+        ("55 55 02", HOST, "too short at byte 3: the shortest frame has 4 bytes"),
+        (
+            "55 55 02 63",
+            CONTROLLER,
+            "unknown command at byte 3: the command is 99, and only 6, 7, 8, 15, 21 can be here",
+        ),
+        (
+            "55 55 09 03",
+            HOST,
+            "length mismatch at byte 2: the length is 9, and must be 8, 11, 14 .. 254 (ServoMove)",
+        ),
+        (
+            "55 55 05 0F",
+            EITHER,
+            (
+                "length mismatch at byte 2: the length is 5, and must be 2 (BatteryVoltageRead)"
+                " or 4 (BatteryVoltage)"
+            ),
+        ),
+        (
+            "55 55 03 14",
+            HOST,
+            "length mismatch at byte 2: the length is 3, and must be 4..255 (ServoUnload)",
+        ),
+        (
+            "55 55 05 06",
+            HOST,
+            "too short at byte 4: ActionGroupRun with this length has 7 bytes",
+        ),
+        (
+            "55 55 02 07 00",
+            CONTROLLER,
+            "trailing bytes at byte 4: ActionGroupStopped with this length has 4 bytes, not 5",
+        ),
+        (
+            "55 55 06 15 02 01 02 03",
+            CONTROLLER,
+            "count mismatch at byte 4: with this length the count is 01, not 02",
+        ),
+    ],
+)
+def test_a_refusal_says_what_was_expected(
+    frame: str, direction: Direction | None, text: str
+) -> None:
+    with pytest.raises(DecodeError) as caught:
+        busservo.decode(bytes.fromhex(frame), direction)
+
+    assert str(caught.value) == text
+
+
+@each_case
+def test_every_beginning_of_a_frame_is_too_short(case: Case) -> None:
+    for size in range(len(case.frame)):
+        with pytest.raises(DecodeError) as caught:
+            busservo.decode(case.frame[:size], case.direction)
+        assert (caught.value.reason, caught.value.offset) == (Reason.TOO_SHORT, size)
+
+
+@each_case
+def test_nothing_may_follow_a_frame(case: Case) -> None:
+    for more in (b"\0", b"\x55", case.frame):
+        with pytest.raises(DecodeError) as caught:
+            busservo.decode(case.frame + more, case.direction)
+        assert (caught.value.reason, caught.value.offset) == (
+            Reason.TRAILING_BYTES,
+            len(case.frame),
+        )
+
+
+@each_message
+def test_a_class_refuses_the_frames_of_other_commands(kind: type[Message]) -> None:
+    for case in CASES:
+        if case.frame[3] != kind.COMMAND:
+            with pytest.raises(DecodeError) as caught:
+                kind.decode(case.frame)
+            assert caught.value.reason is Reason.UNKNOWN_COMMAND
+
+
+# --- There and back ------------------------------------------------------------------------------
+
+
+@each_message
+@given(data=st.data())
+def test_every_message_survives_the_way_there_and_back(
+    kind: type[Message], data: st.DataObject
+) -> None:
+    message = data.draw(strategy_of(kind))
+    frame = message.encode()
+
+    assert type(message) is kind
+    assert frame[2] == len(frame) - 2
+    assert frame[2] in kind.LENGTHS
+    assert frame[3] == kind.COMMAND
+    assert kind.decode(frame) == busservo.decode(frame, kind.DIRECTION) == message
+    assert kind.decode(frame).encode() == frame
+
+
+def message_or_error(decode: Callable[[bytes], Message], frame: bytes) -> Message | None:
+    """The message that `frame` is; None where a DecodeError points into it."""
+    try:
+        return decode(frame)
+    except DecodeError as caught:
+        error = caught
+    assert 0 <= error.offset <= len(frame)
+    return None
+
+
+@given(
+    st.one_of(
+        st.binary(max_size=300),
+        damaged_frames(),
+        st.sampled_from(HEADS).flatmap(lambda head: st.binary(max_size=8).map(head.__add__)),
+    ),
+    directions,
+)
+def test_any_bytes_are_a_message_or_a_decode_error(
+    frame: bytes, direction: Direction | None
+) -> None:
+    message = message_or_error(lambda data: busservo.decode(data, direction), frame)
+
+    if message is not None:
+        assert message.encode() == frame
+        assert direction in (None, message.DIRECTION)
+
+
+@each_message
+@given(frame=damaged_frames() | st.binary(max_size=12))
+def test_any_bytes_are_the_message_of_a_class_or_a_decode_error(
+    kind: type[Message], frame: bytes
+) -> None:
+    message = message_or_error(kind.decode, frame)
+
+    if message is not None:
+        assert type(message) is kind
+        assert message.encode() == frame

@@ -1,0 +1,24 @@
+"""The examples in the docstrings of the library, run."""
+
+import doctest
+from importlib import import_module
+from pkgutil import walk_packages
+
+import busservo
+import pytest
+
+MODULES = [
+    module.name
+    for module in walk_packages(busservo.__path__, "busservo.")
+    if not module.name.endswith("__main__")
+]
+
+
+@pytest.mark.parametrize("name", ["busservo", *MODULES])
+def test_examples_are_true(name: str) -> None:
+    assert doctest.testmod(import_module(name)).failed == 0
+
+
+def test_every_message_has_an_example() -> None:
+    for kind in busservo.MESSAGES:
+        assert doctest.DocTestParser().get_examples(kind.__doc__ or "")

@@ -1,0 +1,585 @@
+"""Messages as values: how they are made, what they hold, how they compare, and what they refuse."""
+
+import copy
+import inspect
+import os
+import pickle
+import subprocess
+import sys
+from collections.abc import Callable, Iterator
+from enum import IntEnum
+from pathlib import Path
+from typing import Any
+
+import busservo
+import numpy as np
+import pytest
+from busservo import (
+    MESSAGES,
+    ActionGroupCompleted,
+    ActionGroupRun,
+    ActionGroupSpeed,
+    ActionGroupStarted,
+    ActionGroupStop,
+    ActionGroupStopped,
+    BatteryVoltage,
+    DecodeError,
+    Direction,
+    EncodeError,
+    Message,
+    ProtocolError,
+    Reason,
+    ServoMove,
+    ServoPosition,
+    ServoPositions,
+    ServoPositionsRead,
+    ServoTarget,
+    ServoUnload,
+)
+from hypothesis import given
+from hypothesis import strategies as st
+
+from tests.cases import (
+    CASES,
+    CONTROLLER,
+    HOST,
+    BadValue,
+    Case,
+    each_bad_value,
+    each_case,
+)
+
+# --- Making and reading --------------------------------------------------------------------------
+
+
+@each_case
+def test_a_message_is_encoded(case: Case) -> None:
+    assert case.message.encode() == case.frame
+    assert type(case.message.encode()) is bytes
+
+
+@each_case
+def test_a_message_knows_its_place(case: Case) -> None:
+    assert case.message.DIRECTION is case.direction
+    assert case.frame[3] == case.message.COMMAND
+    assert case.frame[2] in case.message.LENGTHS
+
+
+@each_case
+def test_a_message_is_made_of_what_is_read_from_it(case: Case) -> None:
+    make: Callable[..., Message] = type(case.message)
+    fields = {name: getattr(case.message, name) for name in case.message.__match_args__}
+
+    assert make(**fields) == case.message
+    assert make(*fields.values()) == case.message
+
+
+def test_fields_are_read_as_plain_numbers_and_tuples() -> None:
+    move = ServoMove(time_ms=1000, targets=[(1, 800), (9, 200)])
+
+    assert move.time_ms == 1000
+    assert move.targets == ((1, 800), (9, 200))
+    assert type(move.targets) is tuple
+    assert {type(target) for target in move.targets} == {ServoTarget}
+    assert move.targets[1].servo_id == 9
+    assert move.targets[1].position == 200
+    assert ServoUnload([3, 1]).servo_ids == (3, 1)
+    assert ServoPositionsRead([3, 1]).servo_ids == (3, 1)
+    assert ServoPositions([(3, 70)]).positions[0].servo_id == 3
+    assert BatteryVoltage(7881).voltage_mv == 7881
+    assert ActionGroupSpeed(1, 200).percent == 200
+
+
+def test_named_elements_and_plain_pairs_make_the_same_message() -> None:
+    plain = ServoMove(time_ms=1000, targets=[(1, 800)])
+    named = ServoMove(time_ms=1000, targets=[ServoTarget(servo_id=1, position=800)])
+
+    assert plain == named
+    assert hash(plain) == hash(named)
+    assert plain.encode() == named.encode()
+    assert ServoMove(1000, [[1, 800]]) == named  # type: ignore[list-item]
+
+
+@pytest.mark.parametrize(
+    "listed",
+    [
+        list,
+        tuple,
+        iter,
+        np.array,
+        lambda items: (item for item in items),
+        lambda items: dict.fromkeys(items).keys(),
+        lambda items: map(tuple, items),
+        lambda items: np.array(items, dtype=np.uint16),
+    ],
+)
+def test_a_list_of_pairs_is_anything_in_order(listed: Callable[[Any], Any]) -> None:
+    pairs = [(1, 800), (9, 200)]
+
+    assert ServoMove(1000, listed(pairs)) == ServoMove(1000, pairs)
+    assert ServoPositions(listed(pairs)) == ServoPositions(pairs)
+
+
+@pytest.mark.parametrize("listed", [list, tuple, iter, np.array])
+def test_a_list_of_numbers_is_anything_in_order(listed: Callable[[Any], Any]) -> None:
+    assert ServoUnload(servo_ids=listed([1, 2, 250])).servo_ids == (1, 2, 250)
+    assert ServoPositionsRead(servo_ids=listed([1, 2, 250])).servo_ids == (1, 2, 250)
+
+
+class Group(IntEnum):
+    """Action groups of somebody's robot."""
+
+    WAVE = 8
+
+
+class Indexed:
+    """Something that says that it is a whole number."""
+
+    def __index__(self) -> int:
+        return 8
+
+
+@pytest.mark.parametrize(
+    "number", [8, np.int8(8), np.uint8(8), np.int64(8), np.uint64(8), Group.WAVE, Indexed()]
+)
+def test_a_whole_number_is_stored_as_an_int(number: Any) -> None:
+    run = ActionGroupRun(group=number, times=number)
+    move = ServoMove(time_ms=number, targets=[(number, 8), (8, number)])
+    unload = ServoUnload(servo_ids=[7, number])
+
+    assert run == ActionGroupRun(group=8, times=8)
+    assert type(run.group) is type(run.times) is int
+    assert move == ServoMove(8, [(8, 8), (8, 8)])
+    assert {type(part) for target in move.targets for part in target} == {int}
+    assert unload.servo_ids == (7, 8)
+
+
+def test_named_values_are_constants() -> None:
+    assert ActionGroupRun.TIMES_UNLIMITED == 0
+    assert ActionGroupStarted.TIMES_UNLIMITED == 0
+    assert ActionGroupSpeed.GROUP_ALL == 0xFF
+    assert ServoPosition.POSITION_ABSENT == 0xFFFF
+    assert ServoPositions([(3, 0xFFFF)]).positions[0].position == ServoPosition.POSITION_ABSENT
+
+
+@pytest.mark.parametrize(
+    ("kind", "command", "direction", "lengths"),
+    [
+        ("ServoMove", 3, HOST, [3 * n + 5 for n in range(1, 84)]),
+        ("ActionGroupRun", 6, HOST, [5]),
+        ("ActionGroupStop", 7, HOST, [2]),
+        ("ActionGroupSpeed", 11, HOST, [5]),
+        ("BatteryVoltageRead", 15, HOST, [2]),
+        ("ServoUnload", 20, HOST, [n + 3 for n in range(1, 253)]),
+        ("ServoPositionsRead", 21, HOST, [n + 3 for n in range(1, 253)]),
+        ("ActionGroupStarted", 6, CONTROLLER, [5]),
+        ("ActionGroupStopped", 7, CONTROLLER, [2]),
+        ("ActionGroupCompleted", 8, CONTROLLER, [5]),
+        ("BatteryVoltage", 15, CONTROLLER, [4]),
+        ("ServoPositions", 21, CONTROLLER, [3 * n + 3 for n in range(85)]),
+    ],
+)
+def test_a_message_is_the_one_that_the_document_describes(
+    kind: str, command: int, direction: Direction, lengths: list[int]
+) -> None:
+    message = getattr(busservo, kind)
+
+    assert message.COMMAND == command  # noqa: SIM300
+    assert message.DIRECTION is direction
+    assert [*message.LENGTHS] == lengths
+    assert message in MESSAGES
+
+
+def test_there_are_twelve_messages() -> None:
+    assert len(MESSAGES) == len({kind.__name__ for kind in MESSAGES}) == 12
+    assert all(issubclass(kind, Message) for kind in MESSAGES)
+    assert {type(case.message) for case in CASES} == {*MESSAGES}
+
+
+# --- Comparing and keeping -----------------------------------------------------------------------
+
+
+@each_case
+def test_a_message_is_equal_by_value(case: Case) -> None:
+    twin = busservo.decode(case.frame, case.direction)
+
+    assert twin is not case.message
+    assert twin == case.message
+    assert hash(twin) == hash(case.message)
+
+
+def test_messages_differ_by_class_and_by_value() -> None:
+    different = {(type(case.message), case.frame) for case in CASES}
+
+    assert len({case.message for case in CASES}) == len(different)
+    # The same bytes, the other way.
+    assert ActionGroupRun(8, 1) != ActionGroupStarted(8, 1)
+    assert ActionGroupStop() != ActionGroupStopped()
+    assert ActionGroupStop() != bytes.fromhex("55 55 02 07")
+    assert ActionGroupRun(8, 1) != ActionGroupRun(8, 2)
+
+
+@each_case
+def test_a_message_reads_like_its_constructor(case: Case) -> None:
+    assert eval(repr(case.message), vars(busservo).copy()) == case.message  # noqa: S307
+
+
+def test_a_message_shows_its_fields() -> None:
+    assert repr(ServoMove(1000, [(1, 800)])) == (
+        "ServoMove(time_ms=1000, targets=(ServoTarget(servo_id=1, position=800),))"
+    )
+    assert repr(ServoUnload([1, 2])) == "ServoUnload(servo_ids=(1, 2))"
+    assert repr(ServoPositions([])) == "ServoPositions(positions=())"
+    assert repr(ActionGroupStop()) == "ActionGroupStop()"
+
+
+@each_case
+def test_a_message_cannot_be_changed(case: Case) -> None:
+    message: Any = case.message
+
+    for name in (*message.__match_args__, "colour"):
+        with pytest.raises(AttributeError):
+            setattr(message, name, 1)
+        with pytest.raises(AttributeError):
+            delattr(message, name)
+    assert not hasattr(message, "__dict__")
+
+
+@each_case
+@pytest.mark.parametrize(
+    "copied",
+    [copy.copy, copy.deepcopy]
+    + [
+        lambda message, protocol=protocol: pickle.loads(pickle.dumps(message, protocol))  # noqa: S301
+        for protocol in range(2, pickle.HIGHEST_PROTOCOL + 1)
+    ],
+)
+def test_a_message_can_be_copied_and_pickled(
+    case: Case, copied: Callable[[Message], Message]
+) -> None:
+    twin = copied(case.message)
+
+    assert twin == case.message
+    assert type(twin) is type(case.message)
+
+
+@pytest.mark.parametrize(
+    ("message", "words"),
+    [
+        (ServoMove(1000, [(1, 800)]), "move 1 to 800 in 1000 ms"),
+        (ServoMove(time_ms=0, targets=[(1, 2), (3, 4)]), "move 2 servos"),
+        (ActionGroupRun(8, ActionGroupRun.TIMES_UNLIMITED), "run 8 for ever"),
+        (ActionGroupRun(8, 3), "run 8 3 times"),
+        (ActionGroupStop(), "stop"),
+        (ServoPositions([(3, 65535), (4, 1)]), "at 3, 4"),
+    ],
+)
+def test_messages_are_told_apart_by_matching(message: Message, words: str) -> None:
+    assert in_words(message) == words
+
+
+def in_words(message: Message) -> str:
+    """A message, taken apart by `match`."""
+    match message:
+        case ServoMove(time_ms, [ServoTarget(servo_id, position)]):
+            return f"move {servo_id} to {position} in {time_ms} ms"
+        case ServoMove(targets=targets):
+            return f"move {len(targets)} servos"
+        case ActionGroupRun(group, times=ActionGroupRun.TIMES_UNLIMITED):
+            return f"run {group} for ever"
+        case ActionGroupRun(group, times):
+            return f"run {group} {times} times"
+        case ServoPositions([(first, _), (second, _)]):
+            return f"at {first}, {second}"
+    return "stop"
+
+
+# --- Elements ------------------------------------------------------------------------------------
+
+each_element = pytest.mark.parametrize("kind", [ServoTarget, ServoPosition])
+
+
+@each_element
+def test_an_element_is_a_tuple_with_names(kind: Callable[..., Any]) -> None:
+    element = kind(servo_id=1, position=800)
+
+    assert element == (1, 800) == kind(1, 800)
+    assert hash(element) == hash((1, 800))
+    assert (element.servo_id, element.position) == (1, 800)
+    assert isinstance(element, tuple)
+    assert repr(element) == f"{kind.__name__}(servo_id=1, position=800)"
+    assert eval(repr(element), vars(busservo).copy()) == element  # noqa: S307
+
+
+@each_element
+def test_an_element_cannot_be_changed(kind: Callable[..., Any]) -> None:
+    element = kind(1, 800)
+
+    for name in ("servo_id", "position", "colour"):
+        with pytest.raises(AttributeError):
+            setattr(element, name, 1)
+    assert not hasattr(element, "__dict__")
+
+
+@each_element
+def test_an_element_can_be_copied_and_pickled(kind: Callable[..., Any]) -> None:
+    element = kind(1, 800)
+
+    for twin in (
+        copy.copy(element),
+        copy.deepcopy(element),
+        pickle.loads(pickle.dumps(element)),  # noqa: S301
+    ):
+        assert twin == element
+        assert type(twin) is kind
+
+
+# --- What no frame can carry ---------------------------------------------------------------------
+
+
+@each_bad_value
+def test_a_bad_value_is_refused_with_its_place(bad: BadValue) -> None:
+    with pytest.raises(EncodeError) as caught:
+        bad.make(**bad.fields)
+
+    assert caught.value.path == bad.path
+    assert caught.value.value == bad.value
+    assert type(caught.value.value) is type(bad.value)
+    assert str(caught.value) == f"{bad.path}: {bad.problem}"
+    assert isinstance(caught.value, ProtocolError)
+    assert isinstance(caught.value, ValueError)
+
+
+@pytest.mark.parametrize(
+    "value", [np.float64(1), np.float32(1), np.True_, np.array([1, 2]), np.str_("1"), 1 + 0j]
+)
+def test_what_is_no_whole_number_elsewhere_is_none_here(value: Any) -> None:
+    for make, path in (
+        (lambda: ActionGroupRun(value, 1), "group"),
+        (lambda: ServoMove(value, [(1, 1)]), "time_ms"),
+        (lambda: ServoMove(1, [(1, 1), (1, value)]), "targets[1].position"),
+        (lambda: ServoUnload([1, value]), "servo_ids[1]"),
+    ):
+        with pytest.raises(EncodeError, match="not a whole number") as caught:
+            make()
+        assert caught.value.path == path
+        assert caught.value.value is value
+
+
+@pytest.mark.parametrize("number", [-1, 256, np.int16(-1), np.int16(256)])
+def test_a_byte_is_0_to_255(number: Any) -> None:
+    for make in (
+        lambda: ActionGroupRun(number, 1),
+        lambda: ActionGroupSpeed(number, 1),
+        lambda: ActionGroupStarted(number, 1),
+        lambda: ActionGroupCompleted(number, 1),
+        lambda: ServoMove(1, [(number, 1)]),
+        lambda: ServoUnload([number]),
+        lambda: ServoPositionsRead([number]),
+        lambda: ServoPositions([(number, 1)]),
+    ):
+        with pytest.raises(EncodeError, match=f"{int(number)} is outside 0..255"):
+            make()
+
+
+@pytest.mark.parametrize("number", [-1, 65536, np.int32(-1), np.int32(65536)])
+def test_two_bytes_are_0_to_65535(number: Any) -> None:
+    for make in (
+        lambda: ActionGroupRun(1, number),
+        lambda: ActionGroupSpeed(1, number),
+        lambda: ActionGroupStarted(1, number),
+        lambda: ActionGroupCompleted(1, number),
+        lambda: ServoMove(number, [(1, 1)]),
+        lambda: ServoMove(1, [(1, number)]),
+        lambda: ServoPositions([(1, number)]),
+        lambda: BatteryVoltage(number),
+    ):
+        with pytest.raises(EncodeError, match=f"{int(number)} is outside 0..65535"):
+            make()
+
+
+@pytest.mark.parametrize("items", [[10**5000], (10**5000,), {10**5000: 1}])
+def test_a_number_too_long_to_be_printed_is_still_explained(items: Any) -> None:
+    for make in (
+        lambda: ActionGroupRun(items, 1),
+        lambda: ServoMove(1, [items]),
+        lambda: ServoUnload([items]),
+    ):
+        with pytest.raises(EncodeError):
+            make()
+
+
+# What is gone through as a list or as a pair, though it may not look like one, and what is not.
+_numbers = st.integers(0, 255)
+_odd = st.one_of(
+    st.binary(min_size=2, max_size=2),
+    st.text(min_size=2, max_size=2),
+    st.sets(_numbers, min_size=2, max_size=2),
+    st.dictionaries(_numbers, _numbers, min_size=2, max_size=2),
+    st.lists(_numbers, max_size=3),
+    st.tuples(_numbers, _numbers | st.none() | st.floats() | st.booleans()),
+    st.none() | st.booleans() | st.integers() | st.floats(),
+)
+
+
+@given(st.lists(st.tuples(_numbers, _numbers) | _odd, max_size=3) | _odd)
+def test_targets_mean_the_same_beside_any_kind_of_number(targets: Any) -> None:
+    # Good numbers are packed at once, and others are looked at one by one; both judge alike.
+    assert outcome(ServoMove, 8, targets) == outcome(ServoMove, Indexed(), targets)
+
+
+def outcome(make: Callable[..., Message], *values: Any) -> Message | str:
+    """What is made of these values, or what is said about them."""
+    try:
+        return make(*values)
+    except EncodeError as error:
+        return str(error)
+
+
+def test_what_a_list_raises_by_itself_is_not_hidden() -> None:
+    def failing() -> Iterator[tuple[int, int]]:
+        yield (1, 800)
+        raise TypeError("the arm has come off")
+
+    with pytest.raises(TypeError, match="the arm has come off"):
+        ServoMove(1000, failing())
+
+
+def test_a_derived_field_is_no_argument() -> None:
+    make: Callable[..., Message]
+    for make, fields in (
+        (ServoMove, {"time_ms": 1, "targets": [(1, 1)], "servo_count": 1}),
+        (ServoUnload, {"servo_ids": [1], "servo_count": 1}),
+        (ActionGroupStop, {"length": 2}),
+        (ActionGroupRun, {"group": 1, "times": 1, "command": 6}),
+    ):
+        with pytest.raises(TypeError):
+            make(**fields)
+
+
+# --- Errors --------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    "error",
+    [
+        EncodeError("targets[1].position", 70000, "70000 is outside 0..65535"),
+        DecodeError(Reason.TOO_SHORT, 3, "the shortest frame has 4 bytes"),
+    ],
+)
+def test_an_error_can_be_pickled(error: ProtocolError) -> None:
+    twin = pickle.loads(pickle.dumps(error))  # noqa: S301
+
+    assert type(twin) is type(error)
+    assert str(twin) == str(error)
+    assert vars(twin) == vars(error)
+
+
+def test_the_errors_are_one_small_tree() -> None:
+    assert issubclass(EncodeError, ProtocolError)
+    assert issubclass(DecodeError, ProtocolError)
+    assert issubclass(EncodeError, ValueError)
+    assert issubclass(DecodeError, ValueError)
+    assert issubclass(ProtocolError, Exception)
+    assert not issubclass(ProtocolError, ValueError)
+
+
+def test_the_reasons_are_words() -> None:
+    assert {reason.name: reason.value for reason in Reason} == {
+        "TOO_SHORT": "too short",
+        "TRAILING_BYTES": "trailing bytes",
+        "BAD_HEADER": "bad header",
+        "LENGTH_MISMATCH": "length mismatch",
+        "COUNT_MISMATCH": "count mismatch",
+        "UNKNOWN_COMMAND": "unknown command",
+        "OUT_OF_RANGE": "out of range",
+    }
+
+
+def test_a_direction_knows_its_ends() -> None:
+    assert Direction("host_to_controller") is HOST
+    assert Direction("controller_to_host") is CONTROLLER
+    assert (HOST.sender, HOST.receiver) == ("host", "controller")
+    assert (CONTROLLER.sender, CONTROLLER.receiver) == ("controller", "host")
+
+
+# --- The package ---------------------------------------------------------------------------------
+
+PUBLIC = {
+    "MESSAGES",
+    "ActionGroupCompleted",
+    "ActionGroupRun",
+    "ActionGroupSpeed",
+    "ActionGroupStarted",
+    "ActionGroupStop",
+    "ActionGroupStopped",
+    "BatteryVoltage",
+    "BatteryVoltageRead",
+    "Counters",
+    "DecodeError",
+    "Direction",
+    "EncodeError",
+    "Message",
+    "Noise",
+    "ProtocolError",
+    "Reason",
+    "ServoMove",
+    "ServoPosition",
+    "ServoPositions",
+    "ServoPositionsRead",
+    "ServoTarget",
+    "ServoUnload",
+    "StreamDecoder",
+    "UnknownFrame",
+    "__version__",
+    "decode",
+}
+
+
+def test_the_names_that_others_build_on_are_there() -> None:
+    assert set(busservo.__all__) >= PUBLIC
+    assert all(hasattr(busservo, name) for name in busservo.__all__)
+    assert len(busservo.__all__) == len(set(busservo.__all__))
+
+
+@pytest.mark.parametrize(
+    "name", [*sorted(set(busservo.__all__) - {"MESSAGES", "__version__"}), "__doc__"]
+)
+def test_a_public_name_is_documented(name: str) -> None:
+    public = busservo if name == "__doc__" else getattr(busservo, name)
+
+    assert inspect.getdoc(public)
+    for own, value in vars(public).items():
+        if isinstance(public, type) and not own.startswith("_") and _has_code(value):
+            assert inspect.getdoc(value), f"{name}.{own}"
+
+
+def _has_code(value: object) -> bool:
+    return callable(value) or isinstance(value, (property, classmethod, staticmethod))
+
+
+@pytest.mark.parametrize(
+    "unwanted", ["serial", "typing", "typing_extensions", "dataclasses", "hypothesis", "json", "re"]
+)
+def test_importing_the_package_imports_little(unwanted: str, imported: set[str]) -> None:
+    assert "busservo" in imported
+    assert unwanted not in imported
+
+
+@pytest.fixture(scope="module")
+def imported() -> set[str]:
+    """What `import busservo` alone imports; -S keeps away what a site's .pth files would."""
+    home = Path(busservo.__file__).parent.parent
+    program = "import sys, busservo; print(*sys.modules)"
+    output = subprocess.run(
+        [sys.executable, "-S", "-c", program],
+        env={**os.environ, "PYTHONPATH": str(home)},
+        capture_output=True,
+        text=True,
+        check=True,
+    ).stdout
+    return set(output.split())
+
+
+def test_the_package_is_typed() -> None:
+    assert Path(busservo.__file__).with_name("py.typed").exists()

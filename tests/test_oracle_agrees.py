@@ -1,0 +1,140 @@
+"""The library and the oracle, which share no code, say the same of any bytes and of any stream."""
+
+import pytest
+from busservo import DecodeError, Direction, Message, StreamDecoder, decode, strategies
+from hypothesis import example, given
+from hypothesis import strategies as st
+
+from tests import oracle
+from tests.captures import make_noisy_line
+from tests.cases import BAD_FRAMES, CASES, BadFrame, Case, each_bad_frame, each_case
+from tests.lines import (
+    DIRECTIONS,
+    HEADS,
+    damaged_frames,
+    directions,
+    lines,
+    messages_in,
+    oracles,
+    pieces,
+    read,
+    said,
+    scanned,
+    unknown_frames,
+)
+
+each_direction = pytest.mark.parametrize("direction", DIRECTIONS, ids=str)
+
+
+def verdict(frame: bytes, direction: Direction | None) -> object:
+    """What the library makes of a frame: the message as the oracle writes it, or None."""
+    try:
+        return said(decode(frame, direction))
+    except DecodeError:
+        return None
+
+
+def oracles_verdict(frame: bytes, direction: Direction | None) -> object:
+    """What the oracle makes of it."""
+    try:
+        return oracle.parse(frame, oracles(direction))
+    except oracle.OracleError:
+        return None
+
+
+# --- Single frames -------------------------------------------------------------------------------
+
+
+@each_case
+def test_they_agree_on_the_table_of_truth(case: Case) -> None:
+    assert oracle.build(*said(case.message)) == case.frame
+    for direction in DIRECTIONS:
+        assert verdict(case.frame, direction) == oracles_verdict(case.frame, direction)
+
+
+@each_bad_frame
+def test_they_agree_on_bad_frames(bad: BadFrame) -> None:
+    assert oracles_verdict(bad.frame, bad.direction) is None
+
+
+@given(strategies.messages())
+def test_they_write_the_same_frames(message: Message) -> None:
+    assert message.encode() == oracle.build(*said(message))
+    assert oracle.parse(message.encode(), message.DIRECTION.value) == said(message)
+
+
+@given(
+    st.one_of(
+        st.binary(max_size=20),
+        st.binary(max_size=12).map(lambda rest: b"\x55\x55" + rest),
+        st.sampled_from(HEADS).flatmap(lambda head: st.binary(max_size=8).map(head.__add__)),
+        damaged_frames(),
+        unknown_frames(),
+        strategies.messages().map(Message.encode),
+    ),
+    directions,
+)
+def test_they_agree_on_any_bytes(frame: bytes, direction: Direction | None) -> None:
+    assert verdict(frame, direction) == oracles_verdict(frame, direction)
+
+
+@each_direction
+def test_they_agree_on_every_length_and_command(direction: Direction | None) -> None:
+    # With the count that suits a move, and with the one that suits a request and a reply.
+    for command in (*range(23), 0x55, 0xFF):
+        for length in (*range(24), 84, 85, 86, 253, 254, 255):
+            for count in {0, (length - 5) // 3 % 256, (length - 3) % 256, (length - 3) // 3 % 256}:
+                body = bytes([length, command, count, *range(1, 254)])
+                frame = b"\x55\x55" + body[: max(length, 2)]
+                assert verdict(frame, direction) == oracles_verdict(frame, direction), frame.hex()
+
+
+# --- Streams -------------------------------------------------------------------------------------
+
+
+@given(lines, directions, st.data())
+@example(make_noisy_line.recording(), None, None)
+def test_they_find_the_same_in_any_stream(
+    line: bytes, direction: Direction | None, data: st.DataObject | None
+) -> None:
+    chunks = [line] if data is None else data.draw(pieces(line))
+
+    assert scanned(read(direction, chunks)) == oracle.scan(line, oracles(direction))
+
+
+@given(lines, directions, st.data())
+def test_they_have_found_the_same_before_the_line_goes_quiet(
+    line: bytes, direction: Direction | None, data: st.DataObject
+) -> None:
+    found = read(direction, data.draw(pieces(line)), quiet=False)
+    early = oracle.scan(line, oracles(direction), quiet=False)
+
+    assert [said(message) for message in messages_in(found)] == [
+        event for event in early if not isinstance(event, bytes)
+    ]
+
+
+@each_direction
+def test_they_agree_on_each_byte_of_the_noisy_line(direction: Direction | None) -> None:
+    decoder = StreamDecoder(direction)
+    line = make_noisy_line.recording()
+    held = b""
+    for at in range(len(line)):
+        # What the oracle has read it does not take back, so that it may go on from there.
+        held += line[at : at + 1]
+        early = oracle.scan(held, oracles(direction), quiet=False)
+        expected = [event for event in early if not isinstance(event, bytes)]
+        found = messages_in(decoder.feed(line[at : at + 1]))
+
+        assert [said(message) for message in found] == expected, at
+        read_to = sum(
+            len(event if isinstance(event, bytes) else oracle.build(*event)) for event in early
+        )
+        held = held[read_to:]
+
+
+@each_direction
+def test_they_agree_on_all_tables_in_one_line(direction: Direction | None) -> None:
+    line = b"".join(case.frame + bad.frame for case in CASES for bad in BAD_FRAMES[::7])
+
+    assert scanned(read(direction, [line])) == oracle.scan(line, oracles(direction))

@@ -1,0 +1,69 @@
+"""Our pages are true: what they run works, prints what they say, and what they link to is there."""
+
+import re
+from pathlib import Path
+
+import pytest
+
+from tests.documents import PAGES, ROOT, copy_project, played
+
+MAKEFILE = (ROOT / "Makefile").read_text(encoding="utf-8")
+TARGETS = set(re.findall(r"^([a-z]+):.*## ", MAKEFILE, flags=re.MULTILINE))
+
+pages = pytest.mark.parametrize("page", PAGES, ids=lambda page: page.relative_to(ROOT).as_posix())
+
+
+@pages
+def test_examples_print_what_the_page_says(page: Path, tmp_path: Path) -> None:
+    text = page.read_text(encoding="utf-8")
+    truth = played(text, copy_project(tmp_path))
+    assert truth == text, "if this was meant to change: python -m tests.documents"
+
+
+@pages
+def test_links_lead_somewhere(page: Path) -> None:
+    links = re.findall(r"\]\(([^)#]+)", page.read_text(encoding="utf-8"))
+    missing = [link for link in links if "://" not in link and not (page.parent / link).exists()]
+    assert missing == []
+
+
+@pages
+def test_commands_of_make_exist(page: Path) -> None:
+    text = page.read_text(encoding="utf-8")
+    named = re.findall(r"(?:^ *|`)make ([a-z]+)", text, flags=re.MULTILINE)
+    assert set(named) <= TARGETS
+
+
+@pages
+def test_code_has_a_place(page: Path) -> None:
+    """Files that a page names in code, without linking to them."""
+    text = page.read_text(encoding="utf-8")
+    named = re.findall(r"`((?:spec|codegen|generated|docs|tests|benchmarks)/[\w./-]*)`", text)
+    assert [name for name in named if not (ROOT / name).exists()] == []
+
+
+def test_a_page_that_lies_is_found_out(tmp_path: Path) -> None:
+    page = "```console\n$ busservo encode ActionGroupStop\n55 55 02 08\n```\n"
+    truth = page.replace("08", "07")
+    copy_project(tmp_path)
+    assert played(page, tmp_path) == truth
+    assert played(truth, tmp_path) == truth
+
+
+def test_a_session_that_lies_is_found_out(tmp_path: Path) -> None:
+    page = "```pycon\n>>> for i in range(2):\n...     print(i)\n0\n2\n>>> 1 / 0\n```\n"
+    assert played(page, tmp_path) == (
+        "```pycon\n>>> for i in range(2):\n...     print(i)\n0\n1\n>>> 1 / 0\n"
+        "Traceback (most recent call last):\n  ...\nZeroDivisionError: division by zero\n```\n"
+    )
+
+
+def test_left_out_lines_may_be_anything_but_the_rest_may_not(tmp_path: Path) -> None:
+    page = "```console\n$ framegen rules\n...\nreply  {}\n...\n```\n"
+    title = "Replies and reports are messages of the other direction"
+    copy_project(tmp_path)
+    shown = played(page.format(title), tmp_path)
+    line = next(line for line in shown.splitlines() if line.startswith("reply"))
+    truth = page.replace("reply  {}", line)
+    assert played(truth, tmp_path) == truth
+    assert played(truth.replace("other", "same"), tmp_path) == shown
