@@ -1,0 +1,77 @@
+# `make` and `make test` are all that a newcomer needs; `make help` lists the rest.
+# Where there is no make, as on Windows, README.md has the same commands spelt out.
+
+VENV = .venv
+GROUP = dev
+# The first Python on the path that is new enough, unless one is named: make PYTHON=python3.12
+PYTHON = $(shell for python in python3 python3.13 python3.12 python3.11 python3.10 python; do \
+	"$$python" -c 'import sys; sys.exit(sys.version_info < (3, 10))' 2>/dev/null \
+	&& echo "$$python" && break; done)
+
+IN := $(VENV)/bin
+READY := $(VENV)/.ready-$(GROUP)
+BENCH_VENV := .tools/bench
+
+.DEFAULT_GOAL := all
+.PHONY: all venv test quick lint format fuzz bench wheel clean help
+
+all: $(READY)  ## Check the spec, generate everything, decode a recorded noisy line (plain `make`)
+	$(IN)/framegen check
+	$(IN)/framegen generate
+	$(IN)/busservo decode --direction any tests/captures/noisy_line.bin
+
+test: $(READY)  ## Run every test, and report the coverage of lines and branches
+	$(IN)/coverage erase
+	$(IN)/coverage run -m pytest
+	$(IN)/coverage report
+
+quick: $(READY)  ## Run every test that is not slow, without coverage
+	$(IN)/python -m pytest -q -m "not slow"
+
+lint: $(READY)  ## Lint, look at the format, check types, and that the output is up to date
+	$(IN)/ruff check
+	$(IN)/ruff format --check
+	$(IN)/mypy
+	$(IN)/pyright --pythonpath $(IN)/python
+	$(IN)/framegen generate --check
+
+format: $(READY)  ## Mend what ruff can mend
+	$(IN)/ruff check --fix
+	$(IN)/ruff format
+
+fuzz: $(READY)  ## Let Hypothesis search for new counterexamples, for long
+	HYPOTHESIS_PROFILE=fuzz $(IN)/python -m pytest -m "not slow"
+
+bench:  ## Measure the library against its peers
+	@$(MAKE) --no-print-directory venv VENV=$(BENCH_VENV) GROUP=bench
+	$(BENCH_VENV)/bin/python -m benchmarks
+
+wheel: $(READY)  ## Build dist/*.whl and dist/*.tar.gz
+	$(IN)/python -m build
+
+venv: $(READY)  ## Only make the virtual environment
+
+# Made anew only when pyproject.toml has changed. A pip older than 25.1 knows no --group.
+$(READY): pyproject.toml
+	@test -n "$(PYTHON)" || { \
+		echo "No Python 3.10 or newer is on the path. Install one, or: make PYTHON=/where/it/is"; \
+		exit 1; }
+	@test -e $(IN)/python || "$(PYTHON)" -c 'import ensurepip, venv' 2>/dev/null || { \
+		echo "$(PYTHON) cannot make virtual environments: its venv or ensurepip is missing."; \
+		echo "On Debian and Ubuntu: sudo apt install python3-venv"; \
+		exit 1; }
+	@test -e $(IN)/python || { echo "Making $(VENV) with $$("$(PYTHON)" --version)"; \
+		"$(PYTHON)" -m venv $(VENV); }
+	@$(IN)/python -m pip --version >/dev/null 2>&1 || $(IN)/python -m ensurepip
+	@echo "Installing what $(VENV) needs (only the first time)"
+	@$(IN)/python -m pip install -qq --upgrade "pip>=25.1"
+	@$(IN)/python -m pip install -qq --editable . --group $(GROUP)
+	@touch $@
+
+clean:  ## Remove everything that these commands make, the virtual environments included
+	rm -rf .venv .tools build dist html mutants .coverage .coverage.*
+	rm -rf .hypothesis .mypy_cache .pytest_cache .ruff_cache
+	find . -name __pycache__ -type d -prune -exec rm -rf {} +
+
+help:  ## Show this
+	@awk -F ':.*## ' '/^[a-z]+:.*## / {printf "  make %-7s %s\n", $$1, $$2}' $(MAKEFILE_LIST)
