@@ -1,0 +1,148 @@
+"""`python -m benchmarks`: measure the library and its peers against the floor."""
+
+from __future__ import annotations
+
+import argparse
+import importlib
+import importlib.util
+import sys
+import tempfile
+from typing import TYPE_CHECKING
+
+from benchmarks import captures, messages, peers, processes, report, streams
+from benchmarks.results import FLOOR, OURS, Results
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+    from types import ModuleType
+
+    from benchmarks.peers.interface import Peer
+
+ROWS = (*messages.ROWS, *streams.ROWS, *streams.NOISE_ROWS, "import", "generate")
+
+ROUNDS = 10
+SECONDS = 0.01
+STREAM_SECONDS = 0.04
+
+QUICK_ROUNDS = 5
+QUICK_SECONDS = 0.005
+QUICK_STREAM_SECONDS = 0.01
+QUICK_STRETCH = captures.PIECE // 8
+
+_GENERATE = [sys.executable, "-m", "framegen", "generate", "--out"]
+
+
+def options(arguments: Sequence[str] | None) -> argparse.Namespace:
+    """The command line."""
+    parser = argparse.ArgumentParser(
+        prog="python -m benchmarks",
+        description="Measure the generated library and its peers against hand-written struct code.",
+        epilog=f"Rows: {', '.join(ROWS)}.",
+    )
+    parser.add_argument(
+        "--rounds",
+        type=int,
+        metavar="N",
+        help=f"samples for each contender and row (default {ROUNDS}; quick: {QUICK_ROUNDS})",
+    )
+    parser.add_argument(
+        "--only",
+        action="append",
+        metavar="ROW",
+        help="only this row, or the rows whose names begin like this; may be repeated",
+    )
+    parser.add_argument(
+        "--no-peers", action="store_true", help="only the library itself against the floor"
+    )
+    parser.add_argument("--quick", action="store_true", help="shorter samples, fewer rounds")
+    chosen = parser.parse_args(arguments)
+    if chosen.rounds is None:
+        chosen.rounds = QUICK_ROUNDS if chosen.quick else ROUNDS
+    if chosen.rounds < 1:
+        parser.error("--rounds: at least 1")
+    begins = tuple(chosen.only or [""])
+    unknown = [begin for begin in begins if not any(row.startswith(begin) for row in ROWS)]
+    if unknown:
+        parser.error(f"no row begins with {', '.join(unknown)}; there are {', '.join(ROWS)}")
+    chosen.rows = [row for row in ROWS if row.startswith(begins)]
+    return chosen
+
+
+def load_ours() -> ModuleType | None:
+    """Our side of the rows, when the library can be imported."""
+    try:
+        return importlib.import_module("benchmarks.ours")
+    except ModuleNotFoundError as error:
+        if error.name != "busservo":
+            raise
+        return None
+
+
+def measure(
+    chosen: argparse.Namespace, ours: ModuleType | None, present: Sequence[Peer]
+) -> Results:
+    """Measure all chosen rows."""
+    results = Results()
+    seconds = QUICK_SECONDS if chosen.quick else SECONDS
+    stream_seconds = QUICK_STREAM_SECONDS if chosen.quick else STREAM_SECONDS
+    stretch = QUICK_STRETCH if chosen.quick else captures.PIECE
+    for row in chosen.rows:
+        print(f"measuring {row}", file=sys.stderr, flush=True)
+        kind = row.split("-")[0]
+        able = [peer for peer in present if kind not in peer.lacks]
+        for peer in present:
+            if peer not in able:
+                results.outcomes[row, peer.name] = "no"
+        if row in messages.ROWS:
+            cases = ours.message_cases(row) if ours else []
+            cases += [messages.peer_case(row, peer) for peer in able]
+            messages.measure(row, cases, chosen.rounds, seconds, results)
+        elif row in streams.ROWS:
+            cases = ours.stream_cases() if ours else []
+            cases += [streams.peer_case(peer) for peer in able]
+            streams.measure(row, cases, chosen.rounds, stream_seconds, stretch, results)
+        elif row in streams.NOISE_ROWS:
+            cases = [streams.floor_case(), *(ours.stream_cases() if ours else [])]
+            streams.measure_noise(row, cases, chosen.rounds, stretch, results)
+        elif row == "import":
+            measure_imports(ours, present, chosen.rounds, results)
+        else:
+            measure_generators(present, chosen.rounds, results)
+    return results
+
+
+def measure_imports(
+    ours: ModuleType | None, present: Sequence[Peer], rounds: int, results: Results
+) -> None:
+    """Import everything that can be imported, and `struct`, which the floor needs."""
+    processes.measure_import(FLOOR, "import struct", None, rounds, results)
+    if ours:
+        processes.measure_import(OURS, ours.IMPORT_STATEMENT, None, rounds, results)
+    for peer in present:
+        processes.measure_import(
+            peer.name, peer.import_statement, peer.import_path, rounds, results
+        )
+
+
+def measure_generators(present: Sequence[Peer], rounds: int, results: Results) -> None:
+    """Run every generator that there is."""
+    if importlib.util.find_spec("framegen"):
+        with tempfile.TemporaryDirectory() as folder:
+            processes.measure_generate(OURS, [*_GENERATE, folder], rounds, results)
+    for peer in present:
+        if peer.generate_command:
+            processes.measure_generate(peer.name, peer.generate_command, rounds, results)
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Measure and print; 1 when a contender gave a wrong result."""
+    chosen = options(arguments)
+    ours = load_ours()
+    present, absent = ([], []) if chosen.no_peers else peers.load()
+    results = measure(chosen, ours, present)
+    print(report.everything(results, ours is not None, present, absent, chosen.rounds))
+    return 1 if results.wrong else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

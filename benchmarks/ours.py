@@ -1,0 +1,98 @@
+"""The generated library, and the statements by which its users do the work of each row."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import busservo
+from busservo import Direction, Noise, ServoMove, ServoPositions, StreamDecoder
+
+from benchmarks import floor, messages, streams
+from benchmarks.results import AT_HAND, BY_CLASS, EVERY_FIELD, OURS
+
+IMPORT_STATEMENT = "import busservo"
+
+_NAMES: dict[str, Any] = {
+    "decode": busservo.decode,
+    "from_controller": Direction.CONTROLLER_TO_HOST,
+    "ActionGroupCompleted": busservo.ActionGroupCompleted,
+    "ActionGroupStarted": busservo.ActionGroupStarted,
+    "BatteryVoltage": busservo.BatteryVoltage,
+    "ServoMove": ServoMove,
+    "ServoPositions": ServoPositions,
+}
+
+_READ_STREAM = """\
+for chunk in chunks:
+    for event in feed(chunk):
+        kind = type(event)
+        if kind is ServoPositions:
+            for servo in event.positions:
+                servo.servo_id; servo.position
+        elif kind is BatteryVoltage:
+            event.voltage_mv
+        elif kind is ActionGroupStarted or kind is ActionGroupCompleted:
+            event.group; event.times
+        else:
+            event.data
+"""
+
+
+def message_cases(row: str) -> list[messages.Case]:
+    """Encode or decode one message, by the ways in which one may."""
+    if row in messages.ENCODE_ROWS:
+        targets = messages.targets(messages.ENCODE_ROWS[row])
+        names = {
+            **_NAMES,
+            "time_ms": messages.TIME_MS,
+            "targets": targets,
+            "move": ServoMove(messages.TIME_MS, targets),
+        }
+        whole = "ServoMove(time_ms, targets).encode()"
+        return [
+            messages.Case(OURS, whole, whole, names),
+            messages.Case(AT_HAND, "move.encode()", "move.encode()", names),
+        ]
+    command = messages.DECODE_ROWS[row]
+    names = {**_NAMES, "frame": messages.FRAMES[command]}
+    dispatched = "decode(frame, from_controller)"
+    if command == floor.POSITIONS:
+        known = "ServoPositions.decode(frame)"
+        reading = f"for servo in {dispatched}.positions:\n    servo.servo_id; servo.position"
+    else:
+        known = "BatteryVoltage.decode(frame)"
+        reading = f"{dispatched}.voltage_mv"
+    return [
+        messages.Case(OURS, dispatched, dispatched, names, plain),
+        messages.Case(BY_CLASS, known, known, names, plain),
+        messages.Case(EVERY_FIELD, reading, dispatched, names, plain),
+    ]
+
+
+def stream_cases() -> list[streams.Case]:
+    """Decode a stream: messages alone, and every field of every event read."""
+    return [
+        streams.Case(OURS, decoder, plain_events, whole=True),
+        streams.Case(EVERY_FIELD, decoder, plain_events, _READ_STREAM, _NAMES, whole=True),
+    ]
+
+
+def decoder() -> StreamDecoder:
+    """A decoder of what the controller sends."""
+    return StreamDecoder(Direction.CONTROLLER_TO_HOST)
+
+
+def plain(message: Any) -> object:
+    """A message as the floor's parsers would give it: used to check, never timed."""
+    if isinstance(message, busservo.ServoPositions):
+        return tuple((servo.servo_id, servo.position) for servo in message.positions)
+    if isinstance(message, busservo.BatteryVoltage):
+        return message.voltage_mv
+    if isinstance(message, busservo.ActionGroupStopped):
+        return None
+    return message.group, message.times
+
+
+def plain_events(events: list[Any]) -> list[tuple[int, object]]:
+    """The messages among these events as the floor would list them."""
+    return [(event.COMMAND, plain(event)) for event in events if not isinstance(event, Noise)]

@@ -1,0 +1,178 @@
+"""The tables that a run ends with, in Markdown."""
+
+from __future__ import annotations
+
+import platform
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from benchmarks import captures, streams
+from benchmarks.peers import NOT_INSTALLED
+from benchmarks.results import EVERY_FIELD, FLOOR, OURS, Results
+from benchmarks.targets import TARGETS
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Iterator, Mapping, Sequence
+
+    from benchmarks.peers import Absent
+    from benchmarks.peers.interface import Peer
+
+_NOTHING = "-"
+
+
+@dataclass(frozen=True)
+class Table:
+    """Contenders down, rows of the benchmark across."""
+
+    title: str
+    columns: Mapping[str, str]
+    """Row of the benchmark, and the head of its column."""
+
+    candidates: Sequence[str] | None = None
+    """Who is named when absent: everybody, unless it is said here."""
+
+
+TABLES = (
+    Table(
+        "One message, ratio to the floor",
+        {
+            "encode-1": "encode MOVE, 1",
+            "encode-6": "6",
+            "encode-32": "32 servos",
+            "decode-6": "decode 6 servos",
+            "decode-battery": "battery",
+        },
+    ),
+    *(
+        Table(
+            f"Stream, {kind}, ratio to the floor",
+            {
+                row: f"chunks of {chunk}" if chunk == streams.CHUNKS[0] else str(chunk)
+                for row, (of_kind, chunk) in streams.ROWS.items()
+                if of_kind == kind
+            },
+        )
+        for kind in captures.KINDS
+    ),
+    Table(
+        "Noise, chunks of 64, ratio to one's own clean stream",
+        {"noise-garbage": "garbage", "noise-flipped": "flipped"},
+        (OURS,),
+    ),
+    Table("Import, milliseconds over a bare Python", {"import": "ms"}),
+    Table("Generate, CPU seconds of a fresh process", {"generate": "s"}, (OURS, "Kaitai Struct")),
+)
+
+
+def everything(
+    results: Results,
+    with_ours: bool,
+    present: Sequence[Peer],
+    absent: Sequence[Absent],
+    rounds: int,
+) -> str:
+    """The whole report."""
+    titles = {FLOOR: "floor (struct by hand)", OURS: OURS, EVERY_FIELD: EVERY_FIELD}
+    titles |= {peer.name: peer.title for peer in present}
+    missing = [*([] if with_ours else [OURS]), *(one.name for one in absent)]
+    rounds_text = "1 round" if rounds == 1 else f"{rounds} rounds"
+    python = f"{platform.python_implementation()} {platform.python_version()}"
+    parts = [
+        f"{python}, CPU time, median of {rounds_text}, collector on, floor = 1.00; lower is better."
+    ]
+    for table in TABLES:
+        columns = {row: head for row, head in table.columns.items() if _any(results, row)}
+        if columns:
+            candidates = [
+                name for name in missing if table.candidates is None or name in table.candidates
+            ]
+            parts += [f"### {table.title}", _comparison(results, columns, titles, candidates)]
+    parts += _notes(results, present, absent)
+    ours = _against_targets(results)
+    if ours:
+        parts += ["### busservo against bar and goal", ours]
+    return "\n\n".join(parts)
+
+
+def _comparison(
+    results: Results,
+    columns: Mapping[str, str],
+    titles: Mapping[str, str],
+    missing: Sequence[str],
+) -> str:
+    """Contenders down, rows of the benchmark across, medians in the cells."""
+    lines = []
+    for contender, title in titles.items():
+        cells = [_cell(results, row, contender) for row in columns]
+        if any(cell != _NOTHING for cell in cells):
+            lines.append([title, *cells])
+    nothing = [_NOTHING] * (len(columns) - 1)
+    lines += [[name, NOT_INSTALLED, *nothing] for name in missing]
+    return _table(["", *columns.values()], lines)
+
+
+def _any(results: Results, row: str) -> bool:
+    return any(measured == row for measured, _ in results.outcomes)
+
+
+def _cell(results: Results, row: str, contender: str) -> str:
+    is_ratio_to_floor = row.startswith(("encode", "decode", "stream"))
+    if contender == FLOOR and is_ratio_to_floor:
+        return "1.00"
+    outcome = results.outcomes.get((row, contender), _NOTHING)
+    return outcome if isinstance(outcome, str) else _figure(outcome.median)
+
+
+def _notes(results: Results, present: Sequence[Peer], absent: Sequence[Absent]) -> Iterator[str]:
+    """What a reader of the tables should know of single contenders."""
+    for peer in present:
+        for kind, reason in peer.lacks.items():
+            if any(row.startswith(kind) for row, _ in results.outcomes):
+                yield f"{peer.name}: {reason}."
+    for one in absent:
+        if one.reason != NOT_INSTALLED:
+            yield f"{one.name}: {one.reason}."
+    if results.sizes:
+        sizes = ", ".join(f"{name} {size >> 10} KiB" for name, size in results.sizes.items())
+        yield f"Smallest stretch of a stream in one sample: {sizes}."
+    for sentence in results.wrong:
+        yield f"NOT TIMED: {sentence}"
+
+
+def _against_targets(results: Results) -> str:
+    """Our own rows next to bar and goal; the quartiles say how far a median can be trusted."""
+    lines = []
+    for target in TARGETS:
+        spread = results.spread(target.row, target.contender)
+        if spread is not None:
+            lines.append(
+                [
+                    target.text,
+                    _figure(spread.median),
+                    f"{_figure(spread.low)}..{_figure(spread.high)}",
+                    _NOTHING if target.bar is None else f"{target.bar:g}",
+                    _NOTHING if target.goal is None else f"{target.goal:g}",
+                    target.verdict(spread.median) or _NOTHING,
+                ]
+            )
+    return _table(["", "median", "quartiles", "bar", "goal", "verdict"], lines) if lines else ""
+
+
+def _figure(value: float) -> str:
+    """Three significant digits or so."""
+    if abs(value) < 9.995:
+        return f"{value:.2f}"
+    return f"{value:.1f}" if abs(value) < 99.95 else f"{value:.0f}"
+
+
+def _table(head: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
+    """A Markdown table whose columns line up: the first to the left, the others to the right."""
+    lines = [list(head), *map(list, rows)]
+    widths = [max(len(line[column]) for line in lines) for column in range(len(head))]
+
+    def text(line: Sequence[str]) -> str:
+        others = [cell.rjust(width) for cell, width in zip(line[1:], widths[1:], strict=True)]
+        return f"| {' | '.join([line[0].ljust(widths[0]), *others])} |"
+
+    rule = ["-" * widths[0], *("-" * (width - 1) + ":" for width in widths[1:])]
+    return "\n".join([text(lines[0]), text(rule), *map(text, lines[1:])])

@@ -1,0 +1,44 @@
+"""What a run has found: one outcome for every row and contender."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+from benchmarks.sampling import Spread
+
+FLOOR = "floor"
+"""The contender that every other is divided by."""
+
+OURS = "busservo"
+AT_HAND = "busservo, message at hand"
+BY_CLASS = "busservo, class known"
+EVERY_FIELD = "busservo, every field read"
+"""The library in the plainest use of a row, and in other uses."""
+
+
+class WrongResultError(Exception):
+    """A contender does not give what the floor gives, so its time would say nothing."""
+
+
+@dataclass
+class Results:
+    """Outcomes in the order in which they were measured."""
+
+    outcomes: dict[tuple[str, str], Spread | str] = field(default_factory=dict)
+    """By row and contender: what was measured, or the reason why nothing was."""
+
+    sizes: dict[str, int] = field(default_factory=dict)
+    """By contender: the smallest stretch of a stream that one of its samples decoded."""
+
+    wrong: list[str] = field(default_factory=list)
+    """A sentence for every contender that was refused."""
+
+    def spread(self, row: str, contender: str) -> Spread | None:
+        """What was measured of a contender in a row, if anything was."""
+        outcome = self.outcomes.get((row, contender))
+        return outcome if isinstance(outcome, Spread) else None
+
+    def refuse(self, row: str, contender: str, error: Exception) -> None:
+        """Note that a contender failed, or gave a wrong result, and was not timed."""
+        self.outcomes[row, contender] = "failed"
+        self.wrong.append(f"{contender}, {row}: {error}")

@@ -1,0 +1,58 @@
+"""What our own rows are held against: the bar that must not be missed, and the goal."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from benchmarks.results import AT_HAND, BY_CLASS, EVERY_FIELD, OURS
+
+
+@dataclass(frozen=True)
+class Target:
+    """One row of ours; a row without bar and goal is only told."""
+
+    row: str
+    contender: str
+    text: str
+    bar: float | None = None
+    goal: float | None = None
+
+    def verdict(self, value: float) -> str:
+        """PASS or over, by the bar; a goal that is reached is named."""
+        if self.bar is None:
+            return ""
+        if value > self.bar:
+            return "over"
+        if self.goal is not None and value <= self.goal:
+            return "PASS, goal"
+        return "PASS"
+
+
+TARGETS = (
+    Target("encode-1", OURS, "validated encode, 1 servo", 1.0, 0.90),
+    Target("encode-6", OURS, "validated encode, 6 servos", 1.05, 0.97),
+    Target("encode-32", OURS, "validated encode, 32 servos", 1.2, 1.08),
+    Target("encode-1", AT_HAND, "encode a message at hand, 1 servo", 1.0, 0.90),
+    Target("encode-6", AT_HAND, "encode a message at hand, 6 servos", 1.05, 0.97),
+    Target("encode-32", AT_HAND, "encode a message at hand, 32 servos", 1.2, 1.08),
+    Target("decode-6", OURS, "decode a 6-servo reply", 3.1, 0.85),
+    Target("decode-6", BY_CLASS, "decode a 6-servo reply, class known", 3.1, 0.85),
+    Target("decode-6", EVERY_FIELD, "decode a 6-servo reply, every field read"),
+    Target("decode-battery", OURS, "decode a battery reply", 4.1, 4.0),
+    Target("decode-battery", BY_CLASS, "decode a battery reply, class known", 4.1, 4.0),
+    Target("decode-battery", EVERY_FIELD, "decode a battery reply, every field read"),
+    Target("stream-clean-65536", OURS, "stream, chunks of 65536", 1.7, 0.58),
+    Target("stream-clean-64", OURS, "stream, chunks of 64", 1.85, 0.78),
+    Target("stream-clean-1", OURS, "stream, chunks of 1", 0.58, 0.45),
+    Target(
+        "stream-clean-65536", EVERY_FIELD, "stream, chunks of 65536, every field read", 1.6, 1.25
+    ),
+    Target("stream-clean-64", EVERY_FIELD, "stream, chunks of 64, every field read", 1.7, 1.55),
+    Target("stream-clean-1", EVERY_FIELD, "stream, chunks of 1, every field read", 0.60, 0.56),
+    Target("noise-garbage", OURS, "stream with garbage, against our own clean one", 1.10, 1.05),
+    Target(
+        "noise-flipped", OURS, "stream with flipped bits, against our own clean one", 1.10, 1.05
+    ),
+    Target("import", OURS, "import, ms over bare Python", 5.0, 1.5),
+    Target("generate", OURS, "framegen generate, CPU seconds", 0.5, 0.25),
+)
