@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from base64 import b64encode
+from functools import cache
 from hashlib import sha256
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -55,8 +56,7 @@ def render(source: Source, layout: Layout) -> dict[str, str]:
 
 
 def _html(site: SiteView) -> Iterator[tuple[str, str]]:
-    environment = _environment(autoescape=True)
-    environment.filters["linked"] = linked
+    environment = _html_environment()
     data = script_json(protocol_data(site.layout))
     style = _static("style.css")
     for page in [*site.pages, *site.message_pages]:
@@ -77,6 +77,23 @@ def _html(site: SiteView) -> Iterator[tuple[str, str]]:
 
 
 def _markdown(site: SiteView) -> Iterator[tuple[str, str]]:
+    environment = _markdown_environment()
+    for page in [*site.pages, *site.message_pages]:
+        twin = page.path.replace(".html", ".md") if page.message else _TWINS.get(page.path)
+        if twin is not None:
+            template = environment.get_template(f"{page.template}.md.jinja")
+            yield twin, template.render(site=site, page=page, message=page.message)
+
+
+@cache
+def _html_environment() -> Environment:
+    environment = _environment(autoescape=True)
+    environment.filters["linked"] = linked
+    return environment
+
+
+@cache
+def _markdown_environment() -> Environment:
     # Escaped unless it is Safe: what a template prints is escaped where autoescape would do it.
     environment = _environment(autoescape=False, finalize=markdown)
     environment.filters |= {
@@ -86,11 +103,7 @@ def _markdown(site: SiteView) -> Iterator[tuple[str, str]]:
         "safe": Safe,
         "verbatim": verbatim,
     }
-    for page in [*site.pages, *site.message_pages]:
-        twin = page.path.replace(".html", ".md") if page.message else _TWINS.get(page.path)
-        if twin is not None:
-            template = environment.get_template(f"{page.template}.md.jinja")
-            yield twin, template.render(site=site, page=page, message=page.message)
+    return environment
 
 
 def _environment(**settings: Any) -> Environment:

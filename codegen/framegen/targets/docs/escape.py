@@ -12,10 +12,11 @@ from markupsafe import Markup, escape
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
-_SPECIAL = re.compile(r"([\\`*_{}\[\]|~^$])")
+_SPECIAL = re.compile(r"([\\`*_\[\]|~^$])")
 # What only means something at the start of a line: a heading, a list, a rule.
 _LEADING = re.compile(r"([#+\-=]|[0-9]+(?=[.)](?:\s|$)))")
-_ENTITIES = {"&": "&amp;", "<": "&lt;", ">": "&gt;"}
+# Braces mean something to site generators, whatever stands in front of them.
+_ENTITIES = {"&": "&amp;", "<": "&lt;", ">": "&gt;", "{": "&#123;", "}": "&#125;"}
 
 
 class Safe(str):

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from framegen.targets.docs.cite import CiteView, Lines, cite_view, lines_of
+from framegen.targets.docs.strip import repeated
 
 if TYPE_CHECKING:
     from framegen.layout import Layout, MessageLayout, WireField
@@ -66,8 +67,8 @@ def field_views(layout: Layout, tree: Tree, message: MessageLayout) -> list[Fiel
     count = f"{repeat.low}..{repeat.high} of them"
     path: KeyPath = ("fields", repeat.name)
     if repeat.element is None:
-        offset = f"{repeat.offset} + {repeat.size}i"
-        return [*views, maker.number(repeat.fields[0], f"{repeat.name}[i]", offset, path, count)]
+        name = f"{repeat.name}[i]"
+        return [*views, maker.number(repeat.fields[0], name, repeated(repeat), path, count)]
     views.append(
         maker.view(
             repeat.field, repeat.name, str(repeat.offset), path, f"list of {repeat.element}", count
@@ -77,7 +78,7 @@ def field_views(layout: Layout, tree: Tree, message: MessageLayout) -> list[Fiel
         maker.number(
             field,
             f"{repeat.name}[i].{field.name}",
-            f"{repeat.offset + field.offset} + {repeat.size}i",
+            repeated(repeat, field.offset),
             (*path, "fields", field.name),
         )
         for field in repeat.fields

@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from framegen.explain import Row
-    from framegen.layout import Layout, MessageLayout, WireField
+    from framegen.layout import Layout, MessageLayout, Repeat, WireField
     from framegen.spec import FramePart
 
 # More elements of a list than this are not shown one by one.
@@ -56,9 +56,15 @@ def pattern_strip(layout: Layout, message: MessageLayout) -> list[Cell]:
     if repeat is not None:
         for field in repeat.fields:
             name = f"{repeat.name}[i]" + ("" if repeat.element is None else f".{field.name}")
-            offset = f"{repeat.offset + field.offset} + {repeat.size}i"
+            offset = repeated(repeat, field.offset)
             cells.append(Cell(offset, _dots(field.wire.size), name, field.wire.name, "repeated"))
     return cells
+
+
+def repeated(repeat: Repeat, offset: int = 0) -> str:
+    """Say where something stands in each element: `7 + 3i`."""
+    step = "i" if repeat.size == 1 else f"{repeat.size}i"
+    return f"{repeat.offset + offset} + {step}"
 
 
 def _pattern(field: WireField, role: str) -> Cell:
