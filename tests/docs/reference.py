@@ -24,23 +24,8 @@ NODE = shutil.which("node")
 # Where `make docs-tools` puts what tests/docs/package.json names.
 NODE_MODULES = ROOT / ".tools" / "node" / "node_modules"
 
-VOID = frozenset(
-    [
-        "area",
-        "base",
-        "br",
-        "col",
-        "embed",
-        "hr",
-        "img",
-        "input",
-        "link",
-        "meta",
-        "source",
-        "track",
-        "wbr",
-    ]
-)
+# Elements without an end.
+VOID = frozenset(["br", "img", "input", "link", "meta"])
 
 
 @dataclass

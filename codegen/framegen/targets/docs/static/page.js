@@ -24,8 +24,9 @@ document.addEventListener("click", async (event) => {
   setTimeout(() => { button.textContent = label; button.disabled = false; button.focus(); }, 900);
 });
 
-// What needs a script is hidden until there is one.
+// What needs a script is hidden until there is one, and what stands in for it afterwards.
 for (const element of document.querySelectorAll("[data-script]")) element.hidden = false;
+for (const element of document.querySelectorAll("[data-no-script]")) element.hidden = true;
 
 const searchField = document.getElementById("search");
 if (searchField) {
