@@ -27,8 +27,10 @@ PAYLOADS = {
 }
 # Keys whose value is prose, or a name that may be any text.
 FREE = frozenset(
-    ["title", "summary", "description", "about", "text", "why", "here", "what", "unit"]
-    + ["vendor_name", "constructed", "deprecated"]
+    [
+        *("title", "summary", "description", "about", "text", "why", "here", "what", "unit"),
+        *("vendor_name", "constructed", "deprecated"),
+    ]
 )
 
 
