@@ -7,10 +7,12 @@ import re
 import shutil
 from typing import TYPE_CHECKING, Any
 
+import busservo
 import pytest
 
-from tests.docs.peers import vectors_of
+from tests.docs.peers import noisy_lines, python_events, vectors_of
 from tests.docs.reference import NODE_MODULES, reference
+from tests.docs.test_hostile_pages import PAYLOADS, hostile
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -189,6 +191,20 @@ def test_the_decoder_shows_frames_noise_and_unknown_frames(visit: Visit) -> None
     ]
 
 
+def test_noisy_streams_are_decoded_as_python_decodes_them(visit: Visit) -> None:
+    tab = visit.open("decoder.html")
+    ways = [None, *(way.key for way in SITE.layout.directions)]
+    lines = [(line, way) for line in noisy_lines(SITE, 17, 400) for way in ways]
+    answers = tab.evaluate(
+        """(lines) => lines.map(([text, way]) => codec.decodeStream(parseHex(text), way).map(
+            ({ type, bytes, message, reason }) => [type, toHex(bytes), message || reason]))""",
+        [[line.hex(), way] for line, way in lines],
+    )
+    for (line, way), answer in zip(lines, answers, strict=True):
+        said = [[kind, text.replace(" ", "").lower(), what] for kind, text, what in answer]
+        assert said == python_events(busservo, line, way), f"{way}: {line.hex(' ')}"
+
+
 def test_the_decoder_says_what_is_no_hex(visit: Visit) -> None:
     tab = visit.open("decoder.html")
     field = tab.get_by_label("Bytes in hex")
@@ -346,6 +362,25 @@ def test_a_page_alone_looks_as_in_its_folder(visit: Visit, tmp_path: Path, folde
     alone.tab.close()
     assert alone.troubles == []
     assert shots[0] == shots[1]
+
+
+def test_nothing_of_a_hostile_spec_runs(context: BrowserContext, tmp_path: Path) -> None:
+    site = hostile(" ".join(PAYLOADS.values()))
+    for path, page in site.pages.items():
+        file = tmp_path / path
+        file.parent.mkdir(parents=True, exist_ok=True)
+        file.write_text(page.text, encoding="utf-8")
+    visit = Visit(context, tmp_path)
+    visit.tab.on("dialog", lambda dialog: visit.troubles.append(dialog.message))
+    for path in [*NAMES, "messages/ServoMove.html"]:
+        tab = visit.open(path)
+        tab.mouse.move(200, 200)
+        assert tab.locator("img").count() == 0
+        if path == "decoder.html":
+            assert decoded(tab) == ["✓ ServoMove"]
+    visit.tab.close()
+    assert visit.troubles == []
+    assert [url for url in visit.requests if not url.startswith("file:")] == []
 
 
 # ---------------------------------------------------------------------------- for everybody
