@@ -5,13 +5,13 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from framegen.targets import python, schema, vectors
+from framegen.targets import docs, python, schema, vectors
 
 if TYPE_CHECKING:
     from framegen.layout import Layout
     from framegen.source import Source
 
-TARGETS = (python, schema, vectors)
+TARGETS = (docs, python, schema, vectors)
 
 
 @dataclass(frozen=True, slots=True)
@@ -28,5 +28,5 @@ def render(source: Source, layout: Layout) -> Rendered:
     files: dict[str, str] = {}
     for target in TARGETS:
         files |= target.render(source, layout)
-    folders = (f"generated/{layout.spec.protocol.name}",)
+    folders = (f"generated/{layout.spec.protocol.name}", docs.FOLDER)
     return Rendered(dict(sorted(files.items())), folders, source.digest)

@@ -11,7 +11,7 @@ from framegen.wording import counted
 if TYPE_CHECKING:
     from argparse import ArgumentParser, Namespace
 
-SUMMARY = "Write the library, the editor schema and the test vectors that follow from a spec."
+SUMMARY = "Write the library, the reference, the editor schema and the test vectors of a spec."
 EXAMPLES = (
     ("framegen generate", "write what spec/*.yaml asks for; only what differs is touched"),
     ("framegen generate --diff", "show what that would change, and change nothing"),

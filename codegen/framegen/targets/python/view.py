@@ -343,10 +343,11 @@ class MessageView:
         """That example as an interactive session."""
         if self.example is None:
             return []
-        call = f">>> {self._call(self.example.values)}.encode().hex(' ')"
+        call = f">>> {self.call(self.example.values)}.encode().hex(' ')"
         return [call, f"'{self.example.hex.hex(' ')}'"]
 
-    def _call(self, values: dict[str, Any]) -> str:
+    def call(self, values: dict[str, Any]) -> str:
+        """The call that makes the message of an example."""
         given = [
             f"{argument.name}={_shown(argument, values)}" for argument in self.layout.arguments
         ]

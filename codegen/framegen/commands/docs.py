@@ -1,0 +1,61 @@
+"""`framegen docs`: the reference of a spec, for a look."""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from framegen.wording import counted
+
+if TYPE_CHECKING:
+    from argparse import ArgumentParser, Namespace
+
+SUMMARY = "Write the reference of a spec into a folder of its own, and open it in a browser."
+EXAMPLES = (
+    ("framegen docs --open", "the reference of spec/*.yaml, in your browser"),
+    ("framegen docs SPEC.yaml --open", "that of another spec"),
+    ("framegen docs --out site", "write it into this folder, ready to be served"),
+)
+
+
+def add_arguments(parser: ArgumentParser) -> None:
+    """Declare the arguments of the verb."""
+    parser.add_argument("spec", nargs="?", type=Path, metavar="SPEC", help="a spec file")
+    parser.add_argument("--open", action="store_true", help="open the index in a browser")
+    parser.add_argument(
+        "--out", type=Path, metavar="FOLDER", help="write here, and not into a temporary folder"
+    )
+
+
+def run(arguments: Namespace) -> int:
+    """Render the reference alone, and print where its index is. 1 where the spec has findings."""
+    from tempfile import mkdtemp  # noqa: PLC0415
+    from webbrowser import open as open_in_browser  # noqa: PLC0415
+
+    from framegen.checks import check  # noqa: PLC0415
+    from framegen.commands.spec_argument import read_spec  # noqa: PLC0415
+    from framegen.layout import derive  # noqa: PLC0415
+    from framegen.targets import docs  # noqa: PLC0415
+
+    loaded = read_spec(arguments.spec)
+    findings = check(loaded)
+    if findings or loaded.spec is None:
+        for finding in findings:
+            print(finding.render(loaded.source) + "\n")
+        name = loaded.source.name
+        print(
+            f"{counted(len(findings), 'finding')} in {name}: nothing was written", file=sys.stderr
+        )
+        return 1
+    files = docs.render(loaded.source, derive(loaded.spec))
+    folder: Path = arguments.out or Path(mkdtemp(prefix="framegen-docs-"))
+    for path, text in files.items():
+        file = folder / Path(path).relative_to(docs.FOLDER)
+        file.parent.mkdir(parents=True, exist_ok=True)
+        file.write_bytes(text.encode())
+    index = folder / "index.html"
+    print(index)
+    if arguments.open and not open_in_browser(index.resolve().as_uri()):
+        print("no browser was found; open the file yourself", file=sys.stderr)
+    return 0

@@ -1,0 +1,135 @@
+"""The reference: static pages that need no network, and a Markdown twin of them."""
+
+from __future__ import annotations
+
+from base64 import b64encode
+from functools import cache
+from hashlib import sha256
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from jinja2 import Environment, FileSystemLoader, StrictUndefined
+from markupsafe import Markup
+
+from framegen.targets.docs.data import protocol_data
+from framegen.targets.docs.escape import (
+    Safe,
+    address,
+    code,
+    linked,
+    markdown,
+    named,
+    script_json,
+    verbatim,
+)
+from framegen.targets.docs.site import SiteView
+from framegen.yamltree import read_tree
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from framegen.layout import Layout
+    from framegen.source import Source
+
+FOLDER = "docs/reference"
+
+_HERE = Path(__file__).parent
+# The decoder needs a script, the cheat sheet paper, and the spec is YAML: they have no twin.
+_TWINS = {
+    "index.html": "README.md",
+    "examples.html": "examples.md",
+    "stream.html": "stream.md",
+    "sequences.html": "sequences.md",
+    "errata.html": "errata.md",
+    "lookalikes.html": "lookalikes.md",
+    "changelog.html": "changelog.md",
+}
+
+
+def render(source: Source, layout: Layout) -> dict[str, str]:
+    """The files of the reference, by path below the project's root."""
+    # Pages lead to the lines of the spec, and only its text knows where those are.
+    tree, _ = read_tree(source)
+    site = SiteView(source, layout, tree)
+    files = dict([*_html(site), *_markdown(site)])
+    return {f"{FOLDER}/{path}": text for path, text in files.items()}
+
+
+def _html(site: SiteView) -> Iterator[tuple[str, str]]:
+    environment = _html_environment()
+    data = script_json(protocol_data(site.layout))
+    style = _static("style.css")
+    for page in [*site.pages, *site.message_pages]:
+        scripts = [_static(f"{name}.js") for name in page.scripts]
+        template = environment.get_template(f"{page.template}.html.jinja")
+        yield (
+            page.path,
+            template.render(
+                site=site,
+                page=page,
+                message=page.message,
+                style=style,
+                scripts=scripts,
+                data=data,
+                allowed=_allowed(style, scripts),
+            ),
+        )
+
+
+def _markdown(site: SiteView) -> Iterator[tuple[str, str]]:
+    environment = _markdown_environment()
+    for page in [*site.pages, *site.message_pages]:
+        twin = page.path.replace(".html", ".md") if page.message else _TWINS.get(page.path)
+        if twin is not None:
+            template = environment.get_template(f"{page.template}.md.jinja")
+            yield twin, template.render(site=site, page=page, message=page.message)
+
+
+@cache
+def _html_environment() -> Environment:
+    environment = _environment(autoescape=True)
+    environment.filters["linked"] = linked
+    return environment
+
+
+@cache
+def _markdown_environment() -> Environment:
+    # Escaped unless it is Safe: what a template prints is escaped where autoescape would do it.
+    environment = _environment(autoescape=False, finalize=markdown)
+    environment.filters |= {
+        "address": address,
+        "code": code,
+        "named": named,
+        "safe": Safe,
+        "verbatim": verbatim,
+    }
+    return environment
+
+
+def _environment(**settings: Any) -> Environment:
+    # What is Markdown is escaped by its own `finalize`; what is HTML asks for autoescape.
+    return Environment(  # noqa: S701
+        loader=FileSystemLoader(_HERE / "templates"),
+        undefined=StrictUndefined,
+        trim_blocks=True,
+        lstrip_blocks=True,
+        keep_trailing_newline=True,
+        **settings,
+    )
+
+
+def _static(name: str) -> Markup:
+    """A file that goes into pages as it is."""
+    return Markup((_HERE / "static" / name).read_text(encoding="utf-8"))  # noqa: S704 - our own
+
+
+def _allowed(style: str, scripts: list[Markup]) -> dict[str, str]:
+    """What the pages' own policy lets run: these very texts, told by their digests."""
+    return {
+        "style": _digest(style),
+        "script": " ".join(_digest(script) for script in scripts) or "'none'",
+    }
+
+
+def _digest(text: str) -> str:
+    return f"'sha256-{b64encode(sha256(text.encode()).digest()).decode()}'"

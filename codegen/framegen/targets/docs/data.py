@@ -1,0 +1,89 @@
+"""The protocol as the page's own decoder reads it: the layout as plain values, nothing of prose."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from framegen.layout import Repeat, part_size
+from framegen.spec import BodyPart
+
+if TYPE_CHECKING:
+    from framegen.layout import Layout, MessageLayout, WireField
+
+
+def protocol_data(layout: Layout) -> dict[str, Any]:
+    """Everything that decoding and encoding need."""
+    frame = layout.frame
+    return {
+        "name": layout.spec.protocol.name,
+        "byteOrder": layout.spec.byte_order,
+        "header": list(frame.header),
+        "length": {"name": frame.length_name, "at": frame.length_at, "size": frame.length.size},
+        "id": {"name": frame.id_name, "at": frame.id_at, "size": frame.id.size},
+        "bodyAt": frame.body_at,
+        "uncounted": frame.uncounted,
+        "parts": _parts(layout),
+        "directions": [
+            {"key": way.key, "text": f"{way.sender} to {way.receiver}"} for way in layout.directions
+        ],
+        "messages": [_message(message) for message in layout.messages.values()],
+    }
+
+
+def _parts(layout: Layout) -> list[dict[str, Any]]:
+    parts: list[dict[str, Any]] = []
+    at = 0
+    for name, part in layout.spec.frame.items():
+        if not isinstance(part, BodyPart):
+            parts.append({"name": name, "is": part.is_, "at": at, "size": part_size(part)})
+        at += part_size(part)
+    return parts
+
+
+def _message(message: MessageLayout) -> dict[str, Any]:
+    lengths, repeat = message.lengths, message.repeat
+    return {
+        "name": message.name,
+        "id": message.id,
+        "direction": message.direction.key,
+        "summary": message.message.summary,
+        "example": _example(message),
+        "lengths": {"first": lengths[0], "last": lengths[-1], "step": lengths.step},
+        "numbers": [_field(field) for field in message.numbers],
+        "list": None
+        if repeat is None
+        else {
+            "name": repeat.name,
+            "element": repeat.element,
+            "counter": repeat.counter.name,
+            "at": repeat.offset,
+            "size": repeat.size,
+            "low": repeat.low,
+            "high": repeat.high,
+            "fields": [_field(field) for field in repeat.fields],
+        },
+    }
+
+
+def _example(message: MessageLayout) -> dict[str, Any]:
+    """Values to begin with: those of the first example, or else the lowest."""
+    if message.message.examples:
+        return dict(message.message.examples[0].values)
+    return {
+        argument.name: [] if isinstance(argument, Repeat) else argument.low
+        for argument in message.arguments
+    }
+
+
+def _field(field: WireField) -> dict[str, Any]:
+    """A number: `at` counts from the first byte of the frame, or of the element."""
+    return {
+        "name": field.name,
+        "at": field.offset,
+        "size": field.wire.size,
+        "signed": field.wire.low < 0,
+        "low": field.low,
+        "high": field.high,
+        "unit": field.field.unit,
+        "names": {name: value.value for name, value in field.field.values.items()},
+    }

@@ -1,0 +1,133 @@
+"""Sequences as pictures: who says what to whom, and in which order, drawn to scale for SVG."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from framegen.layout import Layout
+    from framegen.values import Direction
+
+_WIDTH = 360
+_MARGIN = 48
+_TOP, _STEP, _BOTTOM = 46, 40, 16
+_HEAD = 7
+
+
+@dataclass(frozen=True, slots=True)
+class Arrow:
+    """One message on its way. `sure` is whether it always comes; `head` are the tip's points."""
+
+    message: str
+    note: str
+    start: int
+    end: int
+    y: int
+    sure: bool
+
+    @property
+    def head(self) -> str:
+        """The corners of the tip."""
+        back = self.end + (-_HEAD if self.end > self.start else _HEAD)
+        return f"{self.end},{self.y} {back},{self.y - 4} {back},{self.y + 4}"
+
+    @property
+    def middle(self) -> int:
+        """Where the label is centred."""
+        return (self.start + self.end) // 2
+
+
+@dataclass(frozen=True, slots=True)
+class Lifeline:
+    """One end, as a line down the picture."""
+
+    name: str
+    x: int
+
+
+@dataclass(frozen=True, slots=True)
+class Drawing:
+    """One sequence: `caption` says in words what the picture shows."""
+
+    id: str
+    title: str
+    caption: str
+    lifelines: list[Lifeline]
+    arrows: list[Arrow]
+
+    @property
+    def width(self) -> int:
+        """Of the picture, in its own units."""
+        return _WIDTH
+
+    @property
+    def height(self) -> int:
+        """Of the picture, in its own units."""
+        return _TOP + _STEP * len(self.arrows) + _BOTTOM
+
+
+def drawing(layout: Layout, name: str) -> Drawing | None:
+    """Draw what a message sets off; None for one that is itself set off by another."""
+    message = layout.messages[name]
+    kind = layout.kind(name)
+    if kind not in ("query", "command"):
+        return None
+    steps = [(name, "", True)]
+    if message.message.reply is not None:
+        steps.append((message.message.reply, "always", True))
+    steps += [(report, "may follow", False) for report in message.message.reports]
+    return _drawn(layout, name, steps, _caption(layout, name))
+
+
+def interruption(layout: Layout) -> Drawing | None:
+    """Draw a report that comes between a request and its reply, where the protocol has both."""
+    reports = {
+        name: message for name, message in layout.messages.items() if _is_report(layout, name)
+    }
+    for name, message in layout.messages.items():
+        reply = message.message.reply
+        if reply is None:
+            continue
+        for report, sent in reports.items():
+            if sent.direction == layout.messages[reply].direction:
+                steps = [(name, "", True), (report, "unasked", False), (reply, "always", True)]
+                caption = (
+                    f"{report} may arrive at any time, also between {name} and {reply}: whoever "
+                    f"waits for {reply} must look at what arrived, not only that something did."
+                )
+                return _drawn(layout, "interruption", steps, caption)
+    return None
+
+
+def _is_report(layout: Layout, name: str) -> bool:
+    return layout.kind(name) == "report"
+
+
+def _caption(layout: Layout, name: str) -> str:
+    message = layout.messages[name].message
+    sender, receiver = message.direction.sender, message.direction.receiver
+    if message.reply is not None:
+        return f"The {sender} sends {name}; the {receiver} answers with {message.reply}."
+    if message.reports:
+        listed = ", then perhaps ".join(message.reports)
+        return f"The {sender} sends {name}; sooner or later the {receiver} may report {listed}."
+    return f"The {sender} sends {name}. Nothing comes back, whether it was understood or not."
+
+
+def _drawn(layout: Layout, id_: str, steps: list[tuple[str, str, bool]], caption: str) -> Drawing:
+    ways = [layout.messages[name].direction for name, _, _ in steps]
+    at = _places(ways)
+    arrows = [
+        Arrow(name, note, at[way.sender], at[way.receiver], _TOP + _STEP * index + 24, sure)
+        for index, ((name, note, sure), way) in enumerate(zip(steps, ways, strict=True))
+    ]
+    lines = [Lifeline(name, x) for name, x in at.items()]
+    title = "A report between request and reply" if id_ == "interruption" else id_
+    return Drawing(f"sequence-{id_}", title, caption, lines, arrows)
+
+
+def _places(ways: list[Direction]) -> dict[str, int]:
+    names = list(dict.fromkeys(end for way in ways for end in (way.sender, way.receiver)))
+    between = (_WIDTH - 2 * _MARGIN) // max(1, len(names) - 1)
+    return {name: _MARGIN + between * index for index, name in enumerate(names)}

@@ -1,0 +1,87 @@
+"""Makes text from a spec safe for the place where it goes: HTML, Markdown, or JSON in a script."""
+
+from __future__ import annotations
+
+import json
+import re
+from typing import TYPE_CHECKING, Any
+from urllib.parse import quote
+
+from markupsafe import Markup, escape
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+_SPECIAL = re.compile(r"([\\`*_\[\]|~^$])")
+# What only means something at the start of a line: a heading, a list, a rule.
+_LEADING = re.compile(r"([#+\-=]|[0-9]+(?=[.)](?:\s|$)))")
+# Braces mean something to site generators, whatever stands in front of them.
+_ENTITIES = {"&": "&amp;", "<": "&lt;", ">": "&gt;", "{": "&#123;", "}": "&#125;"}
+
+
+class Safe(str):
+    """Markdown that the generator wrote itself, or that has been escaped already."""
+
+    __slots__ = ()
+
+
+def markdown(value: object) -> str:
+    """What stands for `value` in Markdown: no mark-up, no HTML, no link, and all on one line."""
+    if isinstance(value, Safe):
+        return value
+    folded = " ".join(str(value).split())
+    quoted = "".join(_ENTITIES.get(character, character) for character in folded)
+    escaped = _SPECIAL.sub(r"\\\1", quoted)
+    leading = _LEADING.match(escaped)
+    if leading is not None:
+        end = leading.end() if escaped[0].isdigit() else 0
+        escaped = f"{escaped[:end]}\\{escaped[end:]}"
+    # Forges make links of bare addresses; so written, they make none.
+    return escaped.replace("://", "&#58;//").replace("www.", "www&#46;")
+
+
+def code(value: object) -> Safe:
+    """Put text into a code span, which nothing in the text can end."""
+    text = " ".join(str(value).split()).replace("`", "'").replace("|", "\\|")
+    return Safe(f"`{text}`" if text else "")
+
+
+def verbatim(value: object) -> Safe:
+    """Put text into a fenced block, which it must not be able to end."""
+    return Safe(str(value).replace("```", "` ` `"))
+
+
+def address(value: object) -> Safe:
+    """Put text into the target of a link, which it must not be able to leave."""
+    return Safe(quote(str(value), safe="#"))
+
+
+def named(name: str, root: str) -> Safe:
+    """Make a message name lead to its page; the names of messages are plain words."""
+    return Safe(f"[{markdown(name)}]({root}messages/{quote(name)}.md)")
+
+
+def linked(text: str, addresses: Mapping[str, str], root: str) -> Markup:
+    """`text` as HTML, in which every word that is the name of a message leads to its page."""
+    result = Markup()
+    for word in re.split(r"(\w+)", text):
+        address = addresses.get(word)
+        if address is None:
+            result += escape(word)
+        else:
+            result += Markup('<a href="{}{}">{}</a>').format(root, address, word)
+    return result
+
+
+def script_json(value: Any) -> Markup:
+    """`value` as JSON inside a script element, which nothing in it can close."""
+    text = json.dumps(value, ensure_ascii=True, separators=(",", ":"))
+    for character in "<>&":
+        text = text.replace(character, f"\\u{ord(character):04x}")
+    return Markup(text)  # noqa: S704 - nothing is left in it that HTML would read
+
+
+def paragraphs(text: str) -> list[str]:
+    """Cut prose into its paragraphs, each on one line."""
+    blocks = (" ".join(block.split()) for block in text.split("\n\n"))
+    return [block for block in blocks if block]

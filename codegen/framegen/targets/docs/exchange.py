@@ -1,0 +1,114 @@
+"""Documented frames, alone and as a request with what may come back."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from framegen.targets.docs.cite import CiteView, Lines, cite_view, lines_of
+from framegen.targets.docs.strip import Cell, frame_strip
+from framegen.values import to_hex
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from framegen.layout import Layout, MessageLayout
+    from framegen.spec import Example
+    from framegen.yamltree import Tree
+
+
+@dataclass(frozen=True, slots=True)
+class ExampleView:
+    """One documented frame, byte by byte. `number` counts from 1 within its message."""
+
+    message: str
+    number: int
+    title: str
+    data: bytes
+    direction: str
+    key: str
+    cells: list[Cell]
+    cite: CiteView | None
+    constructed: str
+    lines: Lines
+
+    @property
+    def hex(self) -> str:
+        """The bytes as people read them."""
+        return to_hex(self.data)
+
+    @property
+    def python(self) -> str:
+        """The bytes as Python reads them."""
+        return f'bytes.fromhex("{self.hex}")'
+
+    @property
+    def query(self) -> str:
+        """What opens the decoder on these bytes."""
+        return f"hex={self.data.hex()}&direction={self.key}"
+
+
+@dataclass(frozen=True, slots=True)
+class Exchange:
+    """A frame, and those that its message leads to: its reply, or reports that may follow."""
+
+    request: ExampleView
+    replies: list[ExampleView]
+    certain: bool
+
+
+def example_views(layout: Layout, tree: Tree, message: MessageLayout) -> list[ExampleView]:
+    """Every example of a message."""
+    return [
+        ExampleView(
+            message.name,
+            number,
+            example.title,
+            example.hex,
+            f"{message.direction.sender} to {message.direction.receiver}",
+            message.direction.key,
+            frame_strip(layout, message, example.hex),
+            None if example.cite is None else cite_view(layout.spec, example.cite),
+            example.constructed,
+            lines_of(tree, ("messages", message.name, "examples", number - 1)),
+        )
+        for number, example in enumerate(message.message.examples, 1)
+    ]
+
+
+def exchanges(layout: Layout, tree: Tree) -> list[Exchange]:
+    """Every documented frame once: requests with what answers them, then what is left over."""
+    views = {
+        name: example_views(layout, tree, message) for name, message in layout.messages.items()
+    }
+    told: set[tuple[str, int]] = set()
+    found: list[Exchange] = []
+    for name, message in layout.messages.items():
+        said = message.message
+        follow = [said.reply] if said.reply is not None else said.reports
+        for view in views[name]:
+            if (view.message, view.number) in told:
+                continue
+            replies = list(_answers(layout, view, follow, views))
+            told |= {(reply.message, reply.number) for reply in replies}
+            found.append(Exchange(view, replies, certain=said.reply is not None))
+    return found
+
+
+def _answers(
+    layout: Layout, request: ExampleView, follow: list[str], views: dict[str, list[ExampleView]]
+) -> Iterator[ExampleView]:
+    """Of each message that follows, the example that goes with the request, if there is one."""
+    asked = _example(layout, request)
+    for name in follow:
+        for view in views[name]:
+            answer = _example(layout, view).values
+            shared = asked.values.keys() & answer.keys()
+            agree = all(asked.values[key] == answer[key] for key in shared)
+            if agree if shared else view.number == request.number:
+                yield view
+                break
+
+
+def _example(layout: Layout, view: ExampleView) -> Example:
+    return layout.messages[view.message].message.examples[view.number - 1]

@@ -1,0 +1,144 @@
+"""Fields as a reader looks them up: where, what type, which values, what they mean, says who."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from framegen.targets.docs.cite import CiteView, Lines, cite_view, lines_of
+from framegen.targets.docs.strip import repeated
+
+if TYPE_CHECKING:
+    from framegen.layout import Layout, MessageLayout, WireField
+    from framegen.spec import GroupField, NumberField
+    from framegen.yamltree import KeyPath, Tree
+
+
+@dataclass(frozen=True, slots=True)
+class ValueView:
+    """A number with a meaning of its own; `cite` is None where it is known from the message's."""
+
+    name: str
+    value: int
+    about: str
+    cite: CiteView | None
+
+
+@dataclass(frozen=True, slots=True)
+class NoteView:
+    """What else is known, and from where."""
+
+    text: str
+    cite: CiteView
+
+
+@dataclass(frozen=True, slots=True)
+class FieldView:
+    """One row of the table of fields. A list of elements has no type of its own."""
+
+    path: str
+    offset: str
+    type: str
+    unit: str
+    range: str
+    about: str
+    values: list[ValueView]
+    notes: list[NoteView]
+    cite: CiteView
+    lines: Lines
+    derived: bool
+
+    @property
+    def anchor(self) -> str:
+        """Stable as long as the field keeps its name."""
+        return "field-" + self.path.replace("[i]", "").replace(".", "-")
+
+
+def field_views(layout: Layout, tree: Tree, message: MessageLayout) -> list[FieldView]:
+    """Every field of a message in the order of the frame; those of an element after their list."""
+    maker = _Maker(layout, tree, message)
+    views = [
+        maker.number(field, field.name, str(field.offset), ("fields", field.name))
+        for field in message.numbers
+    ]
+    repeat = message.repeat
+    if repeat is None:
+        return views
+    count = f"{repeat.low}..{repeat.high} of them"
+    path: KeyPath = ("fields", repeat.name)
+    if repeat.element is None:
+        name = f"{repeat.name}[i]"
+        return [*views, maker.number(repeat.fields[0], name, repeated(repeat), path, count)]
+    views.append(
+        maker.view(
+            repeat.field, repeat.name, str(repeat.offset), path, f"list of {repeat.element}", count
+        )
+    )
+    views.extend(
+        maker.number(
+            field,
+            f"{repeat.name}[i].{field.name}",
+            repeated(repeat, field.offset),
+            (*path, "fields", field.name),
+        )
+        for field in repeat.fields
+    )
+    return views
+
+
+@dataclass(frozen=True, slots=True)
+class _Maker:
+    layout: Layout
+    tree: Tree
+    message: MessageLayout
+
+    def number(
+        self, field: WireField, path: str, offset: str, key: KeyPath, count: str = ""
+    ) -> FieldView:
+        bounds = f"{field.low}..{field.high}" + (f", {count}" if count else "")
+        return self.view(
+            field.field,
+            path,
+            offset,
+            key,
+            field.wire.name,
+            bounds,
+            derived=self.message.counts_with(field),
+        )
+
+    def view(
+        self,
+        field: NumberField | GroupField,
+        path: str,
+        offset: str,
+        key: KeyPath,
+        type_: str,
+        bounds: str,
+        *,
+        derived: bool = False,
+    ) -> FieldView:
+        spec = self.layout.spec
+        unit = getattr(field, "unit", "")
+        scale = getattr(field, "scale", None)
+        values = getattr(field, "values", {})
+        return FieldView(
+            path=path,
+            offset=offset,
+            type=type_,
+            unit=f"{unit}, one step is {scale}" if scale else unit,
+            range=bounds,
+            about=field.about,
+            values=[
+                ValueView(
+                    name,
+                    value.value,
+                    value.about,
+                    None if value.cite is None else cite_view(spec, value.cite),
+                )
+                for name, value in values.items()
+            ],
+            notes=[NoteView(note.text, cite_view(spec, note.cite)) for note in field.notes],
+            cite=cite_view(spec, field.cite or self.message.message.cite),
+            lines=lines_of(self.tree, ("messages", self.message.name, *key)),
+            derived=derived,
+        )

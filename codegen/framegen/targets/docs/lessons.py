@@ -1,0 +1,128 @@
+"""What the page about stream decoding shows: real bytes, made from the examples of the spec."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from framegen.codec import COUNT_MISMATCH, Unencodable, encode
+from framegen.targets.docs.walk import Walk, walk
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from framegen.layout import Layout, MessageLayout
+    from framegen.values import Direction
+
+# Lists longer than this make no good picture.
+_LONGEST_LIST = 8
+
+
+@dataclass(frozen=True, slots=True)
+class Lesson:
+    """One walk, and what it teaches."""
+
+    id: str
+    title: str
+    text: str
+    walk: Walk
+
+
+# What each lesson is called, and what it teaches.
+_SAID = {
+    "whole": (
+        "A frame, as it arrives",
+        """Every byte either agrees with those before it or ends the hope of a frame. What is left
+        at the end is as sure as it can be without a checksum.""",
+    ),
+    "stray-byte": (
+        "A stray header byte before a frame",
+        """The stray byte makes a header of itself and the next, so length and command are read one
+        byte too early. They disagree, the false header costs one byte, and the frame is found.""",
+    ),
+    "count": (
+        "A false header that only the count gives away",
+        """Here length and command agree by accident. Only the count says that this is no frame. A
+        decoder that trusts the length would wait for bytes that are not its own.""",
+    ),
+    "unknown": (
+        "A command that nobody knows",
+        """A length is only as good as the command that it comes with. An unknown command costs one
+        byte like any false header, so it never swallows the frame behind it.""",
+    ),
+    "cut-short": (
+        "A frame cut short, and silence",
+        """A frame that has begun is waited for. When the line goes quiet, the decoder is told so
+        (flush), gives the false start up, and looks through the bytes that it held back.""",
+    ),
+}
+
+
+def lessons(layout: Layout) -> list[Lesson]:
+    """The lessons that this protocol can give, from the easiest on."""
+    return [
+        Lesson(id_, _SAID[id_][0], " ".join(_SAID[id_][1].split()), walk(layout, way, data))
+        for id_, way, data in _materials(layout)
+        if data is not None
+    ]
+
+
+def _materials(layout: Layout) -> Iterator[tuple[str, Direction, bytes | None]]:
+    way = layout.directions[0]
+    frames = _frames(layout, way)
+    if not frames:
+        return
+    first, short = frames[0], min(frames, key=len)
+    head = _unknown_head(layout, way)
+    yield "whole", way, first
+    yield "stray-byte", way, layout.frame.header[-1:] + first
+    yield "count", way, _misread(layout, way)
+    yield "unknown", way, None if head is None else head + short
+    yield "cut-short", way, first[:-1]
+
+
+def _frames(layout: Layout, way: Direction) -> list[bytes]:
+    messages = layout.sent(way).values()
+    return [example.hex for message in messages for example in message.message.examples]
+
+
+def _misread(layout: Layout, way: Direction) -> bytes | None:
+    """Find a frame that, behind a stray header byte, begins like a frame of another length."""
+    for message in layout.sent(way).values():
+        for frame in _lengthened(layout, message):
+            data = layout.frame.header[-1:] + frame
+            events = walk(layout, way, data).events
+            if [event.reason for event in events] == [COUNT_MISMATCH, ""]:
+                return data
+    return None
+
+
+def _lengthened(layout: Layout, message: MessageLayout) -> Iterator[bytes]:
+    """The first example of a message, with lists of other lengths."""
+    repeat, examples = message.repeat, message.message.examples
+    if repeat is None or not examples:
+        return
+    values = examples[0].values
+    for count in message.counts[:_LONGEST_LIST]:
+        items = [(values[repeat.name] or [None])[0]] * count
+        try:
+            yield encode(layout, message, {**values, repeat.name: items})
+        except Unencodable:
+            return
+
+
+def _unknown_head(layout: Layout, way: Direction) -> bytes | None:
+    """Make the head of a frame whose command has no meaning, and whose length is the longest."""
+    frame, sent = layout.frame, layout.sent(way)
+    code = next((code for code in frame.legal_ids if code not in sent and code), None)
+    if code is None:
+        return None
+    length = max(message.lengths[-1] for message in sent.values())
+    order = layout.spec.byte_order
+    head = bytearray(frame.header.ljust(frame.body_at, b"\0"))
+    for at, number, size in (
+        (frame.length_at, length, frame.length.size),
+        (frame.id_at, code, frame.id.size),
+    ):
+        head[at : at + size] = number.to_bytes(size, order)
+    return bytes(head)

@@ -1,0 +1,172 @@
+"""One message as its page shows it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+from typing import TYPE_CHECKING
+
+from framegen.codec import describe_range
+from framegen.targets.docs.cite import CiteView, Lines, cite_view, lines_of
+from framegen.targets.docs.drawing import Drawing, drawing
+from framegen.targets.docs.escape import paragraphs
+from framegen.targets.docs.exchange import ExampleView, example_views
+from framegen.targets.docs.field import FieldView, field_views
+from framegen.targets.docs.snippet import receiving, sending
+from framegen.targets.docs.strip import Cell, pattern_strip
+from framegen.targets.docs.timing import milliseconds
+
+if TYPE_CHECKING:
+    from framegen.layout import Layout, MessageLayout
+    from framegen.spec import Message
+    from framegen.yamltree import Tree
+
+
+@dataclass(frozen=True)
+class MessageView:
+    """The facts of one message, each ready to be shown."""
+
+    whole: Layout
+    tree: Tree
+    layout: MessageLayout
+
+    @property
+    def said(self) -> Message:
+        """What the spec says of it: name, summary, since and the like."""
+        return self.layout.message
+
+    @property
+    def name(self) -> str:
+        """Its name, which is also its anchor."""
+        return self.layout.name
+
+    @property
+    def address(self) -> str:
+        """Its page, from the root of the reference."""
+        return f"messages/{self.name}.html"
+
+    @property
+    def markdown_address(self) -> str:
+        """The Markdown twin of its page."""
+        return f"messages/{self.name}.md"
+
+    @property
+    def code(self) -> int:
+        """Its code."""
+        return self.layout.id
+
+    @property
+    def hex(self) -> str:
+        """Its code in hex, as wide as the frame has it."""
+        return f"0x{self.code:0{2 * self.layout.frame.id.size}X}"
+
+    @property
+    def direction(self) -> str:
+        """Who sends it to whom."""
+        return f"{self.layout.direction.sender} to {self.layout.direction.receiver}"
+
+    @property
+    def kind(self) -> str:
+        """Command, query, reply or report."""
+        return self.whole.kind(self.name)
+
+    @property
+    def description(self) -> list[str]:
+        """Its description, a paragraph an item."""
+        return paragraphs(self.said.description)
+
+    @property
+    def cite(self) -> CiteView:
+        """Where it is known from."""
+        return cite_view(self.whole.spec, self.said.cite)
+
+    @cached_property
+    def lines(self) -> Lines:
+        """Where the spec says all this."""
+        return lines_of(self.tree, ("messages", self.name))
+
+    @property
+    def answers(self) -> list[str]:
+        """The requests that it answers."""
+        others = self.whole.spec.messages.items()
+        return [name for name, other in others if other.reply == self.name]
+
+    @property
+    def reports_on(self) -> list[str]:
+        """The commands that it may follow."""
+        others = self.whole.spec.messages.items()
+        return [name for name, other in others if self.name in other.reports]
+
+    @property
+    def silent(self) -> bool:
+        """Whether nothing ever comes back."""
+        asks = self.kind in ("command", "query")
+        return asks and self.said.reply is None and not self.said.reports
+
+    @property
+    def formula(self) -> str:
+        """The length rule."""
+        return f"{self.layout.frame.length_name} = {self.layout.formula}"
+
+    @property
+    def lengths(self) -> str:
+        """The legal lengths, in words."""
+        return describe_range(self.layout.lengths)
+
+    @property
+    def largest(self) -> str:
+        """The largest frame and its time on the wire."""
+        size, layout = self.layout.largest, self.layout
+        return f"{size} bytes, {milliseconds(layout.wire_seconds(size))} at {layout.link.baud} baud"
+
+    @cached_property
+    def cells(self) -> list[Cell]:
+        """What every frame of it looks like."""
+        return pattern_strip(self.whole, self.layout)
+
+    @property
+    def parameters(self) -> list[Cell]:
+        """Of those cells, the ones between the code and the end."""
+        return [cell for cell in self.cells if cell.role in ("field", "count", "repeated")]
+
+    @cached_property
+    def fields(self) -> list[FieldView]:
+        """Its fields, in the order of the frame."""
+        return field_views(self.whole, self.tree, self.layout)
+
+    @cached_property
+    def examples(self) -> list[ExampleView]:
+        """Its documented frames."""
+        return example_views(self.whole, self.tree, self.layout)
+
+    @property
+    def sends(self) -> bool:
+        """Whether the user of the library sends it, rather than receives it."""
+        return self.layout.direction.sender == next(iter(self.whole.spec.endpoints))
+
+    @property
+    def snippet(self) -> str:
+        """Python that sends or receives it; empty where the spec has no example."""
+        if not self.said.examples:
+            return ""
+        show = sending if self.sends else receiving
+        return show(self.whole, self.layout, self.said.examples[0])
+
+    @property
+    def drawing(self) -> Drawing | None:
+        """What it sets off, as a picture."""
+        return drawing(self.whole, self.name)
+
+    @property
+    def words(self) -> str:
+        """What a search finds it by, in lower case."""
+        names = [field.path.replace("[i]", "") for field in self.fields]
+        return " ".join(
+            [self.name, self.said.vendor_name, self.kind, self.direction, *names]
+        ).lower()
+
+    @property
+    def codes(self) -> str:
+        """Its code in every way that people write it."""
+        digits = self.hex.removeprefix("0x").lower()
+        return " ".join(dict.fromkeys([str(self.code), digits, f"0x{digits}", f"0x{self.code:x}"]))

@@ -1,0 +1,173 @@
+"""Errata, unknowns and look-alikes: what no other page of a protocol tells."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+from framegen.codec import NotAFrame, decode
+from framegen.formula import Formula
+from framegen.lookalikes import recognise
+from framegen.targets.docs.cite import CiteView, Lines, cite_view, lines_of
+from framegen.targets.docs.escape import paragraphs
+from framegen.targets.docs.strip import Cell, given_strip, parts_strip
+from framegen.values import to_hex
+
+if TYPE_CHECKING:
+    from framegen.layout import Layout
+    from framegen.spec import Concern, Lookalike
+    from framegen.yamltree import Tree
+
+
+@dataclass(frozen=True, slots=True)
+class ErratumView:
+    """One slip of a document."""
+
+    number: int
+    title: str
+    cite: CiteView
+    message: str
+    concern: str
+    document: str
+    bytes: str
+    here: str
+    why: str
+    lines: Lines
+
+
+@dataclass(frozen=True, slots=True)
+class UnknownView:
+    """Something that nobody has written down."""
+
+    message: str
+    concern: str
+    what: str
+
+
+@dataclass(frozen=True, slots=True)
+class ForeignFrame:
+    """A frame of a look-alike, and what this protocol makes of it, one line a direction."""
+
+    title: str
+    hex: str
+    query: str
+    cells: list[Cell]
+    verdicts: list[str]
+
+
+@dataclass(frozen=True, slots=True)
+class ForeignCode:
+    """A code that means one thing there and another here, or nothing; `here` names messages."""
+
+    code: int
+    pattern: str
+    there: str
+    here: list[str]
+
+
+@dataclass(frozen=True, slots=True)
+class LookalikeView:
+    """Another protocol, and how to tell it from this one."""
+
+    key: str
+    title: str
+    about: list[str]
+    cite: CiteView
+    envelope: list[Cell]
+    frames: list[ForeignFrame]
+    codes: list[ForeignCode]
+
+
+def erratum_views(layout: Layout, tree: Tree) -> list[ErratumView]:
+    """Every erratum, in the order of the spec."""
+    return [
+        ErratumView(
+            number,
+            erratum.title,
+            cite_view(layout.spec, erratum.cite),
+            erratum.concerns.message,
+            _concern(erratum.concerns),
+            _shown(erratum.document),
+            _shown(erratum.bytes_),
+            erratum.here,
+            erratum.why,
+            lines_of(tree, ("errata", number - 1)),
+        )
+        for number, erratum in enumerate(layout.spec.errata, 1)
+    ]
+
+
+def unknown_views(layout: Layout) -> list[UnknownView]:
+    """Every unknown, in the order of the spec."""
+    return [
+        UnknownView(unknown.concerns.message, _concern(unknown.concerns), unknown.what)
+        for unknown in layout.spec.unknowns
+    ]
+
+
+def _concern(concern: Concern) -> str:
+    """Say which fact of the message is meant."""
+    words = [] if concern.fact is None else [f"its {concern.fact}"]
+    if concern.parameter is not None:
+        words.append(f"parameter {concern.parameter}")
+    if concern.field is not None:
+        words.append(concern.field)
+    if concern.example is not None:
+        words.append(f"in example {concern.example}" if words else f"example {concern.example}")
+    return " ".join(words)
+
+
+def _shown(value: Any) -> str:
+    if value is None:
+        return "nothing"
+    if isinstance(value, list):
+        return ", ".join(_shown(item) for item in value)
+    return str(value) if not isinstance(value, Formula) else f"length {value}"
+
+
+def lookalike_views(layout: Layout) -> list[LookalikeView]:
+    """Every look-alike, in the order of the spec."""
+    return [
+        LookalikeView(
+            key,
+            other.title,
+            paragraphs(other.about),
+            cite_view(layout.spec, other.cite),
+            parts_strip(other.frame) if other.frame else [],
+            [_foreign(layout, other, each.title, each.hex) for each in other.examples],
+            _codes(layout, other),
+        )
+        for key, other in layout.spec.lookalikes.items()
+    ]
+
+
+def _foreign(layout: Layout, other: Lookalike, title: str, data: bytes) -> ForeignFrame:
+    recognised = recognise(layout.spec, data)
+    parts = layout.spec.frame if other.frame is None else other.frame
+    cells = [] if recognised is None else given_strip(parts, recognised.parts)
+    query = f"hex={data.hex()}&direction={layout.directions[0].key}"
+    verdicts = [_verdict(layout, way, data) for way in layout.directions]
+    return ForeignFrame(title, to_hex(data), query, cells, verdicts)
+
+
+def _verdict(layout: Layout, way: Any, data: bytes) -> str:
+    try:
+        return f"{way.sender} to {way.receiver}: {decode(layout, way, data).layout.name}"
+    except NotAFrame as error:
+        return f"{way.sender} to {way.receiver}: no frame, {error}"
+
+
+def _codes(layout: Layout, other: Lookalike) -> list[ForeignCode]:
+    frame, order = layout.frame, layout.spec.byte_order
+    found: list[ForeignCode] = []
+    for code, there in other.commands.items():
+        known = [message.name for message in layout.messages.values() if message.id == code]
+        pattern = ""
+        if other.frame is None and code <= frame.id.high:
+            head = [*(f"{byte:02X}" for byte in frame.header)]
+            head += ["··"] * (frame.body_at - len(head))
+            at = slice(frame.id_at, frame.id_at + frame.id.size)
+            head[at] = [f"{byte:02X}" for byte in code.to_bytes(frame.id.size, order)]
+            pattern = " ".join(head)
+        found.append(ForeignCode(code, pattern, there, known))
+    return found

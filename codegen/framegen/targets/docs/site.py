@@ -1,0 +1,265 @@
+"""The reference as a whole: the protocol, its pages, and what all of them show."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+from typing import TYPE_CHECKING
+
+from framegen import __version__
+from framegen.targets.docs.cite import CiteView, cite_view
+from framegen.targets.docs.drawing import Drawing, interruption
+from framegen.targets.docs.escape import paragraphs
+from framegen.targets.docs.exchange import Exchange, exchanges
+from framegen.targets.docs.lessons import Lesson, lessons
+from framegen.targets.docs.message import MessageView
+from framegen.targets.docs.quirks import (
+    ErratumView,
+    LookalikeView,
+    UnknownView,
+    erratum_views,
+    lookalike_views,
+    unknown_views,
+)
+from framegen.targets.docs.strip import Cell, parts_strip
+from framegen.targets.docs.timing import RoundTrip, Timing, bytes_a_second, round_trips, timings
+
+if TYPE_CHECKING:
+    from framegen.layout import Layout
+    from framegen.source import Source
+    from framegen.spec import Protocol, Release, Reserved, SourceDocument
+    from framegen.yamltree import Tree
+
+
+@dataclass(frozen=True, slots=True)
+class PageView:
+    """One page: its file below the root, its template, what leads to it, and its scripts."""
+
+    path: str
+    template: str
+    title: str
+    label: str
+    scripts: tuple[str, ...] = ("page",)
+    message: MessageView | None = None
+
+    @property
+    def root(self) -> str:
+        """The way from the page to the root of the reference."""
+        return "../" * self.path.count("/")
+
+
+@dataclass(frozen=True, slots=True)
+class ReservedView:
+    """A code that must not be used, and why."""
+
+    said: Reserved
+    cite: CiteView | None
+
+    @property
+    def way(self) -> str:
+        """The direction in which it is kept free, if only one."""
+        way = self.said.direction
+        return "" if way is None else f"{way.sender} to {way.receiver}"
+
+
+@dataclass(frozen=True)
+class SiteView:
+    """Everything that pages are made of."""
+
+    source: Source
+    layout: Layout
+    tree: Tree
+
+    @property
+    def protocol(self) -> Protocol:
+        """Its name, title, version and summary."""
+        return self.layout.spec.protocol
+
+    @property
+    def spec_name(self) -> str:
+        """The file name of the spec, without its folder: that differs from place to place."""
+        return self.source.name.rpartition("/")[2]
+
+    @property
+    def digest(self) -> str:
+        """What pins the spec."""
+        return self.source.digest
+
+    @property
+    def framegen(self) -> str:
+        """The version of the generator."""
+        return __version__
+
+    @property
+    def description(self) -> list[str]:
+        """What a newcomer should know, a paragraph an item."""
+        return paragraphs(self.protocol.description)
+
+    @property
+    def endpoints(self) -> dict[str, str]:
+        """Who talks."""
+        return self.layout.spec.endpoints
+
+    @property
+    def sources(self) -> dict[str, SourceDocument]:
+        """What facts are cited from."""
+        return self.layout.spec.sources
+
+    @property
+    def link(self) -> str:
+        """The serial line, as people write it."""
+        link = self.layout.spec.link
+        letter = {"none": "N", "even": "E", "odd": "O"}[link.parity]
+        return f"{link.baud} baud, {link.data_bits}{letter}{link.stop_bits}"
+
+    @property
+    def bytes_a_second(self) -> str:
+        """What the line carries."""
+        return bytes_a_second(self.layout)
+
+    @property
+    def byte_order(self) -> str:
+        """Little or big."""
+        return self.layout.spec.byte_order
+
+    @property
+    def envelope(self) -> list[Cell]:
+        """The parts of every frame."""
+        return parts_strip(self.layout.spec.frame)
+
+    @property
+    def parts(self) -> list[tuple[str, str]]:
+        """The parts that have something said of them."""
+        return [(name, part.about) for name, part in self.layout.spec.frame.items() if part.about]
+
+    @property
+    def length_name(self) -> str:
+        """What the length is called."""
+        return self.layout.frame.length_name
+
+    @property
+    def id_name(self) -> str:
+        """What the code is called."""
+        return self.layout.frame.id_name
+
+    @cached_property
+    def messages(self) -> list[MessageView]:
+        """Every message, in the order of the spec."""
+        return [
+            MessageView(self.layout, self.tree, message)
+            for message in self.layout.messages.values()
+        ]
+
+    @cached_property
+    def by_code(self) -> list[MessageView]:
+        """Every message, by code; where two share one, in the order of the spec."""
+        return sorted(self.messages, key=lambda message: message.code)
+
+    @cached_property
+    def by_name(self) -> dict[str, MessageView]:
+        """Every message, to be found by name."""
+        return {message.name: message for message in self.messages}
+
+    @cached_property
+    def addresses(self) -> dict[str, str]:
+        """The page of each message."""
+        return {message.name: message.address for message in self.messages}
+
+    @cached_property
+    def exchanges(self) -> list[Exchange]:
+        """Every documented frame, requests with what comes back."""
+        return exchanges(self.layout, self.tree)
+
+    @cached_property
+    def lessons(self) -> list[Lesson]:
+        """How a stream is decoded."""
+        return lessons(self.layout)
+
+    @property
+    def drawings(self) -> list[Drawing]:
+        """Every sequence that has more than one message, and a report that interrupts one."""
+        found = [message.drawing for message in self.messages]
+        told = [drawing for drawing in found if drawing and len(drawing.arrows) > 1]
+        between = interruption(self.layout)
+        return [*told, between] if between else told
+
+    @property
+    def silent(self) -> list[str]:
+        """The commands that nothing comes back from."""
+        return [message.name for message in self.messages if message.silent]
+
+    @property
+    def timings(self) -> list[Timing]:
+        """What each message costs."""
+        return timings(self.layout)
+
+    @property
+    def round_trips(self) -> list[RoundTrip]:
+        """What a question and its answer cost."""
+        return round_trips(self.layout)
+
+    @cached_property
+    def errata(self) -> list[ErratumView]:
+        """Where the documents are wrong."""
+        return erratum_views(self.layout, self.tree)
+
+    @cached_property
+    def unknowns(self) -> list[UnknownView]:
+        """What nobody has written down."""
+        return unknown_views(self.layout)
+
+    @cached_property
+    def lookalikes(self) -> list[LookalikeView]:
+        """Protocols easily taken for this one."""
+        return lookalike_views(self.layout)
+
+    @property
+    def reserved(self) -> list[ReservedView]:
+        """Codes and names that are kept free."""
+        spec = self.layout.spec
+        return [
+            ReservedView(
+                reserved, None if reserved.cite is None else cite_view(spec, reserved.cite)
+            )
+            for reserved in spec.reserved
+        ]
+
+    @property
+    def releases(self) -> list[Release]:
+        """What changed, the latest version first."""
+        return self.layout.spec.history[::-1]
+
+    @property
+    def spec_lines(self) -> list[str]:
+        """The spec itself, without the blank line at its end."""
+        return self.source.text.rstrip("\n").split("\n")
+
+    @cached_property
+    def pages(self) -> list[PageView]:
+        """The pages that the navigation leads to."""
+        return [
+            PageView("index.html", "index", self.protocol.title, "Frames"),
+            PageView("examples.html", "examples", "Examples, byte by byte", "Examples"),
+            PageView(
+                "decoder.html",
+                "decoder",
+                "Decoder and encoder",
+                "Decoder",
+                ("codec", "page", "decoder"),
+            ),
+            PageView("stream.html", "stream", "How the stream is decoded", "Stream"),
+            PageView("sequences.html", "sequences", "Sequences and timing", "Sequences"),
+            PageView("errata.html", "errata", "Errata and unknowns", "Errata"),
+            PageView("lookalikes.html", "lookalikes", "Is this your protocol?", "Look-alikes"),
+            PageView("cheatsheet.html", "cheatsheet", "Cheat sheet", "Cheat sheet"),
+            PageView("changelog.html", "changelog", "Changelog", "Changelog"),
+            PageView("spec.html", "spec", "The spec", "Spec", ()),
+        ]
+
+    @cached_property
+    def message_pages(self) -> list[PageView]:
+        """A page for each message."""
+        return [
+            PageView(message.address, "message", message.name, message.name, message=message)
+            for message in self.messages
+        ]

@@ -1,0 +1,103 @@
+"""How long frames are on the line, and how many of them it carries in a second."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from framegen.wording import counted
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from framegen.layout import Layout, MessageLayout
+
+
+@dataclass(frozen=True, slots=True)
+class Timing:
+    """One size of a message: what it holds, its bytes, and what they cost."""
+
+    message: str
+    what: str
+    size: int
+    milliseconds: str
+    a_second: str
+
+
+@dataclass(frozen=True, slots=True)
+class RoundTrip:
+    """A request and its reply with nothing between them: the best that the line allows."""
+
+    request: str
+    reply: str
+    what: str
+    size: int
+    milliseconds: str
+    a_second: str
+
+
+def milliseconds(seconds: float) -> str:
+    """Write a time as `35.4 ms`."""
+    return f"{seconds * 1000:.1f} ms"
+
+
+def bytes_a_second(layout: Layout) -> str:
+    """Say what the line carries, as `960`."""
+    link = layout.spec.link
+    return _trimmed(link.baud / link.bits_per_byte)
+
+
+def timings(layout: Layout) -> list[Timing]:
+    """Every message at its smallest, as its examples have it, and at its largest."""
+    return [
+        _timing(message, count) for message in layout.messages.values() for count in _sizes(message)
+    ]
+
+
+def round_trips(layout: Layout) -> list[RoundTrip]:
+    """Every request with its reply; lists of the same length where both have one."""
+    return [trip for message in layout.messages.values() for trip in _trips(layout, message)]
+
+
+def _trips(layout: Layout, request: MessageLayout) -> Iterator[RoundTrip]:
+    if request.message.reply is None:
+        return
+    reply = layout.messages[request.message.reply]
+    for count in _sizes(request):
+        answered = min(max(count, reply.counts[0]), reply.counts[-1])
+        size = _size(request, count) + _size(reply, answered)
+        seconds = request.wire_seconds(size)
+        what = _what(request, count)
+        if answered < count:
+            what += f", {answered} of them answered"
+        yield RoundTrip(
+            request.name, reply.name, what, size, milliseconds(seconds), _trimmed(1 / seconds)
+        )
+
+
+def _timing(message: MessageLayout, count: int) -> Timing:
+    size = _size(message, count)
+    seconds = message.wire_seconds(size)
+    what = _what(message, count)
+    return Timing(message.name, what, size, milliseconds(seconds), _trimmed(1 / seconds))
+
+
+def _sizes(message: MessageLayout) -> list[int]:
+    """Counts worth showing: the fewest, those of the examples, the most."""
+    repeat = message.repeat
+    if repeat is None:
+        return [0]
+    shown = [len(example.values[repeat.name]) for example in message.message.examples]
+    return sorted({message.counts[0], *shown, message.counts[-1]})
+
+
+def _size(message: MessageLayout, count: int) -> int:
+    return message.formula.at(count) + message.frame.uncounted
+
+
+def _what(message: MessageLayout, count: int) -> str:
+    return "" if message.repeat is None else f"{counted(count, 'item')} in {message.repeat.name}"
+
+
+def _trimmed(number: float) -> str:
+    return f"{number:.1f}".removesuffix(".0")

@@ -1,0 +1,140 @@
+"""The reference of two protocols as the tests read it: its pages, taken apart once."""
+
+from __future__ import annotations
+
+import json
+import shutil
+from dataclasses import dataclass, field
+from functools import cache
+from html.parser import HTMLParser
+from pathlib import Path, PurePosixPath
+from typing import Any
+
+from framegen.layout import Layout, derive
+from framegen.load import load, read_source
+from framegen.source import Source
+from framegen.targets import docs
+
+ROOT = Path(__file__).parent.parent.parent
+SPECS = {
+    "busservo": ROOT / "spec" / "busservo.yaml",
+    "greenhouse": ROOT / "tests" / "specs" / "demo.yaml",
+}
+NODE = shutil.which("node")
+# Where `make docs-tools` puts what tests/docs/package.json names.
+NODE_MODULES = ROOT / ".tools" / "node" / "node_modules"
+
+# Elements without an end.
+VOID = frozenset(["br", "img", "input", "link", "meta"])
+
+
+@dataclass
+class Page(HTMLParser):
+    """One page: what its elements say, in the order of the text."""
+
+    path: str
+    text: str
+    ids: list[str] = field(default_factory=list)
+    links: list[str] = field(default_factory=list)
+    loads: list[str] = field(default_factory=list)
+    scripts: list[tuple[dict[str, str], str]] = field(default_factory=list)
+    styles: list[str] = field(default_factory=list)
+    headings: list[int] = field(default_factory=list)
+    python: list[str] = field(default_factory=list)
+    tags: list[tuple[str, dict[str, str]]] = field(default_factory=list)
+    words: str = ""
+
+    def __post_init__(self) -> None:
+        super().__init__(convert_charrefs=True)
+        self._inside: list[str] = []
+        self._snippet = False
+        self.feed(self.text)
+        self.close()
+
+    def handle_starttag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
+        given = {name: value or "" for name, value in attrs}
+        self.tags.append((tag, given))
+        self.ids += [given["id"]] if "id" in given else []
+        self.links += [given["href"]] if tag == "a" else []
+        loading = [given[name] for name in ("src", "srcset", "data", "poster") if name in given]
+        self.loads += loading + ([given.get("href", "")] if tag in ("link", "use", "image") else [])
+        if tag in ("h1", "h2", "h3", "h4", "h5", "h6"):
+            self.headings.append(int(tag[1]))
+        if tag == "script":
+            self.scripts.append((given, ""))
+        if tag == "style":
+            self.styles.append("")
+        if tag == "pre" and given.get("class") == "python":
+            self.python.append("")
+            self._snippet = True
+        if tag not in VOID:
+            self._inside.append(tag)
+
+    def handle_endtag(self, tag: str) -> None:
+        assert self._inside.pop() == tag, f"{self.path}: </{tag}> closes something else"
+        self._snippet = self._snippet and tag != "pre"
+        self.words += " " if tag in ("td", "th", "li", "dt", "dd", "p") else ""
+
+    def handle_data(self, data: str) -> None:
+        inside = self._inside[-1] if self._inside else ""
+        if inside == "script":
+            attributes, text = self.scripts[-1]
+            self.scripts[-1] = attributes, text + data
+        elif inside == "style":
+            self.styles[-1] += data
+        else:
+            self.words += data
+            if self._snippet:
+                self.python[-1] += data
+
+    def leads_to(self, link: str) -> tuple[str, str]:
+        """The page and the anchor that a link of this page leads to."""
+        path, _, anchor = link.partition("#")
+        path = path.partition("?")[0]
+        if not path:
+            return self.path, anchor
+        steps: list[str] = []
+        for step in (*PurePosixPath(self.path).parent.parts, *PurePosixPath(path).parts):
+            if step == "..":
+                steps.pop()
+            else:
+                steps.append(step)
+        return "/".join(steps), anchor
+
+
+@dataclass(frozen=True)
+class Reference:
+    """All files of one reference, by their path below its root."""
+
+    source: Source
+    layout: Layout
+    files: dict[str, str]
+    pages: dict[str, Page]
+
+    def markdown(self) -> dict[str, str]:
+        """The files of the Markdown twin."""
+        return {path: text for path, text in self.files.items() if path.endswith(".md")}
+
+
+def reference_of(source: Source) -> Reference:
+    """Render the reference of a spec that has no findings."""
+    spec = load(source).spec
+    assert spec is not None
+    layout = derive(spec)
+    files = {
+        path.removeprefix(f"{docs.FOLDER}/"): text
+        for path, text in docs.render(source, layout).items()
+    }
+    pages = {path: Page(path, text) for path, text in files.items() if path.endswith(".html")}
+    return Reference(source, layout, files, pages)
+
+
+def respelled(data: dict[str, Any]) -> Source:
+    """A spec of other values, as text: JSON is YAML too."""
+    return Source("spec/other.yaml", json.dumps(data, indent=1, ensure_ascii=False) + "\n")
+
+
+@cache
+def reference(name: str) -> Reference:
+    """The reference of one of SPECS."""
+    return reference_of(read_source(SPECS[name]))

@@ -1,0 +1,401 @@
+"""The reference in a real browser: headless Chromium, from the disk, with no network."""
+
+from __future__ import annotations
+
+import os
+import re
+import shutil
+from typing import TYPE_CHECKING, Any
+
+import busservo
+import pytest
+
+from tests.docs.peers import noisy_lines, python_events, vectors_of
+from tests.docs.reference import NODE_MODULES, reference
+from tests.docs.test_hostile_pages import PAYLOADS, hostile
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+    from pathlib import Path
+
+    from playwright.sync_api import Browser, BrowserContext, Locator
+    from playwright.sync_api import Page as Tab
+
+playwright = pytest.importorskip("playwright.sync_api", reason="playwright is not installed")
+
+CHROMIUM = os.environ.get("CHROMIUM") or shutil.which("chromium")
+AXE = NODE_MODULES / "axe-core" / "axe.min.js"
+ARGUMENTS = [
+    "--no-sandbox",
+    "--disable-gpu",
+    "--disable-background-networking",
+    "--disable-component-update",
+    "--disable-sync",
+    "--no-first-run",
+]
+SITE = reference("busservo")
+VECTORS = vectors_of(SITE)
+NAMES = [path for path in SITE.pages if "/" not in path]
+PAGES = [*NAMES, "messages/ServoMove.html", "messages/ServoPositions.html"]
+
+pytestmark = pytest.mark.skipif(CHROMIUM is None, reason="chromium is not installed")
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """The reference on a disk, as on a USB stick."""
+    root = tmp_path_factory.mktemp("stick") / "busservo reference"
+    for path, page in SITE.pages.items():
+        file = root / path
+        file.parent.mkdir(parents=True, exist_ok=True)
+        file.write_text(page.text, encoding="utf-8")
+    return root
+
+
+@pytest.fixture(scope="module")
+def browser() -> Iterator[Browser]:
+    with playwright.sync_playwright() as started:
+        running = started.chromium.launch(executable_path=CHROMIUM, args=ARGUMENTS)
+        yield running
+        running.close()
+
+
+class Visit:
+    """One tab that opens pages from the disk, and remembers what went wrong on them."""
+
+    def __init__(self, context: BrowserContext, folder: Path) -> None:
+        self.folder = folder
+        self.troubles: list[str] = []
+        self.requests: list[str] = []
+        self.tab: Tab = context.new_page()
+        self.tab.on("console", lambda message: self.troubles.append(message.text))
+        self.tab.on("pageerror", lambda error: self.troubles.append(str(error)))
+        self.tab.on("request", lambda request: self.requests.append(request.url))
+
+    def open(self, path: str) -> Tab:
+        name, mark, rest = path.partition("?")
+        self.tab.goto((self.folder / name).as_uri() + mark + rest)
+        return self.tab
+
+    def style(self, selector: str, name: str) -> str:
+        script = "([selector, name]) => getComputedStyle(document.querySelector(selector))[name]"
+        return str(self.tab.evaluate(script, [selector, name]))
+
+
+@pytest.fixture(scope="module")
+def context(browser: Browser) -> Iterator[BrowserContext]:
+    context = browser.new_context(permissions=["clipboard-read", "clipboard-write"])
+    yield context
+    context.close()
+
+
+@pytest.fixture
+def visit(context: BrowserContext, folder: Path) -> Iterator[Visit]:
+    """A visit on which nothing may go wrong, and nothing but pages from the disk be asked for."""
+    visit = Visit(context, folder)
+    yield visit
+    visit.tab.close()
+    assert visit.troubles == []
+    assert [url for url in visit.requests if not url.startswith(folder.as_uri())] == []
+
+
+def texts(found: Locator) -> list[str]:
+    return [text.strip() for text in found.all_inner_texts()]
+
+
+# ---------------------------------------------------------------------------- finding
+
+SEARCHES = [
+    ("battery", ["BatteryVoltageRead", "BatteryVoltage"]),
+    ("GET_BATTERY_VOLT", ["BatteryVoltageRead", "BatteryVoltage"]),
+    ("0x14", ["ServoUnload"]),
+    ("0B", ["ActionGroupSpeed"]),
+    ("21", ["ServoPositionsRead", "ServoPositions"]),
+    ("15", ["BatteryVoltageRead", "BatteryVoltage", "ServoPositionsRead", "ServoPositions"]),
+    ("time_ms", ["ServoMove"]),
+    ("targets.position", ["ServoMove"]),
+    ("report complete", ["ActionGroupCompleted"]),
+    ("no such thing", []),
+]
+
+
+@pytest.mark.parametrize(("words", "names"), SEARCHES)
+def test_search_finds(visit: Visit, words: str, names: list[str]) -> None:
+    tab = visit.open("index.html")
+    tab.get_by_role("searchbox").fill(words)
+    assert texts(tab.locator("tbody tr:visible th")) == names
+    assert tab.locator("#found").inner_text() == f"{len(names)} of 12 frames"
+
+
+def test_everything_is_reached_with_the_keyboard_alone(visit: Visit) -> None:
+    tab = visit.open("index.html")
+    tab.keyboard.press("Tab")
+    assert tab.evaluate("document.activeElement.textContent") == "Skip to the content"
+    tab.keyboard.press("Enter")
+    assert tab.url.endswith("#content")
+    reached: list[str] = []
+    for _ in range(40):
+        tab.keyboard.press("Tab")
+        reached.append(
+            tab.evaluate("document.activeElement.id || document.activeElement.textContent")
+        )
+    assert "search" in reached
+    assert "ServoMove" in reached
+
+
+# ---------------------------------------------------------------------------- decoding
+
+
+def decoded(tab: Tab) -> list[str]:
+    return texts(tab.locator("#events > li > h3"))
+
+
+@pytest.mark.parametrize("direction", ["host_to_controller", "controller_to_host"])
+def test_the_decoder_reads_the_valid_vectors(visit: Visit, direction: str) -> None:
+    tab = visit.open("decoder.html")
+    tab.get_by_label("Sent").select_option(direction)
+    for vector in VECTORS["valid"]:
+        if vector["direction"] == direction:
+            tab.get_by_label("Bytes in hex").fill(vector["hex"])
+            assert decoded(tab) == [f"✓ {vector['message']}"]
+            assert tab.locator("#decoded").inner_text() == "Frames: 1. Bytes of noise: 0."
+
+
+@pytest.mark.parametrize("direction", ["host_to_controller", "controller_to_host"])
+def test_the_decoder_refuses_the_invalid_vectors(visit: Visit, direction: str) -> None:
+    tab = visit.open("decoder.html")
+    tab.get_by_label("Sent").select_option(direction)
+    for vector in VECTORS["invalid"]:
+        if vector["direction"] == direction:
+            tab.get_by_label("Bytes in hex").fill(vector["hex"])
+            said = tab.locator("#decoded").inner_text()
+            verdict = f"Taken as one frame: {vector['reason']} at byte {vector['offset']}."
+            assert said.endswith(verdict), vector["title"]
+
+
+def test_the_decoder_shows_frames_noise_and_unknown_frames(visit: Visit) -> None:
+    tab = visit.open("decoder.html")
+    tab.get_by_label("Bytes in hex").fill(
+        "00 55 55 08 03 01 E8 03 01 20 03 55 55 03 63 01 55 55 02"
+    )
+    assert decoded(tab) == [
+        "✗ Noise: bad header",
+        "✓ ServoMove",
+        "✗ Unknown frame: unknown command",
+        "✗ Noise: too short",
+    ]
+    cells = texts(tab.locator("#events .strip").nth(1).locator("li"))
+    assert [" ".join(cell.split()) for cell in cells][4:6] == [
+        "6 E8 03 time_ms 1000 ms",
+        "8 01 targets[0].servo_id 1",
+    ]
+
+
+def test_noisy_streams_are_decoded_as_python_decodes_them(visit: Visit) -> None:
+    tab = visit.open("decoder.html")
+    ways = [None, *(way.key for way in SITE.layout.directions)]
+    lines = [(line, way) for line in noisy_lines(SITE, 17, 400) for way in ways]
+    answers = tab.evaluate(
+        """(lines) => lines.map(([text, way]) => codec.decodeStream(parseHex(text), way).map(
+            ({ type, bytes, message, reason }) => [type, toHex(bytes), message || reason]))""",
+        [[line.hex(), way] for line, way in lines],
+    )
+    for (line, way), answer in zip(lines, answers, strict=True):
+        said = [[kind, text.replace(" ", "").lower(), what] for kind, text, what in answer]
+        assert said == python_events(busservo, line, way), f"{way}: {line.hex(' ')}"
+
+
+def test_the_decoder_says_what_is_no_hex(visit: Visit) -> None:
+    tab = visit.open("decoder.html")
+    field = tab.get_by_label("Bytes in hex")
+    field.fill("55 5G")
+    assert "is no hex digit" in tab.locator("#decoded").inner_text()
+    assert field.get_attribute("aria-invalid") == "true"
+    assert decoded(tab) == []
+    field.fill("<img src=x onerror=alert(1)>")
+    assert tab.locator("main img").count() == 0
+
+
+def test_an_example_opens_in_the_decoder(visit: Visit) -> None:
+    tab = visit.open("messages/BatteryVoltage.html")
+    tab.get_by_role("link", name="Open in the decoder").first.click()
+    assert decoded(tab) == ["✓ BatteryVoltage"]
+    assert tab.get_by_label("Sent").input_value() == "controller_to_host"
+
+
+def test_the_encoder_makes_the_frames_of_the_vectors(visit: Visit) -> None:
+    tab = visit.open("decoder.html")
+    for vector in VECTORS["valid"]:
+        tab.get_by_label("Frame").select_option(vector["message"])
+        for name, value in vector["fields"].items():
+            items = value if isinstance(value, list) else [value]
+            shown = [
+                ":".join(map(str, item.values())) if isinstance(item, dict) else str(item)
+                for item in items
+            ]
+            tab.locator(f"#value-{name}").fill(", ".join(shown))
+        assert tab.locator("#encoded").inner_text() == vector["hex"]
+
+
+def test_the_encoder_says_which_value_no_frame_can_carry(visit: Visit) -> None:
+    tab = visit.open("decoder.html")
+    tab.get_by_label("Frame").select_option("ServoMove")
+    tab.locator("#value-targets").fill("1:800, 2:70000")
+    assert tab.locator("#encoded").inner_text() == "targets[1].position: 70000 is outside 0..65535"
+    assert tab.locator("#value-targets").get_attribute("aria-invalid") == "true"
+    assert tab.locator("#copy-frame").is_disabled()
+    tab.locator("#value-targets").fill("1:800, 2")
+    assert "targets[1].position" in tab.locator("#encoded").inner_text()
+
+
+# ---------------------------------------------------------------------------- copying, landing
+
+
+def test_copying_hex_and_python(visit: Visit) -> None:
+    tab = visit.open("messages/ServoMove.html")
+    for label, text in (
+        ("Copy hex", "55 55 08 03 01 E8 03 01 20 03"),
+        ("Copy as Python", 'bytes.fromhex("55 55 08 03 01 E8 03 01 20 03")'),
+    ):
+        tab.get_by_role("button", name=label).first.click()
+        tab.get_by_role("button", name="Copied").wait_for()
+        assert tab.evaluate("navigator.clipboard.readText()") == text
+
+
+def test_copying_where_there_is_no_clipboard(visit: Visit) -> None:
+    tab = visit.open("messages/ServoMove.html")
+    tab.evaluate("() => { navigator.clipboard.writeText = () => Promise.reject(new Error()); }")
+    tab.get_by_role("button", name="Copy hex").first.click()
+    tab.get_by_role("button", name="Copied").wait_for()
+    assert tab.evaluate("navigator.clipboard.readText()") == "55 55 08 03 01 E8 03 01 20 03"
+
+
+def test_anchors_land(visit: Visit) -> None:
+    tab = visit.open("messages/ServoMove.html")
+    tab.get_by_role("link", name="Link to targets[i].position").click()
+    assert tab.url.endswith("#field-targets-position")
+    top = tab.locator("#field-targets-position").bounding_box()
+    assert top is not None
+    assert 0 <= top["y"] < 720
+    tab.get_by_role("link", name=re.compile("of the spec")).first.click()
+    line = tab.locator(":target").inner_text()
+    assert line.strip().endswith("ServoMove:")
+
+
+# ---------------------------------------------------------------------------- looks
+
+
+@pytest.mark.parametrize("path", PAGES)
+def test_no_page_overflows(visit: Visit, path: str) -> None:
+    tab = visit.open(path)
+    for width in (380, 768, 1440):
+        tab.set_viewport_size({"width": width, "height": 900})
+        assert tab.evaluate("document.documentElement.scrollWidth") <= width
+
+
+def test_the_cells_of_a_strip_wrap_on_a_phone(visit: Visit) -> None:
+    tab = visit.open("messages/ServoMove.html")
+    rows = {}
+    for width in (1440, 380):
+        tab.set_viewport_size({"width": width, "height": 900})
+        cells = tab.locator(".strip").first.locator("li")
+        rows[width] = len({box["y"] for cell in cells.all() if (box := cell.bounding_box())})
+    assert rows[1440] == 1
+    assert rows[380] > 1
+
+
+def test_dark_mode_follows_the_preference(visit: Visit) -> None:
+    visit.open("index.html")
+    seen = {}
+    for scheme in ("light", "dark"):
+        visit.tab.emulate_media(color_scheme=scheme)
+        seen[scheme] = visit.style("body", "backgroundColor"), visit.style("body", "color")
+    assert seen["light"][0] == "rgb(255, 255, 255)"
+    assert seen["dark"][0] != seen["light"][0]
+    assert seen["dark"][1] != seen["light"][1]
+
+
+def test_paper_has_no_navigation_and_breaks_no_strip(visit: Visit) -> None:
+    visit.open("messages/ServoMove.html")
+    visit.tab.emulate_media(media="print", color_scheme="dark")
+    assert visit.style("nav", "display") == "none"
+    assert visit.style(".actions", "display") == "none"
+    assert visit.style("body", "backgroundColor") == "rgb(255, 255, 255)"
+    for selector in (".strip", ".strip li", "tbody tr"):
+        assert visit.style(selector, "breakInside") == "avoid"
+
+
+def test_the_cheat_sheet_is_one_page_of_a4(visit: Visit) -> None:
+    tab = visit.open("cheatsheet.html")
+    pdf = tab.pdf(prefer_css_page_size=True)
+    assert len(re.findall(rb"/Type\s*/Page\b", pdf)) == 1
+    boxes = re.findall(rb"/MediaBox\s*\[\s*0 0 ([\d.]+) ([\d.]+)", pdf)
+    assert [(round(float(w)), round(float(h))) for w, h in boxes] == [(595, 842)]
+
+
+def test_everything_is_readable_without_a_script(browser: Browser, folder: Path) -> None:
+    context = browser.new_context(java_script_enabled=False)
+    tab = context.new_page()
+    tab.goto((folder / "index.html").as_uri())
+    assert tab.locator("tbody tr:visible").count() == 12
+    assert not tab.locator("#search").is_visible()
+    tab.goto((folder / "decoder.html").as_uri())
+    assert tab.get_by_text("This page needs JavaScript").is_visible()
+    assert tab.get_by_label("Bytes in hex").count() == 0 or not tab.locator("#hex").is_visible()
+    tab.goto((folder / "messages" / "ServoMove.html").as_uri())
+    assert "E8 03" in tab.locator(".strip").nth(1).inner_text()
+    assert not tab.locator("button.copy").first.is_visible()
+    context.close()
+
+
+def test_a_page_alone_looks_as_in_its_folder(visit: Visit, tmp_path: Path, folder: Path) -> None:
+    """As somebody sees it who was sent one page by mail."""
+    alone = Visit(visit.tab.context, tmp_path)
+    (tmp_path / "page.html").write_bytes((folder / "messages" / "ServoMove.html").read_bytes())
+    shots = [
+        each.open(path).screenshot()
+        for each, path in (
+            (visit, "messages/ServoMove.html"),
+            (alone, "page.html"),
+        )
+    ]
+    alone.tab.close()
+    assert alone.troubles == []
+    assert shots[0] == shots[1]
+
+
+def test_nothing_of_a_hostile_spec_runs(context: BrowserContext, tmp_path: Path) -> None:
+    site = hostile(" ".join(PAYLOADS.values()))
+    for path, page in site.pages.items():
+        file = tmp_path / path
+        file.parent.mkdir(parents=True, exist_ok=True)
+        file.write_text(page.text, encoding="utf-8")
+    visit = Visit(context, tmp_path)
+    visit.tab.on("dialog", lambda dialog: visit.troubles.append(dialog.message))
+    for path in [*NAMES, "messages/ServoMove.html"]:
+        tab = visit.open(path)
+        tab.mouse.move(200, 200)
+        assert tab.locator("img").count() == 0
+        if path == "decoder.html":
+            assert decoded(tab) == ["✓ ServoMove"]
+    visit.tab.close()
+    assert visit.troubles == []
+    assert [url for url in visit.requests if not url.startswith("file:")] == []
+
+
+# ---------------------------------------------------------------------------- for everybody
+
+
+@pytest.mark.skipif(not AXE.exists(), reason="axe-core is not installed; see `make docs-tools`")
+@pytest.mark.parametrize("scheme", ["light", "dark"])
+def test_axe_finds_no_violation(browser: Browser, folder: Path, scheme: Any) -> None:
+    # The page's own policy would keep the judge out, too.
+    context = browser.new_context(bypass_csp=True, color_scheme=scheme)
+    tab = context.new_page()
+    for path in PAGES:
+        tab.goto((folder / path).as_uri())
+        tab.add_script_tag(path=AXE)
+        found = tab.evaluate("axe.run()")
+        told = [(each["id"], each["nodes"][0]["html"][:120]) for each in found["violations"]]
+        assert told == [], path
+    context.close()

@@ -1,0 +1,67 @@
+"""The walk through a stream that the reference shows: step by step, and true to the library."""
+
+from pathlib import Path
+
+import pytest
+from framegen.targets.docs.lessons import lessons
+from framegen.targets.docs.walk import Walk, walk
+
+from tests.docs.peers import Event, library, noisy_lines, python_events
+from tests.docs.reference import SPECS, reference
+
+BUSSERVO = reference("busservo").layout
+
+
+def events_of(shown: Walk) -> list[Event]:
+    return [
+        ["message", event.data.hex(), event.message]
+        if event.message
+        else ["noise", event.data.hex(), event.reason]
+        for event in shown.events
+    ]
+
+
+@pytest.mark.parametrize("name", SPECS)
+def test_what_is_shown_is_what_the_library_gives(name: str, tmp_path: Path) -> None:
+    module = library(name, tmp_path)
+    shown = lessons(reference(name).layout)
+    assert len(shown) >= 3
+    for lesson in shown:
+        way = lesson.walk.direction.key
+        assert events_of(lesson.walk) == python_events(module, lesson.walk.data, way), lesson.id
+
+
+def test_the_reference_shows_every_way_to_refuse_that_noise_meets() -> None:
+    reasons = {
+        event.reason for lesson in lessons(BUSSERVO) for event in lesson.walk.events if event.reason
+    }
+    assert reasons == {"unknown command", "count mismatch", "too short"}
+
+
+@pytest.mark.parametrize("name", SPECS)
+def test_no_byte_is_lost_and_every_step_shows_bytes_of_the_line(name: str) -> None:
+    layout = reference(name).layout
+    for line in noisy_lines(reference(name), 4, 200):
+        shown = walk(layout, layout.directions[0], line)
+        assert b"".join(event.data for event in shown.events) == line
+        for step in shown.steps:
+            data = bytes.fromhex(step.bytes)
+            assert line[step.offset : step.offset + len(data)] == data
+
+
+def test_a_stray_byte_costs_one_byte() -> None:
+    shown = walk(BUSSERVO, BUSSERVO.directions[0], bytes.fromhex("55 55 55 02 07"))
+    assert events_of(shown) == [
+        ["noise", "55", "unknown command"],
+        ["message", "55550207", "ActionGroupStop"],
+    ]
+    assert [(step.offset, step.bytes, step.ok) for step in shown.steps] == [
+        (0, "55 55", True),
+        (2, "55", True),
+        (3, "02", False),
+        (0, "55", False),
+        (1, "55 55", True),
+        (3, "02", True),
+        (4, "07", True),
+        (1, "", True),
+    ]
