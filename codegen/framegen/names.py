@@ -55,8 +55,19 @@ PYTHON_CLASSES = _words(
 # What the library exports whatever the protocol.
 LIBRARY_NAMES = _words(
     """
-    AsyncController Controller Counters DecodeError Device Direction EncodeError MESSAGES
-    Message Noise ProtocolError Reason StreamDecoder Transport UnknownFrame decode
+    AsyncController ClosedError Controller Counters DecodeError Device Direction
+    DisconnectedError EXCHANGES EncodeError IncompleteReplyError LineError MESSAGES Message
+    NoReplyError NoReportError Noise PortAddressError PortBusyError PortNotFoundError
+    PortPermissionError ProtocolError Reason Sent StreamDecoder Transport TransportError
+    UnknownFrame WriteStuckError decode open_async_controller open_controller open_transport
+    AsyncClient Client Exchange
+    """
+)
+
+# What every client has besides the methods of its messages.
+CLIENT_ATTRIBUTES = _words(
+    """
+    close closed counters on_report reconnect reports request send send_latest wait_for
     """
 )
 

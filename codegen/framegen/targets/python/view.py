@@ -16,8 +16,8 @@ if TYPE_CHECKING:
     from typing import Any
 
     from framegen.layout import Layout, MessageLayout
-    from framegen.spec import Citation, Example, Spec
-    from framegen.values import Direction
+    from framegen.spec import Example, Link, Spec
+    from framegen.values import Citation, Direction
 
 # What every library exports besides its messages.
 EXPORTED = (
@@ -513,6 +513,10 @@ class LibraryView:
                 shape = bool(message.given), message.repeat is not None
                 shapes.setdefault(shape, (line, message.layout.message.summary))
         return _pairs(shapes.values())
+
+    @property
+    def link(self) -> Link:
+        return self.layout.spec.link
 
     @property
     def byte_order(self) -> str:
