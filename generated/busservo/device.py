@@ -66,6 +66,11 @@ class Device:
         """Says that the line has been quiet for so long that a frame that began is given up."""
         self._hear(self._decoder.flush())
 
+    def restart(self) -> None:
+        """Forgets a frame that has begun and what waits to be sent: the device was switched off."""
+        self._decoder = StreamDecoder(Direction.HOST_TO_CONTROLLER)
+        self._queue = []
+
     def send(self, report: Report) -> None:
         """Puts a message behind those that wait to be sent. TypeError for one of the other end."""
         if report.DIRECTION is Direction.HOST_TO_CONTROLLER:
