@@ -39,6 +39,66 @@ from .messages import (
 )
 from .noise import Noise, UnknownFrame
 
+TYPE_CHECKING = False  # typing alone would double the time that the import takes
+if TYPE_CHECKING:
+    from .async_controller import AsyncController
+    from .async_opening import open_async_controller
+    from .controller import Controller
+    from .device import Device
+    from .link_errors import (
+        ClosedError,
+        DisconnectedError,
+        IncompleteReplyError,
+        NoReplyError,
+        NoReportError,
+        PortAddressError,
+        PortBusyError,
+        PortNotFoundError,
+        PortPermissionError,
+        TransportError,
+        WriteStuckError,
+    )
+    from .opening import open_controller
+    from .request import Sent
+    from .serial_port import open_transport
+    from .transport import Transport
+else:
+    # What talks to a port is imported when it is asked for: a user of the codec needs none of it.
+    _LAZY = {
+        "AsyncController": "async_controller",
+        "ClosedError": "link_errors",
+        "Controller": "controller",
+        "Device": "device",
+        "DisconnectedError": "link_errors",
+        "IncompleteReplyError": "link_errors",
+        "NoReplyError": "link_errors",
+        "NoReportError": "link_errors",
+        "PortAddressError": "link_errors",
+        "PortBusyError": "link_errors",
+        "PortNotFoundError": "link_errors",
+        "PortPermissionError": "link_errors",
+        "Sent": "request",
+        "Transport": "transport",
+        "TransportError": "link_errors",
+        "WriteStuckError": "link_errors",
+        "open_async_controller": "async_opening",
+        "open_controller": "opening",
+        "open_transport": "serial_port",
+    }
+
+    def __getattr__(name: str) -> object:
+        module = _LAZY.get(name)
+        if module is None:
+            raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+        # Not importlib, which would have to be imported first.
+        owner = __import__(f"{__name__}.{module}", fromlist=[name])
+        value = globals()[name] = getattr(owner, name)
+        return value
+
+    def __dir__() -> list[str]:
+        return sorted({*globals(), *_LAZY})
+
+
 __version__ = "0.1.0"
 
 __all__ = [
@@ -49,16 +109,29 @@ __all__ = [
     "ActionGroupStarted",
     "ActionGroupStop",
     "ActionGroupStopped",
+    "AsyncController",
     "BatteryVoltage",
     "BatteryVoltageRead",
+    "ClosedError",
+    "Controller",
     "Counters",
     "DecodeError",
+    "Device",
     "Direction",
+    "DisconnectedError",
     "EncodeError",
+    "IncompleteReplyError",
     "Message",
+    "NoReplyError",
+    "NoReportError",
     "Noise",
+    "PortAddressError",
+    "PortBusyError",
+    "PortNotFoundError",
+    "PortPermissionError",
     "ProtocolError",
     "Reason",
+    "Sent",
     "ServoMove",
     "ServoPosition",
     "ServoPositions",
@@ -66,7 +139,13 @@ __all__ = [
     "ServoTarget",
     "ServoUnload",
     "StreamDecoder",
+    "Transport",
+    "TransportError",
     "UnknownFrame",
+    "WriteStuckError",
     "__version__",
     "decode",
+    "open_async_controller",
+    "open_controller",
+    "open_transport",
 ]

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 from jinja2 import Environment, FileSystemLoader, StrictUndefined
 
 from framegen import __version__
+from framegen.targets.python.client_view import ClientView
 from framegen.targets.python.device_view import DeviceView
 from framegen.targets.python.escape import docstring, literal
 from framegen.targets.python.view import LibraryView
@@ -63,6 +64,7 @@ def _from_templates(library: LibraryView) -> list[tuple[str, str]]:
             name.removesuffix(".jinja"),
             environment.get_template(name).render(
                 library=library,
+                client=ClientView(library.layout),
                 device=DeviceView(library.layout),
                 frame=library.layout.frame,
                 package_version=__version__,
