@@ -65,7 +65,7 @@ class Board(Device):
         self.servos = {servo_id: Servo(servo_id, lambda: self.now) for servo_id in servos}
         self.groups = dict(stored_groups() if groups is None else groups)
         self.speeds: dict[int, int] = {}
-        self.battery = Battery(battery_mv)
+        self.battery = Battery(battery_mv, self._travelling)
         self.echo_run = echo_run
         self.journal = Journal()
         self.heard = 0
@@ -92,9 +92,11 @@ class Board(Device):
         if moment <= self.now:
             return
         busy = [servo.busy(self.now, moment) for servo in self.servos.values()]
-        seconds, self.now = moment - self.now, moment
-        travelling = sum(servo.travelling for servo in self.servos.values())
-        self.battery.drain(seconds, sum(busy), travelling)
+        self.battery.drain(moment - self.now, sum(busy))
+        self.now = moment
+
+    def _travelling(self) -> int:
+        return sum(servo.travelling for servo in self.servos.values())
 
     def _go_on(self, performance: Performance) -> None:
         if performance.ended:

@@ -18,7 +18,7 @@ from busservo_simulator.servo_list import parse_servos
 from busservo_simulator.tcp_end import LOOPBACK
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator, Sequence
+    from collections.abc import Callable, Iterator, Sequence
 
     from busservo_simulator.virtual_controller import VirtualController
 
@@ -116,17 +116,29 @@ def _fault(text: str) -> tuple[str, float]:
 
 
 def _run(arguments: argparse.Namespace) -> int:
+    if arguments.host not in {LOOPBACK, "::1", "localhost"}:
+        print(f"{PROGRAM}: the network reaches it at {arguments.host}", file=sys.stderr)
     with _ended_by_signals() as ended, _board(arguments) as board:
         journal = board.board.journal
         print(board.port, flush=True)
         if not arguments.quiet:
-            journal.listener = lambda line: print(line, flush=True)
+            journal.listener = _printer(ended)
         # In slices: on Windows a wait without end cannot be interrupted.
         while not ended.wait(0.5):
             pass
         journal.listener = None
         print(f"{board.accepted} messages, {board.rejects.total} rejected", file=sys.stderr)
     return 0
+
+
+def _printer(ended: threading.Event) -> Callable[[str], None]:
+    def show(line: str) -> None:
+        try:
+            print(line, flush=True)
+        except OSError:  # whoever read along has gone
+            ended.set()
+
+    return show
 
 
 def _board(arguments: argparse.Namespace) -> VirtualController:

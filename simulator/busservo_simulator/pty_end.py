@@ -33,23 +33,26 @@ class PtyEnd:
         return str(self._link or self._name)
 
     def plug_in(self) -> None:
-        """Makes the pty and the link. Raises OSError where something else has that name."""
+        """Makes the pty and the link. Raises FileExistsError where something else has that name."""
         import tty  # noqa: PLC0415 - there is none on Windows
 
+        self._waker.open()
         self._board_end, self._host_end = os.openpty()
         tty.setraw(self._host_end)
         os.set_blocking(self._board_end, False)
         self._name = os.ttyname(self._host_end)
         if self._link is not None:
-            if self._link.is_symlink():
-                self._link.unlink()
-            self._link.symlink_to(self._name)
+            try:
+                self._make_link(self._link)
+            except OSError:
+                self.unplug()
+                raise
 
     def unplug(self) -> None:
         """Closes both ends: whoever reads is told so."""
         if self._board_end < 0:
             return
-        if self._link is not None and self._link.is_symlink():
+        if self._link is not None and self._link_leads_to(self._link) == self._name:
             self._link.unlink()
         for end in (self._board_end, self._host_end):
             os.close(end)
@@ -90,5 +93,14 @@ class PtyEnd:
     def close(self) -> None:
         """Unplugs it."""
         self.unplug()
-        with contextlib.suppress(OSError):
-            self._waker.close()
+        self._waker.close()
+
+    def _make_link(self, link: Path) -> None:
+        # One that leads to a device was left behind, as by a program that was killed.
+        if self._link_leads_to(link).startswith("/dev/"):
+            link.unlink()
+        link.symlink_to(self._name)
+
+    @staticmethod
+    def _link_leads_to(link: Path) -> str:
+        return os.readlink(link) if link.is_symlink() else ""  # noqa: PTH115 - text, not a path

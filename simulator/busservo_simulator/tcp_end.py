@@ -32,6 +32,7 @@ class TcpEnd:
 
     def plug_in(self) -> None:
         """Listens, on the same number as before if there was one."""
+        self._waker.open()
         family = socket.AF_INET6 if ":" in self._host else socket.AF_INET
         listener = socket.socket(family, socket.SOCK_STREAM)
         listener.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
@@ -49,7 +50,7 @@ class TcpEnd:
         """Hangs up and listens no more."""
         self._hang_up()
         if self._listener is not None:
-            self._listener.close()
+            _end(self._listener)
             self._listener = None
             self._waker.wake()
 
@@ -115,4 +116,11 @@ class TcpEnd:
         guest, self._guest = self._guest, None
         self._backlog = Backlog()
         if guest is not None:
-            guest.close()
+            _end(guest)
+
+
+def _end(ended: socket.socket) -> None:
+    """Closes a socket at once, even if a thread waits for it: closing alone would wait for that."""
+    with contextlib.suppress(OSError):
+        ended.shutdown(socket.SHUT_RDWR)
+    ended.close()

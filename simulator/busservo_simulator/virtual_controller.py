@@ -58,13 +58,15 @@ class VirtualController:
         host: str = LOOPBACK,
         tcp_port: int = 0,
     ) -> None:
+        if baud is not None and not baud > 0:
+            raise ValueError(f"baud is {baud}: it is above 0, or None for a line that is not paced")
         self.clock: Clock = RealClock() if clock is None else clock
         self.board = Board(servos, groups, battery_mv=battery_mv, echo_run=echo_run)
         self._since = self.clock.now()
         self._changed = Condition()
-        seconds_per_byte = BITS_PER_BYTE / baud if baud else 0.0
+        seconds_per_byte = 0.0 if baud is None else BITS_PER_BYTE / baud
         self._line = Line(self.board, seconds_per_byte=seconds_per_byte, faults=faults)
-        self._paced = bool(baud)
+        self._paced = baud is not None
         self._transport: MemoryEnd | None = None
         self._end = self._make_end(via, link, host, tcp_port)
         self._thread: Thread | None = None
@@ -98,7 +100,11 @@ class VirtualController:
 
     def start(self) -> None:
         """Plugs the board in, and for a pty and TCP starts the thread that serves the port."""
-        self._end.plug_in()
+        try:
+            self._end.plug_in()
+        except OSError:
+            self.close()
+            raise
         if self._transport is None:
             self._thread = Thread(target=self._serve, name="virtual board", daemon=True)
             self._thread.start()

@@ -10,25 +10,33 @@ class Waker:
     """A pair of sockets, since that is what `select` takes on every system."""
 
     def __init__(self) -> None:
-        self._near, self._far = socket.socketpair()
-        self._near.setblocking(False)
-        self._far.setblocking(False)
+        self._pair: tuple[socket.socket, socket.socket] | None = None
+
+    def open(self) -> None:
+        """Makes the pair. Any number of times."""
+        if self._pair is None:
+            self._pair = socket.socketpair()
+            for end in self._pair:
+                end.setblocking(False)
 
     def fileno(self) -> int:
-        """What `select` is to wait for."""
-        return self._near.fileno()
+        """What `select` is to wait for; -1 while it is not open."""
+        return -1 if self._pair is None else self._pair[0].fileno()
 
     def wake(self) -> None:
         """Ends the wait, now or as soon as it begins."""
         with contextlib.suppress(OSError):  # full: it has been woken more than enough
-            self._far.send(b"\0")
+            if self._pair is not None:
+                self._pair[1].send(b"\0")
 
     def clear(self) -> None:
         """Forgets that it was woken."""
         with contextlib.suppress(OSError):
-            self._near.recv(4096)
+            if self._pair is not None:
+                self._pair[0].recv(4096)
 
     def close(self) -> None:
         """Gives both ends back."""
-        self._near.close()
-        self._far.close()
+        for end in self._pair or ():
+            end.close()
+        self._pair = None
