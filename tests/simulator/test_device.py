@@ -145,6 +145,26 @@ def test_no_bytes_can_make_it_raise(chunks: list[bytes]) -> None:
     assert sum(device.rejects.by_reason.values()) == device.rejects.total
 
 
+FRAGMENTS = (
+    st.sampled_from([b"\x55", b"\x55\x55", b"\x02", b"\x0f", b"\x08\x03"])
+    | st.binary(max_size=6)
+    | strategies.messages(HOST).map(lambda message: message.encode())
+)
+
+
+@given(st.lists(FRAGMENTS, max_size=12).map(b"".join), st.integers(1, 9))
+def test_how_bytes_are_cut_makes_no_difference_to_what_is_refused(data: bytes, size: int) -> None:
+    def refused(pieces: list[bytes]) -> dict[Reason, int]:
+        device = Device()
+        for piece in pieces:
+            device.accept(piece)
+        device.quiet()
+        return device.rejects.by_reason
+
+    cut = [data[at : at + size] for at in range(0, len(data), size)]
+    assert refused(cut) == refused([data])
+
+
 def test_a_new_message_in_the_spec_is_a_new_handler(tmp_path: Path) -> None:
     spec = (ROOT / "spec" / "busservo.yaml").read_text(encoding="utf-8")
     new = """
