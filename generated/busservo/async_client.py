@@ -105,9 +105,9 @@ class AsyncClient:
         Returns when it has been handed over; `delay` of the result is when it will be on the wire.
         Raises TransportError.
         """
-        sent = (await self._done(message, retries=0)).sent
+        sent = (await self._done(message, None)).sent
         if sent is None:
-            raise TypeError(f"{message!r} is a question: request() sends it and awaits the reply")
+            raise self._closed()
         return sent
 
     def send_latest(self, message: Message) -> None:
@@ -117,10 +117,7 @@ class AsyncClient:
         So a stream of motions faster than the line is thinned out instead of falling behind.
         """
         self._start()
-        request = self._session.submit(message, latest=True)
-        if request.exchange.reply is not None:
-            self._session.cancel(request)
-            raise TypeError(f"{message!r} is a question, which nothing can overtake")
+        self._session.submit(message, question=False, latest=True)
         self._advance()
 
     async def request(self, message: Message, *, retries: int | None = None) -> Message:
@@ -130,7 +127,7 @@ class AsyncClient:
         """
         done = await self._done(message, self._retries if retries is None else retries)
         if done.reply is None:
-            raise TypeError(f"{message!r} is a command: send() sends it, and nothing answers")
+            raise self._closed()
         return done.reply
 
     async def reports(self, timeout: float | None = None) -> AsyncIterator[Message]:
@@ -249,10 +246,10 @@ class AsyncClient:
             raise IncompleteReplyError(asked, missing, replies, arrived)
         return replies
 
-    async def _done(self, message: Message, retries: int) -> Request:
-        """Submits a message, and waits until it is done."""
+    async def _done(self, message: Message, retries: int | None) -> Request:
+        """Submits a message, a command where `retries` is None, and waits until it is done."""
         self._start()
-        request = self._session.submit(message, retries=retries)
+        request = self._session.submit(message, question=retries is not None, retries=retries or 0)
         done: asyncio.Future[None] = asyncio.get_running_loop().create_future()
 
         def finished() -> None:

@@ -118,9 +118,9 @@ class Client:
         Returns when it has been handed over; `delay` of the result is when it will be on the wire.
         Raises TransportError.
         """
-        sent = self._done(message, retries=0).sent
+        sent = self._done(message, None).sent
         if sent is None:
-            raise TypeError(f"{message!r} is a question: request() sends it and awaits the reply")
+            raise self._closed()
         return sent
 
     def send_latest(self, message: Message) -> None:
@@ -131,10 +131,7 @@ class Client:
         """
         with self._changed:
             self._check()
-            request = self._session.submit(message, latest=True)
-            if request.exchange.reply is not None:
-                self._session.cancel(request)
-                raise TypeError(f"{message!r} is a question, which nothing can overtake")
+            self._session.submit(message, question=False, latest=True)
             self._send_due()
             self._changed.notify_all()
 
@@ -145,7 +142,7 @@ class Client:
         """
         reply = self._done(message, self._retries if retries is None else retries).reply
         if reply is None:
-            raise TypeError(f"{message!r} is a command: send() sends it, and nothing answers")
+            raise self._closed()
         return reply
 
     def reports(self, timeout: float | None = None) -> Iterator[Message]:
@@ -290,11 +287,13 @@ class Client:
             raise IncompleteReplyError(asked, missing, replies, arrived)
         return replies
 
-    def _done(self, message: Message, retries: int) -> Request:
-        """Submits a message, and waits until it is done."""
+    def _done(self, message: Message, retries: int | None) -> Request:
+        """Submits a message, a command where `retries` is None, and waits until it is done."""
         with self._changed:
             self._check()
-            request = self._session.submit(message, retries=retries)
+            request = self._session.submit(
+                message, question=retries is not None, retries=retries or 0
+            )
             try:
                 while not request.done:
                     self._wait(None)

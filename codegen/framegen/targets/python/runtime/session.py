@@ -76,11 +76,25 @@ class Session:
         """Whether there is nothing left to send, and no reply to wait for."""
         return not self._queue and self._asked is None
 
-    def submit(self, message: Message, *, retries: int = 0, latest: bool = False) -> Request:
-        """Asks for a message to be sent. Raises EncodeError where no reply could answer it."""
+    def submit(
+        self,
+        message: Message,
+        *,
+        question: bool | None = None,
+        retries: int = 0,
+        latest: bool = False,
+    ) -> Request:
+        """Asks for a message to be sent. Raises EncodeError where no reply could answer it.
+
+        With `question`, TypeError is raised where it has no reply, or has one against expectation.
+        """
         exchange = EXCHANGES.get(type(message))
         if exchange is None:
             raise TypeError(f"{message!r} is nothing that this end sends")
+        if question is False and exchange.reply is not None:
+            raise TypeError(f"{message!r} is a question: request() sends it and awaits the reply")
+        if question is True and exchange.reply is None:
+            raise TypeError(f"{message!r} is a command: send() sends it, and nothing answers")
         exchange.check(message)
         request = Request(message, exchange, retries=retries, latest=latest)
         if latest:
@@ -102,7 +116,7 @@ class Session:
     def outgoing(self, now: float) -> list[bytes]:
         """The frames to write now, in order. Those of requests are then under way."""
         frames: list[bytes] = []
-        while self.wire.free_at - now <= _AHEAD:
+        while now >= self.wire.free_at - _AHEAD:
             request = self._next(now)
             if request is None:
                 break
