@@ -147,11 +147,15 @@ class SerialPort:
         except _GONE:
             pass  # it is being closed anyway
         held = self._reading.acquire(timeout=1.0)
+        # pyserial does not close a socket whose other end has gone: it fails one line before.
+        behind = getattr(self._port, "_socket", None)
         try:
             self._port.close()
         except _GONE:
             pass  # a port that is gone cannot be closed any better
         finally:
+            if behind is not None:
+                behind.close()
             if held:
                 self._reading.release()
 
