@@ -33,6 +33,8 @@ if TYPE_CHECKING:
 
 # A paced line takes no more than this ahead, and then makes the host wait, as a port does.
 AHEAD = 4096
+# A system wakes a thread this much later than asked; the rest of a wait is spent looking again.
+OVERSLEEP = 0.0001
 
 
 class VirtualController:
@@ -267,7 +269,7 @@ class VirtualController:
                     self._line.write(data, self._moment)
                 self._live()
                 event = self._line.next_event
-                left = None if event is None else max(0.0, event - self._moment)
+                left = None if event is None else max(0.0, event - self._moment - OVERSLEEP)
             if isinstance(self.clock, VirtualClock):
                 left = None  # whoever moves the clock wakes this thread
             self._end.wait(left, listening=listening)
