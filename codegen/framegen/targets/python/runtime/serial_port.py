@@ -37,6 +37,7 @@ if TYPE_CHECKING:
 _SLICE = 0.05
 _WRITE_TIMEOUT = 1.0
 _MOST = 4096
+_NAMED = "name a port, such as /dev/ttyUSB0 or COM7, or a URL, such as socket://host:port"
 _PERMITTED = (
     "add yourself to the group that owns it (dialout on most systems, uucp on some), as by "
     "`sudo usermod -aG dialout $USER`, then log in again"
@@ -53,6 +54,8 @@ def open_transport(port: str, *, baud: float = BAUD, exclusive: bool = True) -> 
     The rest of the line's parameters are the protocol's. With `exclusive`, no other program that
     asks for the same can have the port meanwhile. Raises TransportError.
     """
+    if not isinstance(port, str):
+        raise PortAddressError(repr(port), "a port is named by text", _NAMED)
     try:
         opened = serial.serial_for_url(
             port,
@@ -186,8 +189,7 @@ def _not_opened(port: str, error: Exception) -> TransportError:
     if absent or code in (errno.ENOENT, errno.ENXIO, errno.ENODEV):
         return PortNotFoundError(port, "there is no such port", _listed())
     if not isinstance(error, OSError) or "expected a string in the form" in low:
-        advice = "name a port, such as /dev/ttyUSB0 or COM7, or a URL, such as socket://host:port"
-        return PortAddressError(port, f"it is no port ({text})", advice)
+        return PortAddressError(port, f"it is no port ({text})", _NAMED)
     if "://" in port:
         why = text.removeprefix(f"Could not open port {port}: ")
         advice = "see that the other end is there and listening"
