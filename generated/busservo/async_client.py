@@ -12,6 +12,7 @@ from queue import SimpleQueue
 from typing import TYPE_CHECKING, TypeVar
 
 from .client import GRACE, MARGIN, REPORT_LIMIT, SLICE
+from .guarded import Guarded
 from .link_errors import ClosedError, IncompleteReplyError, NoReportError, TransportError
 from .outcome import lacking, parts_of, report_wanted
 from .protocol import BAUD
@@ -57,8 +58,8 @@ class AsyncClient:
         trace: str | PathLike[str] | None = None,
         report_limit: int = REPORT_LIMIT,
     ) -> None:
-        self._transport = transport
-        self._name = str(getattr(transport, "name", type(transport).__name__))
+        self._transport = Guarded(transport)
+        self._name = self._transport.name
         self._retries = retries
         self._tap = Tap(self._name, trace)
         self._session = Session(baud=baud, margin=margin, report_limit=report_limit, tap=self._tap)
@@ -204,15 +205,13 @@ class AsyncClient:
         A transport of your own needs a method `reopen()`, which returns the next one. Raises
         TransportError where that fails, and may then be called again.
         """
-        reopen: Callable[[], Transport] | None = getattr(self._transport, "reopen", None)
-        if reopen is None:
-            raise TypeError(f"{self._name} has no method reopen(), and cannot be opened again")
+        reopen = self._transport.reopen
         if self.closed:
             raise self._closed()
         self._fail(TransportError(self._name, "the line is being opened again", "ask again"))
         loop = asyncio.get_running_loop()
         await loop.run_in_executor(None, self._shut, 0.0)
-        self._transport = await loop.run_in_executor(None, reopen)
+        self._transport = Guarded(await loop.run_in_executor(None, reopen))
         self._session.restart()
         self._failure = None
         self._loop = None
@@ -393,6 +392,11 @@ class AsyncClient:
             except TransportError as error:
                 _post(loop, self._lost, line, error)
                 return
+            except Exception as error:
+                # The thread must not end unheard: the loop would wait for it for ever.
+                logger.exception("%s failed", self._name)
+                _post(loop, self._lost, line, _broken(self._name, error))
+                return
             if (data or self._ticking) and not _post(loop, self._arrived, line, data, began):
                 return
 
@@ -407,6 +411,10 @@ class AsyncClient:
             except TransportError as error:
                 _post(loop, self._lost, line, error)
                 return
+            except Exception as error:
+                logger.exception("%s failed", self._name)
+                _post(loop, self._lost, line, _broken(self._name, error))
+                return
 
 
 class _Line:
@@ -414,9 +422,14 @@ class _Line:
 
     __slots__ = ("outbox", "transport")
 
-    def __init__(self, transport: Transport, outbox: SimpleQueue[bytes | None]) -> None:
+    def __init__(self, transport: Guarded, outbox: SimpleQueue[bytes | None]) -> None:
         self.transport = transport
         self.outbox = outbox
+
+
+def _broken(name: str, error: Exception) -> TransportError:
+    """What a transport that raises anything else is taken for."""
+    return TransportError(name, f"its transport failed ({error!r})", "mend the transport")
 
 
 def _post(loop: asyncio.AbstractEventLoop, call: Callable[..., None], *arguments: object) -> bool:

@@ -25,6 +25,7 @@ from busservo import (
     ServoMove,
     ServoPositions,
     ServoPositionsRead,
+    TransportError,
 )
 
 from tests.client.live_line import LiveLine, answered
@@ -221,3 +222,16 @@ def test_a_client_that_was_never_used_can_be_closed() -> None:
 
     run(work())
     assert line.closed
+
+
+def test_a_transport_that_breaks_its_word_ends_in_an_error() -> None:
+    class Broken(LiveLine):
+        def read(self, timeout: float) -> bytes:
+            raise KeyError(timeout)
+
+    async def work() -> None:
+        async with AsyncController(Broken(), margin=20) as controller:
+            with pytest.raises(TransportError, match="mend the transport"):
+                await controller.read_battery_voltage()
+
+    run(work())

@@ -295,6 +295,15 @@ def test_close_ends_the_waits_of_other_threads() -> None:
             waiting.result(10)
 
 
+def test_an_error_of_the_system_from_a_transport_is_one_of_ours() -> None:
+    line = VirtualLine(at_once)
+    controller = virtual(line)
+    line.error = BrokenPipeError("nobody there")
+    with pytest.raises(DisconnectedError, match="nobody there"):
+        controller.stop_action_group()
+    controller.close()
+
+
 def test_errors_are_of_one_family() -> None:
     error = TransportError("COM7", "it is in use", "close the other program")
     assert isinstance(error, OSError)

@@ -7,6 +7,7 @@ import threading
 import time
 from typing import TYPE_CHECKING, TypeVar
 
+from .guarded import Guarded
 from .link_errors import (
     ClosedError,
     IncompleteReplyError,
@@ -68,8 +69,8 @@ class Client:
         background: bool = True,
         clock: Callable[[], float] = time.monotonic,
     ) -> None:
-        self._transport = transport
-        self._name = str(getattr(transport, "name", type(transport).__name__))
+        self._transport = Guarded(transport)
+        self._name = self._transport.name
         self._retries = retries
         self._clock = clock
         self._tap = Tap(self._name, trace)
@@ -240,9 +241,7 @@ class Client:
         A transport of your own needs a method `reopen()`, which returns the next one. Raises
         TransportError where that fails, and may then be called again.
         """
-        reopen: Callable[[], Transport] | None = getattr(self._transport, "reopen", None)
-        if reopen is None:
-            raise TypeError(f"{self._name} has no method reopen(), and cannot be opened again")
+        reopen = self._transport.reopen
         with self._changed:
             if self._closing:
                 raise self._closed()
@@ -250,7 +249,7 @@ class Client:
             self._fail(lost)
         self._transport.close()
         self._stop_listening()
-        transport = reopen()
+        transport = Guarded(reopen())
         with self._changed:
             self._transport = transport
             self._session.restart()
@@ -297,7 +296,11 @@ class Client:
                     self._wait(None)
             finally:
                 self._session.cancel(request)
+            failure = self._failure
         self._tell()
+        if request.reply is None and failure is not None:
+            # A command whose frame the port did not take counts as done, but is not.
+            raise failure.again()
         if request.error is not None:
             error = request.error
             raise error.again() if isinstance(error, TransportError) else error

@@ -158,7 +158,7 @@ class Session:
         free = self.wire.free_at - _AHEAD
         if self._next(now) is not None:
             return free
-        settled = [each.until for each in self._overdue]
+        settled = [each.until for each in self._overdue if each.until > now]
         # A question waits for the one before it, whose end brings the driver back here anyway.
         return max(free, min(settled)) if settled and self._asked is None else None
 
