@@ -77,14 +77,18 @@ class TcpEnd:
         self._waker.clear()
 
     def receive(self) -> bytes:
-        """Lets a host in that has called, and reads what there is."""
+        """Reads what there is; then lets a host in that has called, if the one before has gone."""
+        self.deliver(b"")
+        found = b""
+        while self._guest and len(found) < CHUNK and (data := self._receive(self._guest)):
+            found += data
         if self._listener is not None:
             self._admit(self._listener)
-        if self._guest is None:
-            return b""
-        self.deliver(b"")
+        return found
+
+    def _receive(self, guest: socket.socket) -> bytes:
         try:
-            data = self._guest.recv(CHUNK) if self._guest is not None else b""
+            data = guest.recv(CHUNK)
         except BlockingIOError:
             return b""
         except OSError:
@@ -108,9 +112,9 @@ class TcpEnd:
             if self._guest is not None:
                 caller.close()
                 return
+            self._guest = caller
             caller.setblocking(False)
             caller.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
-            self._guest = caller
 
     def _hang_up(self) -> None:
         guest, self._guest = self._guest, None

@@ -64,11 +64,13 @@ class Host:
         self.heard += self._decoder.feed(data)
 
     def hang_up(self) -> None:
-        """Closes the port. pyserial forgets to close a socket whose other end has gone."""
-        behind = getattr(getattr(self.transport, "_port", None), "_socket", None)
-        self.transport.close()
-        if behind is not None:
+        """Closes the port. pyserial sleeps after it has closed a socket, so that is done here."""
+        port = getattr(self.transport, "_port", None)
+        behind = getattr(port, "_socket", None)
+        if port is not None and behind is not None:
             behind.close()
+            port.is_open = False
+        self.transport.close()
 
     def noise(self) -> list[bytes]:
         """The noise heard so far."""
