@@ -55,9 +55,19 @@ PYTHON_CLASSES = _words(
 # What the library exports or is built of, whatever the protocol.
 LIBRARY_NAMES = _words(
     """
-    AsyncController Controller Counters DecodeError Device Direction Element EncodeError HEADER
-    Items MESSAGES Message Noise Number ProtocolError Reason SearchStrategy Shape StreamDecoder
-    Transport UNFIT UnknownFrame decode
+    AsyncClient AsyncController Client ClosedError Controller Counters decode DecodeError Device
+    Direction DisconnectedError Element EncodeError Exchange EXCHANGES HEADER
+    IncompleteReplyError Items LineError Message MESSAGES Noise NoReplyError NoReportError
+    Number open_async_controller open_controller open_transport PortAddressError PortBusyError
+    PortNotFoundError PortPermissionError ProtocolError Reason SearchStrategy Sent Shape
+    StreamDecoder Transport TransportError UNFIT UnknownFrame WriteStuckError
+    """
+)
+
+# What every client has besides the methods of its messages.
+CLIENT_ATTRIBUTES = _words(
+    """
+    close closed counters on_report reconnect reports request send send_latest wait_for
     """
 )
 

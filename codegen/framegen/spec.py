@@ -14,7 +14,7 @@ from pydantic import Field as Key
 
 from framegen.formula import Formula, parse_formula
 from framegen.notation import Notation
-from framegen.values import Citation, Direction, Range, Scale, parse_hex
+from framegen.values import Citation, Direction, Method, Range, Scale, parse_hex
 
 Cite: TypeAlias = Annotated[Citation, Notation("a citation", "vendor, section 1.1", Citation.parse)]
 Hex: TypeAlias = Annotated[bytes, Notation("hex", "55 55 02 07", parse_hex)]
@@ -25,6 +25,9 @@ Bounds: TypeAlias = Annotated[Range, Notation("a range", "0..1000", Range.parse)
 Step: TypeAlias = Annotated[Scale, Notation("a scale", "0.001 V", Scale.parse)]
 Length: TypeAlias = Annotated[
     Formula, Notation("a length rule", "3 * servo_count + 5", parse_formula, Formula)
+]
+Call: TypeAlias = Annotated[
+    Method, Notation("a method", "read_positions(servo_ids) -> positions", Method.parse)
 ]
 Natural: TypeAlias = Annotated[StrictInt, Key(ge=0)]
 
@@ -214,7 +217,17 @@ class Message(Part):
     description: str = Key("", description="What else its user should know.")
     cite: Cite = Key(description="Where it is known from.")
     reply: str | None = Key(None, description="The message that answers it, always.")
+    echoed: dict[str, str] = Key(
+        {},
+        description="Fields that the reply repeats, and where it has them, such as "
+        "`servo_ids: positions.servo_id`: what tells the reply to this message from others.",
+    )
     reports: list[str] = Key([], description="Messages that may follow it, sooner or later.")
+    method: Call | None = Key(
+        None,
+        description="What sends it in a client: name, order of the arguments, and the field of the "
+        "reply that is returned, where it is not the whole reply.",
+    )
     length: Length = Key(description="The value of the length part, such as `3 * servo_count + 5`.")
     fields: dict[str, AnyField] = Key({}, description="Its fields, in the order of the frame.")
     examples: list[Example] = Key([], description="Frames, each with what it means.")

@@ -12,6 +12,7 @@ from decimal import Decimal
 _HEX = re.compile(r"(?:[0-9A-Fa-f]{2}\s+)*[0-9A-Fa-f]{2}")
 _DIRECTION = re.compile(r"(\S+)\s*->\s*(\S+)")
 _RANGE = re.compile(r"(-?[0-9]{1,20})\s*\.\.\s*(-?[0-9]{1,20})?")
+_METHOD = re.compile(r"(\w+)\s*\(([\w\s,]*)\)(?:\s*->\s*(\w+))?", re.ASCII)
 _SCALE = re.compile(r"([0-9]{1,6}(?:\.[0-9]{1,12})?)\s+(\S+)")
 
 
@@ -110,6 +111,30 @@ class Citation:
                 f"`{text}` is no citation: write a source and a place, like `vendor, section 1.1`"
             )
         return cls(source.strip(), place.strip())
+
+
+@dataclass(frozen=True, slots=True)
+class Method:
+    """A message as a method of the client, written `read_positions(servo_ids) -> positions`.
+
+    `result` is the field of the reply that it returns, or empty where it returns the whole reply.
+    """
+
+    name: str
+    arguments: tuple[str, ...]
+    result: str
+
+    @classmethod
+    def parse(cls, text: str) -> Method:
+        """Read `move_servos(targets, time_ms)` or `read_voltage() -> voltage_mv`."""
+        match = _METHOD.fullmatch(text.strip())
+        names = [] if match is None else [name.strip() for name in match[2].split(",")]
+        if match is None or (len(names) > 1 and not all(names)) or " " in "".join(names):
+            raise ValueError(
+                f"`{text.strip()}` is no method: write name, arguments and what it returns, "
+                "like `read_positions(servo_ids) -> positions`"
+            )
+        return cls(match[1], tuple(name for name in names if name), match[3] or "")
 
 
 def parse_hex(text: str) -> bytes:

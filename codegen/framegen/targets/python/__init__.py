@@ -9,6 +9,8 @@ from typing import TYPE_CHECKING
 from jinja2 import Environment, FileSystemLoader, StrictUndefined
 
 from framegen import __version__
+from framegen.targets.python.client_view import ClientView
+from framegen.targets.python.device_view import DeviceView
 from framegen.targets.python.escape import comment, docstring, literal
 from framegen.targets.python.view import LibraryView
 
@@ -53,7 +55,11 @@ def _from_templates(library: LibraryView) -> list[tuple[str, str]]:
         (
             name.removesuffix(".jinja"),
             environment.get_template(name).render(
-                library=library, frame=library.layout.frame, package_version=__version__
+                library=library,
+                client=ClientView(library.layout),
+                device=DeviceView(library.layout),
+                frame=library.layout.frame,
+                package_version=__version__,
             ),
         )
         for name in names

@@ -17,8 +17,32 @@ if TYPE_CHECKING:
     from typing import Any
 
     from framegen.layout import Layout, MessageLayout
-    from framegen.spec import Example, Spec
+    from framegen.spec import Example, Link, Spec
     from framegen.values import Citation, Direction
+
+# What else every library exports, and the module that each is in: imported when it is asked for,
+# because a user of the codec needs no port.
+LAZY = {
+    "AsyncController": "async_controller",
+    "ClosedError": "link_errors",
+    "Controller": "controller",
+    "Device": "device",
+    "DisconnectedError": "link_errors",
+    "IncompleteReplyError": "link_errors",
+    "NoReplyError": "link_errors",
+    "NoReportError": "link_errors",
+    "PortAddressError": "link_errors",
+    "PortBusyError": "link_errors",
+    "PortNotFoundError": "link_errors",
+    "PortPermissionError": "link_errors",
+    "Sent": "request",
+    "Transport": "transport",
+    "TransportError": "link_errors",
+    "WriteStuckError": "link_errors",
+    "open_async_controller": "async_opening",
+    "open_controller": "opening",
+    "open_transport": "serial_port",
+}
 
 # What every library exports besides its messages.
 EXPORTED = (
@@ -511,7 +535,7 @@ class LibraryView:
     @property
     def exported(self) -> list[str]:
         """Every name that the package exports, in the order that linters want."""
-        return sorted([*EXPORTED, *self._from_messages], key=_export_order)
+        return sorted([*EXPORTED, *LAZY, *self._from_messages], key=_export_order)
 
     @property
     def doc(self) -> list[str]:
@@ -549,6 +573,10 @@ class LibraryView:
                 shape = bool(message.given), message.repeat is not None
                 shapes.setdefault(shape, (line, message.layout.message.summary))
         return _pairs(shapes.values())
+
+    @property
+    def link(self) -> Link:
+        return self.layout.spec.link
 
     @property
     def byte_order(self) -> str:

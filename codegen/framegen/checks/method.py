@@ -1,0 +1,97 @@
+"""Rule: every message that a client sends can be a method of it."""
+
+from __future__ import annotations
+
+import re
+from typing import TYPE_CHECKING
+
+from framegen.checks.rule import Problem, StructureRule
+from framegen.exchanges import arguments_of, method_of, sent_by_client
+from framegen.findings import did_you_mean
+from framegen.names import CLIENT_ATTRIBUTES, PYTHON_KEYWORDS
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from framegen.spec import Message, Spec
+    from framegen.yamltree import KeyPath
+
+_SNAKE = re.compile(r"[a-z][a-z0-9]*(?:_[a-z0-9]+)*")
+
+
+def _look(spec: Spec) -> Iterator[Problem]:
+    if not spec.messages:
+        return
+    sent = sent_by_client(spec)
+    first: dict[str, KeyPath] = {}
+    for name, message in spec.messages.items():
+        declared = message.method is not None
+        path: KeyPath = ("messages", name, "method") if declared else ("messages", name)
+        if message.direction != sent:
+            if declared:
+                what = f"{name} goes {message.direction}, and a client sends {sent}"
+                yield Problem(path, what, "only what a client sends has a method")
+            continue
+        yield from _name(path, method_of(name, message).name, first, declared=declared)
+        if message.method is not None:
+            yield from _arguments(path, name, message)
+            yield from _result(path, name, message, spec)
+
+
+def _name(
+    path: KeyPath, name: str, first: dict[str, KeyPath], *, declared: bool
+) -> Iterator[Problem]:
+    on_key = not declared
+    hint = "choose another name" if declared else "give the message a `method`"
+    if name in PYTHON_KEYWORDS:
+        yield Problem(path, f"`{name}` is a word of Python itself", hint, on_key)
+    elif _SNAKE.fullmatch(name) is None:
+        yield Problem(path, f"`{name}` is no name in snake_case", hint, on_key)
+    elif name in CLIENT_ATTRIBUTES:
+        yield Problem(path, f"every client has `{name}` of its own already", hint, on_key)
+    elif name in first:
+        also = (first[name], "the first is here")
+        yield Problem(path, f"there are two methods called `{name}`", hint, on_key, also)
+    else:
+        first[name] = path
+
+
+def _arguments(path: KeyPath, name: str, message: Message) -> Iterator[Problem]:
+    known = arguments_of(message)
+    given = list(message.method.arguments) if message.method else []
+    for argument in dict.fromkeys(given):
+        if argument not in known:
+            what = f"{name} is not given `{argument}`"
+            yield Problem(path, what, did_you_mean(argument, known))
+        elif given.count(argument) > 1:
+            yield Problem(path, f"`{argument}` is there twice", "name each argument once")
+    missing = [argument for argument in known if argument not in given]
+    if missing:
+        what = f"the method leaves out {' and '.join(f'`{each}`' for each in missing)}"
+        yield Problem(path, what, "name every field but the count")
+
+
+def _result(path: KeyPath, name: str, message: Message, spec: Spec) -> Iterator[Problem]:
+    result = message.method.result if message.method else ""
+    if not result:
+        return
+    if message.reply is None:
+        what = f"{name} has no reply to take `{result}` from"
+        yield Problem(path, what, "declare its `reply`, or leave out what it returns")
+        return
+    reply = spec.messages.get(message.reply)
+    known = [] if reply is None else arguments_of(reply)
+    if reply is not None and result not in known:
+        what = f"{message.reply} has no `{result}` to return"
+        yield Problem(path, what, did_you_mean(result, known))
+
+
+RULE = StructureRule(
+    id="method",
+    title="Every message that a client sends can be a method of it",
+    why="A client has one method for each message, with the fields as arguments: a name that is "
+    "taken hides another method, and a field that is left out cannot be sent.",
+    bad="LampsSet: {method: close(lamps)}",
+    good="LampsSet: {method: set_lamps(lamps, fade_ms)}",
+    look=_look,
+)

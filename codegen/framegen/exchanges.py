@@ -1,0 +1,118 @@
+"""What a client does with each message that it sends: its method, and how the reply is known.
+
+The client is the end that sends the first message of the spec; whoever that message goes to is the
+end it talks to.
+"""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from framegen.spec import GroupField
+from framegen.values import Method
+
+if TYPE_CHECKING:
+    from framegen.layout import Layout, MessageLayout, Repeat
+    from framegen.spec import Message, Spec
+    from framegen.values import Direction
+
+
+@dataclass(frozen=True)
+class Exchange:
+    """One message of the client, and what comes back.
+
+    `echoed` pairs a field of the request with where the reply has it, such as `servo_ids` with
+    `positions.servo_id`.
+    """
+
+    request: MessageLayout
+    method: Method
+    reply: MessageLayout | None
+    reports: tuple[str, ...]
+    echoed: tuple[tuple[str, str], ...]
+
+    @property
+    def split(self) -> Repeat | None:
+        """The list of the request that is asked in parts, where a reply has room for fewer.
+
+        Only what is nothing but a list, and returns nothing but a list, can be put together again.
+        """
+        asked = self.request.repeat
+        if asked is None or self.reply is None or self.reply.repeat is None:
+            return None
+        told = self.reply.repeat
+        whole = len(self.request.arguments) == 1 and self.method.result == told.name
+        return asked if whole and self.most < asked.high else None
+
+    @property
+    def most(self) -> int:
+        """How many elements of the request's list a reply can answer; 0 where nothing limits it."""
+        asked = self.request.repeat
+        told = None if self.reply is None else self.reply.repeat
+        if asked is None or told is None:
+            return 0
+        paired = any(
+            (one.partition(".")[0], other.partition(".")[0]) == (asked.name, told.name)
+            for one, other in self.echoed
+        )
+        return told.high if paired else 0
+
+
+def exchanges(layout: Layout) -> list[Exchange]:
+    """Every message that the client sends, in the order of the spec."""
+    sent = sent_by_client(layout.spec)
+    return [
+        _exchange(layout, message)
+        for message in layout.messages.values()
+        if message.direction == sent
+    ]
+
+
+def sent_by_client(spec: Spec) -> Direction:
+    """The direction in which a client sends."""
+    return next(iter(spec.messages.values())).direction
+
+
+def method_of(name: str, message: Message) -> Method:
+    """The method that sends a message: as declared, or else named after it, its list first."""
+    if message.method is not None:
+        return message.method
+    lists = [key for key, field in message.fields.items() if field.counted_by is not None]
+    numbers = [key for key in arguments_of(message) if key not in lists]
+    return Method(snake_case(name), (*lists, *numbers), "")
+
+
+def arguments_of(message: Message) -> list[str]:
+    """The fields that a user gives: all but counts."""
+    counters = {field.counted_by for field in message.fields.values()}
+    return [name for name in message.fields if name not in counters]
+
+
+def paths_of(message: Message) -> dict[str, bool]:
+    """Every field that can be echoed, by path, and whether it is in a list."""
+    paths: dict[str, bool] = {}
+    for name in arguments_of(message):
+        field = message.fields[name]
+        if isinstance(field, GroupField):
+            paths |= {f"{name}.{inner}": True for inner in field.fields}
+        else:
+            paths[name] = field.counted_by is not None
+    return paths
+
+
+def snake_case(name: str) -> str:
+    """`ServoMove` as `servo_move`."""
+    return re.sub(r"(?<=[a-z0-9])(?=[A-Z])|(?<=[A-Z])(?=[A-Z][a-z])", "_", name).lower()
+
+
+def _exchange(layout: Layout, request: MessageLayout) -> Exchange:
+    message = request.message
+    return Exchange(
+        request,
+        method_of(request.name, message),
+        None if message.reply is None else layout.messages[message.reply],
+        tuple(message.reports),
+        tuple(message.echoed.items()),
+    )

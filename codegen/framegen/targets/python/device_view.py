@@ -1,0 +1,128 @@
+"""What the template of the device's end shows: who asks, what it handles, what it can say."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from framegen.targets.python.escape import WIDTH, Bracketed
+from framegen.targets.python.view import direction_member, snake_case
+
+if TYPE_CHECKING:
+    from framegen.layout import Layout, MessageLayout
+    from framegen.values import Direction
+
+
+@dataclass(frozen=True, slots=True)
+class HandlerView:
+    """The handler of one message that the device receives."""
+
+    layout: MessageLayout
+
+    @property
+    def message(self) -> str:
+        """The class that it takes."""
+        return self.layout.name
+
+    @property
+    def name(self) -> str:
+        """`on_servo_move` for ServoMove."""
+        return f"on_{snake_case(self.layout.name)}"
+
+    @property
+    def signature(self) -> str:
+        """How it is declared: with a reply where the spec names one."""
+        reply = self.layout.message.reply
+        returns = f"{reply} | None" if reply else "None"
+        given = ["self", f"message: {self.message}"]
+        return Bracketed(f"def {self.name}(", given, f") -> {returns}:").fitted(4)
+
+    @property
+    def doc(self) -> list[str]:
+        """What it is asked, what it may return, and what may be sent later."""
+        message = self.layout.message
+        found = [message.summary]
+        if message.reply:
+            found.append(f"Return the {message.reply} that answers it, or None to stay silent.")
+        if message.reports:
+            found.append(f"May be followed, by `send`: {', '.join(message.reports)}.")
+        return found
+
+
+@dataclass(frozen=True, slots=True)
+class DeviceView:
+    """The end of the line that the first endpoint of the spec talks to."""
+
+    layout: Layout
+
+    @property
+    def incoming(self) -> Direction:
+        """The direction of what it receives."""
+        first = next(iter(self.layout.spec.endpoints))
+        found = [way for way in self.layout.directions if way.sender == first]
+        return found[0] if found else self.layout.directions[0]
+
+    @property
+    def direction(self) -> str:
+        """That direction as a member of the enumeration."""
+        return direction_member(self.incoming)
+
+    @property
+    def endpoint(self) -> str:
+        """What the spec calls this end."""
+        return self.incoming.receiver
+
+    @property
+    def host(self) -> str:
+        """What the spec calls the other end."""
+        return self.incoming.sender
+
+    @property
+    def about(self) -> list[str]:
+        """The docstring of the class."""
+        use = (
+            f"Bytes of the {self.host} go in by `receive`, and what there is to send comes back. "
+            "A handler that is not overridden does nothing and answers nothing. "
+            "What is no message is counted in `rejects`, by reason."
+        )
+        what = f"The {self.endpoint}'s end of the line: override a handler to say what it does."
+        return [what, use]
+
+    @property
+    def handlers(self) -> list[HandlerView]:
+        """A handler for each message that it receives."""
+        return [HandlerView(message) for message in self.layout.sent(self.incoming).values()]
+
+    @property
+    def reports(self) -> list[str]:
+        """The names of the messages that it sends."""
+        return sorted(message.name for message in self.layout.sent(self.incoming.reversed).values())
+
+    @property
+    def import_handled(self) -> str:
+        """The import of the messages that it receives."""
+        return _import(sorted(handler.message for handler in self.handlers), 0)
+
+    @property
+    def import_reports(self) -> str:
+        """The import of the messages that it sends."""
+        return _import(self.reports, 4)
+
+    @property
+    def report_type(self) -> str:
+        """The type of anything that it sends."""
+        names = self.reports or ["Message"]
+        line = f"Report: TypeAlias = {' | '.join(names)}"
+        if len(line) + 4 <= WIDTH:
+            return line
+        joined = "\n        | ".join(names)
+        return f"Report: TypeAlias = (\n        {joined}\n    )"
+
+
+def _import(names: list[str], indent: int) -> str:
+    line = f"from .messages import {', '.join(names)}"
+    if indent + len(line) <= WIDTH:
+        return line
+    margin = " " * indent
+    rows = "".join(f"{margin}    {name},\n" for name in names)
+    return f"from .messages import (\n{rows}{margin})"

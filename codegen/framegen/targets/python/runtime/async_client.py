@@ -1,0 +1,446 @@
+"""A client of the line for asyncio: the loop holds the conversation, two threads carry bytes."""
+
+from __future__ import annotations
+
+import asyncio
+import logging
+import threading
+import time
+from queue import SimpleQueue
+from typing import TYPE_CHECKING, TypeVar
+
+from .client import GRACE, MARGIN, REPORT_LIMIT, SLICE
+from .guarded import Guarded
+from .link_errors import ClosedError, IncompleteReplyError, NoReportError, TransportError
+from .outcome import lacking, parts_of, report_wanted
+from .protocol import BAUD
+from .session import Session
+from .tap import Tap
+
+if TYPE_CHECKING:
+    from collections.abc import AsyncIterator, Callable, Iterable
+    from os import PathLike
+    from types import TracebackType
+    from typing import Any
+
+    from typing_extensions import Self
+
+    from .counters import LineCounters
+    from .message import Message
+    from .request import Request, Sent
+    from .transport import Transport
+
+logger = logging.getLogger(__package__)
+_Reply = TypeVar("_Reply", bound="Message")
+
+
+class AsyncClient:
+    """Sends messages over a transport, matches replies, and keeps reports.
+
+    Safe to share between the tasks of one event loop: that in which it is first used. A call that
+    is cancelled leaves the line usable for the others. Nothing waits for ever: every call ends with
+    what it is for, or with an error, in a time that its arguments and `margin` bound. Better used
+    in an `async with`; `close` waits until the last byte is out.
+
+    `transport` is anything with the methods of Transport; it may block, since threads of its own
+    read and write it. The other arguments are those of the client for threads.
+    """
+
+    def __init__(
+        self,
+        transport: Transport,
+        *,
+        baud: float = BAUD,
+        margin: float = MARGIN,
+        retries: int = 0,
+        trace: str | PathLike[str] | None = None,
+        report_limit: int = REPORT_LIMIT,
+    ) -> None:
+        self._transport = Guarded(transport)
+        self._name = self._transport.name
+        self._retries = retries
+        self._tap = Tap(self._name, trace)
+        self._session = Session(baud=baud, margin=margin, report_limit=report_limit, tap=self._tap)
+        self._loop: asyncio.AbstractEventLoop | None = None
+        self._threads: list[threading.Thread] = []
+        self._outbox: SimpleQueue[bytes | None] = SimpleQueue()
+        # Whether the reading thread should say that time passes, besides that bytes arrive.
+        self._ticking = False
+        self._timer: asyncio.TimerHandle | None = None
+        self._watchers: set[asyncio.Future[None]] = set()
+        self._callbacks: list[Callable[[Message], object]] = []
+        self._failure: TransportError | None = None
+        self._ending: asyncio.Future[None] | None = None
+
+    async def __aenter__(self) -> Self:
+        self._start()
+        return self
+
+    async def __aexit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        traceback: TracebackType | None,
+    ) -> None:
+        await self.close()
+
+    def __repr__(self) -> str:
+        state = "closed" if self.closed else "failed" if self._failure else "open"
+        return f"<{type(self).__name__} on {self._name}, {state}>"
+
+    @property
+    def closed(self) -> bool:
+        """Whether it has been closed at this end."""
+        return self._ending is not None
+
+    @property
+    def counters(self) -> LineCounters:
+        """What has passed on the line so far."""
+        return self._session.counters
+
+    async def send(self, message: Message) -> Sent:
+        """Sends a command, as soon as the frames before it have left: no lag builds up unseen.
+
+        Returns when it has been handed over; `delay` of the result is when it will be on the wire.
+        Raises TransportError.
+        """
+        sent = (await self._done(message, None)).sent
+        if sent is None:
+            raise self._closed()
+        return sent
+
+    def send_latest(self, message: Message) -> None:
+        """Sends a command when the line is free, unless a newer one overtakes it; does not wait.
+
+        It takes the place of what waits here of the same class for the same servos, or for fewer.
+        So a stream of motions faster than the line is thinned out instead of falling behind.
+        """
+        self._start()
+        self._session.submit(message, question=False, latest=True)
+        self._advance()
+
+    async def request(self, message: Message, *, retries: int | None = None) -> Message:
+        """Sends a question and returns the reply, which may tell less than was asked.
+
+        Raises NoReplyError where none came in time, and TransportError.
+        """
+        done = await self._done(message, self._retries if retries is None else retries)
+        if done.reply is None:
+            raise self._closed()
+        return done.reply
+
+    async def reports(self, timeout: float | None = None) -> AsyncIterator[Message]:
+        """The reports, as they come: each goes to one iterator, and first those already here.
+
+        The iterator ends when none has come for `timeout` seconds; without one, when this is
+        closed. Reports that nobody takes are kept up to the limit; then the oldest are dropped, and
+        counted in `counters.lost_reports`. Raises TransportError once the line is lost.
+        """
+        self._start()
+        while True:
+            until = None if timeout is None else time.monotonic() + timeout
+            report = self._session.reports.take()
+            while report is None and not self.closed:
+                self._check()
+                if until is not None and time.monotonic() >= until:
+                    return
+                await self._change(until)
+                report = self._session.reports.take()
+            if report is None:
+                return
+            yield report
+
+    def on_report(self, callback: Callable[[Message], object]) -> Callable[[], None]:
+        """Has `callback` called with every report from now on; returns what ends that.
+
+        It is called in the event loop, in order, and must not block. What it raises is logged, and
+        hurts nobody else.
+        """
+        self._callbacks.append(callback)
+
+        def stop() -> None:
+            if callback in self._callbacks:
+                self._callbacks.remove(callback)
+
+        return stop
+
+    async def wait_for(self, kind: type[_Reply], *, timeout: float, **fields: int) -> _Reply:
+        """Waits for a report of a class, with these fields, and returns it.
+
+        One that has already come counts, if it came after the latest command that causes such
+        reports (for that group, say) and no earlier wait was satisfied by it. The report is still
+        there for reports(). Raises NoReportError after `timeout` seconds, and TransportError.
+        """
+        self._start()
+        wanted = report_wanted(kind, fields)
+        began = time.monotonic()
+        log = self._session.reports
+        asked_at = log.next_number
+        since = log.since(kind, fields)
+        while True:
+            found = log.find(kind, fields, since=since, asked_at=asked_at)
+            if isinstance(found, kind):
+                return found
+            self._check()
+            waited = time.monotonic() - began
+            if waited >= timeout:
+                raise NoReportError(wanted, waited)
+            await self._change(began + timeout)
+
+    async def close(self) -> None:
+        """Sends what is still to be sent, waits until the last byte is out, and closes the line.
+
+        Questions of other tasks end with ClosedError. May be called again.
+        """
+        if self._ending is None:
+            self._ending = asyncio.ensure_future(self._end())
+        # Once begun, it is done in full: half a frame on the line would spoil the next one.
+        await asyncio.shield(self._ending)
+
+    async def reconnect(self) -> None:
+        """Opens the same port again, after the line was lost; what was under way has failed.
+
+        A transport of your own needs a method `reopen()`, which returns the next one. Raises
+        TransportError where that fails, and may then be called again.
+        """
+        reopen = self._transport.reopen
+        if self.closed:
+            raise self._closed()
+        self._fail(TransportError(self._name, "the line is being opened again", "ask again"))
+        loop = asyncio.get_running_loop()
+        await loop.run_in_executor(None, self._shut, 0.0)
+        self._transport = Guarded(await loop.run_in_executor(None, reopen))
+        self._session.restart()
+        self._failure = None
+        self._loop = None
+        self._start()
+
+    async def _ask(self, message: Message, kind: type[_Reply]) -> _Reply:
+        """The reply to a question, whole. Raises IncompleteReplyError."""
+        reply = await self.request(message)
+        if not isinstance(reply, kind):
+            raise TypeError(f"{message!r} is answered by {type(reply).__name__}")
+        asked, missing, arrived = lacking(message, reply)
+        if missing:
+            raise IncompleteReplyError(asked, missing, [reply], arrived)
+        return reply
+
+    async def _ask_in_parts(
+        self, kind: type[Message], reply: type[_Reply], items: Iterable[Any]
+    ) -> list[_Reply]:
+        """The replies to a question that is too long for one. Raises IncompleteReplyError."""
+        replies: list[_Reply] = []
+        asked, missing, arrived = "", [], []
+        for message in parts_of(kind, items):
+            got = await self.request(message)
+            if isinstance(got, reply):
+                replies.append(got)
+            field, lacks, came = lacking(message, got)
+            asked = field or asked
+            missing += lacks
+            arrived += came
+        if missing:
+            raise IncompleteReplyError(asked, missing, replies, arrived)
+        return replies
+
+    async def _done(self, message: Message, retries: int | None) -> Request:
+        """Submits a message, a command where `retries` is None, and waits until it is done."""
+        self._start()
+        request = self._session.submit(message, question=retries is not None, retries=retries or 0)
+        done: asyncio.Future[None] = asyncio.get_running_loop().create_future()
+
+        def finished() -> None:
+            if not done.done():
+                done.set_result(None)
+
+        request.notify = finished
+        self._advance()
+        try:
+            await done
+        finally:
+            self._session.cancel(request)
+            self._advance()
+        if request.error is not None:
+            error = request.error
+            raise error.again() if isinstance(error, TransportError) else error
+        return request
+
+    def _start(self) -> None:
+        """Binds this to the running loop, and starts the threads, on first use."""
+        self._check()
+        loop = asyncio.get_running_loop()
+        if self._loop is loop:
+            return
+        if self._loop is not None:
+            raise RuntimeError("this client belongs to another event loop")
+        self._loop = loop
+        self._outbox = SimpleQueue()
+        line = _Line(self._transport, self._outbox)
+        self._threads = [
+            threading.Thread(target=self._run_reader, args=(loop, line), daemon=True),
+            threading.Thread(target=self._run_writer, args=(loop, line), daemon=True),
+        ]
+        for thread in self._threads:
+            thread.name = f"{__package__} on {self._name}"
+            thread.start()
+
+    def _advance(self) -> None:
+        """Sends what is due, sees when to look again, and tells whoever waits for news."""
+        now = time.monotonic()
+        for frame in self._session.outgoing(now):
+            self._outbox.put(frame)
+        self._ticking = self._session.tick_at is not None
+        if self._timer is not None:
+            self._timer.cancel()
+            self._timer = None
+        send_at = self._session.send_at(now)
+        if send_at is not None and self._loop is not None and self._failure is None:
+            self._timer = self._loop.call_later(max(0.0, send_at - now), self._advance)
+        while self._session.news:
+            report = self._session.news.popleft()
+            for callback in list(self._callbacks):
+                _call(callback, report)
+
+    def _arrived(self, line: _Line, data: bytes, began: float) -> None:
+        if line.transport is self._transport and self._failure is None:
+            reports = self._session.counters.reports
+            self._session.receive(data, time.monotonic())
+            # What had arrived before counts before any deadline does.
+            self._session.tick(began)
+            self._advance()
+            if self._session.counters.reports != reports:
+                self._wake()
+
+    def _lost(self, line: _Line, error: TransportError) -> None:
+        if line.transport is self._transport:
+            self._fail(error)
+
+    def _fail(self, error: TransportError) -> None:
+        if self._failure is None:
+            self._failure = error
+            self._session.fail(error)
+            self._wake()
+
+    def _wake(self) -> None:
+        for watcher in self._watchers:
+            if not watcher.done():
+                watcher.set_result(None)
+
+    async def _change(self, until: float | None) -> None:
+        """Waits until a report has come or the line has failed, or until a time."""
+        watcher: asyncio.Future[None] = asyncio.get_running_loop().create_future()
+        self._watchers.add(watcher)
+        try:
+            left = None if until is None else max(0.0, until - time.monotonic())
+            await asyncio.wait([watcher], timeout=left)
+        finally:
+            self._watchers.discard(watcher)
+
+    async def _end(self) -> None:
+        closed = self._closed()
+        self._session.refuse_questions(closed)
+        self._advance()
+        self._wake()
+        until = time.monotonic() + GRACE
+        free_at = self._session.wire.free_at
+        while self._failure is None:
+            now, free_at = time.monotonic(), self._session.wire.free_at
+            if (self._session.idle and now >= free_at) or now >= max(until, free_at + GRACE):
+                break
+            await asyncio.sleep(min(SLICE, max(0.001, free_at - now)))
+        loop = asyncio.get_running_loop()
+        await loop.run_in_executor(None, self._shut, GRACE if self._failure is None else 0.0)
+        self._failure = self._failure or closed
+        self._session.fail(closed)
+        if self._timer is not None:
+            self._timer.cancel()
+        self._wake()
+        self._tap.close()
+
+    def _shut(self, grace: float) -> None:
+        """Ends the threads and closes the transport, which may take a moment: not in the loop."""
+        self._outbox.put(None)
+        for thread in self._threads[1:]:
+            thread.join(GRACE)
+        try:
+            if grace:
+                self._transport.drain(grace)
+        except TransportError as error:
+            logger.debug("%s could not be drained: %s", self._name, error)
+        finally:
+            self._transport.close()
+            for thread in self._threads[:1]:
+                thread.join(GRACE)
+
+    def _check(self) -> None:
+        if self.closed:
+            raise self._closed()
+        if self._failure is not None:
+            raise self._failure.again()
+
+    def _closed(self) -> ClosedError:
+        return ClosedError(self._name, "it has been closed", "open it again")
+
+    def _run_reader(self, loop: asyncio.AbstractEventLoop, line: _Line) -> None:
+        """Carries bytes from the transport to the loop, until one of them has ended."""
+        while True:
+            began = time.monotonic()
+            try:
+                data = line.transport.read(SLICE)
+            except TransportError as error:
+                _post(loop, self._lost, line, error)
+                return
+            except Exception as error:
+                # The thread must not end unheard: the loop would wait for it for ever.
+                logger.exception("%s failed", self._name)
+                _post(loop, self._lost, line, _broken(self._name, error))
+                return
+            if (data or self._ticking) and not _post(loop, self._arrived, line, data, began):
+                return
+
+    def _run_writer(self, loop: asyncio.AbstractEventLoop, line: _Line) -> None:
+        """Carries frames from the loop to the transport, until there is None."""
+        while True:
+            frame = line.outbox.get()
+            if frame is None:
+                return
+            try:
+                line.transport.write(frame)
+            except TransportError as error:
+                _post(loop, self._lost, line, error)
+                return
+            except Exception as error:
+                logger.exception("%s failed", self._name)
+                _post(loop, self._lost, line, _broken(self._name, error))
+                return
+
+
+class _Line:
+    """One connection: what its threads use, while the client may be on to the next."""
+
+    __slots__ = ("outbox", "transport")
+
+    def __init__(self, transport: Guarded, outbox: SimpleQueue[bytes | None]) -> None:
+        self.transport = transport
+        self.outbox = outbox
+
+
+def _broken(name: str, error: Exception) -> TransportError:
+    """What a transport that raises anything else is taken for."""
+    return TransportError(name, f"its transport failed ({error!r})", "mend the transport")
+
+
+def _post(loop: asyncio.AbstractEventLoop, call: Callable[..., None], *arguments: object) -> bool:
+    """Has the loop call something; False where the loop is no more."""
+    try:
+        loop.call_soon_threadsafe(call, *arguments)
+    except RuntimeError:
+        return False
+    return True
+
+
+def _call(callback: Callable[[Message], object], report: Message) -> None:
+    try:
+        callback(report)
+    except Exception:
+        logger.exception("%r failed on %r", callback, report)

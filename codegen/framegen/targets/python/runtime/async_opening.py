@@ -1,0 +1,93 @@
+"""Opens a port, and gives the controller that is behind it, for asyncio."""
+
+from __future__ import annotations
+
+import asyncio
+from functools import partial
+from typing import TYPE_CHECKING
+
+from .async_controller import AsyncController
+from .client import MARGIN, REPORT_LIMIT
+from .protocol import BAUD
+from .serial_port import open_transport
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Generator
+    from os import PathLike
+    from types import TracebackType
+    from typing import Any
+
+    from .serial_port import SerialPort
+
+
+class Opening:
+    """A controller that is about to be opened: by `await`, or better by `async with`."""
+
+    def __init__(
+        self, opener: Callable[[], SerialPort], make: Callable[[SerialPort], AsyncController]
+    ) -> None:
+        self._open = opener
+        self._make = make
+        self._controller: AsyncController | None = None
+
+    def __await__(self) -> Generator[Any, None, AsyncController]:
+        return self._opened().__await__()
+
+    async def __aenter__(self) -> AsyncController:
+        return await self._opened()
+
+    async def __aexit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        traceback: TracebackType | None,
+    ) -> None:
+        if self._controller is not None:
+            await self._controller.close()
+
+    async def _opened(self) -> AsyncController:
+        # Opening may take a while (a socket, a slow adapter), and would hold up the loop.
+        opened = asyncio.get_running_loop().run_in_executor(None, self._open)
+        try:
+            transport = await asyncio.shield(opened)
+        except asyncio.CancelledError:
+            opened.add_done_callback(_close)
+            raise
+        try:
+            self._controller = self._make(transport)
+        except BaseException:
+            transport.close()
+            raise
+        return await self._controller.__aenter__()
+
+
+def open_async_controller(
+    port: str,
+    *,
+    baud: float = BAUD,
+    exclusive: bool = True,
+    margin: float = MARGIN,
+    retries: int = 0,
+    trace: str | PathLike[str] | None = None,
+    report_limit: int = REPORT_LIMIT,
+) -> Opening:
+    """Opens the port of a controller, to be used in an `async with`.
+
+    It may also be awaited, and the controller closed by hand. The arguments and
+    the errors are those of open_controller; the errors come when it is entered or awaited.
+    """
+    opener = partial(open_transport, port, baud=baud, exclusive=exclusive)
+    make = partial(
+        AsyncController,
+        baud=baud,
+        margin=margin,
+        retries=retries,
+        trace=trace,
+        report_limit=report_limit,
+    )
+    return Opening(opener, make)
+
+
+def _close(opened: asyncio.Future[SerialPort]) -> None:
+    if not opened.cancelled() and opened.exception() is None:
+        opened.result().close()

@@ -1,0 +1,430 @@
+"""A client of the line for threads: whoever waits also reads, for itself and for all others."""
+
+from __future__ import annotations
+
+import logging
+import threading
+import time
+from typing import TYPE_CHECKING, TypeVar
+
+from .guarded import Guarded
+from .link_errors import (
+    ClosedError,
+    IncompleteReplyError,
+    NoReportError,
+    TransportError,
+)
+from .outcome import lacking, parts_of, report_wanted
+from .protocol import BAUD
+from .session import Session
+from .tap import Tap
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterable, Iterator
+    from os import PathLike
+    from types import TracebackType
+    from typing import Any
+
+    from typing_extensions import Self
+
+    from .counters import LineCounters
+    from .message import Message
+    from .request import Request, Sent
+    from .transport import Transport
+
+MARGIN = 0.25
+REPORT_LIMIT = 1024
+# How long one read may take, so that whoever waits for something else is not forgotten.
+SLICE = 0.02
+# How long a line may take to be drained, beyond what its bytes take by calculation.
+GRACE = 1.0
+logger = logging.getLogger(__package__)
+_Reply = TypeVar("_Reply", bound="Message")
+
+
+class Client:
+    """Sends messages over a transport, matches replies, and keeps reports.
+
+    Safe to share between threads. Nothing blocks for ever: every call ends with what it is for, or
+    with an error, in a time that its arguments and `margin` bound. Better used in a `with`; `close`
+    waits until the last byte is out.
+
+    `transport` is anything with the methods of Transport. `baud` is the rate that deadlines and
+    pacing are worked out from (math.inf for a line that takes no time), `margin` the seconds that
+    an answer may take besides, `retries` how often a question is asked again that was not answered,
+    `trace` a file that every frame is written to, for `decode` to read, `report_limit` how many
+    reports are kept. With `background`, a thread listens while nobody waits; without, only calls
+    read the line, and `clock` may be of any kind.
+    """
+
+    def __init__(
+        self,
+        transport: Transport,
+        *,
+        baud: float = BAUD,
+        margin: float = MARGIN,
+        retries: int = 0,
+        trace: str | PathLike[str] | None = None,
+        report_limit: int = REPORT_LIMIT,
+        background: bool = True,
+        clock: Callable[[], float] = time.monotonic,
+    ) -> None:
+        self._transport = Guarded(transport)
+        self._name = self._transport.name
+        self._retries = retries
+        self._clock = clock
+        self._tap = Tap(self._name, trace)
+        self._session = Session(baud=baud, margin=margin, report_limit=report_limit, tap=self._tap)
+        # Held for every touch of the session, never for a read; told whenever anything changed.
+        self._changed = threading.Condition(threading.Lock())
+        self._reading = False
+        self._closing = False
+        self._failure: TransportError | None = None
+        self._callbacks: list[Callable[[Message], object]] = []
+        self._telling = False
+        self._background = background
+        self._listener: threading.Thread | None = None
+        self._listen()
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        traceback: TracebackType | None,
+    ) -> None:
+        self.close()
+
+    def __repr__(self) -> str:
+        state = "closed" if self._closing else "failed" if self._failure else "open"
+        return f"<{type(self).__name__} on {self._name}, {state}>"
+
+    @property
+    def closed(self) -> bool:
+        """Whether it has been closed at this end."""
+        return self._closing
+
+    @property
+    def counters(self) -> LineCounters:
+        """What has passed on the line so far."""
+        return self._session.counters
+
+    def send(self, message: Message) -> Sent:
+        """Sends a command, as soon as the frames before it have left: no lag builds up unseen.
+
+        Returns when it has been handed over; `delay` of the result is when it will be on the wire.
+        Raises TransportError.
+        """
+        sent = self._done(message, None).sent
+        if sent is None:
+            raise self._closed()
+        return sent
+
+    def send_latest(self, message: Message) -> None:
+        """Sends a command when the line is free, unless a newer one overtakes it; does not wait.
+
+        It takes the place of what waits here of the same class for the same servos, or for fewer.
+        So a stream of motions faster than the line is thinned out instead of falling behind.
+        """
+        with self._changed:
+            self._check()
+            self._session.submit(message, question=False, latest=True)
+            self._send_due()
+            self._changed.notify_all()
+
+    def request(self, message: Message, *, retries: int | None = None) -> Message:
+        """Sends a question and returns the reply, which may tell less than was asked.
+
+        Raises NoReplyError where none came in time, and TransportError.
+        """
+        reply = self._done(message, self._retries if retries is None else retries).reply
+        if reply is None:
+            raise self._closed()
+        return reply
+
+    def reports(self, timeout: float | None = None) -> Iterator[Message]:
+        """The reports, as they come: each goes to one iterator, and first those already here.
+
+        The iterator ends when none has come for `timeout` seconds; without one, when this is
+        closed. Reports that nobody takes are kept up to the limit; then the oldest are dropped, and
+        counted in `counters.lost_reports`. Raises TransportError once the line is lost.
+        """
+        while True:
+            until = None if timeout is None else self._clock() + timeout
+            with self._changed:
+                report = self._session.reports.take()
+                while report is None and not self._closing:
+                    self._check()
+                    if until is not None and self._clock() >= until:
+                        return
+                    self._wait(until)
+                    report = self._session.reports.take()
+            self._tell()
+            if report is None:
+                return
+            yield report
+
+    def on_report(self, callback: Callable[[Message], object]) -> Callable[[], None]:
+        """Has `callback` called with every report from now on; returns what ends that.
+
+        It is called in order, one at a time, in whichever thread has read the report, and may use
+        this client. What it raises is logged, and hurts nobody else.
+        """
+        with self._changed:
+            self._callbacks.append(callback)
+
+        def stop() -> None:
+            with self._changed:
+                if callback in self._callbacks:
+                    self._callbacks.remove(callback)
+
+        return stop
+
+    def wait_for(self, kind: type[_Reply], *, timeout: float, **fields: int) -> _Reply:
+        """Waits for a report of a class, with these fields, and returns it.
+
+        One that has already come counts, if it came after the latest command that causes such
+        reports (for that group, say) and no earlier wait was satisfied by it. The report is still
+        there for reports(). Raises NoReportError after `timeout` seconds, and TransportError.
+        """
+        wanted = report_wanted(kind, fields)
+        began = self._clock()
+        with self._changed:
+            log = self._session.reports
+            asked_at = log.next_number
+            since = log.since(kind, fields)
+            last = False
+            while True:
+                found = log.find(kind, fields, since=since, asked_at=asked_at)
+                if found is not None or last:
+                    break
+                self._check()
+                # One more look after the time is up: what has arrived by then has come in time.
+                last = self._clock() >= began + timeout
+                self._wait(self._clock() if last else began + timeout)
+        self._tell()
+        if not isinstance(found, kind):
+            raise NoReportError(wanted, self._clock() - began)
+        return found
+
+    def close(self) -> None:
+        """Sends what is still to be sent, waits until the last byte is out, and closes the line.
+
+        Questions of other threads end with ClosedError. May be called again.
+        """
+        with self._changed:
+            if self._closing:
+                return
+            self._closing = True
+            self._session.refuse_questions(self._closed())
+            self._changed.notify_all()
+            self._drain()
+            left = max(0.0, self._session.wire.free_at - self._clock())
+        try:
+            if self._failure is None:
+                self._transport.drain(min(left, GRACE) + GRACE)
+        except TransportError as error:
+            logger.debug("%s could not be drained: %s", self._name, error)
+        finally:
+            self._transport.close()
+            self._stop_listening()
+            with self._changed:
+                self._session.fail(self._closed())
+                self._changed.notify_all()
+            self._tap.close()
+
+    def reconnect(self) -> None:
+        """Opens the same port again, after the line was lost; what was under way has failed.
+
+        A transport of your own needs a method `reopen()`, which returns the next one. Raises
+        TransportError where that fails, and may then be called again.
+        """
+        reopen = self._transport.reopen
+        with self._changed:
+            if self._closing:
+                raise self._closed()
+            lost = TransportError(self._name, "the line is being opened again", "ask again")
+            self._fail(lost)
+        self._transport.close()
+        self._stop_listening()
+        transport = Guarded(reopen())
+        with self._changed:
+            self._transport = transport
+            self._session.restart()
+            self._failure = None
+        self._listen()
+
+    def _ask(self, message: Message, kind: type[_Reply]) -> _Reply:
+        """The reply to a question, whole. Raises IncompleteReplyError."""
+        reply = self.request(message)
+        if not isinstance(reply, kind):
+            raise TypeError(f"{message!r} is answered by {type(reply).__name__}")
+        asked, missing, arrived = lacking(message, reply)
+        if missing:
+            raise IncompleteReplyError(asked, missing, [reply], arrived)
+        return reply
+
+    def _ask_in_parts(
+        self, kind: type[Message], reply: type[_Reply], items: Iterable[Any]
+    ) -> list[_Reply]:
+        """The replies to a question that is too long for one. Raises IncompleteReplyError."""
+        replies: list[_Reply] = []
+        asked, missing, arrived = "", [], []
+        for message in parts_of(kind, items):
+            got = self.request(message)
+            if isinstance(got, reply):
+                replies.append(got)
+            field, lacks, came = lacking(message, got)
+            asked = field or asked
+            missing += lacks
+            arrived += came
+        if missing:
+            raise IncompleteReplyError(asked, missing, replies, arrived)
+        return replies
+
+    def _done(self, message: Message, retries: int | None) -> Request:
+        """Submits a message, a command where `retries` is None, and waits until it is done."""
+        with self._changed:
+            self._check()
+            request = self._session.submit(
+                message, question=retries is not None, retries=retries or 0
+            )
+            try:
+                while not request.done:
+                    self._wait(None)
+            finally:
+                self._session.cancel(request)
+            failure = self._failure
+        self._tell()
+        if request.reply is None and failure is not None:
+            # A command whose frame the port did not take counts as done, but is not.
+            raise failure.again()
+        if request.error is not None:
+            error = request.error
+            raise error.again() if isinstance(error, TransportError) else error
+        return request
+
+    def _wait(self, until: float | None) -> None:
+        """Lets something happen: sends what is due, then reads or lets another thread read.
+
+        Comes back soon, whether or not anything did. The lock is held, and let go meanwhile.
+        """
+        sent = self._session.counters.sent
+        self._send_due()
+        if self._session.counters.sent != sent:
+            self._changed.notify_all()
+            return
+        if self._failure is not None:
+            return
+        now = self._clock()
+        times = [now + SLICE, self._session.send_at(now), until]
+        pause = max(0.0, min(time for time in times if time is not None) - now)
+        if self._reading:
+            self._changed.wait(pause)
+            return
+        tick_at = self._session.tick_at
+        if tick_at is not None:
+            pause = max(0.0, min(pause, tick_at - now))
+        self._read(pause)
+
+    def _read(self, timeout: float) -> None:
+        """Reads once, for everyone. What had arrived before counts before any deadline does."""
+        transport, began = self._transport, self._clock()
+        failure: TransportError | None = None
+        data = b""
+        self._reading = True
+        self._changed.release()
+        try:
+            data = transport.read(timeout)
+        except TransportError as error:
+            failure = error
+        finally:
+            self._changed.acquire()
+            self._reading = False
+            # Whoever waits must know that nobody reads now, even if this thread was interrupted.
+            self._changed.notify_all()
+        if transport is not self._transport:
+            return
+        if failure is not None:
+            self._fail(failure)
+            return
+        self._session.receive(data, self._clock())
+        self._session.tick(began)
+
+    def _send_due(self) -> None:
+        for frame in self._session.outgoing(self._clock()):
+            try:
+                self._transport.write(frame)
+            except TransportError as error:
+                self._fail(error)
+                return
+
+    def _drain(self) -> None:
+        """Sends all commands that wait, and lets the time pass that they take on the wire."""
+        until = self._clock() + GRACE
+        while self._failure is None:
+            now = self._clock()
+            free_at = self._session.wire.free_at
+            if (self._session.idle and now >= free_at) or now >= max(until, free_at + GRACE):
+                return
+            self._wait(None if not self._session.idle else free_at)
+
+    def _fail(self, error: TransportError) -> None:
+        if self._failure is None:
+            self._failure = error
+            self._session.fail(error)
+        self._changed.notify_all()
+
+    def _check(self) -> None:
+        if self._closing:
+            raise self._closed()
+        if self._failure is not None:
+            raise self._failure.again()
+
+    def _closed(self) -> ClosedError:
+        return ClosedError(self._name, "it has been closed", "open it again")
+
+    def _tell(self) -> None:
+        """Calls the callbacks for the reports that have come, unless another thread does."""
+        while True:
+            with self._changed:
+                if self._telling or not self._session.news:
+                    return
+                report = self._session.news.popleft()
+                callbacks = list(self._callbacks)
+                self._telling = True
+            try:
+                for callback in callbacks:
+                    _call(callback, report)
+            finally:
+                with self._changed:
+                    self._telling = False
+
+    def _listen(self) -> None:
+        if self._background:
+            name = f"{__package__} on {self._name}"
+            self._listener = threading.Thread(target=self._run_listener, name=name, daemon=True)
+            self._listener.start()
+
+    def _run_listener(self) -> None:
+        """Reads while nobody else does, so that reports are heard and late commands sent."""
+        while True:
+            with self._changed:
+                if self._closing or self._failure is not None:
+                    return
+                self._wait(None)
+            self._tell()
+
+    def _stop_listening(self) -> None:
+        listener = self._listener
+        if listener is not None and listener is not threading.current_thread():
+            listener.join(GRACE)
+
+
+def _call(callback: Callable[[Message], object], report: Message) -> None:
+    try:
+        callback(report)
+    except Exception:
+        logger.exception("%r failed on %r", callback, report)

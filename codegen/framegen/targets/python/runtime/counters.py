@@ -1,0 +1,39 @@
+"""What a client has seen of its line so far."""
+
+from __future__ import annotations
+
+
+class LineCounters:
+    """Counts since the client was made; they go on over a reconnection.
+
+    `sent` frames; `replies` that answered something and `strays` that answered nothing (late ones
+    above all); `reports`, of which `lost_reports` went untaken; `noise` bytes; `timeouts` of
+    requests, and `retries` made after them; commands `replaced` by newer ones before they left.
+    """
+
+    __slots__ = (
+        "lost_reports",
+        "noise",
+        "replaced",
+        "replies",
+        "reports",
+        "retries",
+        "sent",
+        "strays",
+        "timeouts",
+    )
+
+    def __init__(self) -> None:
+        self.sent = 0
+        self.replies = 0
+        self.strays = 0
+        self.reports = 0
+        self.lost_reports = 0
+        self.noise = 0
+        self.timeouts = 0
+        self.retries = 0
+        self.replaced = 0
+
+    def __repr__(self) -> str:
+        counts = ", ".join(f"{name}={getattr(self, name)}" for name in self.__slots__)
+        return f"LineCounters({counts})"

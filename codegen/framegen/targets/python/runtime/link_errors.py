@@ -1,0 +1,116 @@
+"""What can go wrong on a live line: the port itself, a reply or a report that does not come."""
+
+from __future__ import annotations
+
+from .errors import ProtocolError
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from collections.abc import Iterable
+
+    from typing_extensions import Self
+
+    from .message import Message
+
+
+class TransportError(ProtocolError, OSError):
+    """The port failed. `port` is which, `happened` what happened, and `advice` what to do now."""
+
+    def __init__(self, port: str, happened: str, advice: str) -> None:
+        super().__init__(port, happened, advice)
+        self.port = port
+        self.happened = happened
+        self.advice = advice
+
+    def __str__(self) -> str:
+        return f"{self.port}: {self.happened}; {self.advice}"
+
+    def again(self) -> Self:
+        """The same error, to be raised once more, with no traceback of its own yet."""
+        return type(self)(self.port, self.happened, self.advice)
+
+
+class PortNotFoundError(TransportError):
+    """There is no such port."""
+
+
+class PortBusyError(TransportError):
+    """Another program has the port."""
+
+
+class PortPermissionError(TransportError):
+    """The user may not use the port."""
+
+
+class PortAddressError(TransportError, ValueError):
+    """What was given is the name of no port, nor a URL of any known kind."""
+
+
+class DisconnectedError(TransportError):
+    """The line was lost: a cable pulled, a device gone, the other end hung up."""
+
+
+class WriteStuckError(TransportError):
+    """The port takes no more bytes."""
+
+
+class ClosedError(TransportError):
+    """The line has been closed at this end."""
+
+
+class NoReplyError(ProtocolError, TimeoutError):
+    """No reply came in time. `request` is what was asked, `waited` the seconds spent on it."""
+
+    def __init__(self, request: Message, reply: str, waited: float, attempts: int = 1) -> None:
+        super().__init__(request, reply, waited, attempts)
+        self.request = request
+        self.reply = reply
+        self.waited = waited
+        self.attempts = attempts
+
+    def __str__(self) -> str:
+        tries = f" to {self.attempts} requests" if self.attempts > 1 else ""
+        return (
+            f"no {self.reply} came within {self.waited:.3f} s{tries} of {self.request!r}; "
+            "is the board switched on, and is this its port?"
+        )
+
+
+class IncompleteReplyError(ProtocolError):
+    """A reply told less than was asked.
+
+    `missing` is what was asked about and not told, `arrived` what was told (such as positions), and
+    `replies` the messages that told it.
+    """
+
+    def __init__(
+        self,
+        asked: str,
+        missing: Iterable[int],
+        replies: Iterable[Message],
+        arrived: Iterable[object],
+    ) -> None:
+        self.asked = asked
+        self.missing = tuple(missing)
+        self.replies = tuple(replies)
+        self.arrived = tuple(arrived)
+        super().__init__(asked, self.missing, self.replies, self.arrived)
+
+    def __str__(self) -> str:
+        missing = ", ".join(str(number) for number in self.missing)
+        return (
+            f"nothing was told of {self.asked} {missing}; "
+            f"what did arrive ({len(self.arrived)}) is kept in `arrived`"
+        )
+
+
+class NoReportError(ProtocolError, TimeoutError):
+    """A report did not come. `report` is what was waited for, `waited` how many seconds."""
+
+    def __init__(self, report: str, waited: float) -> None:
+        super().__init__(report, waited)
+        self.report = report
+        self.waited = waited
+
+    def __str__(self) -> str:
+        return f"no {self.report} came within {self.waited:.3f} s"

@@ -1,0 +1,45 @@
+"""Opens a port, and gives the controller that is behind it."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from .client import MARGIN, REPORT_LIMIT
+from .controller import Controller
+from .protocol import BAUD
+from .serial_port import open_transport
+
+if TYPE_CHECKING:
+    from os import PathLike
+
+
+def open_controller(
+    port: str,
+    *,
+    baud: float = BAUD,
+    exclusive: bool = True,
+    margin: float = MARGIN,
+    retries: int = 0,
+    trace: str | PathLike[str] | None = None,
+    report_limit: int = REPORT_LIMIT,
+) -> Controller:
+    """Opens the port of a controller, to be used in a `with`.
+
+    `port` is a name or a URL that pyserial knows: `/dev/ttyUSB0`, `COM7`, `hwgrep://CH340`,
+    `socket://host:port`, `rfc2217://host:port`, `loop://`. With `exclusive`, nobody else can have
+    it meanwhile. The rest is explained at Controller. Raises TransportError, which names the port,
+    what happened and what to do.
+    """
+    transport = open_transport(port, baud=baud, exclusive=exclusive)
+    try:
+        return Controller(
+            transport,
+            baud=baud,
+            margin=margin,
+            retries=retries,
+            trace=trace,
+            report_limit=report_limit,
+        )
+    except BaseException:
+        transport.close()
+        raise

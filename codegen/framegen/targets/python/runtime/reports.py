@@ -1,0 +1,89 @@
+"""The reports that have come: kept for whoever asks for them, up to a limit."""
+
+from __future__ import annotations
+
+from collections import deque
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    from .message import Message
+
+# How many commands are remembered as possible causes of reports.
+_CAUSES = 64
+
+
+class _Entry:
+    __slots__ = ("awaited", "message", "number")
+
+    def __init__(self, number: int, message: Message) -> None:
+        self.number = number
+        self.message = message
+        self.awaited = False
+
+
+class ReportLog:
+    """The latest `limit` reports, each numbered from 0 on.
+
+    Where more come, the oldest go; those that nobody had taken are counted in `lost`.
+    """
+
+    def __init__(self, limit: int) -> None:
+        if limit < 1:
+            raise ValueError(f"the limit of reports is {limit!r}, and must be at least 1")
+        self._kept: deque[_Entry] = deque(maxlen=limit)
+        self._causes: deque[tuple[int, Message, tuple[type[Message], ...]]] = deque(maxlen=_CAUSES)
+        self._taken = 0
+        self.next_number = 0
+        self.lost = 0
+
+    def add(self, message: Message) -> None:
+        """Takes in a report."""
+        self._kept.append(_Entry(self.next_number, message))
+        self.next_number += 1
+        oldest = self._kept[0].number
+        if self._taken < oldest:
+            self.lost += oldest - self._taken
+            self._taken = oldest
+
+    def caused(self, command: Message, reports: tuple[type[Message], ...]) -> None:
+        """Takes note that a command has been sent that may be followed by such reports."""
+        self._causes.append((self.next_number, command, reports))
+
+    def take(self) -> Message | None:
+        """The oldest report that has not been taken yet."""
+        if self._taken >= self.next_number:
+            return None
+        entry = self._kept[self._taken - self._kept[0].number]
+        self._taken += 1
+        return entry.message
+
+    def since(self, kind: type[Message], fields: Mapping[str, int]) -> int:
+        """The number from which on a report answers the latest command that causes its kind.
+
+        Where a command and a report share a field, such as a group, it must be the one asked for.
+        """
+        for number, command, reports in reversed(self._causes):
+            shared = [name for name in command.__match_args__ if name in fields]
+            if kind in reports and all(getattr(command, name) == fields[name] for name in shared):
+                return number
+        return self.next_number
+
+    def find(
+        self, kind: type[Message], fields: Mapping[str, int], *, since: int, asked_at: int
+    ) -> Message | None:
+        """The first report of a kind, with such fields, from number `since` on.
+
+        One that came before number `asked_at` satisfies only one wait: the next wants another.
+        """
+        for entry in self._kept:
+            if entry.number < since or (entry.awaited and entry.number < asked_at):
+                continue
+            message = entry.message
+            if type(message) is kind and all(
+                getattr(message, name) == value for name, value in fields.items()
+            ):
+                entry.awaited = True
+                return message
+        return None

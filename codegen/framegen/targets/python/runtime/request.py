@@ -1,0 +1,81 @@
+"""One message on its way to the controller, and what has become of it."""
+
+from __future__ import annotations
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from .exchange import Exchange
+    from .message import Message
+
+
+class Sent:
+    """A command that has been handed to the line.
+
+    `delay` is how many seconds later its first byte is on the wire, the frames before it taking
+    their time, and `duration` how many seconds it takes from there to its last byte.
+    """
+
+    __slots__ = ("delay", "duration", "message")
+
+    def __init__(self, message: Message, delay: float, duration: float) -> None:
+        self.message = message
+        self.delay = delay
+        self.duration = duration
+
+    def __repr__(self) -> str:
+        return f"Sent({self.message!r}, delay={self.delay:.4f}, duration={self.duration:.4f})"
+
+
+class Request:
+    """What a session was asked to send. Once `done`, it has `sent`, a `reply` or an `error`."""
+
+    __slots__ = (
+        "attempts",
+        "deadline",
+        "done",
+        "error",
+        "exchange",
+        "latest",
+        "left_at",
+        "message",
+        "notify",
+        "reply",
+        "retries",
+        "sent",
+        "sent_at",
+    )
+
+    def __init__(
+        self, message: Message, exchange: Exchange, *, retries: int = 0, latest: bool = False
+    ) -> None:
+        self.message = message
+        self.exchange = exchange
+        self.retries = retries
+        # Whether it gives way to a newer one of its kind.
+        self.latest = latest
+        self.attempts = 0
+        self.done = False
+        self.sent: Sent | None = None
+        self.reply: Message | None = None
+        self.error: Exception | None = None
+        # When it was handed over first, when the last byte of it has left, and when to give up.
+        self.sent_at = self.left_at = self.deadline = 0.0
+        # What to call once it is done.
+        self.notify: Callable[[], None] | None = None
+
+    def finish(
+        self,
+        *,
+        sent: Sent | None = None,
+        reply: Message | None = None,
+        error: Exception | None = None,
+    ) -> None:
+        """Says what has become of it."""
+        self.done = True
+        self.sent = sent
+        self.reply = reply
+        self.error = error
+        if self.notify is not None:
+            self.notify()

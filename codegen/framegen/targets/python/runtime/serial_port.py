@@ -1,0 +1,202 @@
+"""A serial port as a transport: pyserial, and its failures turned into errors that say what to do.
+
+Whatever pyserial opens is a port: `/dev/ttyUSB0`, `COM7`, `hwgrep://CH340`, `socket://host:port`,
+`rfc2217://host:port`, `loop://`.
+"""
+
+from __future__ import annotations
+
+import errno
+import sys
+import threading
+import time
+from functools import partial
+from typing import TYPE_CHECKING
+
+import serial
+from serial.tools import list_ports
+
+from .link_errors import (
+    ClosedError,
+    DisconnectedError,
+    PortAddressError,
+    PortBusyError,
+    PortNotFoundError,
+    PortPermissionError,
+    TransportError,
+    WriteStuckError,
+)
+from .protocol import BAUD, DATA_BITS, PARITY, STOP_BITS
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+    from typing import Any
+
+# pyserial reconfigures the port whenever its timeout changes, so that stays as it is, and longer
+# waits are made of several. It is also how long closing waits for a read that cannot be cancelled.
+_SLICE = 0.05
+_WRITE_TIMEOUT = 1.0
+_MOST = 4096
+_NAMED = "name a port, such as /dev/ttyUSB0 or COM7, or a URL, such as socket://host:port"
+_PERMITTED = (
+    "add yourself to the group that owns it (dialout on most systems, uucp on some), as by "
+    "`sudo usermod -aG dialout $USER`, then log in again"
+)
+# What pyserial says, where there is no errno to go by.
+_ABSENT = ("filenotfounderror", "no ports found")
+# What pyserial raises besides OSError once its descriptor is gone in mid-call.
+_GONE = (OSError, TypeError, ValueError, AttributeError)
+
+
+def open_transport(port: str, *, baud: float = BAUD, exclusive: bool = True) -> SerialPort:
+    """Opens a port, by the name or the URL that pyserial knows it by.
+
+    The rest of the line's parameters are the protocol's. With `exclusive`, no other program that
+    asks for the same can have the port meanwhile. Raises TransportError.
+    """
+    if not isinstance(port, str):
+        raise PortAddressError(repr(port), "a port is named by text", _NAMED)
+    try:
+        opened = serial.serial_for_url(
+            port,
+            baudrate=int(baud),
+            bytesize=DATA_BITS,
+            parity=PARITY[0].upper(),
+            stopbits=STOP_BITS,
+            timeout=_SLICE,
+            write_timeout=_WRITE_TIMEOUT,
+            exclusive=exclusive or None,
+        )
+    except (*_GONE, LookupError, StopIteration) as error:
+        raise _not_opened(str(port), error) from error
+    return SerialPort(
+        str(port), opened, partial(open_transport, port, baud=baud, exclusive=exclusive)
+    )
+
+
+class SerialPort:
+    """An open port of pyserial, as a transport. `reopen` opens the same one anew."""
+
+    def __init__(self, name: str, port: Any, reopen: Callable[[], SerialPort]) -> None:
+        self.name = name
+        self.reopen = reopen
+        self._port = port
+        self._closed = False
+        # Held while a read is under way, so that the descriptor is not closed underneath it: its
+        # number could be another file's by the time it is used.
+        self._reading = threading.Lock()
+
+    def read(self, timeout: float) -> bytes:
+        """What has arrived, waiting up to `timeout` seconds for the first byte."""
+        until = time.monotonic() + timeout
+        while True:
+            with self._reading:
+                data = self._read_some()
+            if data or time.monotonic() >= until:
+                return data
+
+    def _read_some(self) -> bytes:
+        if self._closed:
+            raise self._is_closed()
+        try:
+            waiting = self._port.in_waiting
+            data: bytes = self._port.read(min(waiting, _MOST) or 1)
+            # A socket tells of one byte at a time.
+            while data and len(data) < _MOST:
+                waiting = self._port.in_waiting
+                if not waiting:
+                    break
+                data += self._port.read(min(waiting, _MOST))
+        except _GONE as error:
+            raise self._failed(error) from error
+        return data
+
+    def write(self, data: bytes) -> None:
+        """Hands over all of `data`."""
+        if self._closed:
+            raise self._is_closed()
+        try:
+            self._port.write(data)
+        except serial.SerialTimeoutException as error:
+            raise WriteStuckError(
+                self.name,
+                f"it has taken no bytes for {_WRITE_TIMEOUT:g} s",
+                "unplug and replug the adapter, and see that flow control is off",
+            ) from error
+        except _GONE as error:
+            raise self._failed(error) from error
+
+    def drain(self, timeout: float) -> None:
+        """Waits until the last byte has left, as far as the driver can tell."""
+        # Not flush(): where a device has stopped taking bytes, tcdrain waits for ever.
+        until = time.monotonic() + timeout
+        try:
+            while getattr(self._port, "out_waiting", 0) and time.monotonic() < until:
+                time.sleep(0.002)
+        except _GONE as error:
+            raise self._failed(error) from error
+
+    def close(self) -> None:
+        """Closes the port; a read under way ends first."""
+        if self._closed:
+            return
+        self._closed = True
+        cancel = getattr(self._port, "cancel_read", None)
+        try:
+            if cancel is not None:
+                cancel()
+        except _GONE:
+            pass  # it is being closed anyway
+        held = self._reading.acquire(timeout=1.0)
+        # pyserial does not close a socket whose other end has gone: it fails one line before.
+        behind = getattr(self._port, "_socket", None)
+        try:
+            self._port.close()
+        except _GONE:
+            pass  # a port that is gone cannot be closed any better
+        finally:
+            if behind is not None:
+                behind.close()
+            if held:
+                self._reading.release()
+
+    def _is_closed(self) -> TransportError:
+        return ClosedError(self.name, "it has been closed", "open it again")
+
+    def _failed(self, error: Exception) -> TransportError:
+        if self._closed:
+            return self._is_closed()
+        return DisconnectedError(
+            self.name,
+            f"the line was lost ({error})",
+            "see to the cable and the power, then reconnect()",
+        )
+
+
+def _not_opened(port: str, error: Exception) -> TransportError:
+    """Why a port could not be opened, and what to do about it."""
+    code, text = getattr(error, "errno", None), str(error)
+    low = text.lower()
+    # On Windows pyserial gives the system's words instead of an errno.
+    denied = code in (errno.EACCES, errno.EPERM) or "permissionerror" in low
+    busy = code in (errno.EBUSY, errno.EAGAIN) or "exclusively lock" in low
+    if busy or (denied and sys.platform == "win32"):
+        advice = "close the other program, or the other client, that has it"
+        return PortBusyError(port, "it is in use", advice)
+    if denied:
+        return PortPermissionError(port, "permission is denied", _PERMITTED)
+    absent = isinstance(error, (StopIteration, LookupError)) or any(each in low for each in _ABSENT)
+    if absent or code in (errno.ENOENT, errno.ENXIO, errno.ENODEV):
+        return PortNotFoundError(port, "there is no such port", _listed())
+    if not isinstance(error, OSError) or "expected a string in the form" in low:
+        return PortAddressError(port, f"it is no port ({text})", _NAMED)
+    if "://" in port:
+        why = text.removeprefix(f"Could not open port {port}: ")
+        advice = "see that the other end is there and listening"
+        return PortNotFoundError(port, f"it cannot be reached ({why})", advice)
+    return TransportError(port, f"it cannot be opened ({text})", _listed())
+
+
+def _listed() -> str:
+    found = sorted(each.device for each in list_ports.comports())
+    return f"these exist: {', '.join(found)}" if found else "no serial port is plugged in"

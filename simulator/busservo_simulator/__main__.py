@@ -1,0 +1,8 @@
+"""The package run as a program: the same as its command."""
+
+import sys
+
+from busservo_simulator.cli import main
+
+if __name__ == "__main__":
+    sys.exit(main())

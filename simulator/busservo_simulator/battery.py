@@ -1,0 +1,32 @@
+"""The battery: empties slowly, and sags while servos are at work."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+EMPTY_MV = 6000
+IDLE_MV_PER_HOUR = 60.0
+BUSY_MV_PER_HOUR = 300.0
+SAG_MV = 25.0
+
+
+class Battery:
+    """Two lithium cells. `travelling` tells how many servos are at work just now."""
+
+    def __init__(self, full_mv: int, travelling: Callable[[], int]) -> None:
+        self.full_mv = full_mv
+        self._travelling = travelling
+        self._drawn_mv = 0.0
+
+    def drain(self, seconds: float, busy_seconds: float) -> None:
+        """Takes what that time cost; `busy_seconds` are those of all servos together."""
+        self._drawn_mv += (seconds * IDLE_MV_PER_HOUR + busy_seconds * BUSY_MV_PER_HOUR) / 3600
+
+    @property
+    def voltage_mv(self) -> int:
+        """The voltage at the terminals, in mV."""
+        now = self.full_mv - self._drawn_mv - self._travelling() * SAG_MV
+        return min(max(round(now), EMPTY_MV), 65535)

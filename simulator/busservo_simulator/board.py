@@ -1,0 +1,217 @@
+"""The board: what a bus servo controller does with what it is told. No port, and no clock."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from busservo import (
+    ActionGroupCompleted,
+    ActionGroupSpeed,
+    ActionGroupStarted,
+    ActionGroupStopped,
+    BatteryVoltage,
+    ServoPosition,
+    ServoPositions,
+)
+from busservo.device import Device
+
+from busservo_simulator.action_group import stored_groups
+from busservo_simulator.battery import Battery
+from busservo_simulator.journal import Journal
+from busservo_simulator.performance import Performance
+from busservo_simulator.servo import Servo
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Mapping
+
+    from busservo import (
+        ActionGroupRun,
+        ActionGroupStop,
+        BatteryVoltageRead,
+        Message,
+        Noise,
+        ServoMove,
+        ServoPositionsRead,
+        ServoUnload,
+    )
+
+    from busservo_simulator.action_group import ActionGroup
+
+# On the servo bus, the number that every servo listens to.
+EVERY_SERVO = 254
+DEFAULT_SERVOS = range(1, 7)
+# A reply with more servos would be longer than its length can say.
+MOST_POSITIONS = ServoPositions.SHAPE.items.counts[-1] if ServoPositions.SHAPE.items else 0
+
+
+class Board(Device):
+    """A board that has been switched on at time 0 and lives through `advance_to`.
+
+    Where the vendor's document is silent it does the quiet thing: a servo that is not there and an
+    action group that is not stored are ignored, a group that starts replaces the one that runs,
+    and a speed of 0 % is ignored.
+    """
+
+    def __init__(
+        self,
+        servos: Iterable[int] = DEFAULT_SERVOS,
+        groups: Mapping[int, ActionGroup] | None = None,
+        *,
+        battery_mv: int = 7500,
+        echo_run: bool = True,
+    ) -> None:
+        super().__init__()
+        self.now = 0.0
+        self.servos = {servo_id: Servo(servo_id, lambda: self.now) for servo_id in servos}
+        self.groups = dict(stored_groups() if groups is None else groups)
+        self.speeds: dict[int, int] = {}
+        self.battery = Battery(battery_mv, self._travelling)
+        self.echo_run = echo_run
+        self.journal = Journal()
+        self.heard = 0
+        self.led_stays_on = False
+        self.beeps = 0
+        self._performance: Performance | None = None
+        self._deaf_until = 0.0
+
+    # ---------------------------------------------------------------- time
+
+    @property
+    def next_event(self) -> float | None:
+        """When something happens by itself; None while nothing will."""
+        return self._performance.due if self._performance else None
+
+    def advance_to(self, moment: float) -> None:
+        """Lives on until a moment, through everything that happens by itself until then."""
+        while self._performance and self._performance.due <= moment:
+            self._pass(self._performance.due)
+            self._go_on(self._performance)
+        self._pass(moment)
+
+    def _pass(self, moment: float) -> None:
+        if moment <= self.now:
+            return
+        busy = [servo.busy(self.now, moment) for servo in self.servos.values()]
+        self.battery.drain(moment - self.now, sum(busy))
+        self.now = moment
+
+    def _travelling(self) -> int:
+        return sum(servo.travelling for servo in self.servos.values())
+
+    def _go_on(self, performance: Performance) -> None:
+        if performance.ended:
+            self._performance = None
+            self._log("group", f"{performance.number} has ended, {performance.times} times run")
+            self.send(ActionGroupCompleted(performance.number, performance.times))
+            return
+        seconds = performance.due
+        step = performance.next_step(self.speeds.get(performance.number, 100))
+        self._turn(step.targets.items(), performance.due - seconds)
+
+    # ---------------------------------------------------------------- what the host can do
+
+    def hear(self, data: bytes) -> None:
+        """Takes in what arrived now, unless it is busy starting."""
+        if self.now >= self._deaf_until:
+            self.accept(data)
+
+    def accepted(self, message: Message) -> None:
+        """LED2 blinks once for what was understood."""
+        self.heard += 1
+        self.led_stays_on = False
+        self._log("LED2", f"blinks: {message!r}")
+
+    def rejected(self, noise: Noise) -> None:
+        """LED2 stays on and the buzzer beeps twice; the host is told nothing."""
+        self.led_stays_on = True
+        self.beeps += 2
+        shown = noise.data[:16].hex(" ").upper() + (" ..." if len(noise.data) > 16 else "")
+        self._log("LED2", "stays on")
+        self._log("buzzer", f"DiDi: {noise.reason.value}, {shown}")
+
+    def on_servo_move(self, message: ServoMove) -> None:
+        """The servos set off."""
+        self._turn(message.targets, message.time_ms / 1000)
+
+    def on_servo_unload(self, message: ServoUnload) -> None:
+        """The servos go limp."""
+        for servo_id in message.servo_ids:
+            for servo in self._addressed(servo_id):
+                servo.unload()
+
+    def on_servo_positions_read(self, message: ServoPositionsRead) -> ServoPositions | None:
+        """The servos that are there, in the order asked; silence if no reply could hold them."""
+        if len(message.servo_ids) > MOST_POSITIONS:
+            self._log("board", f"{len(message.servo_ids)} servos fit in no reply: silence")
+            return None
+        there = (self.servos.get(servo_id) for servo_id in message.servo_ids)
+        return ServoPositions([self._told(servo) for servo in there if servo and not servo.missing])
+
+    def on_battery_voltage_read(self, message: BatteryVoltageRead) -> BatteryVoltage:  # noqa: ARG002 - it has no fields
+        """The voltage at this moment."""
+        return BatteryVoltage(self.battery.voltage_mv)
+
+    def on_action_group_run(self, message: ActionGroupRun) -> None:
+        """The group starts, if there is one of this number."""
+        self.start_group(message.group, message.times, told=self.echo_run)
+
+    def on_action_group_stop(self, message: ActionGroupStop) -> None:  # noqa: ARG002 - it has no fields
+        """The group that runs is stopped; without one, nothing happens and nothing is said."""
+        self.stop_group()
+
+    def on_action_group_speed(self, message: ActionGroupSpeed) -> None:
+        """The steps that follow take less time, or more."""
+        if not message.percent:
+            self._log("group", f"{message.group}: a speed of 0 % is ignored")
+            return
+        every = message.group == ActionGroupSpeed.GROUP_ALL
+        for number in self.groups if every else [message.group]:
+            self.speeds[number] = message.percent
+
+    # ---------------------------------------------------------------- what others can do
+
+    def start_group(self, number: int, times: int, *, told: bool = True) -> None:
+        """Starts a stored group, as the handset or the button on the board can too."""
+        group = self.groups.get(number)
+        if group is None:
+            self._log("group", f"{number} is not stored: silence")
+            return
+        self._log("group", f"{number} starts, {times or 'unlimited'} times")
+        if told:
+            self.send(ActionGroupStarted(number, times))
+        self._performance = Performance(number, group, times, self.now)
+        self._go_on(self._performance)
+
+    def stop_group(self) -> None:
+        """Stops what runs. Servos end the step that they are at."""
+        if self._performance is None:
+            return
+        self._log("group", f"{self._performance.number} is stopped")
+        self._performance = None
+        self.send(ActionGroupStopped())
+
+    def reboot(self, seconds: float) -> None:
+        """Switches it off and on: deaf for `seconds`, its speeds forgotten, and no group runs."""
+        self._log("board", f"restarts, for {seconds:g} s")
+        self._performance = None
+        self.speeds.clear()
+        self.restart()
+        self._deaf_until = self.now + seconds
+
+    # ---------------------------------------------------------------- details
+
+    def _turn(self, targets: Iterable[tuple[int, int]], seconds: float) -> None:
+        for servo_id, position in targets:
+            for servo in self._addressed(servo_id):
+                servo.move(position, seconds)
+
+    def _addressed(self, servo_id: int) -> list[Servo]:
+        called = self.servos.values() if servo_id == EVERY_SERVO else [self.servos.get(servo_id)]
+        return [servo for servo in called if servo and not servo.missing and not servo.off]
+
+    def _told(self, servo: Servo) -> tuple[int, int]:
+        absent = ServoPosition.POSITION_ABSENT
+        return servo.servo_id, absent if servo.off else servo.position
+
+    def _log(self, who: str, what: str) -> None:
+        self.journal.add(self.now, who, what)

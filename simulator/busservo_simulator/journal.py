@@ -1,0 +1,38 @@
+"""What happened on the board, as lines to read: the LED and the buzzer among them."""
+
+from __future__ import annotations
+
+import logging
+from collections import deque
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterator
+
+LOGGER = logging.getLogger("busservo_simulator")
+KEPT = 10_000
+
+
+class Journal:
+    """The last lines, oldest first; each goes to the log of the same name too, at INFO."""
+
+    def __init__(self) -> None:
+        self._lines: deque[str] = deque(maxlen=KEPT)
+        self.listener: Callable[[str], None] | None = None
+
+    def add(self, moment: float, who: str, what: str) -> None:
+        """Writes a line: when, in seconds since the board was switched on, who, and what."""
+        line = f"{moment:10.3f}  {who:8}  {what}"
+        self._lines.append(line)
+        LOGGER.info("%s", line)
+        if self.listener is not None:
+            self.listener(line)
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(tuple(self._lines))
+
+    def __len__(self) -> int:
+        return len(self._lines)
+
+    def __str__(self) -> str:
+        return "\n".join(self)

@@ -1,0 +1,150 @@
+"""The board in the same process: a transport that needs no port, no thread and no sleep."""
+
+from __future__ import annotations
+
+import time
+from typing import TYPE_CHECKING
+
+from busservo.link_errors import ClosedError, DisconnectedError, PortNotFoundError
+
+from busservo_simulator.clock import RealClock, VirtualClock
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+    from threading import Condition
+
+    from busservo_simulator.clock import Clock
+    from busservo_simulator.line import Line
+
+
+class MemoryEnd:
+    """Both ends at once: what `busservo.Controller` takes as a transport, and the board's port.
+
+    Whoever reads or writes makes the board live on, since there is no thread that does.
+    """
+
+    name = "virtual board"
+
+    def __init__(
+        self, line: Line, clock: Clock, since: float, live: Callable[[], None], changed: Condition
+    ) -> None:
+        self._line = line
+        self._clock = clock
+        self._since = since
+        self._live = live
+        self._changed = changed
+        self._inbox = bytearray()
+        self._plugged = False
+        self._closed = False
+
+    # ---------------------------------------------------------------- the host's side
+
+    def open(self) -> MemoryEnd:
+        """Makes it usable again after `close`. Raises PortNotFoundError while it is unplugged."""
+        with self._changed:
+            if not self._plugged:
+                raise PortNotFoundError(self.name, "the board is unplugged", "plug_in() the board")
+            self._closed = False
+            self._inbox.clear()
+            return self
+
+    def read(self, timeout: float) -> bytes:
+        """What has arrived, waiting up to `timeout` seconds for the first byte; b"" for nothing."""
+        with self._changed:
+            end = self._host_time() + timeout
+            while True:
+                self._live()
+                if self._inbox:
+                    data = bytes(self._inbox)
+                    self._inbox.clear()
+                    return data
+                self._check()
+                left = end - self._host_time()
+                if left <= 0:
+                    return b""
+                self._pass(left)
+
+    def write(self, data: bytes) -> None:
+        """Hands bytes to the line."""
+        with self._changed:
+            self._check()
+            self._line.write(bytes(data), self._moment())
+            self._live()
+            self._changed.notify_all()
+
+    def drain(self, timeout: float) -> None:
+        """Returns once the last byte has arrived at the board, or after `timeout` seconds."""
+        with self._changed:
+            end = self._host_time() + timeout
+            while self._plugged and self._line.unheard:
+                left = end - self._host_time()
+                if left <= 0:
+                    return
+                self._pass(left)
+                self._live()
+
+    def close(self) -> None:
+        """Ends the host's use of it, until `open`. Any number of times."""
+        with self._changed:
+            self._closed = True
+            self._changed.notify_all()
+
+    def _check(self) -> None:
+        if self._closed:
+            raise ClosedError(self.name, "it has been closed", "open it again")
+        if not self._plugged:
+            raise DisconnectedError(self.name, "the board was unplugged", "plug_in() the board")
+
+    def _moment(self) -> float:
+        return self._clock.now() - self._since
+
+    def _host_time(self) -> float:
+        """The time in which a wait is measured: that of the world, unless reads move the clock."""
+        follows = isinstance(self._clock, VirtualClock) and self._clock.follow_reads
+        return self._clock.now() if follows else time.monotonic()
+
+    def _pass(self, left: float) -> None:
+        """Lets time go by until the next event, and for no longer than `left`."""
+        if isinstance(self._clock, VirtualClock) and self._clock.follow_reads:
+            event = self._line.next_event
+            end = self._clock.now() + left
+            self._clock.move_to(end if event is None else min(end, self._since + event))
+            return
+        if isinstance(self._clock, RealClock):
+            event = self._line.next_event
+            left = left if event is None else min(left, max(0.0, event - self._moment()))
+        self._changed.wait(left)
+
+    # ---------------------------------------------------------------- the board's side
+
+    @property
+    def port(self) -> str:
+        """A name for it; there is nothing to open by it."""
+        return self.name
+
+    def plug_in(self) -> None:
+        """Makes it usable, unless it has been closed."""
+        self._plugged = True
+
+    def unplug(self) -> None:
+        """Makes the next read or write fail; what has arrived can still be read."""
+        self._plugged = False
+        self._changed.notify_all()
+
+    def deliver(self, data: bytes) -> None:
+        """Puts bytes where a read finds them."""
+        if self._plugged:
+            self._inbox += data
+            self._changed.notify_all()
+
+    def wait(self, seconds: float | None, *, listening: bool) -> None:
+        """There is no thread to wait."""
+
+    def receive(self) -> bytes:
+        """What is written goes to the line at once."""
+        return b""
+
+    def wake(self) -> None:
+        """Ends the wait of a read."""
+        with self._changed:
+            self._changed.notify_all()

@@ -1,0 +1,100 @@
+"""Does the faults that were asked for to what the board sends."""
+
+from __future__ import annotations
+
+from random import Random
+from typing import TYPE_CHECKING, NamedTuple
+
+from busservo import (
+    ActionGroupCompleted,
+    ActionGroupStarted,
+    ActionGroupStopped,
+    BatteryVoltage,
+    ServoPosition,
+    ServoPositions,
+)
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from busservo.device import Report
+
+    from busservo_simulator.faults import Faults
+
+REPLIES = (BatteryVoltage, ServoPositions)
+
+
+class Sending(NamedTuple):
+    """A frame on its way: pieces, each behind a pause in seconds, and what happens after."""
+
+    pieces: list[tuple[float, bytes]]
+    waits: bool = False
+    hangs_up: bool = False
+
+
+class Mischief:
+    """One run of faults, repeatable by their seed."""
+
+    def __init__(self, faults: Faults) -> None:
+        self.faults = faults
+        self._random = Random(faults.seed)  # noqa: S311 - to be repeated, not to be secret
+
+    def reports(self, report: Report) -> Iterator[Report]:
+        """What is sent in place of `report`."""
+        if self._happens(self.faults.unasked):
+            yield self._unasked()
+        if isinstance(report, REPLIES) and self._happens(self.faults.dropped):
+            return
+        if isinstance(report, ServoPositions) and (self.faults.fewer or self.faults.absent):
+            report = self._thinned(report)
+        yield report
+
+    def sending(self, frame: bytes) -> Sending:
+        """How the frame goes out."""
+        faults, pause = self.faults, 0.0
+        if self._happens(faults.delays):
+            pause = self._random.uniform(0.0, faults.longest_delay)
+        data = self._flipped(frame) if faults.bit_flips else frame
+        if self._happens(faults.noise):
+            data = self._noise() + data
+        if self._happens(faults.hang_up):
+            return Sending([(pause, data[: len(data) // 2])], hangs_up=True)
+        if self._happens(faults.splits):
+            cut = self._random.randrange(1, len(data))
+            rest = self._random.uniform(0.001, 0.02)
+            return Sending([(pause, data[:cut]), (rest, data[cut:])])
+        return Sending([(pause, data)], waits=self._happens(faults.coalesced))
+
+    def _happens(self, chance: float) -> bool:
+        # Nothing is drawn for what cannot happen: one fault more leaves the others where they were.
+        return chance > 0 and self._random.random() < chance
+
+    def _unasked(self) -> Report:
+        group = self._random.randrange(256)
+        reports: list[Report] = [
+            ActionGroupStarted(group, 1),
+            ActionGroupStopped(),
+            ActionGroupCompleted(group, 1),
+        ]
+        return self._random.choice(reports)
+
+    def _thinned(self, report: ServoPositions) -> ServoPositions:
+        kept: list[tuple[int, int]] = []
+        for servo_id, position in report.positions:
+            if self._happens(self.faults.fewer):
+                continue
+            absent = self._happens(self.faults.absent)
+            kept.append((servo_id, ServoPosition.POSITION_ABSENT if absent else position))
+        return ServoPositions(kept)
+
+    def _flipped(self, frame: bytes) -> bytes:
+        data = bytearray(frame)
+        for at in range(len(data)):
+            if self._happens(self.faults.bit_flips):
+                data[at] ^= 1 << self._random.randrange(8)
+        return bytes(data)
+
+    def _noise(self) -> bytes:
+        """Up to eight bytes without a header, though a lone byte of one may be among them."""
+        data = self._random.randbytes(self._random.randrange(1, 9))
+        return data.replace(b"\x55\x55", b"\x55\xaa")

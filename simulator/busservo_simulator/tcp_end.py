@@ -1,0 +1,130 @@
+"""The board behind a TCP port, as a network-to-serial adapter shows it; one host at a time."""
+
+from __future__ import annotations
+
+import contextlib
+import select
+import socket
+
+from busservo_simulator.backlog import Backlog
+from busservo_simulator.waker import Waker
+
+CHUNK = 4096
+LOOPBACK = "127.0.0.1"
+
+
+class TcpEnd:
+    """A listening socket, on loopback unless told otherwise."""
+
+    def __init__(self, host: str = LOOPBACK, number: int = 0) -> None:
+        self._host = host
+        self._number = number
+        self._waker = Waker()
+        self._backlog = Backlog()
+        self._listener: socket.socket | None = None
+        self._guest: socket.socket | None = None
+
+    @property
+    def port(self) -> str:
+        """The address, as pyserial takes it."""
+        host = f"[{self._host}]" if ":" in self._host else self._host
+        return f"socket://{host}:{self._number}"
+
+    def plug_in(self) -> None:
+        """Listens, on the same number as before if there was one."""
+        self._waker.open()
+        family = socket.AF_INET6 if ":" in self._host else socket.AF_INET
+        listener = socket.socket(family, socket.SOCK_STREAM)
+        listener.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+        try:
+            listener.bind((self._host, self._number))
+            listener.listen()
+        except OSError:
+            listener.close()
+            raise
+        listener.setblocking(False)
+        self._number = listener.getsockname()[1]
+        self._listener = listener
+
+    def unplug(self) -> None:
+        """Hangs up and listens no more."""
+        self._hang_up()
+        if self._listener is not None:
+            _end(self._listener)
+            self._listener = None
+            self._waker.wake()
+
+    def deliver(self, data: bytes) -> None:
+        """Sends what the connection takes; without one, nobody hears it."""
+        if self._guest is None:
+            return
+        try:
+            self._backlog.send(data, self._guest.send)
+        except OSError:
+            self._hang_up()
+
+    def wait(self, seconds: float | None, *, listening: bool) -> None:
+        """Waits for bytes of the host, for room for those to it, for a host, or to be woken."""
+        guest, listener = self._guest, self._listener
+        reading: list[Waker | socket.socket] = [self._waker]
+        if listener is not None:
+            reading.append(listener)
+        if guest is not None and listening:
+            reading.append(guest)
+        writing = [guest] if guest is not None and self._backlog.data else []
+        with contextlib.suppress(OSError, ValueError):  # unplugged in the meantime
+            select.select(reading, writing, [], seconds)
+        self._waker.clear()
+
+    def receive(self) -> bytes:
+        """Reads what there is; then lets a host in that has called, if the one before has gone."""
+        self.deliver(b"")
+        found = b""
+        while self._guest and len(found) < CHUNK and (data := self._receive(self._guest)):
+            found += data
+        if self._listener is not None:
+            self._admit(self._listener)
+        return found
+
+    def _receive(self, guest: socket.socket) -> bytes:
+        try:
+            data = guest.recv(CHUNK)
+        except BlockingIOError:
+            return b""
+        except OSError:
+            data = b""
+        if not data:
+            self._hang_up()
+        return data
+
+    def wake(self) -> None:
+        """Ends a wait."""
+        self._waker.wake()
+
+    def close(self) -> None:
+        """Unplugs it."""
+        self.unplug()
+        self._waker.close()
+
+    def _admit(self, listener: socket.socket) -> None:
+        with contextlib.suppress(OSError):
+            caller, _ = listener.accept()
+            if self._guest is not None:
+                caller.close()
+                return
+            self._guest = caller
+            caller.setblocking(False)
+            caller.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
+
+    def _hang_up(self) -> None:
+        guest, self._guest = self._guest, None
+        self._backlog = Backlog()
+        if guest is not None:
+            _end(guest)
+
+
+def _end(ended: socket.socket) -> None:
+    """Closes a socket at once, even if a thread waits for it: closing alone would wait for that."""
+    with contextlib.suppress(OSError):
+        ended.shutdown(socket.SHUT_RDWR)
+    ended.close()

@@ -1,0 +1,275 @@
+"""A board to talk to: in the same process, behind a pty or behind a TCP port."""
+
+from __future__ import annotations
+
+from threading import Condition, Thread
+from typing import TYPE_CHECKING, Literal
+
+from busservo.protocol import BITS_PER_BYTE
+
+from busservo_simulator.board import DEFAULT_SERVOS, Board
+from busservo_simulator.clock import RealClock, VirtualClock
+from busservo_simulator.line import Line
+from busservo_simulator.memory_end import MemoryEnd
+from busservo_simulator.pty_end import PtyEnd
+from busservo_simulator.tcp_end import LOOPBACK, TcpEnd
+
+if TYPE_CHECKING:
+    import os
+    from collections.abc import Iterable, Mapping
+    from types import TracebackType
+
+    from busservo.device import Report
+    from busservo.rejects import Rejects
+    from typing_extensions import Self
+
+    from busservo_simulator.action_group import ActionGroup
+    from busservo_simulator.battery import Battery
+    from busservo_simulator.clock import Clock
+    from busservo_simulator.faults import Faults
+    from busservo_simulator.journal import Journal
+    from busservo_simulator.port_end import PortEnd
+    from busservo_simulator.servo import Servo
+
+# A paced line takes no more than this ahead, and then makes the host wait, as a port does.
+AHEAD = 4096
+# A system wakes a thread this much later than asked; the rest of a wait is spent looking again.
+OVERSLEEP = 0.0001
+
+
+class VirtualController:
+    """A virtual board, its line and its port; a context manager.
+
+    `via` is "memory" (`port` is then a transport), "pty" (a name such as /dev/pts/3, or `link`) or
+    "tcp" (a name such as socket://127.0.0.1:40123). With `baud`, bytes take the time both ways
+    that they take on a wire. With a VirtualClock, time stands still until `advance`.
+    """
+
+    def __init__(  # noqa: PLR0913 - a board has many properties, each with a default
+        self,
+        via: Literal["memory", "pty", "tcp"] = "memory",
+        *,
+        servos: Iterable[int] = DEFAULT_SERVOS,
+        groups: Mapping[int, ActionGroup] | None = None,
+        battery_mv: int = 7500,
+        echo_run: bool = True,
+        baud: float | None = None,
+        clock: Clock | None = None,
+        faults: Faults | None = None,
+        link: str | os.PathLike[str] | None = None,
+        host: str = LOOPBACK,
+        tcp_port: int = 0,
+    ) -> None:
+        if baud is not None and not baud > 0:
+            raise ValueError(f"baud is {baud}: it is above 0, or None for a line that is not paced")
+        self.clock: Clock = RealClock() if clock is None else clock
+        self.board = Board(servos, groups, battery_mv=battery_mv, echo_run=echo_run)
+        self._since = self.clock.now()
+        self._changed = Condition()
+        seconds_per_byte = 0.0 if baud is None else BITS_PER_BYTE / baud
+        self._line = Line(self.board, seconds_per_byte=seconds_per_byte, faults=faults)
+        self._paced = baud is not None
+        self._transport: MemoryEnd | None = None
+        self._end = self._make_end(via, link, host, tcp_port)
+        self._thread: Thread | None = None
+        self._closing = False
+        if isinstance(self.clock, VirtualClock):
+            self.clock.when_moved(self._nudge)
+
+    def _make_end(
+        self, via: str, link: str | os.PathLike[str] | None, host: str, tcp_port: int
+    ) -> PortEnd:
+        if via == "pty":
+            return PtyEnd(link)
+        if via == "tcp":
+            return TcpEnd(host, tcp_port)
+        if via != "memory":
+            raise ValueError(f"via is {via!r}: it is 'memory', 'pty' or 'tcp'")
+        self._transport = MemoryEnd(self._line, self.clock, self._since, self._live, self._changed)
+        return self._transport
+
+    def __enter__(self) -> Self:
+        self.start()
+        return self
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        trace: TracebackType | None,
+    ) -> None:
+        self.close()
+
+    def start(self) -> None:
+        """Plugs the board in, and for a pty and TCP starts the thread that serves the port."""
+        try:
+            self._end.plug_in()
+        except OSError:
+            self.close()
+            raise
+        if self._transport is None:
+            self._thread = Thread(target=self._serve, name="virtual board", daemon=True)
+            self._thread.start()
+
+    def close(self) -> None:
+        """Unplugs it for good, and waits for its thread. Any number of times."""
+        if self._closing:
+            return
+        self._closing = True
+        self._end.wake()
+        if self._thread is not None:
+            self._thread.join()
+        with self._changed:
+            self._end.unplug()
+            self._end.close()
+
+    # ---------------------------------------------------------------- what a host opens
+
+    @property
+    def port(self) -> str:
+        """The name of the port. In memory there is none to open: use `transport`."""
+        return self._end.port
+
+    @property
+    def transport(self) -> MemoryEnd:
+        """The transport to the board, of `via="memory"`. Raises ValueError otherwise."""
+        if self._transport is None:
+            raise ValueError(f"the board is at {self.port}: open that")
+        return self._transport
+
+    def open(self) -> MemoryEnd:
+        """That transport, usable again if it was closed: what a client reconnects with."""
+        return self.transport.open()
+
+    # ---------------------------------------------------------------- what a test looks at
+
+    @property
+    def servos(self) -> dict[int, Servo]:
+        """The servos by number, as they are at this moment."""
+        self._nudge()
+        return self.board.servos
+
+    @property
+    def battery(self) -> Battery:
+        """The battery, as it is at this moment."""
+        self._nudge()
+        return self.board.battery
+
+    @property
+    def rejects(self) -> Rejects:
+        """What the board refused, by reason."""
+        self._nudge()
+        return self.board.rejects
+
+    @property
+    def accepted(self) -> int:
+        """How many messages the board understood."""
+        self._nudge()
+        return self.board.heard
+
+    @property
+    def log(self) -> Journal:
+        """What happened, in lines."""
+        self._nudge()
+        return self.board.journal
+
+    # ---------------------------------------------------------------- what a test can do
+
+    def advance(self, seconds: float) -> None:
+        """Moves a VirtualClock on. Raises TypeError with any other clock."""
+        if not isinstance(self.clock, VirtualClock):
+            raise TypeError("real time cannot be moved: give the board clock=VirtualClock()")
+        self.clock.advance(seconds)
+
+    def press_button(self, group: int | None, times: int = 1) -> None:
+        """Starts a group on the board itself, so that reports come unasked; None stops."""
+        with self._changed:
+            self._live()
+            if group is None:
+                self.board.stop_group()
+            else:
+                self.board.start_group(group, times)
+        self._nudge()
+
+    def report(self, report: Report) -> None:
+        """Sends a report of its own accord."""
+        with self._changed:
+            self._live()
+            self.board.send(report)
+        self._nudge()
+
+    def send_bytes(self, data: bytes) -> None:
+        """Sends bytes as they are: noise, or half a frame."""
+        with self._changed:
+            self._line.send(data, self._moment)
+        self._nudge()
+
+    def babble(self, data: bytes | None, per_second: float = 960, *, deaf: bool = True) -> None:
+        """Sends `data` again and again, and if `deaf` does nothing else; None ends that."""
+        with self._changed:
+            self._line.babble(data or b"", per_second, self._moment, deaf=deaf)
+        self._nudge()
+
+    def reboot(self, seconds: float = 1.0) -> None:
+        """Switches the board off and on: for so long it hears nothing and says nothing."""
+        with self._changed:
+            self._live()
+            self.board.reboot(seconds)
+        self._nudge()
+
+    def unplug(self) -> None:
+        """Pulls the cable out. The board lives on."""
+        with self._changed:
+            self._line.cut()
+            self._end.unplug()
+
+    def plug_in(self) -> None:
+        """Puts the cable back, after `unplug` or a hang-up."""
+        with self._changed:
+            self._line.mend()
+            self._end.plug_in()
+        self._nudge()
+
+    @property
+    def faults(self) -> Faults:
+        """The faults that happen. Setting them, at any time, starts anew from their seed."""
+        return self._line.faults
+
+    @faults.setter
+    def faults(self, faults: Faults) -> None:
+        with self._changed:
+            self._line.faults = faults
+
+    # ---------------------------------------------------------------- how it lives
+
+    @property
+    def _moment(self) -> float:
+        return self.clock.now() - self._since
+
+    def _live(self) -> None:
+        """Lives up to now, and delivers what has reached the host. With the lock held."""
+        whole = not self._line.hung_up
+        for data in self._line.read(self._moment):
+            self._end.deliver(data)
+        if whole and self._line.hung_up:
+            self._end.unplug()
+
+    def _nudge(self) -> None:
+        """Lives up to now, and has the thread think again about how long to wait."""
+        with self._changed:
+            self._live()
+            self._end.wake()
+
+    def _serve(self) -> None:
+        while not self._closing:
+            with self._changed:
+                listening = not self._paced or self._line.unheard < AHEAD
+                data = self._end.receive() if listening else b""
+                if data:
+                    self._line.write(data, self._moment)
+                self._live()
+                event = self._line.next_event
+                left = None if event is None else max(0.0, event - self._moment - OVERSLEEP)
+            if isinstance(self.clock, VirtualClock):
+                left = None  # whoever moves the clock wakes this thread
+            self._end.wait(left, listening=listening)

@@ -1,0 +1,237 @@
+"""The client for asyncio: what it promises to those who share it."""
+
+from __future__ import annotations
+
+import asyncio
+import math
+from typing import TYPE_CHECKING, TypeVar
+
+import pytest
+from busservo import (
+    ActionGroupCompleted,
+    ActionGroupRun,
+    ActionGroupStarted,
+    ActionGroupStop,
+    ActionGroupStopped,
+    AsyncController,
+    BatteryVoltageRead,
+    ClosedError,
+    Controller,
+    DisconnectedError,
+    IncompleteReplyError,
+    Message,
+    NoReplyError,
+    NoReportError,
+    ServoMove,
+    ServoPositions,
+    ServoPositionsRead,
+    TransportError,
+)
+
+from tests.client.live_line import LiveLine, answered
+
+if TYPE_CHECKING:
+    from collections.abc import Coroutine
+
+_T = TypeVar("_T")
+
+
+def run(work: Coroutine[object, object, _T]) -> _T:
+    """Runs a coroutine; no test may wait for ever."""
+
+    async def bounded() -> _T:
+        return await asyncio.wait_for(work, 30)
+
+    return asyncio.run(bounded())
+
+
+def silent(_message: Message) -> list[Message]:
+    return []
+
+
+def test_both_clients_have_the_same_methods() -> None:
+    def public(kind: type) -> set[str]:
+        return {name for name in dir(kind) if not name.startswith("_")}
+
+    assert public(Controller) == public(AsyncController)
+
+
+def test_the_methods_of_the_spec() -> None:
+    line = LiveLine()
+
+    async def work() -> None:
+        async with AsyncController(line) as controller:
+            await controller.move_servos([(1, 800), (9, 800)], time_ms=800)
+            await controller.run_action_group(8, times=1)
+            await controller.stop_action_group()
+            await controller.set_action_group_speed(0xFF, percent=300)
+            assert await controller.read_battery_voltage() == 7500
+            await controller.unload_servos([1, 2, 3])
+            positions = await controller.read_servo_positions(range(1, 101))
+            assert positions == tuple((servo, 10 * servo) for servo in range(1, 101))
+
+    run(work())
+    assert line.received[:3] == [
+        ServoMove(time_ms=800, targets=[(1, 800), (9, 800)]),
+        ActionGroupRun(8, 1),
+        ActionGroupStop(),
+    ]
+    assert line.closed
+
+
+def test_a_hundred_tasks_share_a_controller() -> None:
+    line = LiveLine()
+
+    async def work() -> None:
+        async with AsyncController(line, baud=math.inf, margin=5) as controller:
+
+            async def ask(number: int) -> None:
+                for _ in range(3):
+                    servos = [number + 1, number + 2]
+                    found = await controller.read_servo_positions(servos)
+                    assert found == tuple((s, 10 * s) for s in servos)
+                    line.say(ActionGroupCompleted(number, 1))
+
+            await asyncio.gather(*(ask(number) for number in range(100)))
+            heard = [report async for report in controller.reports(timeout=0.2)]
+            assert len(heard) == 300
+            assert controller.counters.strays == 0
+
+    run(work())
+
+
+def test_a_cancelled_question_leaves_the_line_usable() -> None:
+    asked: list[Message] = []
+
+    def late(message: Message) -> list[Message]:
+        asked.append(message)
+        return [] if len(asked) == 1 else answered(message)
+
+    line = LiveLine(late)
+
+    async def work() -> None:
+        async with AsyncController(line, margin=0.3) as controller:
+            task = asyncio.ensure_future(controller.read_battery_voltage())
+            while not asked:
+                await asyncio.sleep(0)
+            task.cancel()
+            with pytest.raises(asyncio.CancelledError):
+                await task
+            waiting = asyncio.ensure_future(controller.read_battery_voltage())
+            await asyncio.sleep(0)
+            waiting.cancel()
+            assert await controller.read_servo_positions([1]) == ((1, 10),)
+            for report in answered(asked[0]):
+                line.say(report)  # the late reply of the first
+            assert await controller.read_battery_voltage() == 7500
+            assert controller.counters.strays == 1
+
+    run(work())
+
+
+def test_no_reply_and_too_little_of_one() -> None:
+    def partly(message: Message) -> list[Message]:
+        return [ServoPositions([(1, 5)])] if isinstance(message, ServoPositionsRead) else []
+
+    async def work() -> None:
+        async with AsyncController(LiveLine(partly), margin=0.05) as controller:
+            with pytest.raises(NoReplyError):
+                await controller.read_battery_voltage()
+            with pytest.raises(IncompleteReplyError) as caught:
+                await controller.read_servo_positions([1, 2])
+            assert caught.value.missing == (2,)
+            with pytest.raises(TypeError, match="is a question"):
+                await controller.send(BatteryVoltageRead())
+            with pytest.raises(TypeError, match="is a command"):
+                await controller.request(ActionGroupStop())
+
+    run(work())
+
+
+def test_waiting_for_a_group_to_end() -> None:
+    def board(message: Message) -> list[Message]:
+        if isinstance(message, ActionGroupRun):
+            return [ActionGroupStarted(8, 1), ActionGroupCompleted(8, 1)]
+        return answered(message)
+
+    async def work() -> None:
+        async with AsyncController(LiveLine(board)) as controller:
+            heard: list[Message] = []
+            controller.on_report(heard.append)
+            await controller.run_action_group(8, times=1)
+            # It has ended before anybody waits for it, and counts all the same.
+            assert await controller.read_battery_voltage() == 7500
+            assert (await controller.wait_for(ActionGroupCompleted, group=8, timeout=10)).times == 1
+            with pytest.raises(NoReportError):
+                await controller.wait_for(ActionGroupCompleted, group=8, timeout=0.02)
+            assert heard == [ActionGroupStarted(8, 1), ActionGroupCompleted(8, 1)]
+
+    run(work())
+
+
+def test_the_latest_move_wins() -> None:
+    line = LiveLine(silent)
+
+    async def work() -> None:
+        async with AsyncController(line) as controller:
+            for position in range(50):
+                controller.send_latest(ServoMove(20, [(1, position)]))
+
+    run(work())
+    assert line.received == [ServoMove(20, [(1, 0)]), ServoMove(20, [(1, 49)])]
+
+
+def test_unplugged_while_questions_are_under_way() -> None:
+    line = LiveLine(silent)
+
+    async def work() -> None:
+        async with AsyncController(line, margin=30) as controller:
+            tasks = [asyncio.ensure_future(controller.read_battery_voltage()) for _ in range(5)]
+            waiting = asyncio.ensure_future(controller.wait_for(ActionGroupStopped, timeout=30))
+            await asyncio.sleep(0.02)
+            line.unplug()
+            for task in [*tasks, waiting]:
+                with pytest.raises(DisconnectedError):
+                    await task
+            await controller.reconnect()
+            assert not controller.closed
+            await controller.stop_action_group()
+
+    run(work())
+
+
+def test_close_ends_the_waits_of_other_tasks() -> None:
+    async def work() -> None:
+        controller = AsyncController(LiveLine(silent), margin=30)
+        asking = asyncio.ensure_future(controller.read_battery_voltage())
+        await asyncio.sleep(0.02)
+        await asyncio.gather(controller.close(), controller.close())
+        with pytest.raises(ClosedError):
+            await asking
+        with pytest.raises(ClosedError):
+            await controller.stop_action_group()
+
+    run(work())
+
+
+def test_a_client_that_was_never_used_can_be_closed() -> None:
+    line = LiveLine()
+
+    async def work() -> None:
+        await AsyncController(line).close()
+
+    run(work())
+    assert line.closed
+
+
+def test_a_transport_that_breaks_its_word_ends_in_an_error() -> None:
+    class Broken(LiveLine):
+        def read(self, timeout: float) -> bytes:
+            raise KeyError(timeout)
+
+    async def work() -> None:
+        async with AsyncController(Broken(), margin=20) as controller:
+            with pytest.raises(TransportError, match="mend the transport"):
+                await controller.read_battery_voltage()
+
+    run(work())

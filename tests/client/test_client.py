@@ -1,0 +1,349 @@
+"""The client for threads: what it promises to those who share it."""
+
+from __future__ import annotations
+
+import logging
+import math
+import subprocess
+import sys
+import threading
+from concurrent.futures import ThreadPoolExecutor
+from typing import TYPE_CHECKING
+
+import pytest
+from busservo import (
+    ActionGroupCompleted,
+    ActionGroupRun,
+    ActionGroupStarted,
+    ActionGroupStop,
+    ActionGroupStopped,
+    BatteryVoltageRead,
+    ClosedError,
+    Controller,
+    DisconnectedError,
+    EncodeError,
+    IncompleteReplyError,
+    Message,
+    NoReplyError,
+    NoReportError,
+    ServoMove,
+    ServoPositions,
+    ServoPositionsRead,
+    ServoUnload,
+    TransportError,
+)
+
+from tests.client.live_line import LiveLine, answered
+from tests.client.virtual_line import VirtualLine
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+HEAVY = {"typing", "logging", "threading", "serial", "asyncio"}
+
+
+def virtual(line: VirtualLine, **settings: object) -> Controller:
+    return Controller(line, background=False, clock=line.clock, **settings)  # type: ignore[arg-type]
+
+
+def at_once(message: Message) -> list[tuple[float, bytes | Message]]:
+    return [(0.0, each) for each in answered(message)]
+
+
+def test_the_methods_of_the_spec() -> None:
+    line = VirtualLine(at_once)
+    with virtual(line) as controller:
+        controller.move_servos([(1, 800), (9, 800)], time_ms=800)
+        controller.run_action_group(8, times=1)
+        controller.stop_action_group()
+        controller.set_action_group_speed(0xFF, percent=300)
+        assert controller.read_battery_voltage() == 7500
+        controller.unload_servos([1, 2, 3])
+        assert controller.read_servo_positions([1, 2]) == ((1, 10), (2, 20))
+    assert line.received[:4] == [
+        ServoMove(time_ms=800, targets=[(1, 800), (9, 800)]),
+        ActionGroupRun(8, 1),
+        ActionGroupStop(),
+        line.received[3],
+    ]
+    assert line.received[5:] == [ServoUnload([1, 2, 3]), ServoPositionsRead([1, 2])]
+    assert line.closed
+
+
+@pytest.mark.parametrize("count", [1, 84, 85, 168, 200])
+def test_positions_are_asked_for_in_parts(count: int) -> None:
+    line = VirtualLine(at_once)
+    servos = range(1, count + 1)
+    found = virtual(line).read_servo_positions(servos)
+    assert found == tuple((servo, 10 * servo) for servo in servos)
+    assert [
+        len(each.servo_ids) for each in line.received if isinstance(each, ServoPositionsRead)
+    ] == [min(84, count - at) for at in range(0, count, 84)]
+
+
+@pytest.mark.parametrize("wrong", [[], iter(()), [256], ["1"], 5, "12", [True]])
+def test_a_question_that_no_frame_carries_is_refused_before_anything_is_sent(wrong: object) -> None:
+    line = VirtualLine(at_once)
+    with pytest.raises(EncodeError, match="servo_ids"):
+        virtual(line).read_servo_positions(wrong)  # type: ignore[arg-type]
+    assert line.received == []
+
+
+def test_what_did_not_arrive_is_named_and_what_did_is_kept() -> None:
+    def answer(message: Message) -> list[tuple[float, bytes | Message]]:
+        assert isinstance(message, ServoPositionsRead)
+        there = [(servo, 500) for servo in message.servo_ids if servo not in (3, 100)]
+        return [(0.0, ServoPositions(there))]
+
+    with pytest.raises(IncompleteReplyError, match=r"servo_ids 3, 100; .*98") as caught:
+        virtual(VirtualLine(answer)).read_servo_positions(range(1, 101))
+    assert caught.value.missing == (3, 100)
+    assert len(caught.value.arrived) == 98
+    assert len(caught.value.replies) == 2
+
+
+def test_retries_are_off_unless_asked_for_and_only_for_questions() -> None:
+    line = VirtualLine()
+    controller = virtual(line)
+    with pytest.raises(NoReplyError):
+        controller.read_battery_voltage()
+    assert len(line.received) == 1
+    with pytest.raises(NoReplyError, match="to 3 requests"):
+        controller.request(BatteryVoltageRead(), retries=2)
+    assert len(line.received) == 4
+    controller.move_servos([(1, 500)], 100)
+    assert len(line.received) == 5
+
+
+def test_send_and_request_know_commands_from_questions() -> None:
+    controller = virtual(VirtualLine(at_once))
+    with pytest.raises(TypeError, match="is a question"):
+        controller.send(BatteryVoltageRead())
+    with pytest.raises(TypeError, match="is a question"):
+        controller.send_latest(BatteryVoltageRead())
+    with pytest.raises(TypeError, match="is a command"):
+        controller.request(ActionGroupStop())
+    assert controller.read_battery_voltage() == 7500
+
+
+def test_moves_faster_than_the_line_do_not_pile_up() -> None:
+    line = VirtualLine()
+    controller = virtual(line)
+    move = [(servo, 500) for servo in range(1, 7)]
+    for _ in range(20):
+        sent = controller.move_servos(move, 20)
+        assert sent.delay < 0.005
+        assert sent.duration == pytest.approx(25 / 960)
+    assert line.now == pytest.approx(19 * 25 / 960, abs=0.03)
+
+
+def test_the_latest_move_wins() -> None:
+    line = VirtualLine()
+    controller = virtual(line)
+    for position in range(100):
+        controller.send_latest(ServoMove(20, [(1, position)]))
+    assert len(line.received) == 1
+    controller.close()
+    assert line.received == [ServoMove(20, [(1, 0)]), ServoMove(20, [(1, 99)])]
+    assert controller.counters.replaced == 98
+
+
+def test_close_waits_until_the_last_byte_is_out() -> None:
+    line = VirtualLine()
+    controller = virtual(line)
+    controller.move_servos([(servo, 500) for servo in range(1, 60)], 100)
+    assert line.now < 0.01
+    controller.close()
+    assert line.now >= (7 + 59 * 3) / 960 - 1e-6
+    assert line.drained
+    assert line.closed
+    controller.close()
+    with pytest.raises(ClosedError, match="open it again"):
+        controller.stop_action_group()
+
+
+def test_reports_come_in_order_and_end_in_silence() -> None:
+    line = VirtualLine(at_once)
+    controller = virtual(line)
+    said = [ActionGroupStarted(8, 1), ActionGroupStopped(), ActionGroupCompleted(8, 1)]
+    for at, report in enumerate(said):
+        line.say(report, at * 0.1)
+    assert list(controller.reports(timeout=0.5)) == said
+    assert list(controller.reports(timeout=0.5)) == []
+
+
+def test_waiting_for_a_group_to_end() -> None:
+    def answer(message: Message) -> list[tuple[float, bytes | Message]]:
+        assert isinstance(message, ActionGroupRun)
+        done = ActionGroupCompleted(message.group, message.times)
+        return [(0.0, ActionGroupStarted(message.group, message.times)), (2.0, done)]
+
+    line = VirtualLine(answer)
+    line.say(ActionGroupCompleted(8, 7))
+    controller = virtual(line)
+    controller.run_action_group(9, times=1)
+    controller.run_action_group(8, times=1)
+    found = controller.wait_for(ActionGroupCompleted, group=8, timeout=5)
+    assert found == ActionGroupCompleted(8, 1)
+    assert controller.wait_for(ActionGroupCompleted, group=9, timeout=5).group == 9
+    began = line.now
+    with pytest.raises(NoReportError, match=r"no ActionGroupCompleted\(group=8\) came within 3"):
+        controller.wait_for(ActionGroupCompleted, group=8, timeout=3)
+    assert line.now - began < 3.1
+
+
+def test_waiting_for_what_can_never_come_is_refused() -> None:
+    controller = virtual(VirtualLine())
+    with pytest.raises(TypeError, match="has no field 'grup'; it has group, times"):
+        controller.wait_for(ActionGroupCompleted, grup=8, timeout=1)
+    with pytest.raises(TypeError, match="no message that comes to this end"):
+        controller.wait_for(ServoMove, timeout=1)
+
+
+def test_callbacks_may_use_the_client_and_fail_alone(caplog: pytest.LogCaptureFixture) -> None:
+    line = VirtualLine(at_once)
+    controller = virtual(line)
+    heard: list[object] = []
+    controller.on_report(lambda _: 1 / 0)
+    stop = controller.on_report(
+        lambda report: heard.append((report, controller.read_battery_voltage()))
+    )
+    line.say(ActionGroupStopped())
+    line.say(ActionGroupCompleted(8, 1))
+    assert controller.read_battery_voltage() == 7500
+    assert heard == [(ActionGroupStopped(), 7500), (ActionGroupCompleted(8, 1), 7500)]
+    assert "ZeroDivisionError" in caplog.text
+    stop()
+    line.say(ActionGroupStopped())
+    assert list(controller.reports(timeout=0.1))[-1] == ActionGroupStopped()
+    assert len(heard) == 2
+
+
+def test_eight_threads_share_a_controller() -> None:
+    line = LiveLine()
+    with Controller(line, baud=math.inf, margin=5) as controller, ThreadPoolExecutor(8) as pool:
+
+        def work(number: int) -> None:
+            for turn in range(40):
+                servos = [number + 1, 10 * (number + 1)]
+                assert controller.read_servo_positions(servos) == tuple((s, 10 * s) for s in servos)
+                controller.move_servos([(number, turn)], 100)
+                line.say(ActionGroupCompleted(number, turn))
+
+        list(pool.map(work, range(8)))
+        said = {(number, turn) for number in range(8) for turn in range(40)}
+        heard = list(controller.reports(timeout=0.2))
+        assert {
+            (each.group, each.times) for each in heard if isinstance(each, ActionGroupCompleted)
+        } == said
+        assert len(heard) == 320
+    assert controller.counters.strays == 0
+    assert line.drained == len(line.received) == 640
+
+
+def test_a_report_reaches_a_callback_while_nobody_asks() -> None:
+    line = LiveLine()
+    with Controller(line) as controller:
+        heard = threading.Event()
+        controller.on_report(lambda _: heard.set())
+        line.say(ActionGroupStopped())
+        assert heard.wait(10)
+
+
+def test_unplugged_while_a_question_is_under_way() -> None:
+    line = LiveLine(lambda _: [])
+    with Controller(line, margin=30) as controller:
+        timer = threading.Timer(0.05, line.unplug)
+        timer.start()
+        with pytest.raises(DisconnectedError, match="plug it in again"):
+            controller.read_battery_voltage()
+        with pytest.raises(DisconnectedError):
+            controller.stop_action_group()
+        with pytest.raises(DisconnectedError):
+            list(controller.reports())
+        timer.join()
+
+
+def test_reconnecting_is_explicit() -> None:
+    line = LiveLine()
+    with Controller(line) as controller:
+        line.unplug()
+        with pytest.raises(DisconnectedError):
+            controller.wait_for(ActionGroupStopped, timeout=10)
+        controller.reconnect()
+        assert controller.read_battery_voltage() == 7500
+    with pytest.raises(ClosedError):
+        controller.reconnect()
+    with pytest.raises(TypeError, match="no method reopen"):
+        virtual(VirtualLine()).reconnect()
+
+
+def test_close_ends_the_waits_of_other_threads() -> None:
+    line = LiveLine(lambda _: [])
+    controller = Controller(line, margin=30)
+    with ThreadPoolExecutor(3) as pool:
+        asking = pool.submit(controller.read_battery_voltage)
+        listening = pool.submit(lambda: list(controller.reports()))
+        waiting = pool.submit(controller.wait_for, ActionGroupStopped, timeout=30)
+        while not line.received:
+            threading.Event().wait(0.005)
+        controller.close()
+        with pytest.raises(ClosedError):
+            asking.result(10)
+        assert listening.result(10) == []
+        with pytest.raises(ClosedError):
+            waiting.result(10)
+
+
+def test_an_error_of_the_system_from_a_transport_is_one_of_ours() -> None:
+    line = VirtualLine(at_once)
+    controller = virtual(line)
+    line.error = BrokenPipeError("nobody there")
+    with pytest.raises(DisconnectedError, match="nobody there"):
+        controller.stop_action_group()
+    controller.close()
+
+
+def test_errors_are_of_one_family() -> None:
+    error = TransportError("COM7", "it is in use", "close the other program")
+    assert isinstance(error, OSError)
+    assert str(error) == "COM7: it is in use; close the other program"
+    assert str(error.again()) == str(error)
+
+
+def test_every_frame_is_logged_and_traced(tmp_path: Path, caplog: pytest.LogCaptureFixture) -> None:
+    line = VirtualLine(at_once)
+    trace = tmp_path / "line.log"
+    caplog.set_level(logging.DEBUG, "busservo")
+    with virtual(line, trace=trace) as controller:
+        line.say(b"\x55\x00" + ActionGroupStopped().encode())
+        controller.read_battery_voltage()
+    assert "virtual line > BatteryVoltageRead() | 55 55 02 0F" in caplog.text
+    assert "virtual line < BatteryVoltage(voltage_mv=7500) | 55 55 04 0F 4C 1D" in caplog.text
+    assert "virtual line < bad header | 55 00" in caplog.text
+    shown = subprocess.run(
+        [sys.executable, "-m", "busservo", "decode", str(trace)],
+        check=True,
+        capture_output=True,
+        text=True,
+    )
+    assert "BatteryVoltageRead" in shown.stdout
+    assert "voltage_mv=7500 mV" in shown.stdout
+    assert "3 messages, 2 bytes of noise" in shown.stderr
+
+
+def test_nothing_is_logged_unless_asked_for(caplog: pytest.LogCaptureFixture) -> None:
+    virtual(VirtualLine(at_once)).read_battery_voltage()
+    assert caplog.records == []
+
+
+def test_the_codec_pays_for_no_client() -> None:
+    def loaded(code: str) -> str:
+        shown = f"{code}; import sys; print(sorted({HEAVY} & set(sys.modules)))"
+        done = subprocess.run(
+            [sys.executable, "-S", "-c", shown], capture_output=True, text=True, check=True
+        )
+        return done.stdout
+
+    assert loaded("import busservo") == loaded("pass")
+    assert "asyncio" not in loaded("import busservo; busservo.Controller")

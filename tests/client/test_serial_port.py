@@ -1,0 +1,278 @@
+"""Real ports: pseudo-terminals and sockets through pyserial, and what goes wrong with them."""
+
+from __future__ import annotations
+
+import asyncio
+import os
+import select
+import socket
+import threading
+from typing import TYPE_CHECKING
+
+import pytest
+import serial
+from busservo import (
+    ActionGroupStopped,
+    BatteryVoltage,
+    BatteryVoltageRead,
+    ClosedError,
+    Direction,
+    DisconnectedError,
+    PortAddressError,
+    PortBusyError,
+    PortNotFoundError,
+    PortPermissionError,
+    StreamDecoder,
+    TransportError,
+    open_async_controller,
+    open_controller,
+    open_transport,
+)
+
+from tests.client.live_line import answered
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterator
+
+pty = pytest.importorskip("pty", reason="there are pseudo-terminals only where there is a tty")
+import tty  # noqa: E402 - as pty
+
+
+class Board:
+    """Answers at the other end of something that can be read and written."""
+
+    def __init__(self, read: Callable[[], bytes], write: Callable[[bytes], object]) -> None:
+        self.write = write
+        self.mute = False
+        self.heard = threading.Event()
+        self._read = read
+        self._thread = threading.Thread(target=self._run, daemon=True)
+        self._thread.start()
+
+    def _run(self) -> None:
+        decoder = StreamDecoder(Direction.HOST_TO_CONTROLLER)
+        while True:
+            try:
+                data = self._read()
+            except OSError:
+                return
+            if not data:
+                return
+            for message in decoder.feed(data):
+                self.heard.set()
+                for answer in [] if self.mute else answered(message):  # type: ignore[arg-type]
+                    self.write(answer.encode())
+
+    def join(self) -> None:
+        self._thread.join(10)
+
+
+class PtyBoard(Board):
+    """A board at one end of a pseudo-terminal; `port` is the other."""
+
+    def __init__(self) -> None:
+        self.gone = False
+        self._ends = pty.openpty()
+        tty.setraw(self._ends[1])
+        self.port = os.ttyname(self._ends[1])
+        super().__init__(self._some, lambda data: os.write(self._ends[0], data))
+
+    def _some(self) -> bytes:
+        # Never blocked in a read: a descriptor that is being read is not closed by closing it.
+        while not self.gone:
+            if select.select([self._ends[0]], [], [], 0.01)[0]:
+                return os.read(self._ends[0], 256)
+        return b""
+
+    def unplug(self) -> None:
+        """Closes both ends, after which whoever has the port open finds it gone."""
+        if not self.gone:
+            self.gone = True
+            self.join()
+            for end in self._ends:
+                os.close(end)
+
+
+@pytest.fixture
+def board() -> Iterator[PtyBoard]:
+    made = PtyBoard()
+    yield made
+    made.unplug()
+
+
+@pytest.fixture
+def tcp() -> Iterator[tuple[str, list[socket.socket]]]:
+    listener = socket.create_server(("127.0.0.1", 0))
+    accepted: list[socket.socket] = []
+
+    def serve() -> None:
+        try:
+            connection, _ = listener.accept()
+        except OSError:
+            return
+        accepted.append(connection)
+        Board(lambda: connection.recv(256), connection.sendall)
+
+    thread = threading.Thread(target=serve, daemon=True)
+    thread.start()
+    yield f"socket://127.0.0.1:{listener.getsockname()[1]}", accepted
+    listener.close()
+    for each in accepted:
+        each.close()
+    thread.join(10)
+
+
+def test_a_session_over_a_pseudo_terminal(board: PtyBoard) -> None:
+    with open_controller(board.port, margin=10) as controller:
+        assert controller.read_battery_voltage() == 7500
+        assert controller.read_servo_positions([1, 2]) == ((1, 10), (2, 20))
+        board.write(ActionGroupStopped().encode())
+        assert next(controller.reports(timeout=10)) == ActionGroupStopped()
+    assert controller.closed
+
+
+def test_a_session_over_a_socket(tcp: tuple[str, list[socket.socket]]) -> None:
+    with open_controller(tcp[0], margin=10) as controller:
+        assert controller.read_battery_voltage() == 7500
+        assert controller.read_servo_positions([1, 2]) == ((1, 10), (2, 20))
+
+
+def test_a_session_with_asyncio(board: PtyBoard) -> None:
+    async def work() -> None:
+        async with open_async_controller(board.port, margin=10) as controller:
+            assert await controller.read_battery_voltage() == 7500
+        awaited = await open_async_controller(board.port, margin=10)
+        assert await awaited.read_servo_positions([3]) == ((3, 30),)
+        await awaited.close()
+        with pytest.raises(PortNotFoundError):
+            async with open_async_controller(f"{board.port}0000"):
+                pass
+
+    asyncio.run(work())
+
+
+def test_a_port_of_pyserial_that_answers_itself() -> None:
+    # What is sent comes back: it is the host's own, and no reply.
+    with open_controller("loop://", margin=0.01) as controller, pytest.raises(TimeoutError):
+        controller.read_battery_voltage()
+
+
+def test_exclusive_unless_told_otherwise(board: PtyBoard) -> None:
+    with open_controller(board.port, margin=10) as first:
+        with pytest.raises(PortBusyError, match="it is in use; close the other program"):
+            open_controller(board.port)
+        assert first.read_battery_voltage() == 7500
+    with open_controller(board.port, exclusive=False) as one:
+        with open_controller(board.port, exclusive=False):
+            pass
+        assert not one.closed
+
+
+@pytest.mark.parametrize(
+    ("port", "error", "advice"),
+    [
+        ("/dev/ttyNoSuchPort", PortNotFoundError, "exist|plugged in"),
+        ("COM999", PortNotFoundError, "exist|plugged in"),
+        ("", PortNotFoundError, "exist|plugged in"),
+        ("hwgrep://no such adapter", PortNotFoundError, "exist|plugged in"),
+        ("socket://127.0.0.1:1", PortNotFoundError, "there and listening"),
+        ("carrier-pigeon://coop", PortAddressError, "name a port"),
+        ("socket://", TransportError, "name a port|listening"),
+        ("bad\0name", PortAddressError, "name a port"),
+        (None, PortAddressError, "name a port"),
+        (7, PortAddressError, "name a port"),
+    ],
+)
+def test_what_is_no_port_is_refused_with_advice(
+    port: str, error: type[Exception], advice: str
+) -> None:
+    with pytest.raises(error, match=advice) as caught:
+        open_transport(port)
+    assert isinstance(caught.value, TransportError)
+    assert caught.value.port == str(port)
+
+
+def test_permission_denied_comes_with_advice(monkeypatch: pytest.MonkeyPatch) -> None:
+    def refuse(*_: object, **__: object) -> None:
+        raise serial.SerialException(13, "could not open port /dev/ttyUSB0: Permission denied")
+
+    monkeypatch.setattr(serial, "serial_for_url", refuse)
+    with pytest.raises(PortPermissionError, match="dialout"):
+        open_controller("/dev/ttyUSB0")
+
+
+def test_unplugged_in_the_middle_of_a_reply(board: PtyBoard) -> None:
+    board.mute = True
+    with open_controller(board.port, margin=30) as controller:
+
+        def half() -> None:
+            board.heard.wait(10)
+            board.write(BatteryVoltage(7500).encode()[:4])
+            board.unplug()
+
+        thread = threading.Thread(target=half)
+        thread.start()
+        with pytest.raises(DisconnectedError, match=r"the line was lost .*; see to the cable"):
+            controller.read_battery_voltage()
+        thread.join()
+        with pytest.raises(DisconnectedError):
+            controller.stop_action_group()
+        with pytest.raises(TransportError):
+            controller.reconnect()
+
+
+def test_hung_up_by_the_other_end(tcp: tuple[str, list[socket.socket]]) -> None:
+    url, accepted = tcp
+    with open_controller(url, margin=30) as controller:
+        assert controller.read_battery_voltage() == 7500
+        accepted[0].shutdown(socket.SHUT_RDWR)
+        with pytest.raises(DisconnectedError):
+            controller.wait_for(ActionGroupStopped, timeout=30)
+
+
+def test_reconnecting_to_the_same_port(board: PtyBoard) -> None:
+    with open_controller(board.port, margin=10) as controller:
+        controller.reconnect()
+        assert controller.read_battery_voltage() == 7500
+
+
+def test_nothing_of_the_last_frame_is_cut_off(board: PtyBoard) -> None:
+    board.mute = True
+    with open_controller(board.port) as controller:
+        controller.unload_servos(range(1, 253))
+    assert board.heard.wait(10)
+
+
+def test_a_transport_on_its_own(board: PtyBoard) -> None:
+    transport = open_transport(board.port)
+    assert transport.name == board.port
+    assert transport.read(0.0) == b""
+    transport.write(BatteryVoltageRead().encode())
+    transport.drain(1)
+    data = b""
+    while len(data) < 6:
+        data += transport.read(10)
+    assert data == BatteryVoltage(7500).encode()
+    transport.close()
+    transport.close()
+    with pytest.raises(ClosedError):
+        transport.read(1)
+    with pytest.raises(ClosedError):
+        transport.write(b"\x55")
+
+
+def test_closing_ends_a_read_in_another_thread(board: PtyBoard) -> None:
+    board.mute = True
+    transport = open_transport(board.port)
+    ended = threading.Event()
+
+    def read() -> None:
+        with pytest.raises(ClosedError):
+            transport.read(60)
+        ended.set()
+
+    thread = threading.Thread(target=read)
+    thread.start()
+    transport.close()
+    assert ended.wait(10)
+    thread.join()

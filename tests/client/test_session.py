@@ -1,0 +1,291 @@
+"""The session alone: no line, no clock, no thread; every promise of its docstring, one by one."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING
+
+import pytest
+from busservo import (
+    ActionGroupCompleted,
+    ActionGroupRun,
+    ActionGroupStop,
+    BatteryVoltage,
+    BatteryVoltageRead,
+    EncodeError,
+    Message,
+    NoReplyError,
+    ServoMove,
+    ServoPositions,
+    ServoPositionsRead,
+    TransportError,
+)
+from busservo.session import Session
+
+if TYPE_CHECKING:
+    from busservo.request import Request
+
+
+def session(**changed: float) -> Session:
+    return Session(baud=changed.get("baud", 9600), margin=0.25, report_limit=16)
+
+
+def asked(at: Session, message: Message, now: float = 0.0, retries: int = 0) -> Request:
+    request = at.submit(message, retries=retries)
+    assert at.outgoing(now) == [message.encode()]
+    return request
+
+
+def test_a_reply_ends_its_request() -> None:
+    line = session()
+    request = asked(line, BatteryVoltageRead())
+    line.receive(BatteryVoltage(7500).encode(), 0.02)
+    assert request.done
+    assert request.reply == BatteryVoltage(7500)
+    assert line.idle
+
+
+@pytest.mark.parametrize(
+    "other",
+    [
+        ActionGroupCompleted(8, 1),
+        ServoPositions([(1, 264)]),
+    ],
+)
+def test_nothing_else_becomes_a_battery_voltage(other: Message) -> None:
+    line = session()
+    request = asked(line, BatteryVoltageRead())
+    line.receive(other.encode(), 0.02)
+    assert not request.done
+    line.receive(BatteryVoltage(7500).encode(), 0.03)
+    assert request.reply == BatteryVoltage(7500)
+
+
+@pytest.mark.parametrize(
+    ("positions", "accepted"),
+    [
+        ([(1, 5), (2, 6)], True),
+        ([(2, 6), (1, 5)], True),
+        ([(2, 6)], True),
+        ([], True),
+        ([(3, 6)], False),
+        ([(1, 5), (3, 6)], False),
+        ([(1, 5), (1, 6)], False),
+        ([(1, 5), (2, 6), (2, 6)], False),
+    ],
+)
+def test_a_reply_tells_of_nothing_that_was_not_asked(
+    positions: list[tuple[int, int]], accepted: bool
+) -> None:
+    line = session()
+    request = asked(line, ServoPositionsRead([1, 2]))
+    line.receive(ServoPositions(positions).encode(), 0.02)
+    assert request.done is accepted
+    assert line.counters.strays == (not accepted)
+
+
+def test_no_reply_is_an_error_that_says_what_was_asked() -> None:
+    line = session()
+    request = asked(line, BatteryVoltageRead())
+    deadline = line.tick_at
+    assert deadline is not None
+    assert deadline == pytest.approx((4 + 6) / 960 + 0.25)
+    line.tick(deadline - 1e-9)
+    assert not request.done
+    line.tick(deadline)
+    assert isinstance(request.error, NoReplyError)
+    assert isinstance(request.error, TimeoutError)
+    assert request.error.request == BatteryVoltageRead()
+    assert "no BatteryVoltage came within" in str(request.error)
+
+
+def test_the_next_question_of_a_kind_waits_for_the_late_reply() -> None:
+    line = session()
+    first = asked(line, BatteryVoltageRead())
+    line.tick(0.3)
+    assert first.done
+    second = line.submit(BatteryVoltageRead())
+    assert line.outgoing(0.3) == []
+    line.receive(BatteryVoltage(1).encode(), 0.31)
+    assert not second.done
+    assert line.outgoing(0.31) == [BatteryVoltageRead().encode()]
+    line.receive(BatteryVoltage(2).encode(), 0.33)
+    assert second.reply == BatteryVoltage(2)
+    assert line.counters.strays == 1
+
+
+def test_the_next_question_of_a_kind_waits_no_longer_than_as_long_again() -> None:
+    line = session()
+    asked(line, BatteryVoltageRead())
+    line.tick(0.3)
+    line.submit(BatteryVoltageRead())
+    at = line.send_at(0.3)
+    assert at is not None
+    assert at == pytest.approx(4 / 960 + 2 * (0.25 + 6 / 960))
+    assert line.outgoing(at - 0.001) == []
+    assert line.outgoing(at) == [BatteryVoltageRead().encode()]
+
+
+def test_a_question_of_another_kind_does_not_wait_for_a_late_reply() -> None:
+    line = session()
+    asked(line, BatteryVoltageRead())
+    line.tick(0.3)
+    request = asked(line, ServoPositionsRead([1]), 0.3)
+    line.receive(BatteryVoltage(1).encode() + ServoPositions([(1, 5)]).encode(), 0.31)
+    assert request.reply == ServoPositions([(1, 5)])
+
+
+def test_a_cancelled_question_is_as_one_that_timed_out() -> None:
+    line = session()
+    first = asked(line, BatteryVoltageRead())
+    line.cancel(first)
+    second = line.submit(BatteryVoltageRead())
+    assert line.outgoing(0.01) == []
+    line.receive(BatteryVoltage(1).encode(), 0.02)
+    assert line.outgoing(0.02) == [BatteryVoltageRead().encode()]
+    line.receive(BatteryVoltage(2).encode(), 0.04)
+    assert second.reply == BatteryVoltage(2)
+
+
+def test_what_is_cancelled_before_it_left_never_leaves() -> None:
+    line = session()
+    asked(line, BatteryVoltageRead())
+    waiting = line.submit(BatteryVoltageRead())
+    line.cancel(waiting)
+    line.receive(BatteryVoltage(1).encode(), 0.02)
+    assert line.outgoing(0.03) == []
+    assert line.idle
+
+
+def test_a_retry_takes_the_late_reply_of_the_attempt_before() -> None:
+    line = session()
+    request = asked(line, BatteryVoltageRead(), retries=1)
+    line.tick(0.3)
+    assert not request.done
+    assert line.outgoing(0.3) == [BatteryVoltageRead().encode()]
+    line.receive(BatteryVoltage(1).encode(), 0.31)
+    assert request.reply == BatteryVoltage(1)
+    # The other attempt's reply may be yet to come, and is nobody's.
+    line.submit(BatteryVoltageRead())
+    assert line.outgoing(0.32) == []
+    line.receive(BatteryVoltage(2).encode(), 0.33)
+    assert line.outgoing(0.33) != []
+
+
+def test_a_command_does_not_wait_for_a_reply() -> None:
+    line = session()
+    asked(line, BatteryVoltageRead())
+    stop = line.submit(ActionGroupStop())
+    assert line.outgoing(0.01) == [ActionGroupStop().encode()]
+    assert stop.done
+    assert stop.sent is not None
+
+
+def test_questions_are_asked_one_at_a_time_in_order() -> None:
+    line = session(baud=math.inf)
+    for servo in (1, 2, 3):
+        line.submit(ServoPositionsRead([servo]))
+    sent = []
+    for servo in (1, 2, 3):
+        sent += line.outgoing(0.0)
+        assert line.outgoing(0.0) == []
+        line.receive(ServoPositions([(servo, 5)]).encode(), 0.0)
+    assert sent == [ServoPositionsRead([servo]).encode() for servo in (1, 2, 3)]
+
+
+def test_frames_are_handed_over_no_faster_than_the_line_takes_them() -> None:
+    line = session()
+    move = ServoMove(800, [(servo, 500) for servo in range(6)])
+    requests = [line.submit(move) for _ in range(40)]
+    now = 0.0
+    while not line.idle:
+        sent = line.outgoing(now)
+        for request in [each for each in requests if each.done and each.sent]:
+            assert request.sent is not None
+            assert request.sent.delay <= 0.004 + 1e-9
+            assert request.sent.duration == pytest.approx(25 / 960)
+        assert len(sent) <= 1
+        at = line.send_at(now)
+        now = now if at is None else max(at, now)
+    # And the line is never idle meanwhile.
+    assert line.wire.free_at == pytest.approx(40 * 25 / 960)
+
+
+def test_the_latest_takes_the_place_of_what_it_covers() -> None:
+    line = session()
+    line.submit(ActionGroupStop())
+    line.outgoing(0.0)
+    for position in range(50):
+        line.submit(ServoMove(20, [(1, position), (2, position)]), latest=True)
+        line.submit(ServoMove(20, [(3, position)]), latest=True)
+    kept = []
+    now = 0.0
+    while not line.idle:
+        kept += line.outgoing(now)
+        now += 0.01
+    assert kept == [ServoMove(20, [(1, 49), (2, 49)]).encode(), ServoMove(20, [(3, 49)]).encode()]
+    assert line.counters.replaced == 98
+
+
+def test_half_a_frame_does_not_grow_together_with_the_next_reply() -> None:
+    line = session()
+    asked(line, BatteryVoltageRead())
+    line.receive(BatteryVoltage(7500).encode()[:-1], 0.02)
+    line.tick(0.3)
+    line.tick(0.6)
+    request = asked(line, BatteryVoltageRead(), 0.6)
+    line.receive(BatteryVoltage(7400).encode(), 0.63)
+    assert request.reply == BatteryVoltage(7400)
+
+
+def test_more_than_a_reply_can_tell_is_refused() -> None:
+    line = session()
+    line.submit(ServoPositionsRead(range(84)))
+    with pytest.raises(
+        EncodeError, match="85 items are asked for at once, and a reply has room for 84"
+    ):
+        line.submit(ServoPositionsRead(range(85)))
+
+
+def test_what_a_controller_says_is_nothing_to_send() -> None:
+    with pytest.raises(TypeError, match="nothing that this end sends"):
+        session().submit(BatteryVoltage(7500))
+
+
+def test_a_lost_line_ends_everything() -> None:
+    line = session()
+    requests = [asked(line, BatteryVoltageRead()), line.submit(ServoPositionsRead([1]))]
+    error = TransportError("port", "gone", "look for it")
+    line.fail(error)
+    assert [request.error for request in requests] == [error, error]
+    assert line.idle
+
+
+@pytest.mark.parametrize(
+    "wrong",
+    [{"baud": 0}, {"baud": -1}, {"baud": math.nan}, {"margin": 0}, {"report_limit": 0}],
+)
+def test_settings_of_no_sense_are_refused(wrong: dict[str, float]) -> None:
+    good: dict[str, float] = {"baud": 9600, "margin": 0.25, "report_limit": 16}
+    with pytest.raises(ValueError, match="must be"):
+        Session(**(good | wrong))  # type: ignore[arg-type]
+
+
+def test_a_run_is_the_cause_of_its_reports() -> None:
+    line = session(baud=math.inf)
+    log = line.reports
+    line.receive(ActionGroupCompleted(8, 1).encode(), 0.0)
+    assert log.since(ActionGroupCompleted, {"group": 8}) == 1
+    line.submit(ActionGroupRun(8, 1))
+    line.outgoing(0.0)
+    line.submit(ActionGroupRun(9, 1))
+    line.receive(ActionGroupCompleted(8, 1).encode(), 0.1)
+    line.outgoing(0.2)
+    assert log.since(ActionGroupCompleted, {"group": 8}) == 1
+    assert log.since(ActionGroupCompleted, {"group": 9}) == 2
+    found = log.find(ActionGroupCompleted, {"group": 8}, since=1, asked_at=2)
+    assert found == ActionGroupCompleted(8, 1)
+    # It has been waited for: the next wait wants another.
+    assert log.find(ActionGroupCompleted, {"group": 8}, since=1, asked_at=2) is None
+    assert log.take() == log.take() == ActionGroupCompleted(8, 1)
+    assert log.take() is None

@@ -1,0 +1,67 @@
+"""Both ends of this project together: the client against the virtual controller and its faults."""
+
+from __future__ import annotations
+
+import math
+
+import pytest
+from busservo import (
+    ActionGroupCompleted,
+    BatteryVoltage,
+    Controller,
+    IncompleteReplyError,
+    NoReplyError,
+    NoReportError,
+    ServoPosition,
+)
+from busservo_simulator import Faults, VirtualClock, VirtualController
+
+
+@pytest.mark.parametrize("seed", range(25))
+def test_whatever_goes_wrong_no_position_is_wrong(seed: int) -> None:
+    faults = Faults(
+        seed=seed, noise=0.3, splits=0.5, delays=0.2, dropped=0.2, fewer=0.3, unasked=0.4
+    )
+    clock = VirtualClock(follow_reads=True)
+    with VirtualController(via="memory", servos=range(1, 7), clock=clock, faults=faults) as board:
+        controller = Controller(board.transport, background=False, clock=clock.now, baud=math.inf)
+        for turn in range(12):
+            asked = [1 + turn % 3, 4, 6]
+            began = clock.now()
+            try:
+                positions: tuple[object, ...] = controller.read_servo_positions(asked)
+                assert len(positions) == 3
+            except IncompleteReplyError as error:
+                positions = error.arrived
+                assert len(positions) + len(error.missing) == 3  # noqa: PT017 - both ways are right
+            except NoReplyError:
+                positions = ()
+            for each in positions:
+                assert isinstance(each, ServoPosition)
+                assert each.servo_id in asked
+                assert each.position == 500
+            assert clock.now() - began < 2
+        controller.close()
+        assert board.rejects.total == 0
+
+
+def test_a_motion_and_a_group_from_beginning_to_end() -> None:
+    clock = VirtualClock(follow_reads=True)
+    with VirtualController(via="memory", servos=range(1, 7), clock=clock) as board:
+        with Controller(board.transport, background=False, clock=clock.now) as controller:
+            controller.move_servos([(1, 800), (2, 200)], time_ms=1000)
+            assert list(controller.reports(timeout=1.1)) == []
+            assert controller.read_servo_positions([1, 2]) == ((1, 800), (2, 200))
+            controller.run_action_group(8, times=1)
+            done = controller.wait_for(ActionGroupCompleted, group=8, timeout=60)
+            assert done == ActionGroupCompleted(8, 1)
+            controller.set_action_group_speed(0xFF, percent=300)
+            controller.stop_action_group()
+            controller.unload_servos([1, 2, 3])
+            assert (
+                controller.read_battery_voltage()
+                == BatteryVoltage(board.battery.voltage_mv).voltage_mv
+            )
+            with pytest.raises(NoReportError):
+                controller.wait_for(ActionGroupCompleted, group=8, timeout=1)
+        assert board.rejects.total == 0

@@ -1,0 +1,51 @@
+"""Boards to talk to, by each way there is."""
+
+from __future__ import annotations
+
+import sys
+from typing import TYPE_CHECKING, Any
+
+import pytest
+from busservo.serial_port import open_transport
+from busservo_simulator import VirtualClock, VirtualController
+
+from tests.simulator.hosts import Host, host_of
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterator
+
+WAYS = ["memory", "tcp"] if sys.platform == "win32" else ["memory", "tcp", "pty"]
+
+
+@pytest.fixture
+def board() -> Iterator[VirtualController]:
+    """A board whose time goes on when somebody waits for it, and never by itself."""
+    with VirtualController(clock=VirtualClock(follow_reads=True)) as board:
+        yield board
+
+
+@pytest.fixture
+def host(board: VirtualController) -> Host:
+    """A host of that board."""
+    return host_of(board)
+
+
+@pytest.fixture(params=WAYS)
+def connect(request: pytest.FixtureRequest) -> Iterator[Callable[..., tuple[Any, Host]]]:
+    """Makes a board on real time, and a host that has opened its port."""
+    boards: list[VirtualController] = []
+    hosts: list[Host] = []
+
+    def make(**options: Any) -> tuple[VirtualController, Host]:
+        board = VirtualController(request.param, **options)
+        board.start()
+        boards.append(board)
+        memory = request.param == "memory"
+        hosts.append(Host(board.transport if memory else open_transport(board.port)))
+        return board, hosts[-1]
+
+    yield make
+    for host in hosts:
+        host.hang_up()
+    for board in boards:
+        board.close()

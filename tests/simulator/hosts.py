@@ -1,0 +1,82 @@
+"""A host for the tests: writes messages, and hears what comes back."""
+
+from __future__ import annotations
+
+import time
+from typing import TYPE_CHECKING
+
+from busservo import Direction, Message, Noise, StreamDecoder
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from busservo.transport import Transport
+    from busservo_simulator import VirtualController
+
+# Far more than any answer takes, so that no slow machine fails a test. An answer ends the wait.
+PATIENCE = 5.0
+
+
+class Host:
+    """The other end of a board's line."""
+
+    def __init__(self, transport: Transport, now: Callable[[], float] = time.monotonic) -> None:
+        self.transport = transport
+        self.bytes = b""
+        self.heard: list[Message | Noise] = []
+        self._now = now
+        self._decoder = StreamDecoder(Direction.CONTROLLER_TO_HOST)
+
+    def say(self, *messages: Message) -> None:
+        """Writes them, one write each."""
+        for message in messages:
+            self.transport.write(message.encode())
+
+    def ask(self, message: Message) -> Message | None:
+        """Writes a message, and returns the next that comes."""
+        self.say(message)
+        return self.hear()
+
+    def hear(self, patience: float = PATIENCE) -> Message | None:
+        """The next message; None if none comes in time."""
+        end = self._now() + patience
+        while True:
+            for event in self.heard:
+                if isinstance(event, Message):
+                    self.heard.remove(event)
+                    return event
+            left = end - self._now()
+            if left <= 0:
+                return None
+            self._listen(left)
+
+    def collect(self, count: int, patience: float = PATIENCE) -> bytes:
+        """The next `count` bytes, or as many as come in time."""
+        end = self._now() + patience
+        data = b""
+        while len(data) < count and (left := end - self._now()) > 0:
+            data += self.transport.read(left)
+        return data
+
+    def _listen(self, patience: float) -> None:
+        data = self.transport.read(patience)
+        self.bytes += data
+        self.heard += self._decoder.feed(data)
+
+    def hang_up(self) -> None:
+        """Closes the port. pyserial sleeps after it has closed a socket, so that is done here."""
+        port = getattr(self.transport, "_port", None)
+        behind = getattr(port, "_socket", None)
+        if port is not None and behind is not None:
+            behind.close()
+            port.is_open = False
+        self.transport.close()
+
+    def noise(self) -> list[bytes]:
+        """The noise heard so far."""
+        return [event.data for event in self.heard if isinstance(event, Noise)]
+
+
+def host_of(board: VirtualController) -> Host:
+    """A host at the board's own clock, in the same process."""
+    return Host(board.transport, board.clock.now)

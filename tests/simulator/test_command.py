@@ -1,0 +1,125 @@
+"""The command `busservo-simulator`: what it prints, what it refuses, and how it ends."""
+
+from __future__ import annotations
+
+import os
+import signal
+import subprocess
+import sys
+from typing import TYPE_CHECKING
+
+import pytest
+from busservo import BatteryVoltage, BatteryVoltageRead, ServoPositions, ServoPositionsRead
+from busservo.serial_port import open_transport
+from busservo_simulator.cli import main
+from busservo_simulator.faults import CHANCES
+from busservo_simulator.servo_list import parse_servos
+
+from tests.simulator.hosts import Host
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterator
+    from pathlib import Path
+
+ENVIRONMENT = {**os.environ, "PYTHONPATH": os.pathsep.join(sys.path)}
+not_windows = pytest.mark.skipif(sys.platform == "win32", reason="no pty and no SIGINT there")
+
+
+@pytest.fixture
+def start() -> Iterator[Callable[..., tuple[subprocess.Popen[str], str]]]:
+    """Starts the command, and gives it and the port that it printed."""
+    started: list[subprocess.Popen[str]] = []
+
+    def run(*arguments: str) -> tuple[subprocess.Popen[str], str]:
+        command = [sys.executable, "-m", "busservo_simulator", *arguments]
+        process = subprocess.Popen(
+            command,
+            env=ENVIRONMENT,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.PIPE,
+            text=True,
+        )
+        started.append(process)
+        assert process.stdout is not None
+        return process, process.stdout.readline().strip()
+
+    yield run
+    for process in started:
+        process.kill()
+        process.communicate()
+
+
+@not_windows
+@pytest.mark.parametrize("kind", [signal.SIGINT, signal.SIGTERM])
+def test_it_answers_tells_what_happens_and_ends_cleanly(
+    start: Callable[..., tuple[subprocess.Popen[str], str]], tmp_path: Path, kind: signal.Signals
+) -> None:
+    link = tmp_path / "COM7"
+    process, port = start(
+        "--link", str(link), "--battery", "8000", "--servos", "1,3-4", "--off", "4"
+    )
+    assert port == str(link)
+    host = Host(open_transport(port))
+    assert host.ask(BatteryVoltageRead()) == BatteryVoltage(8000)
+    assert host.ask(ServoPositionsRead([1, 2, 3, 4])) == ServoPositions(
+        [(1, 500), (3, 500), (4, 65535)]
+    )
+    host.hang_up()
+    process.send_signal(kind)
+    output, errors = process.communicate(timeout=20)
+    assert process.returncode == 0
+    assert "LED2      blinks: BatteryVoltageRead()" in output
+    assert errors == "2 messages, 0 rejected\n"
+    assert not link.is_symlink()
+
+
+@not_windows
+def test_over_tcp_it_can_be_quiet(
+    start: Callable[..., tuple[subprocess.Popen[str], str]],
+) -> None:
+    process, port = start("--tcp", "--quiet", "--baud", "--fault", "noise=1", "--seed", "3")
+    assert port.startswith("socket://127.0.0.1:")
+    host = Host(open_transport(port))
+    assert host.ask(BatteryVoltageRead()) == BatteryVoltage(7500)
+    assert host.noise()
+    host.hang_up()
+    process.send_signal(signal.SIGINT)
+    output, _ = process.communicate(timeout=20)
+    assert (process.returncode, output) == (0, "")
+
+
+def test_help_teaches_by_example(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["--help"]) == 0
+    shown = capsys.readouterr().out
+    assert "busservo-simulator --tcp 4000" in shown
+    assert all(name in shown for name in CHANCES)
+
+
+@pytest.mark.parametrize(
+    ("arguments", "words"),
+    [
+        (["--fault", "gremlins=1"], "no fault is called 'gremlins'"),
+        (["--fault", "noise=lots"], "noise=0.1"),
+        (["--fault", "noise=2", "--tcp"], "noise is 2.0: a chance is from 0 to 1"),
+        (["--off", "9", "--tcp"], "there is no such servo"),
+        (["--tcp", "--link", "COM7"], "--link names a pty"),
+        (["--servos", "300"], "--servos"),
+        (["--baud", "0", "--tcp"], "baud is 0.0"),
+    ],
+)
+def test_what_it_cannot_do_it_says(
+    capsys: pytest.CaptureFixture[str], arguments: list[str], words: str
+) -> None:
+    assert main(arguments) == 2
+    assert words in capsys.readouterr().err
+
+
+@pytest.mark.parametrize(("text", "servos"), [("1", [1]), ("1-3", [1, 2, 3]), ("1-2,9", [1, 2, 9])])
+def test_servos_are_listed_as_people_write_them(text: str, servos: list[int]) -> None:
+    assert parse_servos(text) == servos
+
+
+@pytest.mark.parametrize("text", ["", "3-1", "254", "x", "-1"])
+def test_what_names_no_servo_is_refused(text: str) -> None:
+    with pytest.raises(ValueError):  # noqa: PT011 - argparse shows its own words
+        parse_servos(text)

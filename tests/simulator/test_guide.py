@@ -1,0 +1,23 @@
+"""The guide docs/test-your-robot.md: every piece of Python in it is run."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+import pytest
+
+GUIDE = Path(__file__).parents[2] / "docs" / "test-your-robot.md"
+BLOCKS = re.findall(
+    r"^```python\n(.*?)^```$", GUIDE.read_text(encoding="utf-8"), re.DOTALL | re.MULTILINE
+)
+
+
+def test_the_guide_has_examples() -> None:
+    assert len(BLOCKS) == 7
+
+
+@pytest.mark.parametrize("block", BLOCKS)
+def test_an_example_does_what_it_says(block: str) -> None:
+    names: dict[str, object] = {"__name__": "guide"}
+    exec(compile(block, str(GUIDE.name), "exec"), names)  # noqa: S102 - the guide is ours

@@ -1,0 +1,74 @@
+"""Clients in the manner of those in public use, odd habits included: all are served.
+
+They were written for this test, after what such programs are seen to do on the wire.
+"""
+
+from __future__ import annotations
+
+import sys
+import time
+from typing import TYPE_CHECKING
+
+import pytest
+import serial
+from busservo_simulator import Faults, VirtualController
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+    from pathlib import Path
+
+pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="Windows has no pty")
+READ_TWO = bytes.fromhex("55 55 05 15 02 01 02")
+
+
+@pytest.fixture
+def board(tmp_path: Path) -> Iterator[VirtualController]:
+    with VirtualController("pty", link=tmp_path / "COM7", baud=9600) as board:
+        yield board
+
+
+@pytest.fixture
+def line(board: VirtualController) -> Iterator[serial.Serial]:
+    with serial.Serial(board.port, 9600, timeout=0.1) as line:
+        yield line
+
+
+def test_one_writes_the_head_and_the_parameters_apart_and_reads_two_bytes_too_many(
+    board: VirtualController, line: serial.Serial
+) -> None:
+    for _ in range(3):
+        line.flush()
+        line.write(READ_TWO[:4])
+        line.write(READ_TWO[4:])
+        head = line.read(4)
+        assert head == bytes.fromhex("55 55 09 15")
+        assert line.read(head[2]) == bytes.fromhex("02 01 F4 01 02 F4 01")
+    assert (board.accepted, board.rejects.total) == (3, 0)
+
+
+def test_one_clears_its_input_and_looks_for_an_answer_of_the_right_shape(
+    board: VirtualController, line: serial.Serial
+) -> None:
+    board.faults = Faults(seed=1, noise=0.5, splits=0.5, unasked=0.5)
+    for _ in range(10):
+        line.reset_input_buffer()
+        line.write(READ_TWO)
+        data, end = b"", time.monotonic() + 5
+        while b"\x55\x55\x09\x15\x02" not in data[:-6] and time.monotonic() < end:
+            data += line.read(4096)
+        found = data.index(b"\x55\x55\x09\x15\x02")
+        assert data[found + 5 : found + 11] == bytes.fromhex("01 F4 01 02 F4 01")
+    assert board.rejects.total == 0
+
+
+def test_one_sends_and_closes_and_never_listens(tmp_path: Path) -> None:
+    with VirtualController("pty", link=tmp_path / "COM7") as board:
+        for _ in range(3):
+            with serial.Serial(board.port, 9600) as line:
+                line.write(bytes.fromhex("55 55 05 06 08 01 00"))
+                line.write(bytes.fromhex("55 55 08 03 01 E8 03 01 20 03"))
+        end = time.monotonic() + 5
+        while board.accepted < 6 and time.monotonic() < end:
+            time.sleep(0.01)
+        assert (board.accepted, board.rejects.total) == (6, 0)
+        assert board.servos[1].target == 800
