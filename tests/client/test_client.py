@@ -332,6 +332,23 @@ def test_every_frame_is_logged_and_traced(tmp_path: Path, caplog: pytest.LogCapt
     assert "3 messages, 2 bytes of noise" in shown.stderr
 
 
+def test_a_long_trace_is_read_back(tmp_path: Path) -> None:
+    for pad in range(3):
+        trace = tmp_path / f"{pad}.log"
+        with virtual(VirtualLine(at_once), trace=trace, baud=math.inf) as controller:
+            for _ in range(600):
+                controller.read_battery_voltage()
+        # Wherever the first 64 KiB end: in a comment, or between the two digits of a byte.
+        trace.write_bytes(b"#" * pad + b"\n" + trace.read_bytes().replace(b"#", b"#" * 3))
+        shown = subprocess.run(
+            [sys.executable, "-m", "busservo", "decode", str(trace)],
+            check=True,
+            capture_output=True,
+            text=True,
+        )
+        assert "1200 messages, 0 bytes of noise" in shown.stderr
+
+
 def test_nothing_is_logged_unless_asked_for(caplog: pytest.LogCaptureFixture) -> None:
     virtual(VirtualLine(at_once)).read_battery_voltage()
     assert caplog.records == []

@@ -127,7 +127,9 @@ def _read(stream: BinaryIO, form: str) -> Iterator[bytes]:
     # read1 gives what there is: on a live line nobody waits for a full buffer.
     read_some = getattr(stream, "read1", stream.read)
     first: bytes = read_some(_CHUNK)
-    if form == "raw" or (form == "auto" and not looks_like_hex(first)):
+    # A full chunk may end in the middle of two digits; its whole lines tell as much.
+    shown = first[: first.rfind(b"\n") + 1] if len(first) == _CHUNK else first
+    if form == "raw" or (form == "auto" and not looks_like_hex(shown or first)):
         while first:
             yield first
             first = read_some(_CHUNK)
