@@ -7,7 +7,6 @@ from pathlib import Path
 
 import pytest
 from framegen.render import render
-from framegen.targets.python.view import MessageView
 from framegen.values import to_hex
 from framegen.yamltree import read_tree
 
@@ -279,10 +278,3 @@ def test_rendering_twice_gives_the_same_and_needs_no_folder(
     assert first == second
     assert list(tmp_path.iterdir()) == []
     assert "docs/reference" in first.folders
-
-
-def test_the_call_in_a_snippet_is_the_call_of_the_library() -> None:
-    site = reference("busservo")
-    message = site.layout.messages["ServoMove"]
-    call = MessageView(message, site.layout).call(message.message.examples[0].values)
-    assert call == "ServoMove(time_ms=1000, targets=[(1, 800)])"

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from framegen.targets.python.escape import Bracketed
 from framegen.targets.python.view import MessageView, direction_member
 from framegen.values import to_hex
 
@@ -14,11 +15,11 @@ if TYPE_CHECKING:
 
 def sending(layout: Layout, message: MessageLayout, example: Example) -> str:
     """Make the frame of an example."""
-    call = MessageView(message, layout).call(example.values)
+    given = MessageView(message, layout).given_values(example.values)
     return (
         f"from {layout.spec.protocol.name} import {message.name}\n\n"
-        f"frame = {call}.encode()\n"
-        f'assert frame == bytes.fromhex("{to_hex(example.hex)}")\n'
+        + Bracketed(f"message = {message.name}(", given, ")\n").fitted(0)
+        + _from_hex("assert message.encode() ==", example)
     )
 
 
@@ -28,9 +29,16 @@ def receiving(layout: Layout, message: MessageLayout, example: Example) -> str:
     return (
         f"from {layout.spec.protocol.name} import {', '.join(names)}\n\n"
         f"decoder = StreamDecoder(Direction.{direction_member(message.direction)})\n"
-        f'for event in decoder.feed(bytes.fromhex("{to_hex(example.hex)}")):\n'
-        f"    if isinstance(event, {message.name}):\n"
-    ) + "".join(f"        {line}\n" for line in _shown(message, example))
+        + _from_hex("received =", example)
+        + "for event in decoder.feed(received):\n"
+        + f"    if isinstance(event, {message.name}):\n"
+        + "".join(f"        {line}\n" for line in _shown(message, example))
+    )
+
+
+def _from_hex(before: str, example: Example) -> str:
+    call = f"{before} bytes.fromhex("
+    return Bracketed(call, [f'"{to_hex(example.hex)}"'], ")\n").fitted(0)
 
 
 def _shown(message: MessageLayout, example: Example) -> list[str]:

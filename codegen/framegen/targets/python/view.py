@@ -372,10 +372,11 @@ class MessageView:
 
     def call(self, values: dict[str, Any]) -> str:
         """The call that makes the message of an example."""
-        given = [
-            f"{argument.name}={_shown(argument, values)}" for argument in self.layout.arguments
-        ]
-        return f"{self.name}({', '.join(given)})"
+        return f"{self.name}({', '.join(self.given_values(values))})"
+
+    def given_values(self, values: dict[str, Any]) -> list[str]:
+        """The arguments of that call."""
+        return [f"{argument.name}={_shown(argument, values)}" for argument in self.layout.arguments]
 
     def command_words(self, values: dict[str, Any]) -> list[str]:
         """The fields of an example as the command takes them: `targets=1:800,9:800`."""
