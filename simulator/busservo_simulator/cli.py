@@ -27,7 +27,7 @@ UNUSABLE, READER_GONE = 2, 141
 EXAMPLES = f"""\
 examples:
   {PROGRAM}                            a board behind a pty, whose name is printed first
-  {PROGRAM} --link /tmp/COM7           the same, by a name that you choose
+  {PROGRAM} --link COM7                the same, by a name that you choose
   {PROGRAM} --tcp 4000                 a board at socket://{LOOPBACK}:4000, on any system
   {PROGRAM} --baud                     as slow as the real line, {BAUD} baud
   {PROGRAM} --servos 1-6,9 --off 9     seven servos, the last of them off

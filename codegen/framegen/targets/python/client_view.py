@@ -234,11 +234,15 @@ class ClientView:
         return [_entry(each) for each in exchanges(self.layout)]
 
     @property
+    def hears(self) -> bool:
+        """Whether anything comes to the client."""
+        return sent_by_client(self.layout.spec).reversed in self.layout.directions
+
+    @property
     def received(self) -> str:
         """The direction of what comes to the client; None, for either, where nothing does."""
         back = sent_by_client(self.layout.spec).reversed
-        known = back in self.layout.directions
-        return f"Direction.{direction_member(back)}" if known else "None"
+        return f"Direction.{direction_member(back)}" if self.hears else "None"
 
     @property
     def import_messages(self) -> str:
@@ -276,9 +280,9 @@ class ClientView:
         return any(method.returns == "Sent" for method in self.methods)
 
     @property
-    def lazy(self) -> dict[str, str]:
+    def lazy_entries(self) -> list[str]:
         """The names imported when they are asked for, and their modules."""
-        return LAZY
+        return [f"{literal(name)}: {literal(module)}," for name, module in LAZY.items()]
 
     @property
     def lazy_imports(self) -> list[str]:
