@@ -32,7 +32,7 @@ MACHINE = {
         re.IGNORECASE,
     ),
     "an address inside a network": re.compile(
-        r"\blocalhost\b|\b(?:10|127|192\.168)(?:\.\d+){2,3}\b"
+        r"\blocalhost\b|\b(?:(?:10|127)\.\d+|192\.168)(?:\.\d+){2}\b"
     ),
 }
 UNFINISHED = re.compile(r"\b(?:TODO|FIXME|XXX)\b|^(?:<{7}|>{7}|={7}$)", re.MULTILINE)
