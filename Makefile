@@ -11,9 +11,12 @@ PYTHON = $(shell for python in python3 python3.13 python3.12 python3.11 python3.
 IN := $(VENV)/bin
 READY := $(VENV)/.ready-$(GROUP)
 BENCH_VENV := .tools/bench
+MUTATION_VENV := .tools/mutation
+# Which mutants: make mutants ONLY='busservo.octets.*'
+ONLY =
 
 .DEFAULT_GOAL := all
-.PHONY: all venv test quick lint format fuzz bench wheel clean help
+.PHONY: all venv test quick lint format fuzz mutants bench docs docs-tools wheel clean help
 
 all: $(READY)  ## Check the spec, generate everything, decode a recorded noisy line (plain `make`)
 	$(IN)/framegen check
@@ -25,8 +28,8 @@ test: $(READY)  ## Run every test, and report the coverage of lines and branches
 	$(IN)/coverage run -m pytest
 	$(IN)/coverage report
 
-quick: $(READY)  ## Run every test that is not slow, without coverage
-	$(IN)/python -m pytest -q -m "not slow"
+quick: $(READY)  ## Run every test with fewer examples, and without coverage
+	HYPOTHESIS_PROFILE=quick $(IN)/python -m pytest -q
 
 lint: $(READY)  ## Lint, look at the format, check types, and that the output is up to date
 	$(IN)/ruff check
@@ -40,11 +43,33 @@ format: $(READY)  ## Mend what ruff can mend
 	$(IN)/ruff format
 
 fuzz: $(READY)  ## Let Hypothesis search for new counterexamples, for long
-	HYPOTHESIS_PROFILE=fuzz $(IN)/python -m pytest -m "not slow"
+	HYPOTHESIS_PROFILE=fuzz $(IN)/python -m pytest
 
 bench:  ## Measure the library against its peers
 	@$(MAKE) --no-print-directory venv VENV=$(BENCH_VENV) GROUP=bench
+	@command -v npm >/dev/null && npm install --silent --no-package-lock --prefix benchmarks/peers/kaitai || true
 	$(BENCH_VENV)/bin/python -m benchmarks
+
+docs: $(READY)  ## Build build/site: the reference and the guides, ready to be served
+	$(IN)/framegen generate
+	rm -rf build/site
+	$(IN)/python docs/site.py build/site
+	@echo "Open build/site/index.html"
+
+docs-tools:  ## Install what the tests of the reference need of Node.js: a validator, axe-core
+	@mkdir -p .tools/node
+	@cp tests/docs/package.json .tools/node/
+	npm install --prefix .tools/node --silent --no-audit --no-fund --no-package-lock
+
+# Set and dict in the names of tests need the same order in every process.
+mutants:  ## Change the code in many small ways, and list the changes that no test sees
+	@$(MAKE) --no-print-directory venv VENV=$(MUTATION_VENV) GROUP=mutation
+	rm -rf mutants
+	mkdir -p mutants/src
+	cp -R generated/busservo codegen/framegen mutants/src
+	cp -R tests spec pyproject.toml mutants
+	cd mutants && PYTHONHASHSEED=0 ../$(MUTATION_VENV)/bin/mutmut run --max-children 1 $(if $(ONLY),'$(ONLY)')
+	cd mutants && ../$(MUTATION_VENV)/bin/mutmut results | grep -v 'not checked' || true
 
 wheel: $(READY)  ## Build dist/*.whl and dist/*.tar.gz
 	$(IN)/python -m build
@@ -74,4 +99,4 @@ clean:  ## Remove everything that these commands make, the virtual environments 
 	find . -name __pycache__ -type d -prune -exec rm -rf {} +
 
 help:  ## Show this
-	@awk -F ':.*## ' '/^[a-z]+:.*## / {printf "  make %-7s %s\n", $$1, $$2}' $(MAKEFILE_LIST)
+	@awk -F ':.*## ' '/^[a-z]+:.*## / {printf "  make %-10s %s\n", $$1, $$2}' $(MAKEFILE_LIST)

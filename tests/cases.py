@@ -305,6 +305,8 @@ BAD_VALUES = (
     # No pair.
     BadValue(*_move(1), "targets[0]", 1, "1 is not (servo_id, position)"),
     BadValue(*_move((1,)), "targets[0]", (1,), "(1,) is not (servo_id, position)"),
+    # Nor do two wrongs make a right, though together they have as many numbers as two pairs.
+    BadValue(*_move((1,), (1, 2, 3)), "targets[0]", (1,), "(1,) is not (servo_id, position)"),
     BadValue(
         *_move((1, 2), (1, 2, 3)), "targets[1]", (1, 2, 3), "(1, 2, 3) is not (servo_id, position)"
     ),
@@ -319,7 +321,7 @@ BAD_VALUES = (
     BadValue(*_unload(1), "servo_ids", 1, "1 is not a list of whole numbers"),
     BadValue(*_unload(None), "servo_ids", None, "None is not a list of whole numbers"),
     BadValue(*_unload("12"), "servo_ids", "12", "'12' is not a list of whole numbers"),
-    BadValue(*_unload(b"\x01"), "servo_ids", b"\x01", "b'\\x01' is not a list of whole numbers"),
+    BadValue(*_unload(b"A"), "servo_ids", b"A", "b'A' is not a list of whole numbers"),
     BadValue(*_unload({1}), "servo_ids", {1}, "{1} is not a list of whole numbers"),
     BadValue(*_unload({1: 2}), "servo_ids", {1: 2}, "{1: 2} is not a list of whole numbers"),
     BadValue(

@@ -1,4 +1,5 @@
-"""Hypothesis profiles: `ci`, the same examples in every run, and `fuzz`, a long search for others.
+"""Hypothesis profiles: `ci`, the same examples in every run; `quick`, fewer of them; and `fuzz`, a
+long search for others.
 
 Chosen by HYPOTHESIS_PROFILE or --hypothesis-profile. No test sets max_examples of its own: that
 would hold the search back.
@@ -9,6 +10,7 @@ import os
 from hypothesis import HealthCheck, settings
 
 settings.register_profile("ci", derandomize=True, deadline=None, max_examples=100)
+settings.register_profile("quick", derandomize=True, deadline=None, max_examples=20)
 settings.register_profile(
     "fuzz",
     deadline=None,
