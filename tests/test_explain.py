@@ -406,6 +406,7 @@ def test_every_example_of_a_lookalike_is_hinted_at() -> None:
     ]
     assert [text.partition(".")[0] for text in told] == [
         "this looks like a frame of the LX-16A bus servo protocol",
+        "in the dialect of LeArm and uHand boards, 1 asks for the version",
         "this looks like a frame of the Orchard bus",
         "in the Stations before 2019, 33 asks for the firmware",
     ]

@@ -17,6 +17,8 @@ if TYPE_CHECKING:
 
 
 _LISTS = (list, tuple)
+# What can be gone through, and is still no list of numbers: text, bytes, and what has no order.
+_NO_LISTS = (str, bytes, bytearray, memoryview, dict, set, frozenset)
 
 
 class Number:
@@ -137,7 +139,7 @@ class Items:
 
 def as_tuple(value: Any) -> tuple[Any, ...] | None:
     """What `value` holds; None where it holds nothing in order, or is text or bytes."""
-    if isinstance(value, (str, bytes, dict, set, frozenset)):
+    if isinstance(value, _NO_LISTS):
         return None
     try:
         iterator = iter(value)
