@@ -2,8 +2,11 @@
 
 import pytest
 from busservo import DecodeError, EncodeError, Reason, ServoMove
-from framegen.codec import describe_range
-from framegen.values import Citation
+from framegen.codec import NotAFrame, decode, describe_range, encode
+from framegen.layout import derive
+from framegen.values import Citation, Direction
+
+from tests.specimens import BUSSERVO, data_of, layout_of, loaded_of
 
 
 @pytest.mark.parametrize(
@@ -31,3 +34,61 @@ def test_an_error_keeps_what_it_was_made_of() -> None:
         ServoMove.decode(b"\x55\x56")
     expected = "a frame begins 55 55"
     assert unread.value.args == (Reason.BAD_HEADER, 1, expected)
+
+
+@pytest.mark.parametrize(
+    ("given", "said"),
+    [
+        ("55 55", "bytes, bytearray or memoryview expected, not str; bytes.fromhex() reads hex"),
+        (7, "bytes, bytearray or memoryview expected, not int"),
+    ],
+)
+def test_what_is_no_bytes_is_named(given: object, said: str) -> None:
+    with pytest.raises(TypeError) as refused:
+        ServoMove.decode(given)  # type: ignore[arg-type]
+    assert str(refused.value) == said
+
+
+def test_each_field_of_an_element_stands_behind_the_one_before() -> None:
+    data = data_of(BUSSERVO)
+    message = data["messages"]["ServoPositions"]
+    message["fields"]["positions"]["fields"]["load"] = {"type": "u8", "about": "Its load."}
+    message["length"] = "4 * servo_count + 3"
+    spec = loaded_of(data).spec
+    assert spec is not None
+    repeat = derive(spec).messages["ServoPositions"].repeat
+    assert repeat is not None
+    assert [(field.name, field.offset) for field in repeat.fields] == [
+        ("servo_id", 0),
+        ("position", 1),
+        ("load", 3),
+    ]
+
+
+def test_a_bare_number_in_a_list_has_the_name_of_the_list() -> None:
+    repeat = layout_of(data_of(BUSSERVO)).messages["ServoUnload"].repeat
+    assert repeat is not None
+    assert [field.name for field in repeat.fields] == ["servo_ids"]
+
+
+def test_a_list_without_declared_counts_may_be_empty() -> None:
+    data = data_of(BUSSERVO)
+    del data["messages"]["ServoUnload"]["fields"]["servo_ids"]["count"]
+    repeat = layout_of(data).messages["ServoUnload"].repeat
+    assert repeat is not None
+    assert (repeat.low, repeat.high) == (0, 252)
+
+
+def test_a_length_above_127_is_no_negative_number() -> None:
+    layout = layout_of(data_of(BUSSERVO))
+    values = {"servo_ids": [*range(252)]}
+    frame = encode(layout, layout.messages["ServoUnload"], values)
+    assert frame[2] == 255
+    assert decode(layout, Direction("host", "controller"), frame).values == values
+
+
+def test_half_a_header_is_told_what_a_frame_begins_with() -> None:
+    layout = layout_of(data_of(BUSSERVO))
+    with pytest.raises(NotAFrame) as refused:
+        decode(layout, Direction("host", "controller"), b"\x55")
+    assert refused.value.expected == "a frame begins 55 55"
