@@ -27,12 +27,17 @@ from pathlib import Path
 from typing import Any
 from unittest import mock
 
-from busservo import BatteryVoltage, BatteryVoltageRead
+import busservo
+from busservo.opening import open_controller
+from busservo_simulator import VirtualController
 
 ROOT = Path(__file__).parent.parent
-PAGES = [ROOT / "README.md", ROOT / "CONTRIBUTING.md", *sorted((ROOT / "docs").glob("*.md"))]
+# The guide to testing is played by tests/simulator/test_guide.py, which needs files of its own.
+_GUIDE = ROOT / "docs" / "test-your-robot.md"
+_GUIDES = sorted({*(ROOT / "docs").glob("*.md")} - {_GUIDE})
+PAGES = [ROOT / "README.md", ROOT / "CONTRIBUTING.md", *_GUIDES]
 
-_NEEDED = ("spec", "generated", "codegen", "tests/captures")
+_NEEDED = ("spec", "generated", "codegen", "docs", "tests/captures")
 _COMMANDS = {"busservo", "framegen"}
 _BLOCK = re.compile(r"^```(console|pycon|python|output|diff)\n(.*?)^```$", re.MULTILINE | re.DOTALL)
 _COMMAND = re.compile(r"^\$ (.*)\n", re.MULTILINE)
@@ -73,9 +78,13 @@ class _Player:
         return block
 
     def _program(self, source: str) -> str:
+        """What a program prints that opens a port, whichever it names: a virtual board is there."""
         output = io.StringIO()
-        with mock.patch("serial.Serial", _Board), contextlib.redirect_stdout(output):
-            exec(source, self._names)  # noqa: S102 - our own pages
+        with VirtualController(via="tcp") as board:
+            controller = open_controller(board.port)
+            opening = mock.patch.object(busservo, "open_controller", return_value=controller)
+            with opening, contextlib.redirect_stdout(output):
+                exec(source, self._names)  # noqa: S102 - our own pages
         return output.getvalue()
 
     def _console(self, block: str) -> str:
@@ -154,29 +163,6 @@ def _apply(diff: str, folder: Path) -> None:
         assert text.count(old) == 1, f"{target} holds {text.count(old)} times:\n{old}"
         text = text.replace(old, new)
     file.write_text(text, encoding="utf-8", newline="\n")
-
-
-class _Board(contextlib.AbstractContextManager["_Board"]):
-    """A port with a controller behind it that knows its battery, on a line that is not clean."""
-
-    def __init__(self, port: str, baudrate: int, timeout: float) -> None:
-        assert (type(port), baudrate, timeout > 0) == (str, 9600, True)
-        self._waiting = b"\x13"
-
-    def __exit__(self, *_: object) -> None:
-        assert self._waiting == b"", "something was not read"
-
-    @property
-    def in_waiting(self) -> int:
-        return len(self._waiting)
-
-    def write(self, data: bytes) -> None:
-        assert data == BatteryVoltageRead().encode()
-        self._waiting += BatteryVoltage(7881).encode()
-
-    def read(self, size: int) -> bytes:
-        data, self._waiting = self._waiting[:size], self._waiting[size:]
-        return data
 
 
 def _refresh() -> None:
