@@ -28,7 +28,8 @@ def receiving(layout: Layout, message: MessageLayout, example: Example) -> str:
     return (
         f"from {layout.spec.protocol.name} import {', '.join(names)}\n\n"
         f"decoder = StreamDecoder(Direction.{direction_member(message.direction)})\n"
-        f'for event in decoder.feed(bytes.fromhex("{to_hex(example.hex)}")):\n'
+        f'data = bytes.fromhex("{to_hex(example.hex)}")\n'
+        "for event in decoder.feed(data):\n"
         f"    if isinstance(event, {message.name}):\n"
     ) + "".join(f"        {line}\n" for line in _shown(message, example))
 
