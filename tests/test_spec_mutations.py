@@ -302,7 +302,6 @@ KINDS: list[Callable[[], Iterator[Mutation]]] = [
 
 # ------------------------------------------------------------------ what `check` cannot see
 
-ONE_WAY = "said nowhere else: neither answered nor reported, and the code is free the other way"
 SHOWN_TOO = "the examples show that number as well, and do not say what it means"
 SWALLOWED = "examples of look-alikes say no values, and what the code leaves is parameters"
 NOT_MISSED = "nothing else speaks of it; `framegen diff` shows what was removed"
@@ -316,9 +315,6 @@ def messages(name: str, *steps: str | int) -> Steps:
 
 
 BLIND: list[tuple[Steps, Any, str]] = [
-    (messages("ServoMove", "direction"), "controller -> host", ONE_WAY),
-    (messages("ActionGroupSpeed", "direction"), "controller -> host", ONE_WAY),
-    (messages("ServoUnload", "direction"), "controller -> host", ONE_WAY),
     (
         messages("ActionGroupRun", "fields", "times", "values", "unlimited", "value"),
         1,
@@ -333,7 +329,6 @@ BLIND: list[tuple[Steps, Any, str]] = [
     (("lookalikes", "lx16a", "frame", "command", "type"), "u32", SWALLOWED),
     (messages("ActionGroupStop"), GONE, NOT_MISSED),
     (messages("ServoPositionsRead"), GONE, NOT_MISSED),
-    (messages("ServoPositionsRead", "reply"), GONE, NOT_MISSED),
     (messages("ActionGroupRun", "reports", 0), GONE, NOT_MISSED),
     (messages("ActionGroupRun", "reports", 1), GONE, NOT_MISSED),
     (messages("ActionGroupStop", "reports", 0), GONE, NOT_MISSED),

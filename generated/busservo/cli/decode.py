@@ -60,7 +60,7 @@ def run(arguments: Namespace) -> int:
     """Prints every message and all noise, and to the error stream the totals."""
     direction = _SENDERS.get(arguments.direction)
     decoder = StreamDecoder(direction)
-    show = _as_json if arguments.json else _as_text
+    show = event_as_json if arguments.json else event_as_text
     offset = 0
     for events in _decoded(decoder, _chunks(arguments)):
         for event in events:
@@ -144,7 +144,8 @@ def _read(stream: BinaryIO, form: str) -> Iterator[bytes]:
     yield parse_hex(rest.decode("utf-8", errors="replace"))
 
 
-def _as_text(event: Message | Noise, offset: int, direction: Direction | None) -> str:
+def event_as_text(event: Message | Noise, offset: int, direction: Direction | None) -> str:
+    """A line of text for people."""
     if isinstance(event, UnknownFrame):
         told = f"command={event.command} parameters={spaced(event.parameters) or 'none'}"
         return f"{offset:6}  {'unknown':10}  {told} | {spaced(event.data)}"
@@ -157,7 +158,8 @@ def _as_text(event: Message | Noise, offset: int, direction: Direction | None) -
     return f"{offset:6}  {sender:10}  {told} | {spaced(event.encode())}"
 
 
-def _as_json(event: Message | Noise, offset: int, direction: Direction | None) -> str:
+def event_as_json(event: Message | Noise, offset: int, direction: Direction | None) -> str:
+    """A line of JSON."""
     record: dict[str, Any] = {"offset": offset}
     if isinstance(event, Noise):
         record |= {"noise": spaced(event.data), "reason": event.reason.value}

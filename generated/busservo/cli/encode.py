@@ -29,7 +29,7 @@ def add_arguments(parser: ArgumentParser) -> None:
 
 def run(arguments: Namespace) -> int:
     """Prints the frame in hex, or with --raw writes its bytes."""
-    frame = message_from_text(_kind(arguments.message), arguments.fields).encode()
+    frame = message_from_text(message_named(arguments.message), arguments.fields).encode()
     if arguments.raw:
         sys.stdout.buffer.write(frame)
     else:
@@ -37,7 +37,7 @@ def run(arguments: Namespace) -> int:
     return 0
 
 
-def _kind(name: str) -> type[Message]:
+def message_named(name: str) -> type[Message]:
     """The message of that name, however its words are joined."""
     for kind in MESSAGES:
         if _folded(kind.__name__) == _folded(name):

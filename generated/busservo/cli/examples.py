@@ -10,6 +10,9 @@ SUMMARY = "Encode and decode the frames of: Hiwonder bus servo controller."
 VERBS = {
     "decode": "Tell what bytes mean: messages, noise, and why noise is noise.",
     "encode": "Make the frame of a message.",
+    "ports": "List the serial ports that are plugged in.",
+    "send": "Send a message to a port, and print the reply.",
+    "simulate": "Run a virtual board to talk to.",
 }
 
 EXAMPLES = {
@@ -33,5 +36,28 @@ EXAMPLES = {
             "busservo encode ServoUnload servo_ids=1,2,3",
             "Switch off the force of one or more servos, so that they can be turned by hand.",
         ),
+    ),
+    "ports": (
+        ("busservo ports", "the name, VID:PID and description of each"),
+        ("busservo ports --json", "a line of JSON for each"),
+    ),
+    "send": (
+        (
+            "busservo send --port COM7 ServoMove time_ms=1000 targets=1:800",
+            "Turn one or more servos to positions, all of them arriving after the same time.",
+        ),
+        (
+            "busservo send --port COM7 ActionGroupRun group=8 times=1",
+            "Run an action group stored on the controller, a number of times or for ever.",
+        ),
+        ("busservo send --port COM7 ActionGroupStop", "Stop the action group that is running."),
+        (
+            "busservo send --port COM7 ActionGroupSpeed group=8 percent=50",
+            "Set the speed of one action group, or of all, in percent of its recorded speed.",
+        ),
+    ),
+    "simulate": (
+        ("busservo simulate", "a board behind a port, whose name is printed first"),
+        ("busservo simulate --help", "what else it can do"),
     ),
 }

@@ -576,6 +576,33 @@ class LibraryView:
         return _pairs(shapes.values())
 
     @property
+    def line_examples(self) -> dict[str, list[str]]:
+        """Command lines for the help of the verbs that have to do with a port."""
+        program = self.package
+        sent = [
+            (f"{program} send --port COM7 {' '.join([message.name, *words])}", summary)
+            for message in self.messages
+            if message.example is not None and message.layout.direction == self.layout.directions[0]
+            for words in [message.command_words(message.example.values)]
+            for summary in [message.layout.message.summary]
+        ]
+        return {
+            "ports": _pairs(
+                [
+                    (f"{program} ports", "the name, VID:PID and description of each"),
+                    (f"{program} ports --json", "a line of JSON for each"),
+                ]
+            ),
+            "send": _pairs(sent[:4]),
+            "simulate": _pairs(
+                [
+                    (f"{program} simulate", "a board behind a port, whose name is printed first"),
+                    (f"{program} simulate --help", "what else it can do"),
+                ]
+            ),
+        }
+
+    @property
     def link(self) -> Link:
         return self.layout.spec.link
 

@@ -22,7 +22,7 @@ INTERRUPTED, READER_GONE = 130, 141
 
 
 def main(argv: Sequence[str] | None = None) -> int:
-    """Runs the command line. 0: done; 1: noise, with --strict; 2: unusable input or usage."""
+    """Runs the command line. 0: done; 1: noise (--strict), or no reply; 2: unusable."""
     words = sys.argv[1:] if argv is None else list(argv)
     try:
         code = _run_verb(words[0], words[1:]) if words and words[0] in VERBS else _run_none(words)
@@ -43,7 +43,10 @@ def main(argv: Sequence[str] | None = None) -> int:
 
 
 def _run_verb(name: str, words: Sequence[str]) -> int:
-    verb = import_module(f"{__name__}.{name}")
+    verb = import_module(f"{__name__}.{name.replace('-', '_')}")
+    if hasattr(verb, "hand_over"):
+        handed: int = verb.hand_over(words)
+        return handed
     parser = _Parser(
         prog=f"{PROGRAM} {name}",
         description=VERBS[name],
@@ -78,7 +81,7 @@ def _run_none(words: Sequence[str]) -> int:
     if known.verb is None:
         parser.print_help(sys.stderr)
         return UNUSABLE
-    raise UnusableError(f"there is no verb {known.verb!r}; there are {' and '.join(VERBS)}")
+    raise UnusableError(f"there is no verb {known.verb!r}; there are {', '.join(VERBS)}")
 
 
 def _listed(title: str, entries: Iterable[tuple[str, str]]) -> str:
