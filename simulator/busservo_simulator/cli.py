@@ -120,9 +120,11 @@ def _run(arguments: argparse.Namespace) -> int:
         print(f"{PROGRAM}: the network reaches it at {arguments.host}", file=sys.stderr)
     with _ended_by_signals() as ended, _board(arguments) as board:
         journal = board.board.journal
-        print(board.port, flush=True)
+        named = threading.Event()
         if not arguments.quiet:
-            journal.listener = _printer(ended)
+            journal.listener = _printer(named, ended)
+        print(board.port, flush=True)
+        named.set()
         # In slices: on Windows a wait without end cannot be interrupted.
         while not ended.wait(0.5):
             pass
@@ -131,8 +133,11 @@ def _run(arguments: argparse.Namespace) -> int:
     return 0
 
 
-def _printer(ended: threading.Event) -> Callable[[str], None]:
+def _printer(named: threading.Event, ended: threading.Event) -> Callable[[str], None]:
+    """Prints lines as they come, but none in front of the name of the port, and loses none."""
+
     def show(line: str) -> None:
+        named.wait()
         try:
             print(line, flush=True)
         except OSError:  # whoever read along has gone
