@@ -93,7 +93,7 @@ class Monitor:
         }
         named = arguments.direction
         self._decoder = StreamDecoder(_SENDERS.get(named) if named else RECEIVED)
-        self._since = clock()
+        self._since = self._last = clock()
 
     def watch(self, transport: Transport) -> None:
         """Reads and shows, until so many lines were shown; the totals come in any case."""
@@ -126,9 +126,8 @@ class Monitor:
                 continue
             if self._left is not None:
                 self._left -= 1
-            at = now if self._form == "absolute" else now - self._since
-            if self._form == "delta":
-                self._since = now
+            since = {"absolute": 0.0, "delta": self._last, "zero": self._since}[self._form]
+            at, self._last = now - since, now
             if self._json:
                 record: dict[str, Any] = {"time": round(at, 6), "from": who, "hex": spaced(data)}
                 record |= {"reason": what} if isinstance(event, Noise) else {"message": what}
