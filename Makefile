@@ -22,6 +22,7 @@ all: $(READY)  ## Check the spec, generate everything, decode a recorded noisy l
 	$(IN)/framegen check
 	$(IN)/framegen generate
 	$(IN)/busservo decode --direction any tests/captures/noisy_line.bin
+	$(IN)/python examples/virtual_arm.py
 
 test: $(READY)  ## Run every test, and report the coverage of lines and branches
 	$(IN)/coverage erase

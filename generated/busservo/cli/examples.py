@@ -10,6 +10,7 @@ SUMMARY = "Encode and decode the frames of: Hiwonder bus servo controller."
 VERBS = {
     "decode": "Tell what bytes mean: messages, noise, and why noise is noise.",
     "encode": "Make the frame of a message.",
+    "monitor": "Show what a line carries, as it comes.",
     "ports": "List the serial ports that are plugged in.",
     "send": "Send a message to a port, and print the reply.",
     "simulate": "Run a virtual board to talk to.",
@@ -36,6 +37,12 @@ EXAMPLES = {
             "busservo encode ServoUnload servo_ids=1,2,3",
             "Switch off the force of one or more servos, so that they can be turned by hand.",
         ),
+    ),
+    "monitor": (
+        ("busservo monitor --port COM7", "every frame and all noise"),
+        ("busservo monitor --port COM7 -t delta -n 5", "five, and their distances"),
+        ("busservo monitor --port COM7 --only noise", "what is no frame"),
+        ("busservo monitor --port COM7 --log line.hex", "kept for `decode`"),
     ),
     "ports": (
         ("busservo ports", "the name, VID:PID and description of each"),

@@ -587,6 +587,14 @@ class LibraryView:
             for summary in [message.layout.message.summary]
         ]
         return {
+            "monitor": _pairs(
+                [
+                    (f"{program} monitor --port COM7", "every frame and all noise"),
+                    (f"{program} monitor --port COM7 -t delta -n 5", "five, and their distances"),
+                    (f"{program} monitor --port COM7 --only noise", "what is no frame"),
+                    (f"{program} monitor --port COM7 --log line.hex", "kept for `decode`"),
+                ]
+            ),
             "ports": _pairs(
                 [
                     (f"{program} ports", "the name, VID:PID and description of each"),
