@@ -118,7 +118,8 @@ def library(files: dict[str, str], folder: Path) -> Iterator[ModuleType]:
         (folder / path).parent.mkdir(parents=True, exist_ok=True)
         (folder / path).write_text(text, encoding="utf-8", newline="")
     name = next(path for path in files if path.startswith("generated/")).split("/")[1]
-    assert name not in sys.modules
+    # Another test may have imported a library of the same name.
+    before = {key: sys.modules.pop(key) for key in [*sys.modules] if key.split(".")[0] == name}
     sys.path.insert(0, str(folder / "generated"))
     importlib.invalidate_caches()
     try:
@@ -127,3 +128,4 @@ def library(files: dict[str, str], folder: Path) -> Iterator[ModuleType]:
         sys.path.remove(str(folder / "generated"))
         for module in [module for module in sys.modules if module.split(".")[0] == name]:
             del sys.modules[module]
+        sys.modules.update(before)

@@ -4,12 +4,15 @@ from __future__ import annotations
 
 import logging
 import math
+import os
 import subprocess
 import sys
 import threading
 from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
 from typing import TYPE_CHECKING
 
+import busservo
 import pytest
 from busservo import (
     ActionGroupCompleted,
@@ -358,7 +361,11 @@ def test_the_codec_pays_for_no_client() -> None:
     def loaded(code: str) -> str:
         shown = f"{code}; import sys; print(sorted({HEAVY} & set(sys.modules)))"
         done = subprocess.run(
-            [sys.executable, "-S", "-c", shown], capture_output=True, text=True, check=True
+            [sys.executable, "-S", "-c", shown],
+            env={**os.environ, "PYTHONPATH": str(Path(busservo.__file__).parent.parent)},
+            capture_output=True,
+            text=True,
+            check=True,
         )
         return done.stdout
 

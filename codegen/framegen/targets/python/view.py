@@ -453,6 +453,18 @@ class DirectionView:
 
 
 @dataclass(frozen=True, slots=True)
+class VerbView:
+    """A verb of the command, and the lines of its examples."""
+
+    verb: str
+    examples: list[str]
+
+    @property
+    def name(self) -> str:
+        return literal(self.verb)
+
+
+@dataclass(frozen=True, slots=True)
 class LibraryView:
     """The library as a whole."""
 
@@ -576,7 +588,12 @@ class LibraryView:
         return _pairs(shapes.values())
 
     @property
-    def line_examples(self) -> dict[str, list[str]]:
+    def line_verbs(self) -> list[VerbView]:
+        """The verbs that have to do with a port."""
+        return [VerbView(name, lines) for name, lines in self._line_examples.items()]
+
+    @property
+    def _line_examples(self) -> dict[str, list[str]]:
         """Command lines for the help of the verbs that have to do with a port."""
         program = self.package
         sent = [
