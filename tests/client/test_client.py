@@ -10,7 +10,6 @@ import sys
 import threading
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 import busservo
 import pytest
@@ -38,9 +37,6 @@ from busservo import (
 
 from tests.client.live_line import LiveLine, answered
 from tests.client.virtual_line import VirtualLine
-
-if TYPE_CHECKING:
-    from pathlib import Path
 
 HEAVY = {"typing", "logging", "threading", "serial", "asyncio"}
 
