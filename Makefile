@@ -29,8 +29,8 @@ test: $(READY)  ## Run every test, and report the coverage of lines and branches
 	$(IN)/coverage run -m pytest
 	$(IN)/coverage report
 
-quick: $(READY)  ## Run every test with fewer examples, and without coverage
-	HYPOTHESIS_PROFILE=quick $(IN)/python -m pytest -q
+quick: $(READY)  ## Run every test with fewer examples, without coverage and without a browser
+	HYPOTHESIS_PROFILE=quick $(IN)/python -m pytest -q --ignore=tests/docs/test_browser.py
 
 lint: $(READY)  ## Lint, look at the format, check types, and that the output is up to date
 	$(IN)/ruff check
