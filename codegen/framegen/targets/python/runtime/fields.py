@@ -48,8 +48,10 @@ class Number:
 
     def checked(self, value: Any, path: str) -> int:
         """`value` as an int. Raises EncodeError where it is none, or outside the range."""
-        if isinstance(value, bool):
-            raise EncodeError(path, value, f"{value} is a truth value, not a whole number")
+        # NumPy's truth values are numbers to its older versions, so their type has to be asked.
+        if isinstance(value, bool) or str(getattr(value, "dtype", "")) == "bool":
+            problem = f"{shown(value)} is a truth value, not a whole number"
+            raise EncodeError(path, value, problem)
         try:
             number = index(value)
         except TypeError:
