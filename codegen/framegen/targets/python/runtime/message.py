@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from .octets import octets
 from .table import Table
 
 TYPE_CHECKING = False  # typing alone would double the time that the import takes
@@ -44,7 +43,7 @@ class Message:
     @classmethod
     def decode(cls, frame: bytes | bytearray | memoryview) -> Self:
         """Reads one frame of this message, whole and with nothing after it. Raises DecodeError."""
-        message: Self = cls._table.read(octets(frame))
+        message: Self = cls._table.read(frame)
         return message
 
     def __eq__(self, other: object) -> bool:
