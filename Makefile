@@ -69,7 +69,7 @@ mutants:  ## Change the code in many small ways, and list the changes that no te
 	mkdir -p mutants/src
 	cp -R generated/busservo codegen/framegen mutants/src
 	cp -R tests spec pyproject.toml mutants
-	cd mutants && PYTHONHASHSEED=0 ../$(MUTATION_VENV)/bin/mutmut run --max-children 1 $(if $(ONLY),'$(ONLY)')
+	cd mutants && PYTHONHASHSEED=0 PYTHONDONTWRITEBYTECODE= ../$(MUTATION_VENV)/bin/mutmut run --max-children 1 $(if $(ONLY),'$(ONLY)')
 	cd mutants && ../$(MUTATION_VENV)/bin/mutmut results | grep -v 'not checked' || true
 
 wheel: $(READY)  ## Build dist/*.whl and dist/*.tar.gz
