@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 from framegen.targets.python import _environment
-from framegen.targets.python.view import LibraryView
+from framegen.targets.python.library_view import LibraryView
 from jinja2 import StrictUndefined, UndefinedError, nodes
 
 from tests.specimens import BUSSERVO, DEMO, ROOT, data_of, files_of, layout_of

@@ -12,7 +12,7 @@ from framegen import __version__
 from framegen.targets.python.client_view import ClientView
 from framegen.targets.python.device_view import DeviceView
 from framegen.targets.python.escape import comment, docstring, literal
-from framegen.targets.python.view import LibraryView
+from framegen.targets.python.library_view import LibraryView
 
 if TYPE_CHECKING:
     from framegen.layout import Layout
