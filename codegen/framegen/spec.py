@@ -35,7 +35,10 @@ Natural: TypeAlias = Annotated[StrictInt, Key(ge=0)]
 class Part(BaseModel):
     """What all mappings of the language share: no key is ignored, and nothing changes once read."""
 
-    model_config = ConfigDict(extra="forbid", frozen=True, arbitrary_types_allowed=True)
+    # Built when a spec is read, all at once: a part is seldom read alone.
+    model_config = ConfigDict(
+        extra="forbid", frozen=True, arbitrary_types_allowed=True, defer_build=True
+    )
 
 
 class Protocol(Part):
