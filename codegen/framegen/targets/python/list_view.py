@@ -5,9 +5,10 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+from framegen.exchanges import snake_case
 from framegen.targets.python.escape import Bracketed, literal
 from framegen.targets.python.number_view import NumberView
-from framegen.targets.python.words import range_expression, snake_case, struct_order
+from framegen.targets.python.words import range_expression, struct_order
 
 if TYPE_CHECKING:
     from framegen.layout import Repeat

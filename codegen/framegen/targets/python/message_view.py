@@ -6,12 +6,13 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from framegen.codec import describe_range
+from framegen.exchanges import snake_case
 from framegen.layout import Repeat, WireField
 from framegen.names import PYTHON_BUILTINS, PYTHON_KEYWORDS
 from framegen.targets.python.escape import Bracketed, literal
 from framegen.targets.python.list_view import ListView
 from framegen.targets.python.number_view import NumberView
-from framegen.targets.python.words import direction_member, range_expression, snake_case
+from framegen.targets.python.words import direction_member, range_expression
 
 if TYPE_CHECKING:
     from typing import Any

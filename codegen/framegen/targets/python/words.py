@@ -1,8 +1,7 @@
-"""What has one spelling in Python wherever it is named: ranges, byte orders, directions, names."""
+"""What has one spelling in Python wherever it is named: ranges, byte orders, directions."""
 
 from __future__ import annotations
 
-import re
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
@@ -24,8 +23,3 @@ def struct_order(byte_order: str) -> str:
 def direction_member(direction: Direction) -> str:
     """The name of a direction in the enumeration: `HOST_TO_CONTROLLER`."""
     return direction.key.upper()
-
-
-def snake_case(name: str) -> str:
-    """`ServoMove` as `servo_move`."""
-    return re.sub(r"(?<=[a-z0-9])(?=[A-Z])|(?<=[A-Z])(?=[A-Z][a-z])", "_", name).lower()
