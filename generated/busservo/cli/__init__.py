@@ -123,7 +123,7 @@ def _listed(title: str, entries: Iterable[tuple[str, str]]) -> str:
     """A table of two columns; or, where that is too wide to be read, a line below the other."""
     rows = list(entries)
     width = max((len(left) for left, _ in rows), default=0)
-    lines = [f"  {left:<{width}}  {right}" for left, right in rows]
+    lines = [f"  {left:<{width}}  {right}" for left, right in rows] or ["  none"]
     if any(len(line) > _WIDTH for line in lines):
         lines = [line for left, right in rows for line in (f"  {left}", f"      {right}")]
     return "\n".join([f"{title}:", *lines])

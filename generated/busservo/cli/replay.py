@@ -74,7 +74,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(arguments: argparse.Namespace) -> int:
     """Sends what is to be sent; or only prints it."""
-    if arguments.port is None and not arguments.dry_run:
+    port = arguments.port or ""
+    if not port and not arguments.dry_run:
         raise UnusableError("replay needs --port PORT, or --dry-run to see what it would send")
     chosen = _chosen(arguments)
     times = _times(chosen, arguments.speed)
@@ -87,7 +88,7 @@ def run(arguments: argparse.Namespace) -> int:
         print(f"{told}: nothing was sent", file=sys.stderr)
         return DONE
     try:
-        with failures_told(), closing(open_line(arguments.port)) as line:
+        with failures_told(), closing(open_line(port)) as line:
             Playback(sys.stdout).play(line, chosen, times)
     except KeyboardInterrupt:
         return INTERRUPTED
