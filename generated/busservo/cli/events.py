@@ -23,6 +23,7 @@ if TYPE_CHECKING:
 SENDERS = {direction.sender: direction for direction in Direction}
 # Who sent what is no message, and what may be a message of either end.
 NOISE, UNKNOWN, EITHER = "noise", "unknown", "either"
+KINDS = [*SENDERS, EITHER, NOISE, UNKNOWN]
 
 
 def bytes_of(event: Message | Noise) -> bytes:

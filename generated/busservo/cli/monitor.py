@@ -12,7 +12,7 @@ from pathlib import Path
 from ..decoder import StreamDecoder
 from ..exchanges import RECEIVED
 from .encode import message_named
-from .events import EITHER, NOISE, SENDERS, UNKNOWN, counted, names_of, sender_of, totals
+from .events import EITHER, KINDS, NOISE, SENDERS, UNKNOWN, counted, names_of, sender_of, totals
 from .exits import DONE, INTERRUPTED, LINE_LOST
 from .lines import TIMES, Lines
 from .link import LOST, add_port, at_least, failures_told, open_line
@@ -36,8 +36,6 @@ One line for each frame and each piece of noise: the time, who sent it, its byte
 Ctrl-C ends it, and the totals follow on the error stream."""
 # How long a line is quiet before half a frame is given up.
 _QUIET = 0.25
-# What may be filtered besides messages.
-_KINDS = [*SENDERS, EITHER, NOISE, UNKNOWN]
 
 
 def add_arguments(parser: ArgumentParser) -> None:
@@ -63,7 +61,7 @@ def add_arguments(parser: ArgumentParser) -> None:
         action="append",
         default=[],
         metavar="NAME",
-        help=f"show nothing else: a message, {', '.join(_KINDS)}; may be given several times",
+        help=f"show nothing else: a message, {', '.join(KINDS)}; may be given several times",
     )
     parser.add_argument(
         "--hide",
@@ -180,9 +178,9 @@ class Monitor:
 
 
 def _filter(name: str) -> str:
-    if name in _KINDS:
+    if name in KINDS:
         return name
     try:
         return message_named(name).__name__
     except UnusableError as error:
-        raise UnusableError(f"{error}; besides messages, there are {', '.join(_KINDS)}") from None
+        raise UnusableError(f"{error}; besides messages, there are {', '.join(KINDS)}") from None

@@ -42,18 +42,22 @@ class Heard(NamedTuple):
     sender: str
 
 
-def read_recording(path: Path, form: str, direction: Direction | None) -> list[Heard]:
+def read_recording(
+    path: Path, form: str, direction: Direction | None, *, strict: bool
+) -> list[Heard]:
     """All of a file, or of standard input for `-`. Raises UnusableError for what is malformed.
 
-    `direction` is who sent the bytes, for a file that does not say so itself.
+    `direction` is who sent the bytes, for a file that does not say so itself. If `strict`, a line
+    must hold the frame of the sender that it names; or else its bytes are noise.
     """
     data = _bytes(path)
     name = "standard input" if str(path) == "-" else str(path)
+    lines = data.decode("utf-8", errors="replace").splitlines()
+    # A log is one by its comments, so that a slip in its hex is told as such.
+    if form != "raw" and any(_LINE.match(line) for line in lines):
+        return list(_logged(lines, name, strict=strict))
     if form == "raw" or (form == "auto" and not looks_like_hex(data)):
         return list(_streamed(data, name, direction))
-    lines = data.decode("utf-8", errors="replace").splitlines()
-    if any(_LINE.match(line) for line in lines):
-        return list(_logged(lines, name))
     try:
         octets = b"".join(parse_hex(line) for line in lines)
     except UnusableError as error:
@@ -81,7 +85,7 @@ def _streamed(data: bytes, name: str, direction: Direction | None) -> Iterator[H
         offset += len(bytes_of(event))
 
 
-def _logged(lines: list[str], name: str) -> Iterator[Heard]:
+def _logged(lines: list[str], name: str, *, strict: bool) -> Iterator[Heard]:
     """The events of a log, each at its line."""
     before = 0.0
     for number, line in enumerate(lines, start=1):
@@ -105,10 +109,10 @@ def _logged(lines: list[str], name: str) -> Iterator[Heard]:
             data = parse_hex(found["hex"])
         except UnusableError as error:
             raise UnusableError(f"{place}: {error}") from None
-        yield Heard(place, at, *_told(data, found["who"], place))
+        yield Heard(place, at, *_told(data, found["who"], place, strict=strict))
 
 
-def _told(data: bytes, who: str, place: str) -> tuple[Message | Noise, str]:
+def _told(data: bytes, who: str, place: str, *, strict: bool) -> tuple[Message | Noise, str]:
     """What a line of a log says, and by whom. Raises UnusableError where its bytes disagree."""
     whose, _, noise = who.rpartition(" ")
     if noise == NOISE and whose in ("", EITHER, *SENDERS):
@@ -120,6 +124,8 @@ def _told(data: bytes, who: str, place: str) -> tuple[Message | Noise, str]:
     try:
         return decode(data, SENDERS.get(who)), who
     except DecodeError as error:
+        if not strict:
+            return Noise(data, error.reason), who
         raise UnusableError(f"{place}: it is no frame of {who}: {error}") from None
 
 

@@ -98,7 +98,7 @@ def run(arguments: argparse.Namespace) -> int:
 def _chosen(arguments: argparse.Namespace) -> list[Heard]:
     """What is to be sent of a recording. Raises UnusableError for what must not be."""
     direction = SENDERS.get(arguments.direction)
-    recorded = read_recording(arguments.file, arguments.format, direction)
+    recorded = read_recording(arguments.file, arguments.format, direction, strict=not arguments.raw)
     chosen = [heard for heard in recorded if arguments.raw or _is_sent(heard, arguments)]
     kept = {id(heard) for heard in chosen}
     left = [heard for heard in recorded if id(heard) not in kept]

@@ -6,7 +6,9 @@ from argparse import ArgumentParser
 from importlib import import_module
 
 from .. import __version__
+from ..exchanges import EXCHANGES
 from ..messages import MESSAGES
+from .events import KINDS
 from .examples import PROGRAM, SUMMARY, VERBS
 from .unusable import UnusableError
 
@@ -47,7 +49,11 @@ class _Parser(ArgumentParser):
         """As ever."""
         metavar = about.get("metavar")
         if metavar == "MESSAGE":
-            about["choices"] = [kind.__name__ for kind in MESSAGES]
+            # Anything can be encoded; what has to do with a port is for what is sent from here.
+            kinds = MESSAGES if self.prog.endswith(" encode") else tuple(EXCHANGES)
+            about["choices"] = [kind.__name__ for kind in kinds]
+        elif metavar == "NAME":
+            about["choices"] = [*KINDS, *(kind.__name__ for kind in MESSAGES)]
         action = super().add_argument(*names, **about)
         if metavar in _FILES:
             # A port is a file where it has no other name: /dev/ttyUSB0.
