@@ -122,7 +122,10 @@ def test_it_keeps_the_recorded_pace_or_the_line_s(
     assert main(["replay", str(log), "--dry-run", *speed]) == 0
     output, errors = capsys.readouterr()
     assert [line.split()[0] for line in output.splitlines()] == times
-    assert errors == f"3 frames, 20 bytes in {float(times[-1]):.3f} s: nothing was sent\n"
+    assert (
+        errors
+        == f"3 frames, 20 bytes in {float(times[-1]) + 6 * 10 / 9600:.3f} s: nothing was sent\n"
+    )
 
 
 def test_the_pace_is_kept_on_a_port(log: Path, capsys: pytest.CaptureFixture[str]) -> None:

@@ -81,8 +81,9 @@ def run(arguments: argparse.Namespace) -> int:
         lines = Lines(sys.stdout)
         for heard, at in zip(chosen, times, strict=True):
             lines.show(heard.event, SENDERS.get(heard.sender), at)
-        size = sum(len(bytes_of(heard.event)) for heard in chosen)
-        told = f"{counted(len(chosen), 'frame')}, {counted(size, 'byte')} in {times[-1]:.3f} s"
+        sizes = [len(bytes_of(heard.event)) for heard in chosen]
+        taken = times[-1] + Wire(BAUD).seconds(sizes[-1])
+        told = f"{counted(len(chosen), 'frame')}, {counted(sum(sizes), 'byte')} in {taken:.3f} s"
         print(f"{told}: nothing was sent", file=sys.stderr)
         return DONE
     try:
