@@ -22,11 +22,15 @@ ENVIRONMENT = {
     "PYTHONPATH": os.pathsep.join(filter(None, sys.path)),
     "TERM": "xterm",
 }
-# The terminal becomes the one that sends SIGINT for Ctrl-C: what a shell does for its programs.
-_PROGRAM = (
-    "import fcntl, sys, termios; fcntl.ioctl(0, termios.TIOCSCTTY, 0); "
-    "from busservo.cli import main; sys.exit(main())"
-)
+# What a shell does for its programs: the terminal becomes the one that sends SIGINT for Ctrl-C, and
+# SIGINT does something, even where the tests themselves run in the background and ignore it.
+_PROGRAM = """
+import fcntl, signal, sys, termios
+fcntl.ioctl(0, termios.TIOCSCTTY, 0)
+signal.signal(signal.SIGINT, signal.default_int_handler)
+from busservo.cli import main
+sys.exit(main())
+"""
 _ENOUGH = 20.0
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import subprocess
 import sys
 import time
@@ -11,8 +12,8 @@ import pytest
 from busservo import BatteryVoltage
 from busservo_simulator import VirtualController
 
-if sys.platform == "win32":
-    pytest.skip("no pty and no SIGINT there", allow_module_level=True)
+if sys.platform != "linux":
+    pytest.skip("terminals differ by system, and only Linux's are tried", allow_module_level=True)
 
 from tests.cli.terminal import OnTerminal, run, start
 
@@ -45,6 +46,17 @@ def test_ctrl_c_ends_a_monitor_with_its_totals(board: VirtualController) -> None
         assert rest == [""]
     # The port has been given back: the next one has it, exclusively.
     assert run("send", "--port", board.port, "BatteryVoltageRead").returncode == 0
+
+
+def test_sigterm_ends_a_monitor_as_cleanly(board: VirtualController) -> None:
+    monitor = start("monitor", "--port", board.port)
+    assert monitor.stdout is not None
+    board.babble(BatteryVoltage(7500).encode())
+    monitor.stdout.readline()
+    monitor.terminate()
+    _, told = monitor.communicate(timeout=20)
+    assert monitor.returncode == 143
+    assert re.fullmatch("[0-9]+ bytes: [0-9]+ messages?, [0-9]+ bytes? of noise\n", told)
 
 
 @pytest.mark.parametrize("variable", [{"NO_COLOR": "1"}, {"TERM": "dumb"}])

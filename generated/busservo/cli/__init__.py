@@ -72,7 +72,7 @@ def _module(name: str) -> Any:
 
 
 def _parser(name: str, verb: Any) -> _Parser:
-    ends: dict[int, str] = MEANINGS | verb.ENDS
+    ends: dict[int, str] = MEANINGS | getattr(verb, "ENDS", {})
     statuses = [(str(code), told) for code, told in sorted(ends.items())]
     about = [VERBS[name], *([verb.ABOUT] if hasattr(verb, "ABOUT") else [])]
     parser = _Parser(

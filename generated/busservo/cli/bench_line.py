@@ -14,10 +14,11 @@ from ..link_errors import NoReplyError
 from ..outcome import lacking
 from ..protocol import BAUD
 from ..wire import Wire
-from .exits import DONE, INTERRUPTED, LINE_LOST, NOT_ALL
-from .link import LOST, add_port, add_timeout, at_least, failures_told, open_client
+from . import link
+from .exits import DONE, INTERRUPTED, NOT_ALL
+from .link import add_port, add_timeout, at_least, failures_told, open_client
 from .questions import exchange_named
-from .unusable import LineLostError, UnusableError
+from .unusable import UnusableError
 from .values import fields_as_text, message_from_text
 from .waiting import shown_waiting
 
@@ -29,7 +30,7 @@ if TYPE_CHECKING:
     from ..client import Client
     from ..message import Message
 
-ENDS = {NOT_ALL: "not every question was answered, or not in full", LINE_LOST: LOST}
+ENDS = link.ENDS | {NOT_ALL: "not every question was answered, or not in full"}
 ABOUT = """\
 Asks the same question again and again, one at a time, and compares the round trips with what the
 bytes of question and answer take on the wire. Questions move nothing."""
@@ -53,23 +54,17 @@ def add_arguments(parser: ArgumentParser) -> None:
 
 def run(arguments: Namespace) -> int:
     """Asks, and prints what came of it, also when it ended early."""
-    trips = Trips(_question(arguments))
+    trips = Trips(_question(arguments), arguments.port)
     try:
         with failures_told(), open_client(arguments) as client:
-            trips.make(client, arguments.n)
+            try:
+                trips.make(client, arguments.n)
+            finally:
+                found = json.dumps(trips.as_record()) if arguments.json else trips.as_text()
+                print(found, flush=True)
     except KeyboardInterrupt:
-        _print(trips, arguments)
         return INTERRUPTED
-    except LineLostError:
-        _print(trips, arguments)
-        raise
-    _print(trips, arguments)
     return NOT_ALL if trips.errors else DONE
-
-
-def _print(trips: Trips, arguments: Namespace) -> None:
-    record = trips.as_record()
-    print(json.dumps(record) if arguments.json else trips.as_text(arguments.port), flush=True)
 
 
 def _usual() -> type[Message] | None:
@@ -98,10 +93,11 @@ def _question(arguments: Namespace) -> Message:
 
 
 class Trips:
-    """Round trips of one question, as many as were made."""
+    """Round trips of one question on a port, as many as were made."""
 
-    def __init__(self, question: Message) -> None:
+    def __init__(self, question: Message, port: str) -> None:
         self._question = question
+        self._port = port
         self._wire = Wire(BAUD)
         # Of each that was answered: the seconds it took, and the size of question and answer.
         self._taken: list[float] = []
@@ -156,11 +152,11 @@ class Trips:
             "share": round(sum(needed) / self._whole, 4) if self._whole else None,
         }
 
-    def as_text(self, port: str) -> str:
+    def as_text(self) -> str:
         """The result, for people."""
         found = self.as_record()
         name = " ".join(filter(None, [found["question"], fields_as_text(self._question)]))
-        lines = [f"{name} on {port}: {self._asked} asked, {len(self._taken)} answered"]
+        lines = [f"{name} on {self._port}: {self._asked} asked, {len(self._taken)} answered"]
         if self._taken:
             there, size = len(self._question.encode()), round(median(self._sizes))
             times = [f"{found[each] * 1000:.2f} ms" for each in ("wire", "min", "median", "max")]

@@ -5,10 +5,13 @@
 from __future__ import annotations
 
 import argparse
+import signal
+import sys
 from contextlib import contextmanager
 
 from ..client import MARGIN, Client
 from ..link_errors import ClosedError, DisconnectedError, TransportError, WriteStuckError
+from .exits import LINE_LOST, TERMINATED
 from .unusable import LineLostError, UnusableError
 from .waiting import shown_waiting
 
@@ -18,7 +21,10 @@ if TYPE_CHECKING:
 
     from ..transport import Transport
 
-LOST = "the line was lost: a cable pulled, a device gone, the other end hung up"
+ENDS = {
+    LINE_LOST: "the line was lost: a cable pulled, a device gone, the other end hung up",
+    TERMINATED: "ended by SIGTERM, as `timeout 10 ...` does",
+}
 # The longest wait that can be asked for, so that none is without end.
 _LONGEST = 3600.0
 
@@ -86,12 +92,29 @@ def open_client(arguments: argparse.Namespace, *, retries: int = 0) -> Client:
 
 @contextmanager
 def failures_told() -> Iterator[None]:
-    """Turns what goes wrong with a port into one line that says what to do."""
+    """Turns what goes wrong with a port into one line that says what to do.
+
+    SIGTERM ends it as Ctrl-C does: totals are printed, and ports and the terminal given back.
+    """
     try:
-        yield
+        with _ended_by_sigterm():
+            yield
     except (ClosedError, DisconnectedError, WriteStuckError) as error:
         # The library would say `reconnect()`, which is nothing that can be typed here.
         advice = "see to the cable and the power, then run this again"
         raise LineLostError(f"{error.port}: {error.happened}; {advice}") from None
     except TransportError as error:
         raise UnusableError(str(error)) from None
+
+
+@contextmanager
+def _ended_by_sigterm() -> Iterator[None]:
+    try:
+        before = signal.signal(signal.SIGTERM, lambda *_: sys.exit(TERMINATED))
+    except ValueError:  # signals are for the main thread, which this is not
+        yield
+        return
+    try:
+        yield
+    finally:
+        signal.signal(signal.SIGTERM, before)

@@ -13,9 +13,6 @@ TYPE_CHECKING = False
 if TYPE_CHECKING:
     from argparse import ArgumentParser, Namespace
 
-# It ends in no way of its own.
-ENDS: dict[int, str] = {}
-
 
 def add_arguments(parser: ArgumentParser) -> None:
     """Declares the arguments of the verb."""

@@ -10,9 +10,10 @@ from ..errors import EncodeError
 from ..exchanges import EXCHANGES, RECEIVED
 from ..link_errors import NoReplyError
 from ..outcome import lacking
+from . import link
 from .decode import event_as_json, event_as_text
-from .exits import DONE, LINE_LOST, NOT_ALL
-from .link import LOST, add_port, add_timeout, at_least, failures_told, open_client
+from .exits import DONE, NOT_ALL
+from .link import add_port, add_timeout, at_least, failures_told, open_client
 from .questions import in_parts
 from .unusable import UnusableError
 from .waiting import shown_waiting
@@ -24,7 +25,7 @@ if TYPE_CHECKING:
     from ..client import Client
     from ..message import Message
 
-ENDS = {NOT_ALL: "no reply came in time, or it told less than was asked", LINE_LOST: LOST}
+ENDS = link.ENDS | {NOT_ALL: "no reply came in time, or it told less than was asked"}
 
 
 def add_arguments(parser: ArgumentParser) -> None:

@@ -15,9 +15,6 @@ if TYPE_CHECKING:
 
     from ..message import Message
 
-# It ends in no way of its own.
-ENDS: dict[int, str] = {}
-
 
 def add_arguments(parser: ArgumentParser) -> None:
     """Declares the arguments of the verb."""

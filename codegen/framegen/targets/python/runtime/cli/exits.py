@@ -7,9 +7,10 @@ DONE = 0
 NOT_ALL = 1
 UNUSABLE = 2
 LINE_LOST = 3
-# What a shell reports for a program that SIGINT or SIGPIPE ended.
+# What a shell reports for a program that SIGINT, SIGPIPE or SIGTERM ended.
 INTERRUPTED = 130
 READER_GONE = 141
+TERMINATED = 143
 
 MEANINGS = {
     DONE: "done",

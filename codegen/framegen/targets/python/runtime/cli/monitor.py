@@ -9,11 +9,12 @@ from pathlib import Path
 
 from ..decoder import StreamDecoder
 from ..exchanges import RECEIVED
+from . import link
 from .encode import message_named
 from .events import EITHER, KINDS, NOISE, SENDERS, UNKNOWN, counted, names_of, sender_of, totals
-from .exits import DONE, INTERRUPTED, LINE_LOST
+from .exits import DONE, INTERRUPTED
 from .lines import TIMES, Lines
-from .link import LOST, add_port, at_least, failures_told, open_line
+from .link import add_port, at_least, failures_told, open_line
 from .recorder import Recorder
 from .unusable import UnusableError
 from .waiting import PATIENCE, Waiting
@@ -28,7 +29,7 @@ if TYPE_CHECKING:
     from ..noise import Noise
     from ..transport import Transport
 
-ENDS = {LINE_LOST: LOST}
+ENDS = link.ENDS
 ABOUT = """\
 One line for each frame and each piece of noise: the time, who sent it, its bytes, what they mean.
 Ctrl-C ends it, and the totals follow on the error stream."""

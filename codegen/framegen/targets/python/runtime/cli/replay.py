@@ -11,10 +11,11 @@ from ..exchanges import EXCHANGES
 from ..noise import Noise
 from ..protocol import BAUD
 from ..wire import Wire
+from . import link
 from .events import EITHER, NOISE, SENDERS, bytes_of, counted, in_words
-from .exits import DONE, INTERRUPTED, LINE_LOST
+from .exits import DONE, INTERRUPTED
 from .lines import Lines
-from .link import LOST, add_port, failures_told, open_line
+from .link import add_port, failures_told, open_line
 from .playback import Playback
 from .recording import read_recording
 from .unusable import UnusableError
@@ -23,7 +24,7 @@ TYPE_CHECKING = False
 if TYPE_CHECKING:
     from .recording import Heard
 
-ENDS = {LINE_LOST: LOST}
+ENDS = link.ENDS
 ABOUT = """\
 FILE is what `monitor --log` or the `trace` of a client wrote, or hex, or raw bytes. Of these, the
 frames of this end are sent, each at the time at which it was recorded, and no faster than the line
