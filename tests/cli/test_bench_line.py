@@ -9,7 +9,7 @@ import pytest
 from busservo import BatteryVoltage, Message, ServoPositions
 from busservo.cli import bench_line, main
 from busservo.client import Client
-from busservo_simulator import VirtualController
+from busservo_simulator import Faults, VirtualController
 
 from tests.client.virtual_line import VirtualLine
 
@@ -68,6 +68,14 @@ def test_errors_are_counted_by_kind(
     lines = capsys.readouterr().out.splitlines()
     assert lines[0].endswith(" on COM7: 5 asked, 3 answered")
     assert lines[-1] == "  errors          2 no reply, 1 incomplete reply"
+
+
+def test_a_line_that_is_lost_ends_it(capsys: pytest.CaptureFixture[str]) -> None:
+    with VirtualController("tcp", faults=Faults(hang_up=1.0)) as board:
+        assert main(["bench-line", "--port", board.port]) == 3
+    output, errors = capsys.readouterr()
+    assert output.splitlines()[0].endswith(": 0 asked, 0 answered")
+    assert "the line was lost" in errors
 
 
 def test_silence_alone_gives_no_times(capsys: pytest.CaptureFixture[str]) -> None:

@@ -15,7 +15,8 @@ from busservo.cli import main, send
 from busservo.cli.examples import EXAMPLES, VERBS
 from busservo.cli.questions import in_parts
 from busservo.client import Client
-from busservo_simulator import VirtualController
+from busservo_simulator import Faults, VirtualController
+from serial.tools.list_ports_common import ListPortInfo
 
 from tests.client.virtual_line import VirtualLine
 from tests.documents import ROOT
@@ -147,6 +148,36 @@ def test_ports_lists_or_says_that_there_are_none(capsys: pytest.CaptureFixture[s
     assert main(["ports"]) == 0
     output, errors = capsys.readouterr()
     assert output or errors == "no serial port is plugged in\n"
+
+
+def test_ports_are_told_with_what_usb_knows_of_them(
+    capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    board = ListPortInfo("/dev/ttyUSB0")
+    board.vid, board.pid, board.description = 0x1A86, 0x7523, "USB Serial"
+    found = [board, ListPortInfo("/dev/ttyS0")]
+    monkeypatch.setattr("serial.tools.list_ports.comports", lambda: found)
+    assert main(["ports"]) == 0
+    assert capsys.readouterr().out.splitlines() == [
+        "/dev/ttyS0        -",
+        "/dev/ttyUSB0      1A86:7523  USB Serial",
+    ]
+    assert main(["ports", "--json"]) == 0
+    assert json.loads(capsys.readouterr().out.splitlines()[1]) == {
+        "port": "/dev/ttyUSB0",
+        "usb": "1A86:7523",
+        "description": "USB Serial",
+    }
+
+
+def test_a_line_that_is_lost_in_the_middle_of_a_reply_has_a_status_of_its_own(
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    with VirtualController("tcp", faults=Faults(hang_up=1.0)) as board:
+        assert main(["send", "--port", board.port, "BatteryVoltageRead"]) == 3
+        told = capsys.readouterr().err
+        assert told.startswith(f"busservo: error: {board.port}: the line was lost")
+        assert told.endswith("; see to the cable and the power, then run this again\n")
 
 
 def test_simulate_hands_over(capsys: pytest.CaptureFixture[str]) -> None:

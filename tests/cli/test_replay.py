@@ -20,7 +20,7 @@ from busservo import (
     open_controller,
 )
 from busservo.cli import main
-from busservo_simulator import VirtualController
+from busservo_simulator import Faults, VirtualController
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -81,6 +81,32 @@ def test_a_log_of_a_monitor_is_played(log: Path) -> None:
         f"{hexed(ASK)}  # 0.7 s, host: BatteryVoltageRead()\n"
     )
     assert replayed(log) == (0, [MOVE, ASK])
+
+
+def test_a_line_that_is_lost_ends_it_and_says_how_far_it_got(
+    log: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    log.write_text(f"{hexed(ASK)}  # 0 s, host: a\n{hexed(ASK)}  # 9 s, host: b\n")
+    with VirtualController("tcp", faults=Faults(hang_up=1.0)) as board:
+        assert main(["replay", str(log), "--port", board.port]) == 3
+    totals, error = capsys.readouterr().err.splitlines()
+    assert totals.startswith("1 of 2 frames sent, 4 bytes; came back: ")
+    assert "the line was lost" in error
+
+
+def test_half_a_frame_that_comes_back_is_given_up_when_the_line_is_quiet(
+    log: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    log.write_text(f"{hexed(MOVE)}  # 0 s, host: a\n{hexed(ASK)}  # 0.6 s, host: b\n")
+    with VirtualController("tcp") as board:
+
+        def begin(_: ServoMove) -> None:
+            board.send_bytes(bytes.fromhex("55 55 04"))
+
+        with mock.patch.object(board.board, "on_servo_move", begin):
+            assert main(["replay", str(log), "--port", board.port]) == 0
+    said = [line[14:].partition(" ")[0] for line in capsys.readouterr().out.splitlines()]
+    assert said == ["host", "noise", "host", "controller"]
 
 
 @pytest.mark.parametrize("raw", [True, False])

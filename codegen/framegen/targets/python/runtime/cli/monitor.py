@@ -77,7 +77,9 @@ def add_arguments(parser: ArgumentParser) -> None:
     )
     parser.add_argument("-n", type=at_least(1), metavar="N", help="end after so many lines")
     parser.add_argument(
-        "--json", action="store_true", help="print lines of JSON, times in seconds (of the epoch)"
+        "--json",
+        action="store_true",
+        help="print lines of JSON; absolute times are seconds since 1970",
     )
 
 
