@@ -70,7 +70,7 @@ def test_what_one_reply_has_no_room_for_is_asked_in_parts_as_the_controller_does
     told = [json.loads(line)["fields"]["positions"] for line in output.splitlines()]
     assert [len(each) for each in told] == [84, 84, 32]
     assert [each["servo_id"] for part in told for each in part] == [*servos]
-    assert errors == "asked in 3 requests: one reply has no room\n"
+    assert errors == "asked in 3 requests: one reply has no room for so much\n"
 
 
 def test_silence_after_a_part_keeps_what_had_come(
@@ -84,7 +84,7 @@ def test_silence_after_a_part_keeps_what_had_come(
     output, errors = capsys.readouterr()
     assert output.count("ServoPositions positions=1:500 |") == 1
     first, incomplete, silent = errors.splitlines()
-    assert first == "asked in 2 requests: one reply has no room"
+    assert first == "asked in 2 requests: one reply has no room for so much"
     assert incomplete.startswith("the reply is incomplete: nothing of servo_ids 2, 3, 4, ")
     assert "no ServoPositions came within" in silent
 

@@ -316,7 +316,7 @@ def test_a_wait_is_no_wider_than_its_terminal(monkeypatch: pytest.MonkeyPatch) -
         ),
         (["-t", "sidereal"], "argument -t: invalid choice: 'sidereal'"),
         (["--direction", "both"], "argument --direction: invalid choice: 'both'"),
-        (["--log", "no/such/folder"], "no/such/folder cannot be written: No such file"),
+        (["--log", "no/such/folder"], "folder cannot be written: No such file"),
     ],
 )
 def test_what_makes_no_sense_is_refused(

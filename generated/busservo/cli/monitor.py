@@ -34,7 +34,8 @@ if TYPE_CHECKING:
 ENDS = link.ENDS
 ABOUT = """\
 One line for each frame and each piece of noise: the time, who sent it, its bytes, what they mean.
-Ctrl-C ends it, and the totals follow on the error stream."""
+Ctrl-C ends it, and the totals follow on the error stream. Colours are for terminals alone, and for
+nobody who has set NO_COLOR."""
 # How long a line is quiet before half a frame is given up.
 _QUIET = 0.25
 

@@ -68,7 +68,7 @@ class Recorder:
         self, events: Iterable[Message | Noise], direction: Direction | None, now: float
     ) -> None:
         """Writes what was heard in a direction, or in either for None."""
-        for event in events:
+        for event in events if self._file is not None else ():
             who, what = sender_of(event, direction), " or ".join(names_of(event, direction))
             if isinstance(event, Noise):
                 # What the board sends is never sent to it, noise or no; all else is for the reader.

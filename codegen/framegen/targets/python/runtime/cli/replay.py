@@ -147,9 +147,10 @@ def _times(chosen: list[Heard], speed: float) -> list[float]:
     """When each is sent, in seconds from the first on: as recorded, one after the other."""
     wire = Wire(BAUD)
     first = chosen[0].at or 0.0
+    times = [first if heard.at is None else heard.at for heard in chosen]
     return [
-        wire.take(len(bytes_of(heard.event)), ((heard.at or first) - first) / speed)
-        for heard in chosen
+        wire.take(len(bytes_of(heard.event)), (at - first) / speed)
+        for heard, at in zip(chosen, times, strict=True)
     ]
 
 

@@ -48,7 +48,8 @@ def run(arguments: Namespace) -> int:
     """Sends the message, and prints what answers it."""
     messages = in_parts(arguments.message, arguments.fields)
     if len(messages) > 1:
-        print(f"asked in {len(messages)} requests: one reply has no room", file=sys.stderr)
+        told = f"asked in {len(messages)} requests: one reply has no room for so much"
+        print(told, file=sys.stderr)
     show = event_as_json if arguments.json else event_as_text
     missing: dict[str, list[int]] = {}
     silent: NoReplyError | None = None
