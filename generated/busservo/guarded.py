@@ -4,7 +4,9 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+import logging
+from functools import partial
+from typing import TYPE_CHECKING, TypeVar
 
 from .link_errors import DisconnectedError, TransportError
 
@@ -13,9 +15,12 @@ if TYPE_CHECKING:
 
     from .transport import Transport
 
+logger = logging.getLogger(__package__)
+_Result = TypeVar("_Result")
+
 
 class Guarded:
-    """Passes everything on, and turns the operating system's errors into those of this library."""
+    """Passes everything on, and turns whatever is raised into the errors of this library."""
 
     def __init__(self, transport: Transport) -> None:
         self._transport = transport
@@ -23,46 +28,42 @@ class Guarded:
 
     def read(self, timeout: float) -> bytes:
         """As Transport.read."""
-        try:
-            return self._transport.read(timeout)
-        except TransportError:
-            raise
-        except OSError as error:
-            raise self._lost(error) from error
+        return self._guarded(partial(self._transport.read, timeout))
 
     def write(self, data: bytes) -> None:
         """As Transport.write."""
-        try:
-            self._transport.write(data)
-        except TransportError:
-            raise
-        except OSError as error:
-            raise self._lost(error) from error
+        self._guarded(partial(self._transport.write, data))
 
     def drain(self, timeout: float) -> None:
         """As Transport.drain."""
-        try:
-            self._transport.drain(timeout)
-        except TransportError:
-            raise
-        except OSError as error:
-            raise self._lost(error) from error
+        self._guarded(partial(self._transport.drain, timeout))
 
     def close(self) -> None:
         """As Transport.close; what is gone cannot be closed any better."""
         try:
-            self._transport.close()
-        except OSError:
-            return
+            self._guarded(self._transport.close)
+        except TransportError as error:
+            logger.debug("%s could not be closed: %s", self.name, error)
 
     @property
-    def reopen(self) -> Callable[[], Transport]:
+    def reopen(self) -> Callable[[], Guarded]:
         """What opens the same line anew. Raises TypeError where the transport does not know how."""
         reopen: Callable[[], Transport] | None = getattr(self._transport, "reopen", None)
         if reopen is None:
             raise TypeError(f"{self.name} has no method reopen(), and cannot be opened again")
-        return reopen
+        return lambda: Guarded(self._guarded(reopen))
 
-    def _lost(self, error: OSError) -> DisconnectedError:
-        advice = "see to the cable and the power, then reconnect()"
-        return DisconnectedError(self.name, f"the line was lost ({error})", advice)
+    def _guarded(self, call: Callable[[], _Result]) -> _Result:
+        try:
+            return call()
+        except TransportError:
+            raise
+        except OSError as error:
+            advice = "see to the cable and the power, then reconnect()"
+            happened = f"the line was lost ({error})"
+            raise DisconnectedError(self.name, happened, advice) from error
+        except Exception as error:
+            # Whoever waits for the line must hear of it, in whichever thread it happened.
+            logger.exception("%s failed", self.name)
+            happened = f"its transport failed ({error!r})"
+            raise TransportError(self.name, happened, "mend the transport") from error

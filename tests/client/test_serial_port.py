@@ -18,6 +18,7 @@ from busservo import (
     ClosedError,
     Direction,
     DisconnectedError,
+    Noise,
     PortAddressError,
     PortBusyError,
     PortNotFoundError,
@@ -28,6 +29,7 @@ from busservo import (
     open_controller,
     open_transport,
 )
+from busservo.rejects import Rejects
 
 from tests.client.live_line import answered
 
@@ -45,6 +47,8 @@ class Board:
         self.write = write
         self.mute = False
         self.heard = threading.Event()
+        # No client may ever make this count: see tests/conftest.py.
+        self.rejects = Rejects()
         self._read = read
         self._thread = threading.Thread(target=self._run, daemon=True)
         self._thread.start()
@@ -58,9 +62,12 @@ class Board:
                 return
             if not data:
                 return
-            for message in decoder.feed(data):
+            for event in decoder.feed(data):
                 self.heard.set()
-                for answer in [] if self.mute else answered(message):  # type: ignore[arg-type]
+                if isinstance(event, Noise):
+                    self.rejects.add(event)
+                    continue
+                for answer in [] if self.mute else answered(event):
                     self.write(answer.encode())
 
     def join(self) -> None:

@@ -84,6 +84,7 @@ def test_it_sends_nothing_that_the_host_sends() -> None:
         ("01 02 03", Reason.BAD_HEADER),
     ],
 )
+@pytest.mark.garbage
 def test_what_is_refused_is_counted_once_with_its_reason(data: str, reason: Reason) -> None:
     refused: list[Noise] = []
 
@@ -101,6 +102,7 @@ def test_what_is_refused_is_counted_once_with_its_reason(data: str, reason: Reas
         assert device.rejects.total == len(refused) == 1
 
 
+@pytest.mark.garbage
 def test_a_truncated_frame_eats_what_follows_until_the_line_is_said_to_be_quiet() -> None:
     meter = Meter()
     assert meter.receive(bytes.fromhex("55 55 08 03 01")) == b""
@@ -137,6 +139,7 @@ def test_legal_traffic_is_never_refused_however_it_is_cut(
 
 
 @given(st.lists(st.binary() | strategies.messages(HOST).map(lambda message: message.encode())))
+@pytest.mark.garbage
 def test_no_bytes_can_make_it_raise(chunks: list[bytes]) -> None:
     device = Meter()
     for chunk in chunks:
@@ -153,6 +156,7 @@ FRAGMENTS = (
 
 
 @given(st.lists(FRAGMENTS, max_size=12).map(b"".join), st.integers(1, 9))
+@pytest.mark.garbage
 def test_how_bytes_are_cut_makes_no_difference_to_what_is_refused(data: bytes, size: int) -> None:
     def refused(pieces: list[bytes]) -> dict[Reason, int]:
         device = Device()

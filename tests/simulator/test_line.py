@@ -209,6 +209,7 @@ CHUNKS = st.lists(
 
 
 @given(CHUNKS, FAULTS, st.sampled_from([0.0, 10 / 9600]))
+@pytest.mark.garbage
 def test_nothing_that_arrives_can_make_the_board_fail(
     chunks: list[tuple[bytes, float]], faults: Faults, seconds_per_byte: float
 ) -> None:
@@ -223,6 +224,7 @@ def test_nothing_that_arrives_can_make_the_board_fail(
 
 
 @given(CHUNKS, FAULTS)
+@pytest.mark.garbage
 def test_the_same_seed_and_the_same_traffic_give_the_same_bytes(
     chunks: list[tuple[bytes, float]], faults: Faults
 ) -> None:

@@ -60,6 +60,7 @@ def test_writes_may_be_cut_anywhere(connect: Connect) -> None:
 
 
 @pytest.mark.parametrize("stray", ["00", "55", "FF 55", "55 55 FF"])
+@pytest.mark.garbage
 def test_a_stray_byte_costs_no_frame(connect: Connect, stray: str) -> None:
     board, host = connect()
     host.transport.write(bytes.fromhex(stray))
