@@ -393,6 +393,9 @@ class Client:
             except TransportError as error:
                 self._fail(error)
                 return
+        asked = self._session.unwritten
+        if asked is not None:
+            self._session.written(asked, self._clock())
 
     def _drain(self) -> None:
         """Sends all commands that wait, and lets the time pass that they take on the wire."""

@@ -198,6 +198,9 @@ FAULTS = st.builds(
     absent=CHANCE,
     unasked=CHANCE,
     hang_up=st.floats(0, 0.05),
+    noise_to_board=CHANCE,
+    bit_flips_to_board=CHANCE,
+    splits_to_board=CHANCE,
 )
 CHUNKS = st.lists(
     st.tuples(
@@ -249,6 +252,17 @@ def test_legal_traffic_is_never_refused(messages: list[Message], size: int, slow
     line.read(len(data) / 960 + 1)
     assert line.board.heard == len(messages)
     assert line.board.rejects.total == 0
+
+
+@pytest.mark.garbage
+@given(st.lists(strategies.messages(HOST)), st.integers(0, 99))
+def test_no_noise_on_the_way_to_the_board_costs_a_frame(messages: list[Message], seed: int) -> None:
+    faults = Faults(seed=seed, noise_to_board=0.5, splits_to_board=0.5)
+    line = Line(Board(), faults=faults)
+    for message in messages:
+        line.write(message.encode(), 0.0)
+    line.read(len(messages) + 1)
+    assert line.board.heard == len(messages)
 
 
 @given(strategies.messages(HOST), st.floats(0, 5), st.integers(1, 10))

@@ -16,6 +16,7 @@ from .guarded import Guarded
 from .link_errors import ClosedError, IncompleteReplyError, NoReportError, TransportError
 from .outcome import lacking, parts_of, report_wanted
 from .protocol import BAUD
+from .request import Request
 from .session import Session
 from .tap import Tap
 
@@ -29,11 +30,11 @@ if TYPE_CHECKING:
 
     from .counters import LineCounters
     from .message import Message
-    from .request import Request, Sent
+    from .request import Sent
     from .transport import Transport
 
-    # Frames to write, what to tell when all before it are written, and None for the end.
-    _Outbox: TypeAlias = SimpleQueue[bytes | asyncio.Future[None] | None]
+    # Frames to write, who is to hear that those before are written, and None for the end.
+    _Outbox: TypeAlias = SimpleQueue[bytes | Request | asyncio.Future[None] | None]
 
 logger = logging.getLogger(__package__)
 _Reply = TypeVar("_Reply", bound="Message")
@@ -332,10 +333,11 @@ class AsyncClient:
         line = _Line(self._transport, self._outbox)
         # They hold this only while they are at work, so that it can end when nobody else does.
         reading = weakref.WeakMethod(self._read_once)
+        written = weakref.WeakMethod(self._session.written)
         lost = weakref.WeakMethod(self._lost)
         self._threads = [
             threading.Thread(target=repeat, args=(reading, loop, line), daemon=True),
-            threading.Thread(target=_run_writer, args=(loop, line, lost), daemon=True),
+            threading.Thread(target=_run_writer, args=(loop, line, written, lost), daemon=True),
         ]
         for thread in self._threads:
             thread.name = f"{__package__} on {self._name}"
@@ -344,8 +346,12 @@ class AsyncClient:
     def _advance(self) -> None:
         """Sends what is due, sees when to look again, and tells whoever waits for news."""
         now = time.monotonic()
-        for frame in self._session.outgoing(now):
+        frames = self._session.outgoing(now)
+        for frame in frames:
             self._outbox.put(frame)
+        asked = self._session.unwritten
+        if frames and asked is not None:
+            self._outbox.put(asked)
         self._ticking = self._session.tick_at is not None
         if self._timer is not None:
             self._timer.cancel()
@@ -476,19 +482,20 @@ class _Line:
 def _run_writer(
     loop: asyncio.AbstractEventLoop,
     line: _Line,
+    written: weakref.WeakMethod[Callable[[Request, float], None]],
     lost: weakref.WeakMethod[Callable[[_Line, TransportError], None]],
 ) -> None:
     """Carries frames from the loop to the transport, until there is None."""
     while (item := line.outbox.get()) is not None:
-        if isinstance(item, asyncio.Future):
-            _post(loop, _set, item)
-            continue
         try:
-            line.transport.write(item)
+            if isinstance(item, bytes):
+                line.transport.write(item)
+            elif isinstance(item, Request):
+                _post(loop, written(), item, time.monotonic())
+            else:
+                _post(loop, _set, item)
         except TransportError as error:
-            tell = lost()
-            if tell is not None:
-                _post(loop, tell, line, error)
+            _post(loop, lost(), line, error)
             return
 
 
@@ -503,8 +510,12 @@ def _set(future: asyncio.Future[None]) -> None:
         future.set_result(None)
 
 
-def _post(loop: asyncio.AbstractEventLoop, call: Callable[..., None], *arguments: object) -> bool:
-    """Has the loop call something; False where the loop is no more."""
+def _post(
+    loop: asyncio.AbstractEventLoop, call: Callable[..., None] | None, *arguments: object
+) -> bool:
+    """Has the loop call something; False where that or the loop is no more."""
+    if call is None:
+        return False
     try:
         loop.call_soon_threadsafe(call, *arguments)
     except RuntimeError:

@@ -33,6 +33,8 @@ if TYPE_CHECKING:
 # How long before the line is free the next frame is handed over, so that it is never idle. More
 # would be lag that nobody sees.
 _AHEAD = 0.004
+# How long a port may take to accept a frame: longer than it takes until it is said to be stuck.
+_WRITING = 1.5
 _REPLIES = frozenset(each.reply for each in EXCHANGES.values() if each.reply is not None)
 
 
@@ -124,6 +126,25 @@ class Session:
             frames.append(self._put(request, now))
         return frames
 
+    @property
+    def unwritten(self) -> Request | None:
+        """The question under way, until `written` has been told of it."""
+        return None if self._asked is None or self._asked.written else self._asked
+
+    def written(self, request: Request, now: float) -> None:
+        """Takes in that the port has the frame of a question only `now`, however long it took.
+
+        The time that the controller has for its answer begins then.
+        """
+        if request is not self._asked or request.written:
+            return
+        request.written = True
+        left_at = max(request.left_at, now + self.wire.seconds(len(request.message.encode())))
+        if self.wire.free_at == request.left_at:
+            self.wire.free_at = left_at
+        request.deadline += left_at - request.left_at
+        request.left_at = left_at
+
     def receive(self, data: bytes, now: float) -> None:
         """Takes in bytes that have arrived."""
         if data:
@@ -133,7 +154,7 @@ class Session:
     def tick(self, now: float) -> None:
         """Takes in that it is `now`, and that all which arrived before has been received."""
         asked = self._asked
-        expired = asked is not None and now >= asked.deadline
+        expired = asked is not None and now >= self._ends_at(asked)
         if self._decoder.pending and (expired or now - self._heard_at >= self._margin):
             # The line has gone quiet: half a frame must not grow together with the next reply.
             self._take_in(self._decoder.flush(), now)
@@ -165,7 +186,7 @@ class Session:
     @property
     def tick_at(self) -> float | None:
         """When to call `tick` again, at the latest."""
-        times = [] if self._asked is None else [self._asked.deadline]
+        times = [] if self._asked is None else [self._ends_at(self._asked)]
         if self._decoder.pending:
             times.append(self._heard_at + self._margin)
         if self._queue:
@@ -193,6 +214,11 @@ class Session:
         self._decoder = StreamDecoder(RECEIVED)
         self.wire.free_at = float("-inf")
 
+    @staticmethod
+    def _ends_at(asked: Request) -> float:
+        """When a question is given up: its time has not even begun before the port has it."""
+        return asked.deadline + (0.0 if asked.written else _WRITING)
+
     def _next(self, now: float) -> Request | None:
         """The first in the queue that may go now."""
         for request in self._queue:
@@ -212,6 +238,7 @@ class Session:
         starts = self.wire.take(len(frame), now)
         request.left_at = self.wire.free_at
         request.attempts += 1
+        request.written = False
         self.counters.sent += 1
         if self._tap is not None:
             self._tap.sent(request.message, now)
