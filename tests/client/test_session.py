@@ -292,6 +292,20 @@ def test_a_lost_line_ends_everything() -> None:
     assert line.idle
 
 
+def test_a_board_may_answer_on_the_next_line_what_it_was_asked_on_the_one_before() -> None:
+    line = session()
+    asked(line, BatteryVoltageRead())
+    line.fail(TransportError("port", "gone", "look for it"))
+    line.restart()
+    request = line.submit(BatteryVoltageRead())
+    assert line.outgoing(0.1) == []
+    line.receive(BatteryVoltage(1).encode(), 0.2)
+    assert line.outgoing(0.2) == [BatteryVoltageRead().encode()]
+    line.written(request, 0.2)
+    line.receive(BatteryVoltage(2).encode(), 0.3)
+    assert request.reply == BatteryVoltage(2)
+
+
 @pytest.mark.parametrize(
     "wrong",
     [{"baud": 0}, {"baud": -1}, {"baud": math.nan}, {"margin": 0}, {"report_limit": 0}],

@@ -7,8 +7,8 @@ How a reply is known. It has the class that answers the request, and tells of no
 asked. A message of such a class that is no reply to what is under way answers nothing: it is
 counted as a stray and dropped, and never taken for anything else. Everything else is a report.
 
-A late reply. After a request has timed out, or was cancelled, its reply may still come, and would
-look like the reply to the next request of the same kind. So the next waits, unsent, until that
+A late reply. After a request has timed out, or was cancelled, or the line was lost, its reply may
+still come, and would look like the reply to the next request of the same kind. So the next waits, unsent, until that
 reply has come and gone, or until it is overdue by as long again as the request was given.
 """
 
@@ -199,6 +199,8 @@ class Session:
         self._queue.clear()
         self._asked = None
         for request in waiting:
+            # The board may answer yet, on the line that is opened next.
+            self._remember(request)
             request.finish(error=error)
 
     def refuse_questions(self, error: Exception) -> None:
