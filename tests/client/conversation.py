@@ -49,7 +49,7 @@ class Ledger:
         self.right = self.refused = self.reconnected = 0
         self._given: set[int] = set()
         self._lock = threading.Lock()
-        board.board.on_battery_voltage_read = self._voltage  # type: ignore[method-assign]
+        board.board.on_battery_voltage_read = self._voltage  # type: ignore[method-assign, assignment]
         board.board.on_servo_positions_read = self._positions  # type: ignore[method-assign]
         mischief = board._line._mischief
         reports = mischief.reports
