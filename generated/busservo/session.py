@@ -10,8 +10,9 @@ asked. A message of such a class that is no reply to what is under way answers n
 counted as a stray and dropped, and never taken for anything else. Everything else is a report.
 
 A late reply. After a request has timed out, or was cancelled, or the line was lost, its reply may
-still come, and would look like the reply to the next request of the same kind. So the next waits, unsent, until that
-reply has come and gone, or until it is overdue by as long again as the request was given.
+still come, and would look like the reply to the next request of the same kind. So the next waits,
+unsent, until that reply has come and gone, or until it is overdue by as long again as the request
+was given.
 """
 
 from __future__ import annotations

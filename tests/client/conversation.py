@@ -47,7 +47,8 @@ class Ledger:
         self.asked = 0
         self.reported: list[Report] = []
         self.right = self.refused = self.reconnected = 0
-        self._given: set[int] = set()
+        # By number, so that a long soak needs no more room than a short one.
+        self._given = bytearray(1 << 20)
         self._lock = threading.Lock()
         board.board.on_battery_voltage_read = self._voltage  # type: ignore[method-assign, assignment]
         board.board.on_servo_positions_read = self._positions  # type: ignore[method-assign]
@@ -79,10 +80,10 @@ class Ledger:
         with self._lock:
             assert len(values) <= 1, "of one reply, all values are the same"
             for value in values:
-                assert value in {number % ABSENT for number in range(before + 1, self.asked + 1)}
                 number = self.asked - (self.asked - value) % ABSENT
-                assert number not in self._given, "a reply was given to two callers"
-                self._given.add(number)
+                assert before < number <= self.asked, "a value was told before it was asked for"
+                assert not self._given[number], "a reply was given to two callers"
+                self._given[number] = 1
             self.right += 1
 
     def given_part(self, before: int, asked: list[int], error: IncompleteReplyError) -> None:

@@ -20,6 +20,7 @@ from busservo_simulator import Faults, VirtualClock, VirtualController
 from hypothesis import given
 from hypothesis import strategies as st
 
+from tests import soak
 from tests.client.conversation import Ledger, converse, converse_async
 
 if TYPE_CHECKING:
@@ -208,3 +209,9 @@ def test_a_hundred_tasks_share_a_line_with_faults(way: str, tmp_path: Path) -> N
 
         asyncio.run(work())
         assert ledger.right >= 40
+
+
+def test_the_soak_runs(capsys: pytest.CaptureFixture[str]) -> None:
+    """In short; `make soak` asks a hundred thousand times."""
+    soak.main(["--requests", "800", "--rounds", "2"])
+    assert capsys.readouterr().out.count("and 0 lost") == 3

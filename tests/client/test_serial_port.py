@@ -144,6 +144,12 @@ def test_a_session_over_a_socket(tcp: tuple[str, list[socket.socket]]) -> None:
         assert controller.read_servo_positions([1, 2]) == ((1, 10), (2, 20))
 
 
+def test_a_socket_sends_small_frames_at_once(tcp: tuple[str, list[socket.socket]]) -> None:
+    transport = open_transport(tcp[0])
+    assert transport._port._socket.getsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY)
+    transport.close()
+
+
 def test_a_session_with_asyncio(board: PtyBoard) -> None:
     async def work() -> None:
         async with open_async_controller(board.port, margin=10) as controller:
@@ -197,6 +203,12 @@ def test_what_is_no_port_is_refused_with_advice(
         open_transport(port)
     assert isinstance(caught.value, TransportError)
     assert caught.value.port == str(port)
+
+
+@pytest.mark.parametrize("baud", [0, -9600, float("inf"), float("nan"), 2**31])
+def test_a_rate_that_no_port_has_is_refused(baud: float) -> None:
+    with pytest.raises(ValueError, match="must be from 1 to 2147483647"):
+        open_controller("loop://", baud=baud)
 
 
 def test_permission_denied_comes_with_advice(monkeypatch: pytest.MonkeyPatch) -> None:

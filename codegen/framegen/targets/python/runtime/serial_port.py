@@ -7,6 +7,7 @@ Whatever pyserial opens is a port: `/dev/ttyUSB0`, `COM7`, `hwgrep://CH340`, `so
 from __future__ import annotations
 
 import errno
+import socket
 import sys
 import threading
 import time
@@ -37,6 +38,8 @@ if TYPE_CHECKING:
 _SLICE = 0.05
 _WRITE_TIMEOUT = 1.0
 _MOST = 4096
+# No driver knows a rate of more bits than this.
+_FASTER = 2**31
 _NAMED = "name a port, such as /dev/ttyUSB0 or COM7, or a URL, such as socket://host:port"
 _PERMITTED = (
     "add yourself to the group that owns it (dialout on most systems, uucp on some), as by "
@@ -52,10 +55,13 @@ def open_transport(port: str, *, baud: float = BAUD, exclusive: bool = True) -> 
     """Opens a port, by the name or the URL that pyserial knows it by.
 
     The rest of the line's parameters are the protocol's. With `exclusive`, no other program that
-    asks for the same can have the port meanwhile. Raises TransportError.
+    asks for the same can have the port meanwhile. Raises TransportError; ValueError for a `baud`
+    that no port can be set to.
     """
     if not isinstance(port, str):
         raise PortAddressError(repr(port), "a port is named by text", _NAMED)
+    if not 1 <= baud < _FASTER:
+        raise ValueError(f"baud is {baud!r}, and must be from 1 to {_FASTER - 1} for a port")
     try:
         opened = serial.serial_for_url(
             port,
@@ -69,6 +75,10 @@ def open_transport(port: str, *, baud: float = BAUD, exclusive: bool = True) -> 
         )
     except (*_GONE, LookupError, StopIteration) as error:
         raise _not_opened(str(port), error) from error
+    # pyserial leaves a socket to collect small writes: the second of two would wait for 40 ms.
+    behind = getattr(opened, "_socket", None)
+    if behind is not None:
+        behind.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
     return SerialPort(
         str(port), opened, partial(open_transport, port, baud=baud, exclusive=exclusive)
     )
