@@ -72,10 +72,11 @@ def open_transport(port: str, *, baud: float = BAUD, exclusive: bool = True) -> 
             parity=PARITY[0].upper(),
             stopbits=STOP_BITS,
             timeout=_SLICE,
-            write_timeout=_WRITE_TIMEOUT,
+            # pyserial refuses one for RFC 2217, where its own socket gives up after 5 s.
+            write_timeout=None if port.lower().startswith("rfc2217:") else _WRITE_TIMEOUT,
             exclusive=exclusive or None,
         )
-    except (*_GONE, LookupError, StopIteration) as error:
+    except (*_GONE, LookupError, NotImplementedError, StopIteration) as error:
         raise _not_opened(str(port), error) from error
     # pyserial leaves a socket to collect small writes: the second of two would wait for 40 ms.
     behind = getattr(opened, "_socket", None)
