@@ -70,11 +70,13 @@ def test_a_motion_and_a_group_from_beginning_to_end() -> None:
 def test_positions_are_read_at_the_speed_of_the_wire() -> None:
     """By the board's own clock; on the clock of a machine, `python -m benchmarks.line` measures."""
     clock = VirtualClock(follow_reads=True)
-    with VirtualController(baud=9600, clock=clock) as board:
-        with Controller(board.transport, background=False, clock=clock.now) as controller:
-            for _ in range(200):
-                assert len(controller.read_servo_positions(range(1, 7))) == 6
-            assert 200 * 34 / 960 / clock.now() >= 0.999
+    with (
+        VirtualController(baud=9600, clock=clock) as board,
+        Controller(board.transport, background=False, clock=clock.now) as controller,
+    ):
+        for _ in range(200):
+            assert len(controller.read_servo_positions(range(1, 7))) == 6
+        assert 200 * 34 / 960 / clock.now() >= 0.999
 
 
 def test_commands_fill_the_wire_and_no_more() -> None:
