@@ -8,7 +8,7 @@ import logging
 from functools import partial
 from typing import TYPE_CHECKING, TypeVar
 
-from .link_errors import DisconnectedError, TransportError
+from .link_errors import ClosedError, DisconnectedError, TransportError
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -25,6 +25,7 @@ class Guarded:
     def __init__(self, transport: Transport) -> None:
         self._transport = transport
         self.name = str(getattr(transport, "name", type(transport).__name__))
+        self._closed = False
 
     def read(self, timeout: float) -> bytes:
         """As Transport.read."""
@@ -40,6 +41,7 @@ class Guarded:
 
     def close(self) -> None:
         """As Transport.close; what is gone cannot be closed any better."""
+        self._closed = True
         try:
             self._guarded(self._transport.close)
         except TransportError as error:
@@ -58,12 +60,17 @@ class Guarded:
             return call()
         except TransportError:
             raise
-        except OSError as error:
-            advice = "see to the cable and the power, then reconnect()"
-            happened = f"the line was lost ({error})"
-            raise DisconnectedError(self.name, happened, advice) from error
         except Exception as error:
-            # Whoever waits for the line must hear of it, in whichever thread it happened.
-            logger.exception("%s failed", self.name)
-            happened = f"its transport failed ({error!r})"
-            raise TransportError(self.name, happened, "mend the transport") from error
+            if self._closed:
+                # Whatever a read says that was under way when it was closed.
+                raise ClosedError(self.name, "it has been closed", "open it again") from error
+            raise self._failed(error) from error
+
+    def _failed(self, error: Exception) -> TransportError:
+        if isinstance(error, OSError):
+            advice = "see to the cable and the power, then reconnect()"
+            return DisconnectedError(self.name, f"the line was lost ({error})", advice)
+        # Whoever waits for the line must hear of it, in whichever thread it happened.
+        logger.error("%s failed", self.name, exc_info=error)
+        happened = f"its transport failed ({error!r})"
+        return TransportError(self.name, happened, "mend the transport")
