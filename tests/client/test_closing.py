@@ -7,7 +7,7 @@ import gc
 import threading
 import time
 from concurrent.futures import ThreadPoolExecutor
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Literal
 
 import pytest
 from busservo import (
@@ -18,9 +18,11 @@ from busservo import (
     DisconnectedError,
     PortNotFoundError,
     TransportError,
+    open_transport,
 )
+from busservo_simulator import VirtualController
 
-from tests.client.live_line import LiveLine
+from tests.client.live_line import LiveLine, answered
 from tests.client.virtual_line import VirtualLine
 
 if TYPE_CHECKING:
@@ -239,6 +241,37 @@ def test_closing_from_within_a_callback_ends_all_the_same() -> None:
     line.say(ActionGroupStopped())
     await_that(lambda: line.closed)
     await_that(lambda: not own_threads())
+
+
+def test_a_call_that_is_interrupted_leaves_the_line_usable() -> None:
+    class Once(VirtualLine):
+        interrupted = False
+
+        def read(self, timeout: float) -> bytes:
+            if not self.interrupted:
+                self.interrupted = True
+                raise KeyboardInterrupt
+            return super().read(timeout)
+
+    line = Once(lambda message: [(0.1, each) for each in answered(message)])
+    with Controller(line, background=False, clock=line.clock) as controller:
+        with pytest.raises(KeyboardInterrupt):
+            controller.read_battery_voltage()
+        assert controller.read_servo_positions([1]) == ((1, 10),)
+        assert controller.read_battery_voltage() == 7500
+        # The reply to the first came late, and was not taken for another's.
+        assert controller.counters.strays == 1
+
+
+@pytest.mark.parametrize("via", ["memory", "tcp"])
+def test_nothing_of_the_last_frame_is_cut_off(via: Literal["memory", "tcp"]) -> None:
+    with VirtualController(via, baud=9600) as board:
+        transport = board.transport if via == "memory" else open_transport(board.port)
+        with Controller(transport) as controller:
+            controller.unload_servos(range(1, 101))
+            assert board.accepted == 0
+        await_that(lambda: board.accepted == 1)
+        assert board.rejects.total == 0
 
 
 # -------------------------------------------------------------------- opened again
