@@ -7,6 +7,7 @@ import os
 import select
 import socket
 import threading
+import time
 from typing import TYPE_CHECKING
 
 import pytest
@@ -278,6 +279,20 @@ def test_a_transport_on_its_own(board: PtyBoard) -> None:
         transport.read(1)
     with pytest.raises(ClosedError):
         transport.write(b"\x55")
+
+
+@pytest.mark.parametrize("port", ["a pseudo-terminal", "loop://"])
+@pytest.mark.parametrize("timeout", [0.0, 0.01, 0.12])
+def test_a_read_waits_as_long_as_it_is_told(board: PtyBoard, port: str, timeout: float) -> None:
+    transport = open_transport(port if "://" in port else board.port)
+    taken = []
+    for _ in range(5):
+        began = time.monotonic()
+        assert transport.read(timeout) == b""
+        taken.append(time.monotonic() - began)
+    transport.close()
+    # A busy machine may be late at any time, but not each time.
+    assert timeout <= min(taken) < timeout + 0.03 + timeout / 2
 
 
 def test_closing_ends_a_read_in_another_thread(board: PtyBoard) -> None:

@@ -7,6 +7,7 @@ Whatever pyserial opens is a port: `/dev/ttyUSB0`, `COM7`, `hwgrep://CH340`, `so
 from __future__ import annotations
 
 import errno
+import select
 import socket
 import sys
 import threading
@@ -33,9 +34,12 @@ if TYPE_CHECKING:
     from collections.abc import Callable
     from typing import Any
 
-# pyserial reconfigures the port whenever its timeout changes, so that stays as it is, and longer
-# waits are made of several. It is also how long closing waits for a read that cannot be cancelled.
+# pyserial reconfigures the port whenever its timeout changes, so that stays as it is; longer waits
+# are made of several, and shorter ones are waited for here. It is also how long closing waits for a
+# read that cannot be cancelled.
 _SLICE = 0.05
+# How often to look whether bytes have come, where nothing tells.
+_LOOK = 0.001
 _WRITE_TIMEOUT = 1.0
 _MOST = 4096
 # No driver knows a rate of more bits than this.
@@ -92,6 +96,7 @@ class SerialPort:
         self.name = name
         self.reopen = reopen
         self._port = port
+        self._handle = _handle_of(port)
         self._closed = False
         # Held while a read is under way, so that the descriptor is not closed underneath it: its
         # number could be another file's by the time it is used.
@@ -101,15 +106,18 @@ class SerialPort:
         """What has arrived, waiting up to `timeout` seconds for the first byte."""
         until = time.monotonic() + timeout
         while True:
+            left = until - time.monotonic()
             with self._reading:
-                data = self._read_some()
+                data = self._read_some(min(max(left, 0.0), _SLICE))
             if data or time.monotonic() >= until:
                 return data
 
-    def _read_some(self) -> bytes:
+    def _read_some(self, timeout: float) -> bytes:
         if self._closed:
             raise self._is_closed()
         try:
+            if not self._comes(timeout):
+                return b""
             waiting = self._port.in_waiting
             data: bytes = self._port.read(min(waiting, _MOST) or 1)
             # A socket tells of one byte at a time.
@@ -121,6 +129,20 @@ class SerialPort:
         except _GONE as error:
             raise self._failed(error) from error
         return data
+
+    def _comes(self, timeout: float) -> bool:
+        """Whether anything comes within `timeout`; True as well where a read of pyserial waits."""
+        if self._handle is not None:
+            return bool(select.select([self._handle], [], [], timeout)[0])
+        if timeout >= _SLICE:
+            return True
+        until = time.monotonic() + timeout
+        while not self._port.in_waiting:
+            left = until - time.monotonic()
+            if left <= 0:
+                return False
+            time.sleep(min(left, _LOOK))
+        return True
 
     def write(self, data: bytes) -> None:
         """Hands over all of `data`."""
@@ -182,6 +204,15 @@ class SerialPort:
             f"the line was lost ({error})",
             "see to the cable and the power, then reconnect()",
         )
+
+
+def _handle_of(port: Any) -> int | None:
+    """What `select` can wait for; None where there is no such thing, as for ports of Windows."""
+    try:
+        handle = port.fileno()
+    except (*_GONE, NotImplementedError):
+        return None
+    return handle if isinstance(handle, int) else None
 
 
 def _not_opened(port: str, error: Exception) -> TransportError:
