@@ -140,8 +140,9 @@ def test_no_reply_and_too_little_of_one() -> None:
 
     async def work() -> None:
         async with AsyncController(LiveLine(partly), margin=0.05) as controller:
-            with pytest.raises(NoReplyError):
+            with pytest.raises(NoReplyError) as late:
                 await controller.read_battery_voltage()
+            assert 0.05 <= late.value.waited < 1
             with pytest.raises(IncompleteReplyError) as caught:
                 await controller.read_servo_positions([1, 2])
             assert caught.value.missing == (2,)

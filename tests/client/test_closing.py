@@ -201,6 +201,20 @@ def test_a_transport_with_a_bug_ends_in_an_error_that_says_so() -> None:
                 controller.read_battery_voltage()
 
 
+def test_what_a_transport_says_of_being_closed_is_no_bug(caplog: pytest.LogCaptureFixture) -> None:
+    class Touchy(LiveLine):
+        def read(self, timeout: float) -> bytes:
+            try:
+                return super().read(timeout)
+            except ClosedError:
+                raise ValueError("file descriptor cannot be a negative integer (-1)") from None
+
+    for _ in range(3):
+        with Controller(Touchy()) as controller:
+            assert controller.read_battery_voltage() == 7500
+    assert caplog.records == []
+
+
 # -------------------------------------------------------------------- closed
 
 
