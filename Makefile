@@ -16,7 +16,7 @@ MUTATION_VENV := .tools/mutation
 ONLY =
 
 .DEFAULT_GOAL := all
-.PHONY: all venv test quick lint format fuzz mutants bench docs docs-tools wheel clean help
+.PHONY: all venv test quick coverage lint format fuzz soak mutants bench docs docs-tools wheel clean help
 
 all: $(READY)  ## Check the spec, generate everything, decode a recorded noisy line (plain `make`)
 	$(IN)/framegen check
@@ -24,13 +24,17 @@ all: $(READY)  ## Check the spec, generate everything, decode a recorded noisy l
 	$(IN)/busservo decode --direction any tests/captures/noisy_line.bin
 	$(IN)/python examples/virtual_arm.py
 
-test: $(READY)  ## Run every test, and report the coverage of lines and branches
-	$(IN)/coverage erase
-	$(IN)/coverage run -m pytest
-	$(IN)/coverage report
+test: $(READY)  ## Run every test
+	$(IN)/python -m pytest
 
-quick: $(READY)  ## Run every test with fewer examples, without coverage and without a browser
+quick: $(READY)  ## Run every test with fewer examples, and without a browser
 	HYPOTHESIS_PROFILE=quick $(IN)/python -m pytest -q --ignore=tests/docs/test_browser.py
+
+coverage: $(READY)  ## Measure which lines and branches the quick tests reach, commands included
+	$(IN)/coverage erase
+	HYPOTHESIS_PROFILE=quick $(IN)/coverage run -m pytest -q --ignore=tests/docs/test_browser.py
+	$(IN)/coverage combine -q
+	$(IN)/coverage report
 
 lint: $(READY)  ## Lint, look at the format, check types, and that the output is up to date
 	$(IN)/ruff check
@@ -62,6 +66,9 @@ docs-tools:  ## Install what the tests of the reference need of Node.js: a valid
 	@cp tests/docs/package.json .tools/node/
 	npm install --prefix .tools/node --silent --no-audit --no-fund --no-package-lock
 
+soak: $(READY)  ## Ask a hundred thousand times, with faults, and see that nothing leaks or is lost
+	$(IN)/python -m tests.soak
+
 # Set and dict in the names of tests need the same order in every process.
 mutants:  ## Change the code in many small ways, and list the changes that no test sees
 	@$(MAKE) --no-print-directory venv VENV=$(MUTATION_VENV) GROUP=mutation
@@ -69,8 +76,9 @@ mutants:  ## Change the code in many small ways, and list the changes that no te
 	mkdir -p mutants/src
 	cp -R generated/busservo codegen/framegen mutants/src
 	cp -R tests spec pyproject.toml mutants
-	cd mutants && PYTHONHASHSEED=0 ../$(MUTATION_VENV)/bin/mutmut run --max-children 1 $(if $(ONLY),'$(ONLY)')
-	cd mutants && ../$(MUTATION_VENV)/bin/mutmut results | grep -v 'not checked' || true
+	cd mutants && PYTHONHASHSEED=0 PYTHONDONTWRITEBYTECODE= ../$(MUTATION_VENV)/bin/mutmut run --max-children 1 $(if $(ONLY),'$(ONLY)')
+	cd mutants/mutants && HYPOTHESIS_PROFILE=quick PYTHONHASHSEED=0 \
+		../../$(MUTATION_VENV)/bin/python -m tests.mutants $(if $(ONLY),'$(ONLY)')
 
 wheel: $(READY)  ## Build dist/*.whl and dist/*.tar.gz
 	$(IN)/python -m build

@@ -11,17 +11,17 @@ from typing import TYPE_CHECKING, Any
 import pytest
 from framegen import checks
 from framegen.checks import LAYOUT_RULES, READING_RULES, STRUCTURE_RULES, check
+from framegen.findings import Finding, did_you_mean
 from framegen.layout import derive
 from framegen.load import MAX_BYTES, load, read_source
 from framegen.lookalikes import recognise
-from framegen.source import Source
+from framegen.source import Source, Span
 from framegen.yamltree import Unusable
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
 if TYPE_CHECKING:
     from framegen.checks.rule import LayoutRule, ReadingRule, StructureRule
-    from framegen.findings import Finding
 
 ROOT = Path(__file__).parent.parent
 SPECS = ROOT / "tests" / "specs"
@@ -155,6 +155,52 @@ def test_a_finding_in_two_places_is_shown_with_both() -> None:
         "   = at: messages.LampRead.id\n"
         "   = hint: mend one of the codes, or the direction"
     )
+
+
+@pytest.mark.parametrize(
+    ("line", "column", "length", "shown", "carets"),
+    [
+        ("a: u17", 4, 3, "a: u17", "   ^^^"),
+        ("\ta: u17", 5, 3, " a: u17", "    ^^^"),
+        ("a\u200b: u17", 5, 3, "a\N{REPLACEMENT CHARACTER}: u17", "    ^^^"),
+        ("a: u17   ", 4, 3, "a: u17", "   ^^^"),
+        ("a:", 3, 1, "a:", "  ^"),  # what is missing behind the end of a line
+        ("a: u17", 4, 80, "a: u17", "   ^^^"),
+        ("a: u17", 4, 0, "a: u17", "   ^"),
+        # The 75th character of a long line is shown from its beginning; the next is shown with
+        # the 50 characters before it.
+        ("0123456789" * 20, 75, 2, "0123456789" * 10, " " * 74 + "^^"),
+        ("0123456789" * 20, 76, 2, ("0123456789" * 20)[25:125], " " * 50 + "^^"),
+        ("0123456789" * 20, 111, 80, ("0123456789" * 20)[60:160], " " * 50 + "^" * 50),
+        ("0123456789" * 20, 191, 30, ("0123456789" * 20)[140:], " " * 50 + "^" * 10),
+    ],
+)
+def test_a_caret_stands_under_its_place(
+    line: str, column: int, length: int, shown: str, carets: str
+) -> None:
+    finding = Finding("some-rule", Span(1, column, length), "", "is wrong")
+    assert finding.render(Source("spec.yaml", line)).split("\n") == [
+        f"spec.yaml:1:{column}: some-rule: is wrong",
+        f"1 | {shown}",
+        f"  | {carets}",
+    ]
+
+
+@pytest.mark.parametrize(
+    ("word", "known", "otherwise", "hint"),
+    [
+        ("u17", ["u8", "u16", "u32"], "", "did you mean `u16`?"),
+        ("u17", ["u16"], "declare it", "did you mean `u16`?"),
+        ("size", ["u8", "u16"], "", "choose one of `u8`, `u16`"),
+        ("size", ["u8", "u16"], "declare it", "declare it"),
+        ("size", [], "declare it", "declare it"),
+        ("size", [], "", ""),
+    ],
+)
+def test_a_misspelt_word_is_guessed_or_the_choices_are_named(
+    word: str, known: list[str], otherwise: str, hint: str
+) -> None:
+    assert did_you_mean(word, known, otherwise=otherwise) == hint
 
 
 def test_findings_come_from_the_top_of_the_file_down() -> None:

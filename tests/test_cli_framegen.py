@@ -484,3 +484,19 @@ def test_no_wrong_verb_ends_in_a_traceback(words: list[str]) -> None:
         code = main(words)
     assert code == 2 or {"-h", "--help", "--version"} & set(words)
     assert out.getvalue() or err.getvalue()
+
+
+@pytest.mark.parametrize("words", [["schema"], ["generate", "--check"]])
+def test_a_python_without_docstrings_is_refused_before_it_drops_descriptions(
+    words: list[str],
+) -> None:
+    result = subprocess.run(
+        [sys.executable, "-OO", "-m", "framegen", *words],
+        capture_output=True,
+        encoding="utf-8",
+        timeout=60,
+        check=False,
+    )
+    assert (result.returncode, result.stdout) == (2, "")
+    assert "started with -OO" in result.stderr
+    assert "start it without -OO" in result.stderr

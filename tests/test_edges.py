@@ -6,7 +6,7 @@ from framegen.codec import NotAFrame, decode, describe_range, encode
 from framegen.layout import derive
 from framegen.values import Citation, Direction
 
-from tests.specimens import BUSSERVO, data_of, layout_of, loaded_of
+from tests.specimens import BUSSERVO, DEMO, data_of, layout_of, loaded_of
 
 
 @pytest.mark.parametrize(
@@ -69,6 +69,7 @@ def test_a_bare_number_in_a_list_has_the_name_of_the_list() -> None:
     repeat = layout_of(data_of(BUSSERVO)).messages["ServoUnload"].repeat
     assert repeat is not None
     assert [field.name for field in repeat.fields] == ["servo_ids"]
+    assert repeat.field is repeat.fields[0].field
 
 
 def test_a_list_without_declared_counts_may_be_empty() -> None:
@@ -87,8 +88,22 @@ def test_a_length_above_127_is_no_negative_number() -> None:
     assert decode(layout, Direction("host", "controller"), frame).values == values
 
 
-def test_half_a_header_is_told_what_a_frame_begins_with() -> None:
-    layout = layout_of(data_of(BUSSERVO))
+@pytest.mark.parametrize(
+    ("text", "expected"),
+    [
+        ("C3", "a frame begins C3 5A A5"),
+        ("C3 5B", "a frame begins C3 5A A5"),
+        ("C3 5A A5 10 00", "the shortest frame has 6 bytes"),
+        ("C3 5A A5 20 00 00", "no message gateway -> station has the kind 32"),
+        ("C3 5A A5 11 00 01", "StationRead has a size of 0, not 1"),
+        ("C3 5A A5 10 00 06", "a size of 6 makes 12 bytes"),
+        ("C3 5A A5 11 00 00 00", "a size of 0 makes 6 bytes"),
+        ("C3 5A A5 10 00 06 00 00 02 01 00 00", "a size of 6 makes vent_count 1, not 2"),
+        ("C3 5A A5 10 00 06 00 00 01 01 03 85", "vents[0].angle is 901, outside -900..900"),
+    ],
+)
+def test_what_is_no_frame_is_told_in_full(text: str, expected: str) -> None:
+    layout = layout_of(data_of(DEMO))
     with pytest.raises(NotAFrame) as refused:
-        decode(layout, Direction("host", "controller"), b"\x55")
-    assert refused.value.expected == "a frame begins 55 55"
+        decode(layout, Direction("gateway", "station"), bytes.fromhex(text))
+    assert refused.value.expected == expected

@@ -19,6 +19,7 @@ from hypothesis import strategies as st
         ("3 * servo_count + 5", Formula(5, 3, "servo_count")),
         ("servo_count * 3 + 5", Formula(5, 3, "servo_count")),
         ("3·n+5", Formula(5, 3, "n")),
+        ("n·3 + 5", Formula(5, 3, "n")),
         ("5+3*n", Formula(5, 3, "n")),
         ("n + n + 1 + 2 * n", Formula(1, 4, "n")),
         ("2 * n + 1 + 1", Formula(2, 2, "n")),
@@ -69,6 +70,14 @@ def test_what_is_no_rule_is_told(text: str, said: str) -> None:
     assert said in str(refused.value)
 
 
+def test_what_is_no_term_is_told_with_the_rule_that_it_stands_in() -> None:
+    with pytest.raises(ValueError, match="no term") as refused:
+        parse_formula("3 * n + 2 *")
+    assert str(refused.value) == (
+        "`2 *` is no term of the length rule `3 * n + 2 *`: write one like `3 * servo_count + 5`"
+    )
+
+
 @pytest.mark.parametrize(
     ("formula", "text"),
     [
@@ -82,6 +91,21 @@ def test_what_is_no_rule_is_told(text: str, said: str) -> None:
 def test_a_rule_is_shown_as_people_write_it(formula: Formula, text: str) -> None:
     assert str(formula) == text
     assert parse_formula(text) == formula
+
+
+@pytest.mark.parametrize(
+    ("formula", "length", "count"),
+    [
+        (Formula(5), 5, 0),
+        (Formula(5), 6, None),
+        (Formula(5, 3, "n"), 5, 0),
+        (Formula(5, 3, "n"), 11, 2),
+        (Formula(5, 3, "n"), 12, None),
+        (Formula(5, 3, "n"), 2, None),  # as if there were -1 of them
+    ],
+)
+def test_a_length_tells_the_count(formula: Formula, length: int, count: int | None) -> None:
+    assert formula.count_at(length) == count
 
 
 FORMULAS = st.builds(Formula, st.integers(0, 999)) | st.builds(

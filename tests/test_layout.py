@@ -118,6 +118,15 @@ def test_the_frame_of_the_greenhouse() -> None:
     assert HOUSE.messages["StationState"].largest == 521
 
 
+def test_a_header_may_be_written_in_parts() -> None:
+    frame = {
+        "first": {"is": "constant", "bytes": "C3"},
+        "rest": {"is": "constant", "bytes": "5A A5"},
+        **{name: part for name, part in SPECS["greenhouse"]["frame"].items() if name != "preamble"},
+    }
+    assert layout_of({**SPECS["greenhouse"], "frame": frame}).frame == HOUSE.frame
+
+
 def test_a_frame_takes_its_time_on_the_line() -> None:
     """9600 8N1 is 960 bytes a second; 19200 8E2 has twelve bits a byte."""
     move = SERVO.messages["ServoMove"]
@@ -295,7 +304,7 @@ def test_the_parts_of_a_frame_have_their_sizes() -> None:
 def test_a_frame_without_its_length_or_id_is_for_the_checks_to_refuse(gone: str) -> None:
     spec = Spec.model_validate(SPECS["busservo"])
     parts = {name: part for name, part in spec.frame.items() if name != gone}
-    with pytest.raises(AssertionError, match="frame-parts"):
+    with pytest.raises(AssertionError, match=r"^the rule frame-parts sees to both$"):
         derive_frame(spec.model_copy(update={"frame": parts}))
 
 
@@ -376,6 +385,11 @@ def test_the_reference_codec_holds_to_ranges(angle: str) -> None:
             "ServoMove",
             {"time_ms": 1, "targets": [{"servo_id": 1}]},
             "targets[0] must have the keys servo_id, position",
+        ),
+        (
+            "ServoMove",
+            {"time_ms": 1, "targets": [{"servo_id": 1, "position": 70000}]},
+            "targets[0].position: 70000 is outside 0..65535",
         ),
         ("ServoUnload", {"servo_ids": [1, 256]}, "servo_ids[1]: 256 is outside 0..255"),
         ("ServoUnload", {"servo_ids": [True]}, "servo_ids[0]: True is not a whole number"),

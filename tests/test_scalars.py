@@ -128,18 +128,30 @@ def test_what_readers_disagree_on_is_refused_with_what_to_write(what: str, text:
 
 
 @pytest.mark.parametrize(
-    ("text", "written"), [("010", "10"), ("08", "8"), ("00", "0"), ("0_7", "7")]
+    ("text", "written"),
+    [
+        ("010", "10"),
+        ("08", "8"),
+        ("00", "0"),
+        ("0_7", "7"),
+        ("-010", "-10"),
+        ("+07", "7"),
+        ("01_0", "10"),
+        ("0_", "0"),
+    ],
 )
 def test_an_octal_gets_its_decimal_proposed(text: str, written: str) -> None:
     with pytest.raises(Ambiguous) as refused:
         resolve(text)
     assert refused.value.hint == f'write {written}, or put it in quotes: "{text}"'
+    assert resolve(written) == int(written)
 
 
 def test_a_number_too_long_to_convert_is_refused() -> None:
     assert resolve("9" * 39) == int("9" * 39)
-    with pytest.raises(Ambiguous):
-        resolve("9" * 5000)
+    for digits in (40, 5000):
+        with pytest.raises(Ambiguous, match="a number to one YAML"):
+            resolve("9" * digits)
 
 
 @given(st.text(alphabet="0123456789+-_.:eExXbBoOaAfFnNyYtT~=< #", max_size=9))

@@ -56,6 +56,11 @@ def test_the_schema_is_a_schema() -> None:
     assert "$id" not in SCHEMA
 
 
+def test_the_number_types_are_told_in_words_as_well() -> None:
+    told = SCHEMA["$defs"]["NumberField"]["properties"]["type"]["description"]
+    assert told == "The number type: u8, u16, u32, i8, i16, i32."
+
+
 def test_the_text_is_json_with_one_line_end_after_it() -> None:
     text = schema_text()
     assert text == json.dumps(SCHEMA, indent=2, ensure_ascii=False) + "\n"

@@ -5,8 +5,10 @@ import re
 from pathlib import Path
 
 import pytest
+from framegen.targets.docs import _html_environment, _markdown_environment
 from framegen.targets.python import _environment
-from framegen.targets.python.view import LibraryView
+from framegen.targets.python.library_view import LibraryView
+from framegen.targets.templates import environment
 from jinja2 import StrictUndefined, UndefinedError, nodes
 
 from tests.specimens import BUSSERVO, DEMO, ROOT, data_of, files_of, layout_of
@@ -150,6 +152,55 @@ def test_the_generator_knows_no_protocol_by_name(path: Path) -> None:
 def test_what_is_emitted_for_every_protocol_names_none(path: Path) -> None:
     text = path.read_text(encoding="utf-8")
     assert re.findall(r"(?i)busservo|hiwonder|greenhouse|lx-?16", text) == []
+
+
+# ------------------------------------------------------------------ what is kept of them
+
+
+PAGES = sorted((CODEGEN / "targets" / "docs" / "templates").glob("*.jinja"))
+
+
+@pytest.mark.parametrize("template", [*TEMPLATES, *PAGES], ids=lambda path: path.name)
+def test_what_is_kept_of_a_template_holds_nothing_that_a_filter_made(template: Path) -> None:
+    """Else a filter that is changed later would still be seen to do what it once did."""
+    of_kind = {".html": _html_environment, ".md": _markdown_environment}
+    ours = of_kind.get(Path(template.stem).suffix, _environment)()
+    root = ours.parse(template.read_text(encoding="utf-8"))
+    for output in root.find_all(nodes.Output):
+        for node in output.nodes:
+            if not isinstance(node, nodes.TemplateData):
+                with pytest.raises(nodes.Impossible):
+                    node.as_const(nodes.EvalContext(ours))
+
+
+def test_a_template_is_compiled_once_and_again_when_it_has_changed(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("sys.dont_write_bytecode", False)
+    template, kept = tmp_path / "page.jinja", tmp_path / "__pycache__"
+    for text in ("one", "two"):
+        template.write_text(text, encoding="utf-8")
+        for _ in range(2):
+            assert environment(tmp_path, "plain").get_template("page.jinja").render() == text
+            assert len([*kept.iterdir()]) == 1
+
+
+def test_templates_are_kept_nowhere_where_python_keeps_nothing(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    (tmp_path / "page.jinja").write_text("text", encoding="utf-8")
+    monkeypatch.setattr("sys.dont_write_bytecode", True)
+    assert environment(tmp_path, "plain").get_template("page.jinja").render() == "text"
+    assert not (tmp_path / "__pycache__").exists()
+
+
+def test_templates_that_cannot_be_kept_are_rendered_all_the_same(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    (tmp_path / "page.jinja").write_text("text", encoding="utf-8")
+    (tmp_path / "__pycache__").write_text("in the way", encoding="utf-8")
+    monkeypatch.setattr("sys.dont_write_bytecode", False)
+    assert environment(tmp_path, "plain").get_template("page.jinja").render() == "text"
 
 
 def test_the_library_view_gives_every_name_that_templates_ask_of_it() -> None:

@@ -5,7 +5,7 @@ from decimal import Decimal
 from typing import Any
 
 import pytest
-from framegen.values import Citation, Direction, Range, Scale, parse_hex, to_hex
+from framegen.values import Citation, Direction, Method, Range, Scale, parse_hex, to_hex
 from hypothesis import given
 from hypothesis import strategies as st
 
@@ -29,6 +29,10 @@ WORDS = st.from_regex(r"[a-z][a-z0-9_]{0,8}", fullmatch=True)
         (Citation.parse, "vendor, section 1.1", Citation("vendor", "section 1.1")),
         (Citation.parse, "vendor", Citation("vendor", "")),
         (Citation.parse, " vendor ,  a, b ", Citation("vendor", "a, b")),
+        (Method.parse, "stop()", Method("stop", (), "")),
+        (Method.parse, "run(group, times)", Method("run", ("group", "times"), "")),
+        (Method.parse, "read() -> voltage", Method("read", (), "voltage")),
+        (Method.parse, " read ( a ,\n b )->c ", Method("read", ("a", "b"), "c")),
         (parse_hex, "55 55 02 07", b"\x55\x55\x02\x07"),
         (parse_hex, "fF", b"\xff"),
         (parse_hex, "  01\n  02\t03 ", b"\x01\x02\x03"),
@@ -67,6 +71,16 @@ def test_a_notation_is_read(parse: Callable[[str], Any], text: str, value: objec
         (Scale.parse, "1 V s", "like `0.001 V`"),
         (Citation.parse, "", "like `vendor, section 1.1`"),
         (Citation.parse, " , section 1.1", "like `vendor, section 1.1`"),
+        (Method.parse, "", "like `read_positions(servo_ids) -> positions`"),
+        (Method.parse, "stop", "write name, arguments and what it returns"),
+        (Method.parse, "run(group,)", "write name, arguments and what it returns"),
+        (Method.parse, "run(,)", "write name, arguments and what it returns"),
+        (Method.parse, "run(,group)", "write name, arguments and what it returns"),
+        (Method.parse, "run(group times)", "write name, arguments and what it returns"),
+        (Method.parse, "run(group\ttimes)", "write name, arguments and what it returns"),
+        (Method.parse, "run(group) ->", "write name, arguments and what it returns"),
+        (Method.parse, "run(group) -> a, b", "write name, arguments and what it returns"),
+        (Method.parse, "r\u00fcn()", "write name, arguments and what it returns"),
         (parse_hex, "", "two digits a byte"),
         (parse_hex, "5", "two digits a byte"),
         (parse_hex, "5555", "two digits a byte"),
@@ -97,6 +111,11 @@ def test_a_direction_reads_back_and_turns_round(sender: str, receiver: str) -> N
     assert direction.reversed == Direction(receiver, sender)
     assert direction.reversed.reversed == direction
     assert direction.key == f"{sender}_to_{receiver}"
+
+
+@pytest.mark.parametrize("text", ["0..1000", "1..", "-9..-3"])
+def test_a_range_is_shown_as_it_is_written(text: str) -> None:
+    assert str(Range.parse(text)) == text
 
 
 @given(st.integers(-(10**20) + 1, 10**20 - 1), st.none() | st.integers(0, 10**20 - 1))
@@ -137,7 +156,14 @@ def test_a_scaled_value_is_exact(scale: str, value: int, said: str) -> None:
 
 @given(st.text())
 def test_any_text_is_read_or_refused_in_words(text: str) -> None:
-    for parse in (Direction.parse, Range.parse, Scale.parse, Citation.parse, parse_hex):
+    for parse in (
+        Direction.parse,
+        Range.parse,
+        Scale.parse,
+        Citation.parse,
+        Method.parse,
+        parse_hex,
+    ):
         said = "`"
         try:
             parse(text)

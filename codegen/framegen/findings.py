@@ -60,7 +60,7 @@ def in_order(findings: Iterable[Finding]) -> list[Finding]:
 def did_you_mean(word: str, known: Iterable[str], *, otherwise: str = "") -> str:
     """Hint at what a misspelt word was to be: its nearest neighbour, or else all the choices."""
     choices = list(known)
-    near = get_close_matches(word, choices, n=1, cutoff=0.6)
+    near = get_close_matches(word, choices)
     if near:
         return f"did you mean `{near[0]}`?"
     if otherwise or not choices:

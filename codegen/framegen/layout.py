@@ -105,7 +105,6 @@ class MessageLayout:
     message: Message
     frame: FrameLayout
     link: Link
-    byte_order: str
     numbers: tuple[WireField, ...]
     repeat: Repeat | None
 
@@ -275,7 +274,7 @@ def _message(spec: Spec, frame: FrameLayout, name: str) -> MessageLayout:
         low, high = _count_bounds(frame, field, counter, at - frame.uncounted, size)
         element = field.element if isinstance(field, GroupField) else None
         repeat = Repeat(field_name, at, element, fields, counter, low, high, field)
-    return MessageLayout(name, message, frame, spec.link, spec.byte_order, tuple(numbers), repeat)
+    return MessageLayout(name, message, frame, spec.link, tuple(numbers), repeat)
 
 
 def _element(name: str, field: GroupField | NumberField) -> tuple[WireField, ...]:

@@ -27,7 +27,7 @@ _AMBIGUOUS = (
     (
         re.compile(r"[-+]?0[0-9_]+"),
         "octal to YAML 1.1 and decimal to YAML 1.2",
-        'write {stripped}, or put it in quotes: "{text}"',
+        'write {decimal}, or put it in quotes: "{text}"',
     ),
     (
         re.compile(r"[-+]?[0-9][0-9_]*(?::[0-9]+)+(?:\.[0-9_]*)?"),
@@ -74,6 +74,11 @@ def resolve(text: str) -> str | int | bool | None:
         return int(text, 0)
     for pattern, reads_as, hint in _AMBIGUOUS:
         if pattern.fullmatch(text):
-            stripped = text.lstrip("0_") or "0"
-            raise Ambiguous(text, reads_as, hint.format(text=text, stripped=stripped))
+            raise Ambiguous(text, reads_as, hint.format(text=text, decimal=_decimal(text)))
     return text
+
+
+def _decimal(text: str) -> str:
+    """`-0_10` as `-10`: what the digits are when nobody can take them for octal."""
+    sign = "-" if text.startswith("-") else ""
+    return sign + (text.lstrip("+-").replace("_", "").lstrip("0") or "0")

@@ -15,6 +15,7 @@ from pydantic import Field as Key
 from framegen.formula import Formula, parse_formula
 from framegen.notation import Notation
 from framegen.values import Citation, Direction, Method, Range, Scale, parse_hex
+from framegen.wiretypes import WIRE_TYPES
 
 Cite: TypeAlias = Annotated[Citation, Notation("a citation", "vendor, section 1.1", Citation.parse)]
 Hex: TypeAlias = Annotated[bytes, Notation("hex", "55 55 02 07", parse_hex)]
@@ -35,7 +36,10 @@ Natural: TypeAlias = Annotated[StrictInt, Key(ge=0)]
 class Part(BaseModel):
     """What all mappings of the language share: no key is ignored, and nothing changes once read."""
 
-    model_config = ConfigDict(extra="forbid", frozen=True, arbitrary_types_allowed=True)
+    # Built when a spec is read, all at once: a part is seldom read alone.
+    model_config = ConfigDict(
+        extra="forbid", frozen=True, arbitrary_types_allowed=True, defer_build=True
+    )
 
 
 class Protocol(Part):
@@ -148,7 +152,7 @@ class NamedValue(Part):
 class NumberField(Part):
     """A number; with `counted_by`, a list of them."""
 
-    type: str = Key(description="The number type: u8, u16, u32, i8, i16, i32.")
+    type: str = Key(description=f"The number type: {', '.join(WIRE_TYPES)}.")
     about: str = Key(description="What it is.")
     unit: str = Key("", description="The unit of one step, such as ms.")
     scale: Step | None = Key(None, description="What one step is in a larger unit.")

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import re
+
 # Written as ranges of our own rather than taken from the Unicode database, which differs between
 # Python versions: the same spec must give the same answer everywhere.
-_INVISIBLE = (
+_RANGES = (
     (0x00, 0x09),
     (0x0B, 0x1F),
     (0x7F, 0x9F),
@@ -20,17 +22,15 @@ _INVISIBLE = (
     (0xFFF9, 0xFFFB),
     (0xE0000, 0xE0FFF),
 )
+_INVISIBLE = re.compile(f"[{''.join(f'{chr(low)}-{chr(high)}' for low, high in _RANGES)}]")
 
 
 def is_invisible(character: str) -> bool:
     """Whether it is a control, a direction override or another character of no width."""
-    code = ord(character)
-    return any(low <= code <= high for low, high in _INVISIBLE)
+    return _INVISIBLE.match(character) is not None
 
 
 def first_invisible(text: str) -> str | None:
     """Find the first character of `text` that may not stand in a spec; a line feed may."""
-    # Plain ASCII is by far the commonest text, and needs no walk through the table.
-    if text.isascii() and text.isprintable():
-        return None
-    return next((character for character in text if is_invisible(character)), None)
+    found = _INVISIBLE.search(text)
+    return None if found is None else found[0]

@@ -12,7 +12,8 @@ from decimal import Decimal
 _HEX = re.compile(r"(?:[0-9A-Fa-f]{2}\s+)*[0-9A-Fa-f]{2}")
 _DIRECTION = re.compile(r"(\S+)\s*->\s*(\S+)")
 _RANGE = re.compile(r"(-?[0-9]{1,20})\s*\.\.\s*(-?[0-9]{1,20})?")
-_METHOD = re.compile(r"(\w+)\s*\(([\w\s,]*)\)(?:\s*->\s*(\w+))?", re.ASCII)
+_METHOD = re.compile(r"(\w+)\s*\(\s*((?:\w+(?:\s*,\s*\w+)*)?)\s*\)(?:\s*->\s*(\w+))?", re.ASCII)
+_NAME = re.compile(r"\w+", re.ASCII)
 _SCALE = re.compile(r"([0-9]{1,6}(?:\.[0-9]{1,12})?)\s+(\S+)")
 
 
@@ -128,13 +129,12 @@ class Method:
     def parse(cls, text: str) -> Method:
         """Read `move_servos(targets, time_ms)` or `read_voltage() -> voltage_mv`."""
         match = _METHOD.fullmatch(text.strip())
-        names = [] if match is None else [name.strip() for name in match[2].split(",")]
-        if match is None or (len(names) > 1 and not all(names)) or " " in "".join(names):
+        if match is None:
             raise ValueError(
                 f"`{text.strip()}` is no method: write name, arguments and what it returns, "
                 "like `read_positions(servo_ids) -> positions`"
             )
-        return cls(match[1], tuple(name for name in names if name), match[3] or "")
+        return cls(match[1], tuple(_NAME.findall(match[2])), match[3] or "")
 
 
 def parse_hex(text: str) -> bytes:

@@ -197,6 +197,7 @@ def test_what_came_back_may_be_told_late(log: Path) -> None:
     assert replayed(log) == (0, [MOVE, ASK])
 
 
+@pytest.mark.garbage
 def test_raw_sends_every_byte_whoever_sent_it(log: Path) -> None:
     log.write_text(
         f"13  # 0 s, noise: bad header\n{EITHER}{hexed(ServoUnload([1]))}  # 1 s, controller: no!\n"

@@ -6,9 +6,8 @@ from base64 import b64encode
 from functools import cache
 from hashlib import sha256
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
-from jinja2 import Environment, FileSystemLoader, StrictUndefined
 from markupsafe import Markup
 
 from framegen.targets.docs.data import protocol_data
@@ -23,10 +22,13 @@ from framegen.targets.docs.escape import (
     verbatim,
 )
 from framegen.targets.docs.site import SiteView
+from framegen.targets.templates import environment
 from framegen.yamltree import read_tree
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
+
+    from jinja2 import Environment
 
     from framegen.layout import Layout
     from framegen.source import Source
@@ -34,6 +36,7 @@ if TYPE_CHECKING:
 FOLDER = "docs/reference"
 
 _HERE = Path(__file__).parent
+_TEMPLATES = _HERE / "templates"
 # The decoder needs a script, the cheat sheet paper, and the spec is YAML: they have no twin.
 _TWINS = {
     "index.html": "README.md",
@@ -56,12 +59,12 @@ def render(source: Source, layout: Layout) -> dict[str, str]:
 
 
 def _html(site: SiteView) -> Iterator[tuple[str, str]]:
-    environment = _html_environment()
+    templates = _html_environment()
     data = script_json(protocol_data(site.layout))
     style = _static("style.css")
     for page in [*site.pages, *site.message_pages]:
         scripts = [_static(f"{name}.js") for name in page.scripts]
-        template = environment.get_template(f"{page.template}.html.jinja")
+        template = templates.get_template(f"{page.template}.html.jinja")
         yield (
             page.path,
             template.render(
@@ -77,45 +80,33 @@ def _html(site: SiteView) -> Iterator[tuple[str, str]]:
 
 
 def _markdown(site: SiteView) -> Iterator[tuple[str, str]]:
-    environment = _markdown_environment()
+    templates = _markdown_environment()
     for page in [*site.pages, *site.message_pages]:
         twin = page.path.replace(".html", ".md") if page.message else _TWINS.get(page.path)
         if twin is not None:
-            template = environment.get_template(f"{page.template}.md.jinja")
+            template = templates.get_template(f"{page.template}.md.jinja")
             yield twin, template.render(site=site, page=page, message=page.message)
 
 
 @cache
 def _html_environment() -> Environment:
-    environment = _environment(autoescape=True)
-    environment.filters["linked"] = linked
-    return environment
+    made = environment(_TEMPLATES, "html", autoescape=True)
+    made.filters["linked"] = linked
+    return made
 
 
 @cache
 def _markdown_environment() -> Environment:
     # Escaped unless it is Safe: what a template prints is escaped where autoescape would do it.
-    environment = _environment(autoescape=False, finalize=markdown)
-    environment.filters |= {
+    made = environment(_TEMPLATES, "markdown", autoescape=False, finalize=markdown)
+    made.filters |= {
         "address": address,
         "code": code,
         "named": named,
         "safe": Safe,
         "verbatim": verbatim,
     }
-    return environment
-
-
-def _environment(**settings: Any) -> Environment:
-    # What is Markdown is escaped by its own `finalize`; what is HTML asks for autoescape.
-    return Environment(  # noqa: S701
-        loader=FileSystemLoader(_HERE / "templates"),
-        undefined=StrictUndefined,
-        trim_blocks=True,
-        lstrip_blocks=True,
-        keep_trailing_newline=True,
-        **settings,
-    )
+    return made
 
 
 def _static(name: str) -> Markup:

@@ -66,8 +66,5 @@ class Lines:
 
 def lines_of(tree: Tree, path: KeyPath) -> Lines:
     """Find the lines that a value takes, its key among them."""
-    size = len(path)
-    places = (tree.values, tree.keys)
-    below = [span.line for where in places for key, span in where.items() if key[:size] == path]
     first = tree.key_at(path).line
-    return Lines(first, max([first, *below]))
+    return Lines(first, max(first, tree.last_line(path)))

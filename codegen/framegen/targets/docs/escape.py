@@ -16,7 +16,7 @@ _SPECIAL = re.compile(r"([\\`*_\[\]|~^$])")
 # What only means something at the start of a line: a heading, a list, a rule.
 _LEADING = re.compile(r"([#+\-=]|[0-9]+(?=[.)](?:\s|$)))")
 # Braces mean something to site generators, whatever stands in front of them.
-_ENTITIES = {"&": "&amp;", "<": "&lt;", ">": "&gt;", "{": "&#123;", "}": "&#125;"}
+_ENTITIES = str.maketrans({"&": "&amp;", "<": "&lt;", ">": "&gt;", "{": "&#123;", "}": "&#125;"})
 
 
 class Safe(str):
@@ -30,8 +30,7 @@ def markdown(value: object) -> str:
     if isinstance(value, Safe):
         return value
     folded = " ".join(str(value).split())
-    quoted = "".join(_ENTITIES.get(character, character) for character in folded)
-    escaped = _SPECIAL.sub(r"\\\1", quoted)
+    escaped = _SPECIAL.sub(r"\\\1", folded.translate(_ENTITIES))
     leading = _LEADING.match(escaped)
     if leading is not None:
         end = leading.end() if escaped[0].isdigit() else 0

@@ -5,7 +5,8 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from framegen.targets.python.escape import Bracketed
-from framegen.targets.python.view import MessageView, direction_member
+from framegen.targets.python.message_view import MessageView
+from framegen.targets.python.words import direction_member
 from framegen.values import to_hex
 
 if TYPE_CHECKING:

@@ -6,16 +6,16 @@ from functools import cache
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from jinja2 import Environment, FileSystemLoader, StrictUndefined
-
 from framegen import __version__
 from framegen.targets.python.client_view import ClientView
-from framegen.targets.python.command_view import CommandView
 from framegen.targets.python.device_view import DeviceView
 from framegen.targets.python.escape import comment, docstring, literal
-from framegen.targets.python.view import LibraryView
+from framegen.targets.python.library_view import LibraryView
+from framegen.targets.templates import environment
 
 if TYPE_CHECKING:
+    from jinja2 import Environment
+
     from framegen.layout import Layout
     from framegen.source import Source
 
@@ -50,15 +50,14 @@ def _runtime() -> list[tuple[str, str]]:
 
 
 def _from_templates(library: LibraryView) -> list[tuple[str, str]]:
-    environment = _environment()
-    names = sorted(environment.list_templates(extensions=["jinja"]))
+    templates = _environment()
+    names = sorted(templates.list_templates(extensions=["jinja"]))
     return [
         (
             name.removesuffix(".jinja"),
-            environment.get_template(name).render(
+            templates.get_template(name).render(
                 library=library,
                 client=ClientView(library.layout),
-                command=CommandView(library),
                 device=DeviceView(library.layout),
                 frame=library.layout.frame,
                 package_version=__version__,
@@ -70,13 +69,7 @@ def _from_templates(library: LibraryView) -> list[tuple[str, str]]:
 
 @cache
 def _environment() -> Environment:
-    environment = Environment(
-        loader=FileSystemLoader(_HERE / "templates"),
-        undefined=StrictUndefined,
-        trim_blocks=True,
-        lstrip_blocks=True,
-        keep_trailing_newline=True,
-        autoescape=False,  # noqa: S701 - this is Python, not HTML: the filters below escape
-    )
-    environment.filters.update(docstring=docstring, literal=literal)
-    return environment
+    # This is Python, not HTML: the filters escape.
+    made = environment(_HERE / "templates", "python", autoescape=False)
+    made.filters.update(docstring=docstring, literal=literal)
+    return made

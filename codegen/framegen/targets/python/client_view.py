@@ -9,179 +9,19 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, ClassVar
 
 from framegen.exchanges import exchanges, sent_by_client
-from framegen.layout import Repeat, WireField
-from framegen.targets.python.escape import WIDTH, Bracketed, literal
-from framegen.targets.python.view import LAZY, ListView, NumberView, direction_member
+from framegen.targets.python.escape import Bracketed, literal
+from framegen.targets.python.exports import relative_import
+from framegen.targets.python.method_view import Flavour, MethodView
+from framegen.targets.python.words import direction_member
 
 if TYPE_CHECKING:
-    from typing import Any
-
     from framegen.exchanges import Exchange
     from framegen.layout import Layout
 
-_HANDED_OVER = (
-    "Returns once the frame is handed over; `delay` of the result is in how many seconds it will "
-    "be on the wire."
-)
-_REFUSED = "Raises EncodeError for what no frame can carry"
-_LATE = "NoReplyError where no reply comes in time, and TransportError."
-_SPLIT = "more are asked for in several requests, one after the other."
-_PARTLY = (
-    " IncompleteReplyError where the reply leaves something out: it says what, and keeps the rest."
-)
 _SHARED = (
     "Each method sends one message. What they share is explained at {}: {}, deadlines, reports, "
     "and closing."
 )
-
-
-@dataclass(frozen=True, slots=True)
-class Flavour:
-    """How one of the clients is written: what stands before a definition, a call and an example."""
-
-    define: str
-    wait: str
-
-
-@dataclass(frozen=True, slots=True)
-class MethodView:
-    """One method of a client."""
-
-    exchange: Exchange
-    layout: Layout
-    flavour: Flavour
-
-    @property
-    def name(self) -> str:
-        """How it is called."""
-        return self.exchange.method.name
-
-    @property
-    def signature(self) -> str:
-        """Its declaration."""
-        given = [f"{name}: {self._type(self._argument(name))}" for name in self._names]
-        before = f"{self.flavour.define}{self.name}("
-        return Bracketed(before, ["self", *given], f") -> {self.returns}:").fitted(4)
-
-    @property
-    def returns(self) -> str:
-        """The type of its result."""
-        reply = self.exchange.reply
-        if reply is None:
-            return "Sent"
-        result = self._result
-        if result is None:
-            return reply.name
-        return "int" if isinstance(result, WireField) else self._list(result).read_as
-
-    @property
-    def doc(self) -> list[str]:
-        """What it does; its arguments with their units; what it returns, and what it raises."""
-        message = self.exchange.request.message
-        found = [message.summary, message.description]
-        if message.deprecated:
-            found.append(f"Deprecated: {message.deprecated}")
-        for name in self._names:
-            about, *rest = self._argument(name).doc
-            found.append(" ".join([f"`{name}`: {about}", *rest]))
-        return [*found, *self._outcome]
-
-    @property
-    def _outcome(self) -> list[str]:
-        reply, result = self.exchange.reply, self._result
-        if reply is None:
-            return [_HANDED_OVER, f"{_REFUSED}, and TransportError."]
-        told = f"Returns the {reply.name}."
-        if result is not None:
-            about, *rest = self._shown(result).doc
-            told = " ".join([f"Returns `{result.name}` of the {reply.name}: {about}", *rest])
-        lines = [told]
-        if self.exchange.split is not None:
-            lines.append(f"A reply has room for {self.exchange.most}: {_SPLIT}")
-        partly = any("." in path for _, path in self.exchange.echoed)
-        lines.append(f"{_REFUSED}, {_LATE}{_PARTLY if partly else ''}")
-        return lines
-
-    @property
-    def example_lines(self) -> list[str]:
-        """The first example of the message, as an interactive session."""
-        examples = self.exchange.request.message.examples
-        if not examples:
-            return []
-        values = examples[0].values
-        call = f"{self.flavour.wait}controller.{self.name}({self._example(values)})"
-        reply = self.exchange.reply
-        if reply is None:
-            return [f">>> sent = {call}"]
-        if isinstance(self._result, WireField) and reply.message.examples:
-            return [f">>> {call}", str(reply.message.examples[0].values[self._result.name])]
-        return [f">>> answer = {call}"]
-
-    @property
-    def body(self) -> str:
-        """What it does, as statements."""
-        name, reply = self.exchange.request.name, self.exchange.reply
-        given = [f"{field.name}={field.name}" for field in self.exchange.request.arguments]
-        wait = self.flavour.wait
-        if reply is None:
-            return Bracketed(
-                f"return {wait}self.send(", [Bracketed(f"{name}(", given, ")")], ")"
-            ).fitted(8)
-        if self.exchange.split is not None:
-            asked = [name, reply.name, self.exchange.split.name]
-            replies = Bracketed(f"replies = {wait}self._ask_in_parts(", asked, ")").fitted(8)
-            field = self.exchange.method.result
-            return (
-                f"{replies}\n"
-                f"        return tuple(each for reply in replies for each in reply.{field})"
-            )
-        call = [f"{name}({', '.join(given)})", reply.name]
-        if self._result is None:
-            return Bracketed(f"return {wait}self._ask(", call, ")").fitted(8)
-        return (
-            Bracketed(f"reply = {wait}self._ask(", call, ")").fitted(8)
-            + f"\n        return reply.{self._result.name}"
-        )
-
-    @property
-    def _names(self) -> tuple[str, ...]:
-        return self.exchange.method.arguments
-
-    @property
-    def _result(self) -> WireField | Repeat | None:
-        """The field of the reply that it returns."""
-        reply, name = self.exchange.reply, self.exchange.method.result
-        fields = () if reply is None else reply.arguments
-        return next((field for field in fields if field.name == name), None)
-
-    def _argument(self, name: str) -> NumberView | ListView:
-        fields = self.exchange.request.arguments
-        return self._shown(next(field for field in fields if field.name == name))
-
-    def _shown(self, field: WireField | Repeat) -> NumberView | ListView:
-        return self._list(field) if isinstance(field, Repeat) else self._number(field)
-
-    def _list(self, field: Repeat) -> ListView:
-        return ListView(field, self.layout.spec)
-
-    def _number(self, field: WireField) -> NumberView:
-        return NumberView(field, self.layout.spec)
-
-    def _type(self, argument: NumberView | ListView) -> str:
-        return argument.given_as if isinstance(argument, ListView) else "int"
-
-    def _example(self, values: dict[str, Any]) -> str:
-        """The arguments of an example: the first by place, the others by name."""
-        shown: list[str] = []
-        for at, name in enumerate(self._names):
-            value = values[name]
-            argument = self._argument(name)
-            if isinstance(argument, ListView) and argument.element is not None:
-                names = [field.name for field in argument.fields]
-                items = [", ".join(str(item[each]) for each in names) for item in value]
-                value = f"[{', '.join(f'({item})' for item in items)}]"
-            shown.append(f"{name}={value}" if at else f"{value}")
-        return ", ".join(shown)
 
 
 @dataclass(frozen=True, slots=True)
@@ -251,14 +91,14 @@ class ClientView:
         names |= {each.reply.name for each in exchanges(self.layout) if each.reply is not None}
         for each in exchanges(self.layout):
             names |= set(each.reports)
-        return _import("messages", sorted(names), 0)
+        return relative_import("messages", sorted(names))
 
     @property
     def import_requests(self) -> str:
         """The classes that the methods make and expect."""
         names = {each.request.name for each in exchanges(self.layout)}
         names |= {each.reply.name for each in exchanges(self.layout) if each.reply is not None}
-        return _import("messages", sorted(names), 0)
+        return relative_import("messages", sorted(names))
 
     @property
     def import_elements(self) -> str:
@@ -267,7 +107,7 @@ class ClientView:
         lists = [each.repeat for each in self.layout.messages.values()]
         elements = {each.element for each in lists if each is not None and each.element is not None}
         names = sorted(each for each in elements if f"tuple[{each}, ...]" in shown)
-        return _import("messages", names, 4) if names else ""
+        return relative_import("messages", names, 4) if names else ""
 
     @property
     def iterables(self) -> bool:
@@ -278,19 +118,6 @@ class ClientView:
     def commands(self) -> bool:
         """Whether a method only sends."""
         return any(method.returns == "Sent" for method in self.methods)
-
-    @property
-    def lazy_entries(self) -> list[str]:
-        """The names imported when they are asked for, and their modules."""
-        return [f"{literal(name)}: {literal(module)}," for name, module in LAZY.items()]
-
-    @property
-    def lazy_imports(self) -> list[str]:
-        """The imports of all of those, for type checkers."""
-        modules: dict[str, list[str]] = {}
-        for name, module in LAZY.items():
-            modules.setdefault(module, []).append(name)
-        return [_import(module, names, 4) for module, names in sorted(modules.items())]
 
 
 def _entry(each: Exchange) -> str:
@@ -311,13 +138,3 @@ def _entry(each: Exchange) -> str:
     if each.most:
         items.append(f"most={each.most}")
     return Bracketed(f"{each.request.name}: Exchange(", items, "),").fitted(4)
-
-
-def _import(module: str, names: list[str], indent: int) -> str:
-    """An import, indented but for its first line, an item a line where it needs to."""
-    line = f"from .{module} import {', '.join(names)}"
-    if indent + len(line) <= WIDTH:
-        return line
-    margin = " " * indent
-    listed = "".join(f"{margin}    {name},\n" for name in names)
-    return f"from .{module} import (\n{listed}{margin})"

@@ -5,8 +5,10 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+from framegen.exchanges import snake_case
 from framegen.targets.python.escape import WIDTH, Bracketed
-from framegen.targets.python.view import direction_member, snake_case
+from framegen.targets.python.exports import relative_import
+from framegen.targets.python.words import direction_member
 
 if TYPE_CHECKING:
     from framegen.layout import Layout, MessageLayout
@@ -101,12 +103,12 @@ class DeviceView:
     @property
     def import_handled(self) -> str:
         """The import of the messages that it receives."""
-        return _import(sorted(handler.message for handler in self.handlers), 0)
+        return relative_import("messages", sorted(handler.message for handler in self.handlers))
 
     @property
     def import_reports(self) -> str:
         """The import of the messages that it sends."""
-        return _import(self.reports, 4)
+        return relative_import("messages", self.reports, 4)
 
     @property
     def report_type(self) -> str:
@@ -117,12 +119,3 @@ class DeviceView:
             return line
         joined = "\n        | ".join(names)
         return f"Report: TypeAlias = (\n        {joined}\n    )"
-
-
-def _import(names: list[str], indent: int) -> str:
-    line = f"from .messages import {', '.join(names)}"
-    if indent + len(line) <= WIDTH:
-        return line
-    margin = " " * indent
-    rows = "".join(f"{margin}    {name},\n" for name in names)
-    return f"from .messages import (\n{rows}{margin})"

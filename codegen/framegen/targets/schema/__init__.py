@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 from framegen.spec import Spec
 from framegen.wiretypes import WIRE_TYPES
+from framegen.yamltree import Unusable
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -47,7 +48,15 @@ def render(_source: Source, _layout: Layout) -> dict[str, str]:
 
 
 def schema_text() -> str:
-    """Give the schema as JSON text, with a final newline: the same text for the same language."""
+    """Give the schema as JSON text, with a final newline: the same text for the same language.
+
+    Raises Unusable where Python was told to drop docstrings, which the descriptions are.
+    """
+    if Spec.__doc__ is None:
+        raise Unusable(
+            "Python was started with -OO, and has no descriptions for the schema",
+            hint="start it without -OO",
+        )
     schema = _tidied(Spec.model_json_schema(by_alias=True, mode="validation"))
     for model in schema["$defs"].values():
         if "type" in model["properties"]:

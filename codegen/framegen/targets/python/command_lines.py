@@ -1,0 +1,115 @@
+"""Command lines for the help of the command, each with what it does, as the lines of a tuple."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from framegen.exchanges import exchanges
+from framegen.targets.python.escape import Bracketed, literal
+from framegen.targets.python.message_view import MessageView
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable
+
+    from framegen.layout import Layout
+    from framegen.spec import Example
+
+
+def decode_examples(layout: Layout) -> list[str]:
+    """For `decode`: the ways to hand it bytes."""
+    program, sender = layout.spec.protocol.name, layout.directions[0].sender
+    frame = next(message.example.hex for message in _messages(layout) if message.example)
+    hex_ = frame.hex(" ").upper()
+    examples = [
+        (f"{program} decode {hex_}", "bytes in hex, however they are written"),
+        (f"{program} decode line.bin", "a recording, raw or in hex"),
+        (f"{program} decode --direction {sender} -", "what arrives on standard input"),
+        (f"{program} decode --json line.bin", "a line of JSON for each message and noise"),
+    ]
+    return _pairs(examples)
+
+
+def encode_examples(layout: Layout) -> list[str]:
+    """For `encode`: an example of each shape of message."""
+    program = layout.spec.protocol.name
+    shapes: dict[tuple[bool, bool], tuple[str, str]] = {}
+    for message in _messages(layout):
+        if message.example is not None:
+            words = message.command_words(message.example.values)
+            line = " ".join([program, "encode", message.name, *words])
+            shape = bool(message.given), message.repeat is not None
+            shapes.setdefault(shape, (line, message.layout.message.summary))
+    return _pairs(shapes.values())
+
+
+def line_examples(layout: Layout) -> dict[str, list[str]]:
+    """For each verb that has to do with a port, in the order of the alphabet."""
+    program = layout.spec.protocol.name
+    questions = _questions(layout)
+    lines = {
+        "bench-line": [
+            (f"{words} -n 20" if at else words, f"how long {reply} takes to come")
+            for at, (words, _, reply) in enumerate(questions)
+        ],
+        "monitor": [
+            ("--port COM7", "every frame and all noise"),
+            ("--port COM7 -t delta -n 5", "five, and their distances"),
+            ("--port COM7 --only noise", "what is no frame"),
+            ("--port COM7 --log line.hex", "kept for `decode`"),
+            ("--port COM7 --direction any -t absolute", "both ends of a line, the time of day"),
+            ("--port COM7 --hide noise --json", "messages, for a program to read"),
+        ],
+        "ports": [
+            ("", "the name, VID:PID and description of each"),
+            ("--json", "a line of JSON for each"),
+        ],
+        "replay": [
+            ("line.hex --dry-run", "what would be sent, and when"),
+            ("line.hex --port COM7", "what was recorded, once more"),
+            ("line.hex --port COM7 --speed 0.5", "at half the pace"),
+            ("line.bin --port COM7 --skip-noise", "raw bytes, of which some are no frames"),
+        ],
+        "send": [*_commands(layout)[:4], *((words, what) for words, what, _ in questions)],
+        "simulate": [
+            ("", "a board behind a port, whose name is printed first"),
+            ("--help", "what else it can do"),
+        ],
+    }
+    return {
+        verb: _pairs((f"{program} {verb} {words}".rstrip(), what) for words, what in examples)
+        for verb, examples in lines.items()
+    }
+
+
+def _commands(layout: Layout) -> list[tuple[str, str]]:
+    """An example of each message of the first direction, and what it does."""
+    return [
+        (_sent(message, message.example), message.layout.message.summary)
+        for message in _messages(layout)
+        if message.example is not None and message.layout.direction == layout.directions[0]
+    ]
+
+
+def _questions(layout: Layout) -> list[tuple[str, str, str]]:
+    """An example of each question that the spec has one for, what it does, and its reply."""
+    return [
+        (_sent(message, message.example), message.layout.message.summary, exchange.reply.name)
+        for exchange in exchanges(layout)
+        for message in [MessageView(exchange.request, layout)]
+        if exchange.reply is not None and message.example is not None
+    ]
+
+
+def _sent(message: MessageView, example: Example) -> str:
+    words = " ".join([message.name, *message.command_words(example.values)])
+    return f"--port COM7 {words}"
+
+
+def _messages(layout: Layout) -> list[MessageView]:
+    return [MessageView(message, layout) for message in layout.messages.values()]
+
+
+def _pairs(examples: Iterable[tuple[str, str]]) -> list[str]:
+    return [
+        Bracketed("(", [literal(line), literal(what)], "),").fitted(8) for line, what in examples
+    ]

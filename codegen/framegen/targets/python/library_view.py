@@ -1,0 +1,210 @@
+"""What the templates show of the library as a whole: its messages, what it imports and exports."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from framegen.spec import IdPart, LengthPart
+from framegen.targets.python.command_lines import (
+    decode_examples,
+    encode_examples,
+    line_examples,
+)
+from framegen.targets.python.escape import literal
+from framegen.targets.python.exports import EXPORTED, LAZY, export_order, relative_import
+from framegen.targets.python.message_view import MessageView
+from framegen.targets.python.words import direction_member, struct_order
+
+if TYPE_CHECKING:
+    from framegen.layout import Layout
+    from framegen.spec import Link
+    from framegen.targets.python.list_view import ListView
+    from framegen.values import Direction
+
+
+@dataclass(frozen=True, slots=True)
+class DirectionView:
+    """One member of the Direction enumeration."""
+
+    direction: Direction
+
+    @property
+    def member(self) -> str:
+        return direction_member(self.direction)
+
+    @property
+    def value(self) -> str:
+        return literal(self.direction.key)
+
+    @property
+    def sender(self) -> str:
+        return self.direction.sender
+
+    @property
+    def receiver(self) -> str:
+        return self.direction.receiver
+
+
+@dataclass(frozen=True, slots=True)
+class VerbView:
+    """A verb of the command, and the lines of its examples."""
+
+    verb: str
+    examples: list[str]
+
+    @property
+    def name(self) -> str:
+        return literal(self.verb)
+
+
+@dataclass(frozen=True, slots=True)
+class LibraryView:
+    """The library as a whole."""
+
+    layout: Layout
+
+    @property
+    def version(self) -> str:
+        return self.layout.spec.protocol.version
+
+    @property
+    def package(self) -> str:
+        return self.layout.spec.protocol.name
+
+    @property
+    def directions(self) -> list[DirectionView]:
+        return [DirectionView(direction) for direction in self.layout.directions]
+
+    @property
+    def messages(self) -> list[MessageView]:
+        return [MessageView(message, self.layout) for message in self.layout.messages.values()]
+
+    @property
+    def elements(self) -> list[ListView]:
+        """The lists whose elements have a class of their own."""
+        lists = [message.repeat for message in self.messages]
+        return [repeat for repeat in lists if repeat is not None and repeat.element is not None]
+
+    @property
+    def imports(self) -> list[str]:
+        """What the messages need of the standard library, by what their lists are read with."""
+        chained = any(
+            "chain." in message.repeat.read for message in self.messages if message.repeat
+        )
+        structs = [*(["Struct"] if self.elements else []), *(["iter_unpack"] if chained else [])]
+        wanted = {
+            "functools": ["partial"] if self.elements else [],
+            "itertools": ["chain"] if chained else [],
+            "struct": structs,
+        }
+        return [f"from {module} import {', '.join(n)}" for module, n in wanted.items() if n]
+
+    @property
+    def typing_imports(self) -> list[str]:
+        """What the annotations of the messages need of the standard library."""
+        lists = any(message.repeat for message in self.messages)
+        fields = [field for message in self.messages for field in message.given]
+        fields += [field for element in self.elements for field in element.fields]
+        wanted: dict[str, dict[str, object]] = {
+            "collections.abc": {"Callable": self.elements, "Iterable": lists},
+            "typing": {"ClassVar": True, "Final": any(field.constants for field in fields)},
+        }
+        found = {
+            module: [name for name, needed in names.items() if needed]
+            for module, names in wanted.items()
+        }
+        return [f"from {module} import {', '.join(n)}" for module, n in found.items() if n]
+
+    @property
+    def from_fields(self) -> list[str]:
+        """What describes and takes in the fields."""
+        lists = any(message.repeat for message in self.messages)
+        numbers = any(message.numbers for message in self.messages)
+        names = {"Items": lists, "Number": numbers}
+        return [name for name, needed in names.items() if needed]
+
+    @property
+    def _from_messages(self) -> list[str]:
+        names = {message.name for message in self.messages}
+        names |= {element.element for element in self.elements if element.element is not None}
+        return sorted(names)
+
+    @property
+    def import_messages(self) -> str:
+        names = sorted(["MESSAGES", *self._from_messages], key=export_order)
+        return relative_import("messages", names)
+
+    @property
+    def import_message_classes(self) -> str:
+        return relative_import("messages", sorted(message.name for message in self.messages))
+
+    @property
+    def exported(self) -> list[str]:
+        """Every name that the package exports, in the order that linters want."""
+        return sorted([*EXPORTED, *LAZY, *self._from_messages], key=export_order)
+
+    @property
+    def lazy_entries(self) -> list[str]:
+        """The names imported when they are asked for, and their modules."""
+        return [f"{literal(name)}: {literal(module)}," for name, module in LAZY.items()]
+
+    @property
+    def lazy_imports(self) -> list[str]:
+        """The imports of all of those, for type checkers."""
+        modules: dict[str, list[str]] = {}
+        for name, module in LAZY.items():
+            modules.setdefault(module, []).append(name)
+        return [relative_import(module, names, 4) for module, names in sorted(modules.items())]
+
+    @property
+    def doc(self) -> list[str]:
+        """The docstring of the package."""
+        protocol = self.layout.spec.protocol
+        return [f"{protocol.title}.", protocol.summary, protocol.description]
+
+    @property
+    def command_summary(self) -> str:
+        """What the command is for."""
+        return f"Encode and decode the frames of: {self.layout.spec.protocol.title}."
+
+    @property
+    def decode_examples(self) -> list[str]:
+        return decode_examples(self.layout)
+
+    @property
+    def encode_examples(self) -> list[str]:
+        return encode_examples(self.layout)
+
+    @property
+    def line_verbs(self) -> list[VerbView]:
+        """The verbs that have to do with a port."""
+        return [VerbView(name, lines) for name, lines in line_examples(self.layout).items()]
+
+    @property
+    def link(self) -> Link:
+        return self.layout.spec.link
+
+    @property
+    def byte_order(self) -> str:
+        return self.layout.spec.byte_order
+
+    @property
+    def struct_order(self) -> str:
+        return struct_order(self.byte_order)
+
+    @property
+    def header(self) -> str:
+        return 'b"' + "".join(f"\\x{byte:02x}" for byte in self.layout.frame.header) + '"'
+
+    @property
+    def head(self) -> list[str]:
+        """The expressions whose sum is the head of a frame."""
+        terms: list[str] = []
+        frame = self.layout.frame
+        for part in self.layout.spec.frame.values():
+            if isinstance(part, LengthPart):
+                terms.append(f'length.to_bytes({frame.length.size}, "{self.byte_order}")')
+            elif isinstance(part, IdPart):
+                terms.append(f'command.to_bytes({frame.id.size}, "{self.byte_order}")')
+        return terms

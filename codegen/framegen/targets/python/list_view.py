@@ -1,0 +1,127 @@
+"""What the templates show of the list of a message: its elements, how it is given and read."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from framegen.exchanges import snake_case
+from framegen.targets.python.escape import Bracketed, literal
+from framegen.targets.python.number_view import NumberView
+from framegen.targets.python.words import range_expression, struct_order
+
+if TYPE_CHECKING:
+    from framegen.layout import Repeat
+    from framegen.spec import Spec
+
+
+@dataclass(frozen=True, slots=True)
+class ListView:
+    """The list of a message."""
+
+    layout: Repeat
+    spec: Spec
+
+    @property
+    def name(self) -> str:
+        return self.layout.name
+
+    @property
+    def element(self) -> str | None:
+        return self.layout.element
+
+    @property
+    def fields(self) -> list[NumberView]:
+        return [NumberView(field, self.spec) for field in self.layout.fields]
+
+    @property
+    def codes(self) -> str:
+        """The letters of one element in `struct`, behind that of the byte order."""
+        return struct_order(self.spec.byte_order) + "".join(
+            field.wire.code for field in self.layout.fields
+        )
+
+    @property
+    def match_args(self) -> str:
+        names = [literal(field.name) for field in self.fields]
+        return Bracketed("__match_args__ = (", names, ")", lone=",").fitted(4)
+
+    @property
+    def signature(self) -> str:
+        fields = [f"{field.name}: int" for field in self.fields]
+        return Bracketed("def __new__(", ["cls", *fields], ") -> Self:").fitted(4)
+
+    @property
+    def element_doc(self) -> list[str]:
+        return [f"One of the {self.name} of a message: a tuple ({self.names}) with names."]
+
+    @property
+    def types(self) -> str:
+        """The types of its fields."""
+        return ", ".join("int" for _ in self.layout.fields)
+
+    @property
+    def names(self) -> str:
+        """The names of its fields, as the tuple that one element is made of."""
+        return ", ".join(field.name for field in self.fields) + (
+            "," if len(self.fields) == 1 else ""
+        )
+
+    @property
+    def strategy(self) -> Bracketed:
+        """Hypothesis's strategy for it, as an argument."""
+        items = [field.strategy for field in self.fields]
+        element = items[0] if self.element is None else Bracketed("st.tuples(", items, ")")
+        sizes = [f"min_size={self.layout.low}", f"max_size={self.layout.high}"]
+        return Bracketed(f"{self.name}=st.lists(", [element, *sizes], ")")
+
+    @property
+    def snake(self) -> str:
+        """The name of its element, for the functions that make and read one."""
+        return snake_case(self.element or "")
+
+    @property
+    def maker(self) -> str:
+        """The function that makes an element of a tuple."""
+        name = f"_make_{self.snake}: Callable[[tuple[int, ...]], {self.element}]"
+        items = ["tuple.__new__", str(self.element)]
+        return Bracketed(f"{name} = partial(", items, ")").fitted(0)
+
+    @property
+    def read_as(self) -> str:
+        """The type that reading it gives."""
+        return f"tuple[{self.element or 'int'}, ...]"
+
+    @property
+    def read(self) -> str:
+        """The expression that reads it from the frame."""
+        data = f"self._frame[{self.layout.offset}:]"
+        if self.element is not None:
+            return f"tuple(map(_make_{self.snake}, _read_{self.snake}({data})))"
+        if self.layout.fields[0].wire.name == "u8":
+            return f"tuple({data})"
+        return f"tuple(chain.from_iterable(iter_unpack({literal(self.codes)}, {data})))"
+
+    @property
+    def counts(self) -> str:
+        return range_expression(range(self.layout.low, self.layout.high + 1))
+
+    @property
+    def bounds(self) -> str:
+        return f"{self.layout.low}..{self.layout.high}"
+
+    @property
+    def given_as(self) -> str:
+        """The type of the argument."""
+        if self.element is None:
+            return "Iterable[int]"
+        return f"Iterable[tuple[{self.types}]]"
+
+    @property
+    def doc(self) -> list[str]:
+        """What it is, how many there can be, and what else is known of it."""
+        field = self.layout.field
+        notes = [
+            f"{note.text} ({self.spec.sources[note.cite.source].title})" for note in field.notes
+        ]
+        return [field.about, f"{self.bounds} of them.", *notes]

@@ -1,0 +1,95 @@
+"""`make mutants`, second half: whatever mutmut leaves open is tried against whole files of tests.
+
+mutmut runs those tests that entered the changed function while they ran, one by one. What a file
+of tests works out while it is imported belongs to none of them, so a survivor may be one in name
+only. And where the import fails under a mutant, which is as good a failure as any, pytest cannot
+find the tests that it was asked for, and mutmut calls it a time-out. Here each of these mutants
+meets the files whole, properties included, until something fails.
+
+Run where mutmut has laid out its copy: `cd mutants/mutants && python -m tests.mutants [PATTERN]`.
+"""
+
+import json
+import os
+import resource
+import sys
+from collections import Counter
+from collections.abc import Iterator
+from fnmatch import fnmatch
+from importlib import import_module
+from pathlib import Path
+
+import pytest
+
+HERE = Path(__file__).parent
+
+# The files that judge each package, those first that soonest cannot be imported.
+JUDGES = {
+    "framegen": ("layout", "explain", "check", "edges", "values", "formula", "scalars", "vectors"),
+    "busservo": (
+        *("decode", "messages", "edges", "narrow_ranges", "vectors", "stream", "oracle_agrees"),
+        "stream_machine",
+    ),
+}
+OPTIONS = ("-x", "-q", "--tb=no", "-p", "no:cacheprovider")
+QUIET = ("-W", "ignore:Module already imported:pytest.PytestAssertRewriteWarning")
+
+# mutmut's, for what its tests say of a mutant.
+SURVIVED, KILLED, UNTRIED = 0, 1, None
+SECONDS = 300
+BYTES = 2 << 30
+
+
+def tried(pattern: str) -> Iterator[tuple[str, str, int]]:
+    """The module and name of each mutant that mutmut has tried, and what became of it."""
+    for file in sorted(Path("src").rglob("*.meta")):
+        results = json.loads(file.read_text(encoding="utf-8"))["exit_code_by_key"]
+        module = file.relative_to("src").as_posix().removesuffix(".py.meta").replace("/", ".")
+        for name, result in results.items():
+            if result is not UNTRIED and fnmatch(name, pattern):
+                yield module, name, result
+
+
+def verdict(name: str) -> str:
+    """What whole files of tests say: a process of its own, in which nothing of ours is imported."""
+    child = os.fork()
+    if child == 0:
+        os._exit(_judge(name))
+    _, status = os.waitpid(child, 0)
+    code = os.waitstatus_to_exitcode(status)
+    return {0: "survived", 1: "killed", 2: "killed"}.get(code, "no end")
+
+
+def _judge(name: str) -> int:
+    silence = os.open(os.devnull, os.O_WRONLY)
+    os.dup2(silence, 1)
+    os.dup2(silence, 2)
+    used = int(sum(os.times()[:2]))
+    resource.setrlimit(resource.RLIMIT_CPU, (used + SECONDS, used + SECONDS))
+    resource.setrlimit(resource.RLIMIT_AS, (BYTES, BYTES))
+    os.environ["MUTANT_UNDER_TEST"] = name
+    files = [f"tests/test_{judge}.py" for judge in JUDGES[name.partition(".")[0]]]
+    return int(pytest.main([*OPTIONS, *QUIET, *files]))
+
+
+def main() -> None:
+    """Judge what is open, and print what became of every mutant, by module."""
+    sys.path[:0] = ["src", "."]
+    for line in (HERE / "mutation_preload.txt").read_text(encoding="utf-8").splitlines():
+        if not line.startswith("#"):
+            import_module(line)
+    found: dict[str, Counter[str]] = {}
+    for module, name, result in tried(*sys.argv[1:] or ["*"]):
+        said = "killed" if result == KILLED else verdict(name)
+        found.setdefault(module, Counter())[said] += 1
+        if said != "killed":
+            print(f"{name}: {said}", flush=True)
+    kinds = ("killed", "no end", "survived")
+    print(f"{'module':34}", *(f"{kind:>9}" for kind in ("mutants", *kinds)))
+    for module, counts in found.items():
+        numbers = (sum(counts.values()), *(counts[kind] for kind in kinds))
+        print(f"{module:34}", *(f"{number:9}" for number in numbers))
+
+
+if __name__ == "__main__":
+    main()
