@@ -55,15 +55,14 @@ def add_arguments(parser: ArgumentParser) -> None:
 def run(arguments: Namespace) -> int:
     """Asks, and prints what came of it, also when it ended early."""
     trips = Trips(_question(arguments), arguments.port)
-    try:
-        with failures_told(), open_client(arguments) as client:
-            try:
-                trips.make(client, arguments.n)
-            finally:
-                found = json.dumps(trips.as_record()) if arguments.json else trips.as_text()
-                print(found, flush=True)
-    except KeyboardInterrupt:
-        return INTERRUPTED
+    with failures_told(), open_client(arguments) as client:
+        try:
+            trips.make(client, arguments.n)
+        except KeyboardInterrupt:
+            return INTERRUPTED
+        finally:
+            found = json.dumps(trips.as_record()) if arguments.json else trips.as_text()
+            print(found, flush=True)
     return NOT_ALL if trips.errors else DONE
 
 

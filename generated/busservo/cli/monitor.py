@@ -90,16 +90,16 @@ def run(arguments: Namespace) -> int:
     """Prints until Ctrl-C, -n or the loss of the line, and then the totals."""
     # Names are read before a port is opened or a file begun.
     monitor = Monitor(arguments, sys.stdout)
-    try:
-        with (
-            failures_told(),
-            closing(open_line(arguments.port)) as line,
-            Recorder(arguments.log) as recorder,
-        ):
-            recorder.begin(arguments.port, time.monotonic())
+    with (
+        failures_told(),
+        closing(open_line(arguments.port)) as line,
+        Recorder(arguments.log) as recorder,
+    ):
+        recorder.begin(arguments.port, time.monotonic())
+        try:
             monitor.watch(line, recorder)
-    except KeyboardInterrupt:
-        return INTERRUPTED
+        except KeyboardInterrupt:
+            return INTERRUPTED
     return DONE
 
 

@@ -55,10 +55,10 @@ class Playback:
         try:
             for heard, at in zip(recorded, times, strict=True):
                 self._wait(began + at, f"{sent} of {len(recorded)} sent, the next")
-                data = bytes_of(heard.event)
+                data, now = bytes_of(heard.event), time.monotonic()
                 line.write(data)
                 self._waiting.clear()
-                self._lines.show(heard.event, SENDERS.get(heard.sender), time.monotonic())
+                self._lines.show(heard.event, SENDERS.get(heard.sender), now)
                 sent, size = sent + 1, size + len(data)
             line.drain(1.0)
             self._wait(time.monotonic() + _QUIET, "the last answer")

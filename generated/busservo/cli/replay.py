@@ -89,11 +89,11 @@ def run(arguments: argparse.Namespace) -> int:
         told = f"{counted(len(chosen), 'frame')}, {counted(sum(sizes), 'byte')} in {taken:.3f} s"
         print(f"{told}: nothing was sent", file=sys.stderr)
         return DONE
-    try:
-        with failures_told(), closing(open_line(port)) as line:
+    with failures_told(), closing(open_line(port)) as line:
+        try:
             Playback(sys.stdout).play(line, chosen, times)
-    except KeyboardInterrupt:
-        return INTERRUPTED
+        except KeyboardInterrupt:
+            return INTERRUPTED
     return DONE
 
 
