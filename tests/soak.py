@@ -36,8 +36,8 @@ MARGIN = 0.25
 LIVE = {"noise": 0.1, "splits": 0.002, "coalesced": 0.002, "delays": 0.002, "dropped": 0.0005}
 LIVE["longest_delay"] = 0.1
 VIRTUAL = {"noise": 0.2, "splits": 0.2, "coalesced": 0.1, "delays": 0.2, "dropped": 0.1}
-# A report and the reply behind it, both late: later than a request waits, not than the next does.
-VIRTUAL["longest_delay"] = 0.2
+# Later than a request waits for its reply, but not than the next one of its kind does.
+VIRTUAL["longest_delay"] = 0.4
 BOTH = {"fewer": 0.05, "absent": 0.05, "unasked": 0.2}
 # What a round may leave behind: caches that grow by a little, and never by a message each.
 SPARE_BLOCKS = 2000

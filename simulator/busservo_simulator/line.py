@@ -142,10 +142,11 @@ class Line:
             self._waits_until = moment + COALESCING
             return
         waiting, self._waiting = self._waiting, b""
+        # It is late from when it was due, whatever is still in front of it.
+        start = moment
         for pause, data in sending.pieces:
-            start = max(moment, self._to_host.free_at) + pause if pause else moment
-            self._to_host.put(waiting + data, start)
-            waiting = b""
+            self._to_host.put(waiting + data, start + pause)
+            start, waiting = self._to_host.free_at, b""
         if sending.hangs_up:
             self._hangs_up_at = self._to_host.free_at
 
