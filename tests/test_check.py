@@ -47,6 +47,23 @@ def said_of(source: Source) -> list[str]:
     return [f"{f.rule} {f.span.line}:{f.span.column}: {f.message}" for f in findings]
 
 
+def more_of(source: Source) -> list[str]:
+    """What else the findings say: at which path, what other place to see, and what to do."""
+    lines: list[str] = []
+    for finding in findings_of(source):
+        lines.append(f"# at: {finding.path}".rstrip())
+        lines += [f"# see: {each.span.line}: {each.text}" for each in finding.related]
+        lines += [f"# hint: {finding.hint}"] if finding.hint else []
+    return lines
+
+
+def findings_of(source: Source) -> list[Finding]:
+    try:
+        return check(load(source))
+    except Unusable as refusal:
+        return [] if refusal.finding is None else [refusal.finding]
+
+
 def expected_of(source: Source) -> list[str]:
     return [
         line.removeprefix(EXPECT) for line in source.text.split("\n") if line.startswith(EXPECT)
@@ -67,6 +84,16 @@ def test_a_bad_spec_gives_exactly_its_findings(file: Path) -> None:
     source = read_source(file)
     assert expected_of(source), "the first line says what to expect"
     assert expected_of(source) == said_of(source)
+
+
+@pytest.mark.parametrize("file", BAD, ids=lambda file: file.stem)
+def test_a_finding_tells_where_it_is_and_what_to_do(file: Path) -> None:
+    """As the last lines of the file have it."""
+    source = read_source(file)
+    lines = source.text.split("\n")
+    assert [line for line in lines if line.startswith(("# at:", "# see: ", "# hint: "))] == (
+        more_of(source)
+    )
 
 
 @pytest.mark.parametrize("file", GOOD, ids=lambda file: file.stem)
