@@ -16,7 +16,7 @@ MUTATION_VENV := .tools/mutation
 ONLY =
 
 .DEFAULT_GOAL := all
-.PHONY: all venv test quick lint format fuzz mutants bench docs docs-tools wheel clean help
+.PHONY: all venv test quick coverage lint format fuzz mutants bench docs docs-tools wheel clean help
 
 all: $(READY)  ## Check the spec, generate everything, decode a recorded noisy line (plain `make`)
 	$(IN)/framegen check
@@ -24,13 +24,17 @@ all: $(READY)  ## Check the spec, generate everything, decode a recorded noisy l
 	$(IN)/busservo decode --direction any tests/captures/noisy_line.bin
 	$(IN)/python examples/virtual_arm.py
 
-test: $(READY)  ## Run every test, and report the coverage of lines and branches
-	$(IN)/coverage erase
-	$(IN)/coverage run -m pytest
-	$(IN)/coverage report
+test: $(READY)  ## Run every test
+	$(IN)/python -m pytest
 
-quick: $(READY)  ## Run every test with fewer examples, without coverage and without a browser
+quick: $(READY)  ## Run every test with fewer examples, and without a browser
 	HYPOTHESIS_PROFILE=quick $(IN)/python -m pytest -q --ignore=tests/docs/test_browser.py
+
+coverage: $(READY)  ## Measure which lines and branches the quick tests reach, commands included
+	$(IN)/coverage erase
+	HYPOTHESIS_PROFILE=quick $(IN)/coverage run -m pytest -q --ignore=tests/docs/test_browser.py
+	$(IN)/coverage combine -q
+	$(IN)/coverage report
 
 lint: $(READY)  ## Lint, look at the format, check types, and that the output is up to date
 	$(IN)/ruff check

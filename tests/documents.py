@@ -3,6 +3,7 @@
 Fenced blocks are played from the top of a page to its end, in a copy of the project: `console`
 (commands after `$`, with what they print), `pycon` (a Python session), `python` (a program),
 `output` (what the last program printed) and `diff`, which is applied to the file that it names.
+Whatever port a command or a program opens, a virtual board is there.
 What is printed may leave lines out with `...`; all else must agree to the letter.
 
     python -m tests.documents
@@ -24,12 +25,15 @@ import sys
 import tempfile
 import traceback
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 from unittest import mock
 
 import busservo
 from busservo.opening import open_controller
 from busservo_simulator import VirtualController
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterator
 
 ROOT = Path(__file__).parent.parent
 # The guide to testing is played by tests/simulator/test_guide.py, which needs files of its own.
@@ -108,17 +112,19 @@ class _Player:
         for command in line.split(" | "):
             name, *arguments = shlex.split(command)
             assert name in _COMMANDS, f"{name} is not run here: put it into a block of `sh`"
-            output = subprocess.run(
-                [sys.executable, "-m", name, *arguments],
-                cwd=self._folder,
-                env=environment,
-                input=output,
-                stdout=subprocess.PIPE,
-                stderr=subprocess.STDOUT,
-                encoding="utf-8",
-                timeout=60,
-                check=False,
-            ).stdout
+            with _connected(arguments) as (words, told_as):
+                printed = subprocess.run(
+                    [sys.executable, "-m", name, *words],
+                    cwd=self._folder,
+                    env=environment,
+                    input=output,
+                    stdout=subprocess.PIPE,
+                    stderr=subprocess.STDOUT,
+                    encoding="utf-8",
+                    timeout=60,
+                    check=False,
+                ).stdout
+            output = told_as(printed)
         return output
 
     def _session(self, block: str) -> str:
@@ -142,6 +148,20 @@ class _Player:
                 print("Traceback (most recent call last):", "  ...", sep="\n")
                 print("".join(traceback.format_exception_only(error)), end="")
         return output.getvalue()
+
+
+@contextlib.contextmanager
+def _connected(words: list[str]) -> Iterator[tuple[list[str], Callable[[str], str]]]:
+    """A command line with a virtual board at its port, and how to tell what it then prints."""
+    if "--port" not in words:
+        yield words, str
+        return
+    at = words.index("--port") + 1
+    with VirtualController(via="tcp") as board:
+        yield (
+            [*words[:at], board.port, *words[at + 1 :]],
+            lambda text: text.replace(board.port, words[at]),
+        )
 
 
 def _told(expected: str, actual: str) -> str:

@@ -703,6 +703,19 @@ def _rename_element(message: Data, name: str) -> None:
     }
 
 
+@pytest.mark.parametrize("name", ["greenhouse", "shapes", "bare"])
+def test_every_verb_of_a_library_has_help(many: Path, name: str) -> None:
+    program = (
+        f"from {name}.cli import main; from {name}.cli.examples import VERBS; "
+        "print([verb for verb in VERBS if verb != 'simulate' and main([verb, '--help'])])"
+    )
+    done = subprocess.run(
+        [sys.executable, "-c", program], cwd=many, capture_output=True, encoding="utf-8", check=True
+    )
+    *_, last = done.stdout.splitlines()
+    assert last == "[]"
+
+
 @pytest.mark.parametrize(
     "words",
     [

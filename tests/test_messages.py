@@ -334,6 +334,13 @@ def test_an_element_can_be_copied_and_pickled(kind: Callable[..., Any]) -> None:
         assert type(twin) is kind
 
 
+def test_the_class_of_all_messages_is_none_itself() -> None:
+    with pytest.raises(TypeError, match="make one of its subclasses"):
+        Message()
+    with pytest.raises(TypeError, match="with the function `decode`"):
+        Message.decode(bytes.fromhex("55 55 02 07"))
+
+
 # --- What no frame can carry ---------------------------------------------------------------------
 
 

@@ -6,7 +6,6 @@ from __future__ import annotations
 
 from .direction import Direction
 from .messages import MESSAGES
-from .octets import octets
 from .table import Table
 
 TYPE_CHECKING = False  # typing alone would double the time that the import takes
@@ -39,4 +38,4 @@ def decode(frame: bytes | bytearray | memoryview, direction: Direction | None) -
         table = _tables[direction]
     except KeyError:
         table = table_for(direction)
-    return table.read(frame if type(frame) is bytes else octets(frame))
+    return table.read(frame)

@@ -4,7 +4,6 @@
 
 from __future__ import annotations
 
-from .octets import octets
 from .table import Table
 
 TYPE_CHECKING = False  # typing alone would double the time that the import takes
@@ -36,6 +35,9 @@ class Message:
     _frame: bytes
     _table: ClassVar[Any]
 
+    def __init__(self) -> None:
+        raise TypeError("Message is what all messages are: make one of its subclasses instead")
+
     def __init_subclass__(cls) -> None:
         cls._table = Table([cls])
 
@@ -46,7 +48,12 @@ class Message:
     @classmethod
     def decode(cls, frame: bytes | bytearray | memoryview) -> Self:
         """Reads one frame of this message, whole and with nothing after it. Raises DecodeError."""
-        message: Self = cls._table.read(octets(frame))
+        try:
+            table = cls._table
+        except AttributeError:
+            problem = "Message is what all messages are: decode with one of its subclasses"
+            raise TypeError(f"{problem}, or with the function `decode` of this package") from None
+        message: Self = table.read(frame)
         return message
 
     def __eq__(self, other: object) -> bool:

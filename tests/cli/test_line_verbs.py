@@ -1,12 +1,25 @@
 """The verbs of the command that have to do with a line, against the virtual controller."""
 
+import argparse
+import ast
 import json
+import re
+import shlex
 import subprocess
 import sys
+from importlib import import_module
 
 import pytest
-from busservo.cli import main
-from busservo_simulator import VirtualController
+from busservo import ServoPositions
+from busservo.cli import main, send
+from busservo.cli.examples import EXAMPLES, VERBS
+from busservo.cli.questions import in_parts
+from busservo.client import Client
+from busservo_simulator import Faults, VirtualController
+from serial.tools.list_ports_common import ListPortInfo
+
+from tests.client.virtual_line import VirtualLine
+from tests.documents import ROOT
 
 
 def test_a_reply_is_printed_as_decode_prints_it(capsys: pytest.CaptureFixture[str]) -> None:
@@ -34,6 +47,54 @@ def test_a_command_arrives_and_prints_nothing(capsys: pytest.CaptureFixture[str]
     assert "ServoUnload" not in capsys.readouterr().out
 
 
+def test_a_reply_that_leaves_something_out_is_printed_and_what_it_lacks_is_named(
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    with VirtualController("tcp", servos=[1, 3]) as board:
+        words = ["ServoPositionsRead", "servo_ids=1,2,3,9"]
+        assert main(["send", "--port", board.port, *words]) == 1
+    output, errors = capsys.readouterr()
+    assert "ServoPositions positions=1:500,3:500" in output
+    assert errors == "the reply is incomplete: nothing of servo_ids 2, 9\n"
+
+
+def test_what_one_reply_has_no_room_for_is_asked_in_parts_as_the_controller_does(
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    servos = range(1, 201)
+    with VirtualController("tcp", servos=servos) as board:
+        words = ["ServoPositionsRead", f"servo_ids={','.join(map(str, servos))}", "--json"]
+        assert main(["send", "--port", board.port, *words]) == 0
+        assert board.accepted == 3
+    output, errors = capsys.readouterr()
+    told = [json.loads(line)["fields"]["positions"] for line in output.splitlines()]
+    assert [len(each) for each in told] == [84, 84, 32]
+    assert [each["servo_id"] for part in told for each in part] == [*servos]
+    assert errors == "asked in 3 requests: one reply has no room for so much\n"
+
+
+def test_silence_after_a_part_keeps_what_had_come(
+    capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    line = VirtualLine(lambda _: [] if line.received[1:] else [(0.0, ServoPositions([(1, 500)]))])
+    client = Client(line, background=False, clock=line.clock)
+    monkeypatch.setattr(send, "open_client", lambda *_, **__: client)
+    words = ["ServoPositionsRead", f"servo_ids={','.join(map(str, range(1, 87)))}"]
+    assert main(["send", "--port", "COM7", *words]) == 1
+    output, errors = capsys.readouterr()
+    assert output.count("ServoPositions positions=1:500 |") == 1
+    first, incomplete, silent = errors.splitlines()
+    assert first == "asked in 2 requests: one reply has no room for so much"
+    assert incomplete.startswith("the reply is incomplete: nothing of servo_ids 2, 3, 4, ")
+    assert "no ServoPositions came within" in silent
+
+
+def test_retries_ask_again(capsys: pytest.CaptureFixture[str]) -> None:
+    words = ["--retries", "2", "--timeout", "0.05"]
+    assert main(["send", "--port", "loop://", "BatteryVoltageRead", *words]) == 1
+    assert "to 3 requests of BatteryVoltageRead()" in capsys.readouterr().err
+
+
 def test_silence_is_told_from_success(capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["send", "--port", "loop://", "BatteryVoltageRead"]) == 1
     assert "no BatteryVoltage came" in capsys.readouterr().err
@@ -47,6 +108,31 @@ def test_silence_is_told_from_success(capsys: pytest.CaptureFixture[str]) -> Non
         (["send", "--port", "loop://", "ActionGroupStopped"], "is never sent from here"),
         (["send", "--port", "loop://", "ServoMov"], "did you mean ServoMove?"),
         (["send", "ActionGroupStop"], "--port"),
+        (["send", "--port", "loop://", "ServoMove", "time_ms=1"], "ServoMove needs targets"),
+        (
+            ["send", "--port", "loop://", "ServoPositionsRead", f"servo_ids={100 * '1,'}300"],
+            "servo_ids[100]: 300 is outside 0..255",
+        ),
+        (
+            ["send", "--port", "loop://", "BatteryVoltageRead", "--retries", "-1"],
+            "argument --retries: -1 is below 0, the least there can be",
+        ),
+        (
+            ["send", "--port", "loop://", "BatteryVoltageRead", "--timeout", "0"],
+            "argument --timeout: 0 is not above 0 and up to 3600 seconds",
+        ),
+        (
+            ["send", "--port", "loop://", "BatteryVoltageRead", "--timeout", "inf"],
+            "argument --timeout: inf is not above 0 and up to 3600 seconds",
+        ),
+        (
+            ["send", "--port", "loop://", "BatteryVoltageRead", "--timeout", "nan"],
+            "argument --timeout: nan is not above 0 and up to 3600 seconds",
+        ),
+        (
+            ["send", "--port", "loop://", "BatteryVoltageRead", "--timeout", "soon"],
+            "argument --timeout: 'soon' is no number of seconds",
+        ),
     ],
 )
 def test_what_cannot_be_done_is_said_in_a_line(
@@ -62,6 +148,36 @@ def test_ports_lists_or_says_that_there_are_none(capsys: pytest.CaptureFixture[s
     assert main(["ports"]) == 0
     output, errors = capsys.readouterr()
     assert output or errors == "no serial port is plugged in\n"
+
+
+def test_ports_are_told_with_what_usb_knows_of_them(
+    capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    board = ListPortInfo("/dev/ttyUSB0")
+    board.vid, board.pid, board.description = 0x1A86, 0x7523, "USB Serial"
+    found = [board, ListPortInfo("/dev/ttyS0")]
+    monkeypatch.setattr("serial.tools.list_ports.comports", lambda: found)
+    assert main(["ports"]) == 0
+    assert capsys.readouterr().out.splitlines() == [
+        "/dev/ttyS0        -",
+        "/dev/ttyUSB0      1A86:7523  USB Serial",
+    ]
+    assert main(["ports", "--json"]) == 0
+    assert json.loads(capsys.readouterr().out.splitlines()[1]) == {
+        "port": "/dev/ttyUSB0",
+        "usb": "1A86:7523",
+        "description": "USB Serial",
+    }
+
+
+def test_a_line_that_is_lost_in_the_middle_of_a_reply_has_a_status_of_its_own(
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    with VirtualController("tcp", faults=Faults(hang_up=1.0)) as board:
+        assert main(["send", "--port", board.port, "BatteryVoltageRead"]) == 3
+        told = capsys.readouterr().err
+        assert told.startswith(f"busservo: error: {board.port}: the line was lost")
+        assert told.endswith("; see to the cable and the power, then run this again\n")
 
 
 def test_simulate_hands_over(capsys: pytest.CaptureFixture[str]) -> None:
@@ -81,11 +197,43 @@ def test_simulate_says_what_is_missing(
     assert "is not installed here" in capsys.readouterr().err
 
 
-@pytest.mark.parametrize("words", [["decode", "55"], ["encode", "ActionGroupStop"]])
+FILE = str(ROOT / "tests" / "captures" / "noisy_line.bin")
+
+
+@pytest.mark.parametrize(
+    "words",
+    [
+        ["decode", "55"],
+        ["encode", "ActionGroupStop"],
+        ["--help"],
+        ["decode", "--help"],
+        ["--version"],
+    ],
+)
 def test_without_a_port_there_is_no_serial_and_no_thread(words: list[str]) -> None:
+    assert imported(words, "serial", "threading", "shtab") == []
+
+
+@pytest.mark.parametrize(
+    "words",
+    [
+        ["monitor", "--help"],
+        ["send", "--help"],
+        ["bench-line", "--help"],
+        ["replay", "--help"],
+        ["replay", FILE, "--dry-run", "--skip-noise", "--either", "send"],
+        ["send", "--port", "COM7", "ServoMov"],
+    ],
+)
+def test_pyserial_is_imported_only_to_open_a_port(words: list[str]) -> None:
+    assert imported(words, "serial", "shtab") == []
+
+
+def imported(words: list[str], *names: str) -> list[str]:
+    """Which of these modules running the command imports."""
     program = (
         "import sys; from busservo.cli import main; "
-        f"main({words!r}); print(sorted({{'serial', 'threading'}} & set(sys.modules)))"
+        f"main({words!r}); print(sorted(set({names!r}) & set(sys.modules)))"
     )
     done = subprocess.run(
         [sys.executable, "-S", "-c", f"import sys; sys.path[:] = {sys.path!r}; {program}"],
@@ -93,4 +241,34 @@ def test_without_a_port_there_is_no_serial_and_no_thread(words: list[str]) -> No
         text=True,
         check=True,
     )
-    assert done.stdout.splitlines()[-1] == "[]"
+    found: list[str] = ast.literal_eval(done.stdout.splitlines()[-1])
+    return found
+
+
+@pytest.mark.parametrize("verb", sorted(set(VERBS) - {"simulate"}))
+def test_help_teaches_by_examples_that_work_and_names_every_exit_status(
+    capsys: pytest.CaptureFixture[str], verb: str
+) -> None:
+    assert main([verb, "--help"]) == 0
+    shown = capsys.readouterr().out
+    assert "\nexamples:\n  busservo " in shown
+    assert all(example in shown for example, _ in EXAMPLES[verb])
+    ends = re.findall(r"^  ([0-9]+) +[a-z]", shown.partition("\nexit status:\n")[2], re.MULTILINE)
+    assert [int(end) for end in ends] == sorted({0, 2, 130, 141, *map(int, ends)})
+    assert ("3" in ends) == ("--port" in shown)
+
+
+@pytest.mark.parametrize(
+    "line", [line for verb in EXAMPLES for line, _ in EXAMPLES[verb] if "--help" not in line]
+)
+def test_an_example_is_a_command_line(line: str) -> None:
+    _, name, *words = shlex.split(line)
+    verb = import_module(f"busservo.cli.{name.replace('-', '_')}")
+    if name == "simulate":
+        assert words == []
+        return
+    parser = argparse.ArgumentParser(exit_on_error=False)
+    verb.add_arguments(parser)
+    given = parser.parse_intermixed_args(words)
+    if "message" in given:
+        assert given.message is None or in_parts(given.message, given.fields)[0].encode()

@@ -1,32 +1,57 @@
-"""The verb `monitor`, with a transport, a screen and a clock of our own."""
+"""The verb `monitor`, with a transport, a screen and clocks of our own."""
+
+from __future__ import annotations
 
 import argparse
 import io
-from pathlib import Path
+import json
+import os
+import sys
+import time
+from typing import TYPE_CHECKING
 
 import pytest
-from busservo import BatteryVoltage
+from busservo import (
+    ActionGroupRun,
+    BatteryVoltage,
+    BatteryVoltageRead,
+    DisconnectedError,
+    ServoMove,
+    ServoPositions,
+    ServoPositionsRead,
+    ServoUnload,
+)
 from busservo.cli import main, monitor
+from busservo.cli.recorder import Recorder
+
+if TYPE_CHECKING:
+    from pathlib import Path
 
 
 class Line:
-    """Brings pieces of bytes, each a second after the one before."""
+    """Brings pieces of bytes, each a second after the one before; then silence, then its end."""
 
-    def __init__(self, *pieces: bytes) -> None:
-        self.pieces = list(pieces)
+    def __init__(self, *pieces: bytes, silence: int = 0) -> None:
+        self.pieces = [*pieces, *silence * [b""]]
         self.now = 100.0
 
     def clock(self) -> float:
         return self.now
 
-    def read(self, timeout: float) -> bytes:  # noqa: ARG002
-        self.now += 1
-        return self.pieces.pop(0) if self.pieces else b""
+    def day(self) -> float:
+        """A clock on a wall: it began at 09:08:07."""
+        return time.mktime((2026, 1, 2, 9, 8, 7, 0, 0, -1)) + self.now - 100
 
-    def write(self, data: bytes) -> None:  # noqa: ARG002
+    def read(self, _timeout: float) -> bytes:
+        self.now += 1
+        if not self.pieces:
+            raise DisconnectedError("COM7", "the line was lost", "plug it in")
+        return self.pieces.pop(0)
+
+    def write(self, _data: bytes) -> None:
         raise AssertionError("a monitor only listens")
 
-    def drain(self, timeout: float) -> None:
+    def drain(self, _timeout: float) -> None:
         pass
 
     def close(self) -> None:
@@ -34,36 +59,276 @@ class Line:
 
 
 FRAME = BatteryVoltage(7500).encode()
+LINE = (FRAME, b"\x13" + FRAME, FRAME)
 
 
-def shown(*words: str, log: io.StringIO | None = None) -> list[str]:
+def watched(
+    *words: str,
+    line: Line | None = None,
+    screen: io.StringIO | None = None,
+    log: Path | None = None,
+) -> list[str]:
+    """The lines that a monitor shows until the line is lost."""
     parser = argparse.ArgumentParser()
     monitor.add_arguments(parser)
-    line = Line(FRAME, b"\x13" + FRAME, FRAME)
-    screen = io.StringIO()
+    line = Line(*LINE) if line is None else line
+    screen = io.StringIO() if screen is None else screen
     arguments = parser.parse_args(["--port", "COM7", *words])
-    monitor.Monitor(arguments, screen, line.clock, log).watch(line)
+    watching = monitor.Monitor(arguments, screen, clock=line.clock, day=line.day)
+    with Recorder(log) as recorder:
+        recorder.begin("COM7", line.clock())
+        try:
+            watching.watch(line, recorder)
+        except DisconnectedError:
+            assert not line.pieces
     return screen.getvalue().splitlines()
 
 
-HEX = "55 55 04 0F 4C 1D | BatteryVoltage voltage_mv=7500 mV"
+BATTERY = "controller  55 55 04 0F 4C 1D | BatteryVoltage voltage_mv=7500 mV"
+NOISE = "noise       13 | bad header: a frame begins 55 55 (1 byte)"
 
 
-@pytest.mark.parametrize(("form", "times"), [("zero", (1, 2, 2, 3)), ("delta", (1, 1, 0, 1))])
-def test_a_line_for_each_frame_and_for_noise(form: str, times: tuple[int, ...]) -> None:
-    rest = [f"controller  {HEX}", "noise       13 | bad header", *2 * [f"controller  {HEX}"]]
-    expected = [f"{at:12.6f}  {what}" for at, what in zip(times, rest, strict=True)]
-    assert shown("-n", "4", "-t", form) == expected
+@pytest.mark.parametrize(
+    ("form", "times"),
+    [
+        ("zero", ("1.000000", "2.000000", "2.000000", "3.000000")),
+        ("delta", ("1.000000", "1.000000", "0.000000", "1.000000")),
+    ],
+)
+def test_a_line_for_each_frame_and_for_noise(form: str, times: tuple[str, ...]) -> None:
+    said = [BATTERY, NOISE, BATTERY, BATTERY]
+    assert watched("-t", form) == [
+        f"{at:>12}  {what}" for at, what in zip(times, said, strict=True)
+    ]
 
 
-def test_only_what_is_asked_for() -> None:
-    assert shown("-n", "1", "--only", "noise") == ["    2.000000  noise       13 | bad header"]
+def test_the_time_of_day_is_as_on_a_clock() -> None:
+    line = Line(b"", FRAME)
+    line.now += 0.25
+    assert watched("-t", "absolute", line=line) == [f"09:08:09.250000  {BATTERY}"]
 
 
-def test_the_log_is_read_by_decode(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    log = io.StringIO()
-    shown("-n", "4", log=log)
-    file = tmp_path / "line.hex"
-    file.write_text(log.getvalue())
-    assert main(["decode", str(file)]) == 0
-    assert "3 messages, 1 byte of noise" in capsys.readouterr().err
+@pytest.mark.parametrize(
+    ("words", "expected"),
+    [
+        (["--only", "noise"], [NOISE]),
+        (["--hide", "noise", "-n", "2"], [BATTERY, BATTERY]),
+        (["--only", "battery-voltage", "-n", "1"], [BATTERY]),
+        (["--only", "host"], []),
+        (["--only", "controller", "--hide", "BatteryVoltage"], []),
+    ],
+)
+def test_only_what_is_asked_for(words: list[str], expected: list[str]) -> None:
+    assert [line[14:] for line in watched(*words)] == expected
+
+
+def test_a_frame_of_unknown_command_is_shown_as_one_and_as_noise() -> None:
+    unknown = "unknown     55 55 03 01 2A | command=1 parameters=2A (5 bytes)"
+    for only in ("unknown", "noise"):
+        line = Line(bytes.fromhex("55 55 03 01 2A"), FRAME)
+        assert [told[14:] for told in watched("--only", only, line=line)] == [unknown]
+
+
+BOTH = (
+    BatteryVoltageRead().encode(),
+    FRAME,
+    ServoPositionsRead([1, 2]).encode() + ServoPositions([(1, 5), (2, 6)]).encode(),
+    ServoMove(time_ms=9, targets=[(1, 2)]).encode(),
+    ActionGroupRun(group=8, times=1).encode(),
+    ServoUnload([1]).encode(),
+)
+
+
+def test_both_ends_on_one_line_are_told_apart_as_far_as_they_can_be() -> None:
+    assert [line[14:] for line in watched("--direction", "any", line=Line(*BOTH))] == [
+        "host        55 55 02 0F | BatteryVoltageRead",
+        BATTERY,
+        "host        55 55 05 15 02 01 02 | ServoPositionsRead servo_ids=1,2",
+        "controller  55 55 09 15 02 01 05 00 02 06 00 | ServoPositions positions=1:5,2:6",
+        "host        55 55 08 03 01 09 00 01 02 00 | ServoMove time_ms=9 ms targets=1:2",
+        "either      55 55 05 06 08 01 00 | ActionGroupRun or ActionGroupStarted group=8 times=1",
+        "host        55 55 04 14 01 01 | ServoUnload servo_ids=1",
+    ]
+
+
+@pytest.mark.parametrize(
+    ("words", "commands"),
+    [
+        (["--only", "ActionGroupStarted"], [6]),
+        (["--only", "host"], [15, 21, 3, 6, 20]),
+        (["--only", "controller"], [15, 21, 6]),
+        (["--only", "either"], [6]),
+        (["--hide", "controller"], [15, 21, 3, 6, 20]),
+        (["--hide", "host", "--hide", "either"], [15, 21]),
+    ],
+)
+def test_what_either_end_may_have_sent_is_kept_when_in_doubt(
+    words: list[str], commands: list[int]
+) -> None:
+    shown = watched("--direction", "any", *words, line=Line(*BOTH))
+    assert [int(line.split()[5], 16) for line in shown] == commands
+
+
+def test_json_says_the_same() -> None:
+    line = Line(ActionGroupRun(group=8, times=1).encode(), b"\x13\x55\x55\x03\x01\x2a" + FRAME)
+    shown = [json.loads(told) for told in watched("--direction", "any", "--json", line=line)]
+    fields = {"group": 8, "times": 1}
+    assert shown == [
+        {
+            "time": 1.0,
+            "from": "either",
+            "direction": "host_to_controller",
+            "message": "ActionGroupRun",
+            "fields": fields,
+            "hex": "55 55 05 06 08 01 00",
+            "or": ["ActionGroupStarted"],
+        },
+        {"time": 2.0, "from": "noise", "noise": "13", "reason": "bad header"},
+        {
+            "time": 2.0,
+            "from": "unknown",
+            "noise": "55 55 03 01 2A",
+            "reason": "unknown command",
+            "command": 1,
+            "parameters": "2A",
+        },
+        {
+            "time": 2.0,
+            "from": "controller",
+            "direction": "controller_to_host",
+            "message": "BatteryVoltage",
+            "fields": {"voltage_mv": 7500},
+            "hex": "55 55 04 0F 4C 1D",
+        },
+    ]
+
+
+def test_half_a_frame_is_given_up_when_the_line_is_quiet() -> None:
+    shown = watched("-n", "2", line=Line(FRAME[:3], b"", FRAME))
+    assert shown == [
+        "    2.000000  noise       55 55 04 | too short: the shortest frame has 4 bytes (3 bytes)",
+        f"    3.000000  {BATTERY}",
+    ]
+
+
+def test_what_was_heard_before_the_line_was_lost_is_kept(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    log = tmp_path / "line.hex"
+    shown = watched(line=Line(FRAME, FRAME[:5]), log=log)
+    assert [line[14:] for line in shown][1].startswith("noise       55 55 04 0F 4C | too short")
+    assert log.read_text().splitlines()[2].startswith("55 55 04 0F 4C  # 3.000000 s, noise")
+    assert capsys.readouterr().err == "11 bytes: 1 message, 5 bytes of noise\n"
+
+
+def test_totals_say_how_much_of_it_was_shown(capsys: pytest.CaptureFixture[str]) -> None:
+    watched("--only", "noise")
+    assert capsys.readouterr().err == "19 bytes: 3 messages, 1 byte of noise; 1 line shown\n"
+
+
+@pytest.mark.parametrize("direction", ["controller", "any", "host"])
+def test_decode_tells_of_the_log_what_the_monitor_told(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], direction: str
+) -> None:
+    log = tmp_path / "line.hex"
+    pieces = (b"\x00\x55", *BOTH, b"\x13", FRAME[:4], b"", b"\x55\x55\x03\x01\x2a", *BOTH)
+    words = ["--direction", direction]
+    shown = watched(*words, line=Line(*pieces, silence=1), log=log)
+    told = capsys.readouterr().err
+    assert main(["decode", *words, str(log)]) == 0
+    decoded = capsys.readouterr()
+    assert decoded.err == told
+    hexes = [line.rpartition(" | ")[2] for line in decoded.out.splitlines()]
+    assert hexes == [line[26:].partition(" | ")[0] for line in shown]
+
+
+def test_a_log_keeps_what_is_not_shown(tmp_path: Path) -> None:
+    log = tmp_path / "line.hex"
+    watched("--only", "noise", log=log)
+    first, *lines = log.read_text().splitlines()
+    assert first.startswith("# recorded of 'COM7' from 20")
+    assert lines == [
+        "55 55 04 0F 4C 1D  # 1.000000 s, controller: BatteryVoltage(voltage_mv=7500)",
+        "13  # 2.000000 s, noise: bad header",
+        "55 55 04 0F 4C 1D  # 2.000000 s, controller: BatteryVoltage(voltage_mv=7500)",
+        "55 55 04 0F 4C 1D  # 3.000000 s, controller: BatteryVoltage(voltage_mv=7500)",
+    ]
+
+
+class Terminal(io.StringIO):
+    def isatty(self) -> bool:
+        return True
+
+
+@pytest.mark.parametrize(
+    ("variables", "coloured"),
+    [
+        ({"TERM": "xterm"}, True),
+        ({"TERM": "xterm", "NO_COLOR": ""}, True),
+        ({"TERM": "xterm", "NO_COLOR": "1"}, False),
+        ({"TERM": "dumb"}, False),
+    ],
+)
+def test_there_is_colour_on_terminals_that_take_it(
+    monkeypatch: pytest.MonkeyPatch, variables: dict[str, str], *, coloured: bool
+) -> None:
+    for name in ("NO_COLOR", "TERM"):
+        monkeypatch.delenv(name, raising=False)
+    for name, value in variables.items():
+        monkeypatch.setenv(name, value)
+    assert ("\x1b[31mnoise" in "\n".join(watched(screen=Terminal()))) == coloured
+    assert not any("\x1b" in line for line in watched())
+    assert not any("\x1b" in line for line in watched("--json", screen=Terminal()))
+
+
+def test_a_long_wait_shows_that_it_goes_on(monkeypatch: pytest.MonkeyPatch) -> None:
+    terminal = Terminal()
+    monkeypatch.setattr(sys, "stderr", terminal)
+    watched("--only", "noise", line=Line(b"", b"", FRAME, b"\x13" + FRAME))
+    last = "nothing to show for 3 s (Ctrl-C ends); 6 bytes: 1 message, 0 bytes of noise"
+    assert terminal.getvalue() == (
+        "\rnothing heard for 1 s (Ctrl-C ends)"
+        "\rnothing heard for 2 s (Ctrl-C ends)"
+        f"\r{last}"
+        f"\r{' ' * len(last)}  \r"  # before a line is shown; and with room for ^C
+        "\r  \r13 bytes: 2 messages, 1 byte of noise; 1 line shown\n"
+    )
+
+
+def test_a_wait_is_no_wider_than_its_terminal(monkeypatch: pytest.MonkeyPatch) -> None:
+    terminal = Terminal()
+    monkeypatch.setattr(sys, "stderr", terminal)
+    monkeypatch.setattr(terminal, "fileno", lambda: 7)
+    monkeypatch.setattr(os, "get_terminal_size", lambda _: os.terminal_size((20, 24)))
+    watched(line=Line(silence=1))
+    assert terminal.getvalue().startswith("\rnothing heard for 1\r")
+
+
+@pytest.mark.parametrize(
+    ("words", "told"),
+    [
+        (["-n", "0"], "argument -n: 0 is below 1, the least there can be"),
+        (["-n", "some"], "argument -n: 'some' is no whole number"),
+        (["--only", "Batery"], "there is no message 'Batery'; did you mean"),
+        (
+            ["--hide", "nois"],
+            "besides messages, there are host, controller, either, noise, unknown",
+        ),
+        (["-t", "sidereal"], "argument -t: invalid choice: 'sidereal'"),
+        (["--direction", "both"], "argument --direction: invalid choice: 'both'"),
+        (["--log", "no/such/folder"], "folder cannot be written: No such file"),
+    ],
+)
+def test_what_makes_no_sense_is_refused(
+    capsys: pytest.CaptureFixture[str], words: list[str], told: str
+) -> None:
+    assert main(["monitor", "--port", "loop://", *words]) == 2
+    assert told in capsys.readouterr().err
+
+
+@pytest.mark.skipif(not os.path.exists("/dev/full"), reason="there is no full disk here")  # noqa: PTH110 - as short
+def test_a_full_disk_is_told(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["monitor", "--port", "loop://", "--log", "/dev/full"]) == 2
+    assert capsys.readouterr().err.endswith(
+        "/dev/full cannot be written: No space left on device\n"
+    )

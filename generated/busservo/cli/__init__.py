@@ -11,55 +11,79 @@ from importlib import import_module
 
 from .. import __version__
 from .examples import EXAMPLES, PROGRAM, SUMMARY, VERBS
+from .exits import DONE, INTERRUPTED, MEANINGS, READER_GONE, UNUSABLE
 from .unusable import UnusableError
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
-    from typing import NoReturn
+    from typing import Any, NoReturn
 
-OK, UNUSABLE = 0, 2
-# What a shell reports for a program that SIGINT or SIGPIPE ended.
-INTERRUPTED, READER_GONE = 130, 141
+_WIDTH = 100
+_SHELLS = ("bash", "zsh", "tcsh")
 
 
 def main(argv: Sequence[str] | None = None) -> int:
-    """Runs the command line. 0: done; 1: noise (--strict), or no reply; 2: unusable."""
+    """Runs the command line, and returns its exit status: one of those in `exits`."""
     words = sys.argv[1:] if argv is None else list(argv)
     try:
         code = _run_verb(words[0], words[1:]) if words and words[0] in VERBS else _run_none(words)
         sys.stdout.flush()
     except SystemExit as stop:  # argparse has said what there was to say
-        return stop.code if isinstance(stop.code, int) else OK
+        return stop.code if isinstance(stop.code, int) else DONE
     except UnusableError as error:
         sys.stdout.flush()
         print(f"{PROGRAM}: error: {error}", file=sys.stderr)
-        return UNUSABLE
+        return error.code
     except KeyboardInterrupt:
+        # The terminal has shown ^C: what comes next begins a line of its own.
+        if sys.stderr.isatty():
+            print(file=sys.stderr)
         return INTERRUPTED
     except BrokenPipeError:
-        # What is left goes nowhere, so that the interpreter does not fail on it at exit.
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        _give_up_output()
         return READER_GONE
+    except OSError as error:
+        # Ports and files are told of where they are used: this is what was to be printed.
+        _give_up_output()
+        print(f"{PROGRAM}: error: the output cannot be written: {error}", file=sys.stderr)
+        return UNUSABLE
     return code
 
 
+def _give_up_output() -> None:
+    """What is left goes nowhere, so that the interpreter does not fail on it at exit."""
+    os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+
+
 def _run_verb(name: str, words: Sequence[str]) -> int:
-    verb = import_module(f"{__name__}.{name.replace('-', '_')}")
+    verb = _module(name)
     if hasattr(verb, "hand_over"):
         handed: int = verb.hand_over(words)
         return handed
+    parser = _parser(name, verb)
+    # Intermixed, so that an option may stand between the words that it is about.
+    code: int = verb.run(parser.parse_intermixed_args(words))
+    return code
+
+
+def _module(name: str) -> Any:
+    return import_module(f"{__name__}.{name.replace('-', '_')}")
+
+
+def _parser(name: str, verb: Any) -> _Parser:
+    ends: dict[int, str] = MEANINGS | getattr(verb, "ENDS", {})
+    statuses = [(str(code), told) for code, told in sorted(ends.items())]
+    about = [VERBS[name], *([verb.ABOUT] if hasattr(verb, "ABOUT") else [])]
     parser = _Parser(
         prog=f"{PROGRAM} {name}",
-        description=VERBS[name],
-        epilog=_listed("examples", EXAMPLES[name]),
+        description="\n\n".join(about),
+        epilog="\n\n".join((_listed("examples", EXAMPLES[name]), _listed("exit status", statuses))),
         formatter_class=argparse.RawDescriptionHelpFormatter,
         allow_abbrev=False,
     )
     verb.add_arguments(parser)
-    # Intermixed, so that an option may stand between the words that it is about.
-    code: int = verb.run(parser.parse_intermixed_args(words))
-    return code
+    return parser
 
 
 def _run_none(words: Sequence[str]) -> int:
@@ -78,8 +102,17 @@ def _run_none(words: Sequence[str]) -> int:
         allow_abbrev=False,
     )
     parser.add_argument("--version", action="version", version=f"{PROGRAM} {__version__}")
+    parser.add_argument(
+        "--print-completion",
+        choices=_SHELLS,
+        metavar="SHELL",
+        help=f"print what a shell needs to complete this command ({', '.join(_SHELLS)})",
+    )
     parser.add_argument("verb", nargs="?", metavar="VERB", help=argparse.SUPPRESS)
     known, _ = parser.parse_known_args(words)
+    if known.print_completion is not None:
+        print(_module("completion").script(known.print_completion))
+        return DONE
     if known.verb is None:
         parser.print_help(sys.stderr)
         return UNUSABLE
@@ -87,9 +120,13 @@ def _run_none(words: Sequence[str]) -> int:
 
 
 def _listed(title: str, entries: Iterable[tuple[str, str]]) -> str:
+    """A table of two columns; or, where that is too wide to be read, a line below the other."""
     rows = list(entries)
-    width = max(len(left) for left, _ in rows)
-    return "\n".join([f"{title}:", *(f"  {left:<{width}}  {right}" for left, right in rows)])
+    width = max((len(left) for left, _ in rows), default=0)
+    lines = [f"  {left:<{width}}  {right}" for left, right in rows] or ["  none"]
+    if any(len(line) > _WIDTH for line in lines):
+        lines = [line for left, right in rows for line in (f"  {left}", f"      {right}")]
+    return "\n".join([f"{title}:", *lines])
 
 
 class _Parser(argparse.ArgumentParser):

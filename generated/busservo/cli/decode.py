@@ -8,27 +8,25 @@ import json
 import sys
 from pathlib import Path
 
-from ..codec import table_for
 from ..decoder import StreamDecoder
-from ..direction import Direction
-from ..errors import DecodeError
-from ..messages import MESSAGES
-from ..noise import Noise, UnknownFrame
 from ..octets import spaced
-from .hextext import looks_like_hex, parse_hex
+from .events import SENDERS, as_record, bytes_of, in_words, sender_of, totals
+from .exits import DONE, NOT_ALL
+from .hextext import QUIET, looks_like_hex, parse_hex
 from .unusable import UnusableError
-from .values import fields_as_json, fields_as_text
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
     from argparse import ArgumentParser, Namespace
     from collections.abc import Iterator
-    from typing import Any, BinaryIO
+    from typing import BinaryIO
 
+    from ..direction import Direction
     from ..message import Message
+    from ..noise import Noise
 
+ENDS = {NOT_ALL: "there was noise, and --strict was given"}
 _CHUNK = 65536
-_SENDERS = {direction.sender: direction for direction in Direction}
 
 
 def add_arguments(parser: ArgumentParser) -> None:
@@ -42,7 +40,7 @@ def add_arguments(parser: ArgumentParser) -> None:
     parser.add_argument("--file", type=Path, metavar="FILE", help="a file, whatever its name")
     parser.add_argument(
         "--direction",
-        choices=[*_SENDERS, "any"],
+        choices=[*SENDERS, "any"],
         default="any",
         help="who sent the bytes (default: any)",
     )
@@ -58,40 +56,29 @@ def add_arguments(parser: ArgumentParser) -> None:
 
 def run(arguments: Namespace) -> int:
     """Prints every message and all noise, and to the error stream the totals."""
-    direction = _SENDERS.get(arguments.direction)
+    direction = SENDERS.get(arguments.direction)
     decoder = StreamDecoder(direction)
     show = event_as_json if arguments.json else event_as_text
     offset = 0
     for events in _decoded(decoder, _chunks(arguments)):
         for event in events:
             print(show(event, offset, direction))
-            offset += len(_bytes_of(event))
+            offset += len(bytes_of(event))
         sys.stdout.flush()
-    seen = decoder.counters
-    unknown = (
-        f", {_counted(seen.unknown_frames, 'unknown frame')} in it" if seen.unknown_frames else ""
-    )
-    totals = f"{_counted(seen.fed, 'byte')}: {_counted(seen.messages, 'message')}"
-    print(f"{totals}, {_counted(seen.noise, 'byte')} of noise{unknown}", file=sys.stderr)
-    return 1 if arguments.strict and seen.noise else 0
+    print(totals(decoder.counters), file=sys.stderr)
+    return NOT_ALL if arguments.strict and decoder.counters.noise else DONE
 
 
-def _counted(number: int, noun: str) -> str:
-    return f"{number} {noun}" if number == 1 else f"{number} {noun}s"
-
-
-def _decoded(decoder: StreamDecoder, chunks: Iterator[bytes]) -> Iterator[list[Message | Noise]]:
+def _decoded(
+    decoder: StreamDecoder, chunks: Iterator[bytes | None]
+) -> Iterator[list[Message | Noise]]:
     for chunk in chunks:
-        yield decoder.feed(chunk)
+        yield decoder.flush() if chunk is None else decoder.feed(chunk)
     yield decoder.flush()
 
 
-def _bytes_of(event: Message | Noise) -> bytes:
-    return event.data if isinstance(event, Noise) else event.encode()
-
-
-def _chunks(arguments: Namespace) -> Iterator[bytes]:
-    """The bytes to decode, as they come."""
+def _chunks(arguments: Namespace) -> Iterator[bytes | None]:
+    """The bytes to decode, as they come; None where a log says that the line was quiet."""
     words: list[str] = arguments.input
     file: Path | None = arguments.file
     if file is not None and words:
@@ -122,7 +109,7 @@ def _is_file(word: str) -> bool:
         return False
 
 
-def _read(stream: BinaryIO, form: str) -> Iterator[bytes]:
+def _read(stream: BinaryIO, form: str) -> Iterator[bytes | None]:
     """A stream's bytes as they arrive; hex is read line by line."""
     # read1 gives what there is: on a live line nobody waits for a full buffer.
     read_some = getattr(stream, "read1", stream.read)
@@ -138,7 +125,8 @@ def _read(stream: BinaryIO, form: str) -> Iterator[bytes]:
     while first:
         *lines, rest = rest.split(b"\n")
         for line in lines:
-            yield parse_hex(line.decode("utf-8", errors="replace"))
+            text = line.decode("utf-8", errors="replace")
+            yield None if text.strip() == QUIET else parse_hex(text)
         first = read_some(_CHUNK)
         rest += first
     yield parse_hex(rest.decode("utf-8", errors="replace"))
@@ -146,54 +134,10 @@ def _read(stream: BinaryIO, form: str) -> Iterator[bytes]:
 
 def event_as_text(event: Message | Noise, offset: int, direction: Direction | None) -> str:
     """A line of text for people."""
-    if isinstance(event, UnknownFrame):
-        told = f"command={event.command} parameters={spaced(event.parameters) or 'none'}"
-        return f"{offset:6}  {'unknown':10}  {told} | {spaced(event.data)}"
-    if isinstance(event, Noise):
-        return f"{offset:6}  {'noise':10}  {_why(event, direction)} | {spaced(event.data)}"
-    kinds = [type(event), *_twins(event, direction)]
-    sender = event.DIRECTION.sender if len(kinds) == 1 else "either"
-    name = " or ".join(kind.__name__ for kind in kinds)
-    told = " ".join(part for part in (name, fields_as_text(event)) if part)
-    return f"{offset:6}  {sender:10}  {told} | {spaced(event.encode())}"
+    who, what = sender_of(event, direction), in_words(event, direction)
+    return f"{offset:6}  {who:10}  {what} | {spaced(bytes_of(event))}"
 
 
 def event_as_json(event: Message | Noise, offset: int, direction: Direction | None) -> str:
     """A line of JSON."""
-    record: dict[str, Any] = {"offset": offset}
-    if isinstance(event, Noise):
-        record |= {"noise": spaced(event.data), "reason": event.reason.value}
-        if isinstance(event, UnknownFrame):
-            record |= {"command": event.command, "parameters": spaced(event.parameters)}
-        return json.dumps(record)
-    record |= {"direction": event.DIRECTION.value, "message": type(event).__name__}
-    record |= {"fields": fields_as_json(event), "hex": spaced(event.encode())}
-    twins = [twin.__name__ for twin in _twins(event, direction)]
-    if twins:
-        record["or"] = twins
-    return json.dumps(record)
-
-
-def _twins(message: Message, direction: Direction | None) -> list[type[Message]]:
-    """The other messages that the same frame may be, where the direction is not known."""
-    if direction is not None:
-        return []
-    found: list[type[Message]] = []
-    for kind in MESSAGES:
-        if kind.COMMAND == message.COMMAND and kind is not type(message):
-            try:
-                kind.decode(message.encode())
-            except DecodeError:
-                continue
-            found.append(kind)
-    return found
-
-
-def _why(noise: Noise, direction: Direction | None) -> str:
-    """The reason, and what was expected, where the bytes themselves tell."""
-    try:
-        table_for(direction).read(noise.data)
-    except DecodeError as error:
-        if error.reason is noise.reason:
-            return f"{noise.reason.value}: {error.problem}"
-    return noise.reason.value
+    return json.dumps({"offset": offset} | as_record(event, direction))

@@ -8,10 +8,12 @@ PROGRAM = "busservo"
 SUMMARY = "Encode and decode the frames of: Hiwonder bus servo controller."
 
 VERBS = {
+    "bench-line": "Measure how long questions take on a line, against what it allows.",
     "decode": "Tell what bytes mean: messages, noise, and why noise is noise.",
     "encode": "Make the frame of a message.",
     "monitor": "Show what a line carries, as it comes.",
     "ports": "List the serial ports that are plugged in.",
+    "replay": "Send once more what was recorded of a line.",
     "send": "Send a message to a port, and print the reply.",
     "simulate": "Run a virtual board to talk to.",
 }
@@ -38,15 +40,39 @@ EXAMPLES = {
             "Switch off the force of one or more servos, so that they can be turned by hand.",
         ),
     ),
+    "bench-line": (
+        (
+            "busservo bench-line --port COM7 BatteryVoltageRead",
+            "how long BatteryVoltage takes to come",
+        ),
+        (
+            "busservo bench-line --port COM7 ServoPositionsRead servo_ids=1,2,3,4,5,6 -n 20",
+            "how long ServoPositions takes to come",
+        ),
+    ),
     "monitor": (
         ("busservo monitor --port COM7", "every frame and all noise"),
         ("busservo monitor --port COM7 -t delta -n 5", "five, and their distances"),
         ("busservo monitor --port COM7 --only noise", "what is no frame"),
         ("busservo monitor --port COM7 --log line.hex", "kept for `decode`"),
+        (
+            "busservo monitor --port COM7 --direction any -t absolute",
+            "both ends of a line, the time of day",
+        ),
+        ("busservo monitor --port COM7 --hide noise --json", "messages, for a program to read"),
     ),
     "ports": (
         ("busservo ports", "the name, VID:PID and description of each"),
         ("busservo ports --json", "a line of JSON for each"),
+    ),
+    "replay": (
+        ("busservo replay line.hex --dry-run", "what would be sent, and when"),
+        ("busservo replay line.hex --port COM7", "what was recorded, once more"),
+        ("busservo replay line.hex --port COM7 --speed 0.5", "at half the pace"),
+        (
+            "busservo replay line.bin --port COM7 --skip-noise",
+            "raw bytes, of which some are no frames",
+        ),
     ),
     "send": (
         (
@@ -61,6 +87,11 @@ EXAMPLES = {
         (
             "busservo send --port COM7 ActionGroupSpeed group=8 percent=50",
             "Set the speed of one action group, or of all, in percent of its recorded speed.",
+        ),
+        ("busservo send --port COM7 BatteryVoltageRead", "Ask for the voltage of the battery."),
+        (
+            "busservo send --port COM7 ServoPositionsRead servo_ids=1,2,3,4,5,6",
+            "Ask where one or more servos are.",
         ),
     ),
     "simulate": (

@@ -8,6 +8,8 @@ import re
 
 from .unusable import UnusableError
 
+# A line that says that nothing came for a while, so that a frame begun before it was given up.
+QUIET = "# quiet"
 # A comment runs from a `#` to the end of its line.
 _SKIPPED = re.compile(r"#[^\n]*|0[xX]|\\x|[\s,;:_-]+")
 _HEX_TEXT = re.compile(rb"(?:[0-9A-Fa-f]{2}|0[xX]|\\x|[\s,;:_-]|#[^\n]*)*")

@@ -4,33 +4,38 @@
 
 from __future__ import annotations
 
-import json
 import sys
 import time
 from contextlib import closing
 from pathlib import Path
 
 from ..decoder import StreamDecoder
-from ..direction import Direction
 from ..exchanges import RECEIVED
-from ..noise import Noise
-from ..octets import spaced
-from ..serial_port import open_transport
+from . import link
 from .encode import message_named
-from .link import add_port, failures_told
+from .events import EITHER, KINDS, NOISE, SENDERS, UNKNOWN, counted, names_of, sender_of, totals
+from .exits import DONE, INTERRUPTED
+from .lines import TIMES, Lines
+from .link import add_port, at_least, failures_told, open_line
+from .recorder import Recorder
 from .unusable import UnusableError
-from .values import fields_as_json, fields_as_text
+from .waiting import PATIENCE, Waiting
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
     from argparse import ArgumentParser, Namespace
     from collections.abc import Callable
-    from typing import Any, TextIO
+    from typing import TextIO
 
     from ..message import Message
+    from ..noise import Noise
     from ..transport import Transport
 
-_SENDERS = {direction.sender: direction for direction in Direction}
+ENDS = link.ENDS
+ABOUT = """\
+One line for each frame and each piece of noise: the time, who sent it, its bytes, what they mean.
+Ctrl-C ends it, and the totals follow on the error stream. Colours are for terminals alone, and for
+nobody who has set NO_COLOR."""
 # How long a line is quiet before half a frame is given up.
 _QUIET = 0.25
 
@@ -38,103 +43,148 @@ _QUIET = 0.25
 def add_arguments(parser: ArgumentParser) -> None:
     """Declares the arguments of the verb."""
     add_port(parser)
-    parser.add_argument("--direction", choices=[*_SENDERS, "any"], help="who sends there")
+    usual = "any" if RECEIVED is None else RECEIVED.sender
+    parser.add_argument(
+        "--direction",
+        choices=[*SENDERS, "any"],
+        default=usual,
+        help=f"who sends on this line; any: both ends do, and what both may have sent is shown as "
+        f"`either` (default: {usual})",
+    )
     parser.add_argument(
         "-t",
-        choices=["absolute", "delta", "zero"],
+        choices=TIMES,
         default="zero",
         dest="time",
-        help="time of day in s, s since the line before, or s since the start (default: zero)",
+        help="the time of day, seconds since the line before, or since the start (default: zero)",
     )
     parser.add_argument(
-        "--only", action="append", default=[], metavar="NAME", help="a message, or noise"
+        "--only",
+        action="append",
+        default=[],
+        metavar="NAME",
+        help=f"show nothing else: a message, {', '.join(KINDS)}; may be given several times",
     )
-    parser.add_argument("--log", type=Path, metavar="FILE", help="write all of it for `decode`")
-    parser.add_argument("-n", type=int, metavar="N", help="end after so many lines")
-    parser.add_argument("--json", action="store_true", help="print lines of JSON")
+    parser.add_argument(
+        "--hide",
+        action="append",
+        default=[],
+        metavar="NAME",
+        help="show all but this, named likewise",
+    )
+    parser.add_argument(
+        "--log",
+        type=Path,
+        metavar="FILE",
+        help="write all of it, shown or not, to a new file for `decode` and `replay`",
+    )
+    parser.add_argument("-n", type=at_least(1), metavar="N", help="end after so many lines")
+    parser.add_argument(
+        "--json",
+        action="store_true",
+        help="print lines of JSON; absolute times are seconds since 1970",
+    )
 
 
 def run(arguments: Namespace) -> int:
     """Prints until Ctrl-C, -n or the loss of the line, and then the totals."""
-    if arguments.n is not None and arguments.n < 1:
-        raise UnusableError(f"-n is {arguments.n}, and must be above 0")
-    with failures_told(), closing(open_transport(arguments.port)) as transport:
-        clock = time.time if arguments.time == "absolute" else time.monotonic
-        try:
-            log = None if arguments.log is None else arguments.log.open("w", encoding="ascii")
-        except OSError as error:
-            raise UnusableError(f"{arguments.log} cannot be written: {error.strerror}") from None
-        try:
-            Monitor(arguments, sys.stdout, clock, log).watch(transport)
-        finally:
-            if log is not None:
-                log.close()
-    return 0
+    # Names are read before a port is opened or a file begun.
+    monitor = Monitor(arguments, sys.stdout)
+    try:
+        with (
+            failures_told(),
+            closing(open_line(arguments.port)) as line,
+            Recorder(arguments.log) as recorder,
+        ):
+            recorder.begin(arguments.port, time.monotonic())
+            monitor.watch(line, recorder)
+    except KeyboardInterrupt:
+        return INTERRUPTED
+    return DONE
 
 
 class Monitor:
-    """Shows what a transport brings, on a screen and by a clock that are handed in."""
+    """Shows what a transport brings, on a screen and by clocks that are handed in."""
 
     def __init__(
         self,
         arguments: Namespace,
         screen: TextIO,
-        clock: Callable[[], float],
-        log: TextIO | None = None,
+        *,
+        clock: Callable[[], float] = time.monotonic,
+        day: Callable[[], float] = time.time,
     ) -> None:
-        self._screen = screen
         self._clock = clock
-        self._log = log
-        self._form = arguments.time
+        self._day = day
+        self._absolute = arguments.time == "absolute"
         self._left: int | None = arguments.n
-        self._json = arguments.json
-        self._only = {
-            "noise" if name == "noise" else message_named(name).__name__ for name in arguments.only
-        }
-        named = arguments.direction
-        self._decoder = StreamDecoder(_SENDERS.get(named) if named else RECEIVED)
-        self._since = self._last = clock()
+        self._only = {_filter(name) for name in arguments.only}
+        self._hidden = {_filter(name) for name in arguments.hide}
+        self._direction = SENDERS.get(arguments.direction)
+        self._decoder = StreamDecoder(self._direction)
+        self._waiting = Waiting(sys.stderr)
+        self._lines = Lines(screen, arguments.time, as_json=arguments.json)
 
-    def watch(self, transport: Transport) -> None:
+    def watch(self, line: Transport, recorder: Recorder) -> None:
         """Reads and shows, until so many lines were shown; the totals come in any case."""
-        heard = self._clock()
+        shown = heard = self._clock()
+        self._lines.begin(self._day() if self._absolute else shown)
         try:
             while self._left != 0:
-                data = transport.read(_QUIET)
+                data = line.read(_QUIET)
                 now = self._clock()
-                events = self._decoder.feed(data)
+                before = self._lines.count
                 if data:
                     heard = now
+                    self._tell(self._decoder.feed(data), recorder, now)
                 elif self._decoder.pending and now - heard >= _QUIET:
-                    events = self._decoder.flush()
-                self._show(events, now)
+                    self._tell(self._decoder.flush(), recorder, now)
+                    recorder.quiet()
+                if self._lines.count != before:
+                    shown = now
+                elif now - shown >= PATIENCE:
+                    self._waiting.show(self._so_far(now - shown))
         finally:
-            seen = self._decoder.counters
-            totals = f"{seen.fed} bytes, {seen.messages} messages, {seen.noise} bytes of noise"
-            print(totals, file=sys.stderr)
+            self._waiting.end()
+            try:
+                # What was held back in hope of the rest of a frame was heard as well.
+                self._tell(self._decoder.flush(), recorder, self._clock())
+            finally:
+                print(self._totals(), file=sys.stderr)
 
-    def _show(self, events: list[Message | Noise], now: float) -> None:
+    def _tell(self, events: list[Message | Noise], recorder: Recorder, now: float) -> None:
+        """Keeps them all, and prints those that are asked for."""
+        recorder.record(events, self._direction, now)
+        when = self._day() if self._absolute else now
         for event in events:
-            noise = isinstance(event, Noise)
-            who = "noise" if isinstance(event, Noise) else event.DIRECTION.sender
-            data = event.data if isinstance(event, Noise) else event.encode()
-            what = event.reason.value if isinstance(event, Noise) else type(event).__name__
-            if self._log is not None:
-                self._log.write(f"{spaced(data)}  # {now - self._since:.6f} s, {who}: {what}\n")
-                self._log.flush()
-            if self._left == 0 or (self._only and (who if noise else what) not in self._only):
-                continue
-            if self._left is not None:
-                self._left -= 1
-            since = {"absolute": 0.0, "delta": self._last, "zero": self._since}[self._form]
-            at, self._last = now - since, now
-            if self._json:
-                record: dict[str, Any] = {"time": round(at, 6), "from": who, "hex": spaced(data)}
-                record |= {"reason": what} if isinstance(event, Noise) else {"message": what}
-                if not isinstance(event, Noise):
-                    record["fields"] = fields_as_json(event)
-                line = json.dumps(record)
-            else:
-                told = what if isinstance(event, Noise) else f"{what} {fields_as_text(event)}"
-                line = f"{at:12.6f}  {who:10}  {spaced(data)} | {told.rstrip()}"
-            print(line, file=self._screen, flush=True)
+            if self._left != 0 and self._wanted(event):
+                self._waiting.clear()
+                self._lines.show(event, self._direction, when)
+                if self._left is not None:
+                    self._left -= 1
+
+    def _wanted(self, event: Message | Noise) -> bool:
+        who = sender_of(event, self._direction)
+        names = {who, *names_of(event, self._direction)}
+        # An unknown frame is noise, too, and what either end may have sent is what each may have.
+        wider = names | {UNKNOWN: {NOISE}, EITHER: {*SENDERS}}.get(who, set())
+        return (not self._only or bool(wider & self._only)) and not names & self._hidden
+
+    def _so_far(self, waited: float) -> str:
+        seen = self._decoder.counters
+        if not seen.fed:
+            return f"nothing heard for {waited:.0f} s (Ctrl-C ends)"
+        return f"nothing to show for {waited:.0f} s (Ctrl-C ends); {totals(seen)}"
+
+    def _totals(self) -> str:
+        filtered = f"; {counted(self._lines.count, 'line')} shown"
+        return totals(self._decoder.counters) + (filtered if self._only or self._hidden else "")
+
+
+def _filter(name: str) -> str:
+    if name in KINDS:
+        return name
+    try:
+        return message_named(name).__name__
+    except UnusableError as error:
+        raise UnusableError(f"{error}; besides messages, there are {', '.join(KINDS)}") from None

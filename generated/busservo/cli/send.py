@@ -9,16 +9,23 @@ import sys
 from ..errors import EncodeError
 from ..exchanges import EXCHANGES, RECEIVED
 from ..link_errors import NoReplyError
-from ..opening import open_controller
+from ..outcome import lacking
+from . import link
 from .decode import event_as_json, event_as_text
-from .encode import message_named
-from .link import add_port, failures_told
+from .exits import DONE, NOT_ALL
+from .link import add_port, add_timeout, at_least, failures_told, open_client
+from .questions import in_parts
 from .unusable import UnusableError
-from .values import message_from_text
+from .waiting import shown_waiting
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
     from argparse import ArgumentParser, Namespace
+
+    from ..client import Client
+    from ..message import Message
+
+ENDS = link.ENDS | {NOT_ALL: "no reply came in time, or it told less than was asked"}
 
 
 def add_arguments(parser: ArgumentParser) -> None:
@@ -28,27 +35,53 @@ def add_arguments(parser: ArgumentParser) -> None:
     parser.add_argument(
         "fields", nargs="*", metavar="FIELD=VALUE", help="numbers, names of values, or lists"
     )
-    parser.add_argument("--retries", type=int, default=0, help="ask so often again (default: 0)")
+    parser.add_argument(
+        "--retries",
+        type=at_least(0),
+        default=0,
+        metavar="N",
+        help="ask so often again where no reply comes (default: 0)",
+    )
+    add_timeout(parser)
     parser.add_argument("--json", action="store_true", help="print the reply as a line of JSON")
 
 
 def run(arguments: Namespace) -> int:
-    """Sends the message. 1: no reply came in time."""
-    message = message_from_text(message_named(arguments.message), arguments.fields)
-    exchange = EXCHANGES.get(type(message))
-    if exchange is None:
-        names = ", ".join(kind.__name__ for kind in EXCHANGES)
-        raise UnusableError(f"{type(message).__name__} is never sent from here; {names} are")
-    with failures_told(), open_controller(arguments.port, retries=arguments.retries) as controller:
-        try:
-            if exchange.reply is None:
-                controller.send(message)
-                return 0
-            reply = controller.request(message)
-        except EncodeError as error:
-            raise UnusableError(str(error)) from None
-        except NoReplyError as error:
-            print(error, file=sys.stderr)
-            return 1
-    print((event_as_json if arguments.json else event_as_text)(reply, 0, RECEIVED))
-    return 0
+    """Sends the message, and prints what answers it."""
+    messages = in_parts(arguments.message, arguments.fields)
+    if len(messages) > 1:
+        told = f"asked in {len(messages)} requests: one reply has no room for so much"
+        print(told, file=sys.stderr)
+    show = event_as_json if arguments.json else event_as_text
+    missing: dict[str, list[int]] = {}
+    silent: NoReplyError | None = None
+    with failures_told(), open_client(arguments, retries=arguments.retries) as controller:
+        for message in messages:
+            try:
+                reply = _answer(controller, message)
+            except EncodeError as error:
+                raise UnusableError(str(error)) from None
+            except NoReplyError as error:
+                silent = error
+                break
+            if reply is not None:
+                print(show(reply, 0, RECEIVED), flush=True)
+                asked, lacks, _ = lacking(message, reply)
+                missing.setdefault(asked, []).extend(lacks)
+    for asked, values in missing.items():
+        if values:
+            told = ", ".join(str(value) for value in values)
+            print(f"the reply is incomplete: nothing of {asked} {told}", file=sys.stderr)
+    if silent is not None:
+        print(silent, file=sys.stderr)
+    return NOT_ALL if silent is not None or any(missing.values()) else DONE
+
+
+def _answer(controller: Client, message: Message) -> Message | None:
+    """The reply to a question; None for a command, which has none."""
+    reply = EXCHANGES[type(message)].reply
+    if reply is None:
+        controller.send(message)
+        return None
+    with shown_waiting(lambda waited: f"waiting for {reply.__name__}, {waited:.0f} s"):
+        return controller.request(message)

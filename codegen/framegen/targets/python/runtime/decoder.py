@@ -23,6 +23,9 @@ _new = object.__new__
 # The beginnings of frames that are remembered, with what they wait for, are of this size at most.
 _REMEMBERED = BODY_AT + 1
 
+# What a header that has not come whole may look like, the longest first.
+_BEGUN_HEADERS = [HEADER[:size] for size in range(len(HEADER) - 1, 0, -1)]
+
 
 class Counters:
     """What a decoder has seen: bytes fed, messages, bytes of noise, unknown frames in it."""
@@ -113,8 +116,10 @@ class StreamDecoder:
         events: list[Message | Noise] = []
         look_up = self._table.get
         size = len(data)
-        # From `start` to `at` is noise that has not been told yet.
+        # From `start` to `at` is noise that has not been told yet, all of it for one reason, unless
+        # it may be a frame of unknown command, which ends at `candidate`.
         start, at, candidate = 0, self._scanned, self._candidate
+        refused = -2  # where the last refused header stands
         messages = wake = 0
         while True:
             # Whether a frame of unknown command is shown as one is decided by its own bytes alone,
@@ -127,32 +132,32 @@ class StreamDecoder:
                     start, candidate = candidate, 0
                     continue
                 if quiet or not candidate:
-                    self._tell_noise(events, data, start, at)
+                    self._tell_noise(events, data, start, at, candidate)
                     start, candidate = at, 0
                 break
             kind: type[Message] | None = None
-            head = data[at : at + BODY_AT]
-            entry = look_up(head)
-            if entry is None and limit - at >= BODY_AT:
-                if not head.startswith(HEADER):
-                    at = _next_header(data, at + 1, limit)
-                    continue
-                entry = self._table[head]
-            if entry is not None and entry[5] is None:
-                length, count_at, count_end, count, likely, _ = entry
+            entry = look_up(data[at : at + BODY_AT])
+            if entry is not None:
+                length, count_at, count_end, count, likely = entry
                 end = at + length
-                counted = at + count_end
-                begun = data[at + count_at : min(counted, limit)]
-                if begun != count:
-                    # Either the count is not here yet, or it refuses the header.
-                    end = counted if count.startswith(begun) else 0
-                elif end <= limit:
+                if end <= limit and data[at + count_at : at + count_end] == count:
                     kind = likely
+                else:
+                    # What is here of the count may refuse the header before all of it is here.
+                    reason = Reason.TOO_SHORT
+                    begun = data[at + count_at : min(at + count_end, limit)]
+                    if not count.startswith(begun):
+                        end, reason = 0, Reason.COUNT_MISMATCH
+                    elif begun != count:
+                        end = at + count_end
+            elif (found := _next_header(data, at, limit)) > at:
+                at = found
+                continue
             else:
-                kind, end, _ = self._weigh(data, at, limit)
+                kind, end, reason = self._weigh(data, at, limit)
             if kind is not None:
                 if start < at:
-                    self._tell_noise(events, data, start, at)
+                    self._tell_noise(events, data, start, at, candidate)
                 message = _new(kind)
                 message._frame = data[at:end]
                 events.append(message)
@@ -162,7 +167,7 @@ class StreamDecoder:
                 candidate = 0
             elif end and whole:
                 # What may begin here goes on behind the unknown frame, and is worth more than it.
-                self._tell_noise(events, data, start, at)
+                self._tell_noise(events, data, start, at, candidate)
                 start, candidate = at, 0
             elif end and not quiet:
                 if not candidate:
@@ -171,10 +176,13 @@ class StreamDecoder:
                 wake = min(end, candidate) if candidate else end
                 break
             else:
-                claimed = 0 if candidate else self._claimed(data, at)
-                if claimed:
-                    self._tell_noise(events, data, start, at)
-                    start, candidate = at, claimed
+                if not candidate and data.startswith(HEADER, at):
+                    candidate = self._claimed(data, at)
+                    # A run of headers, each a byte after the other, is one piece.
+                    if candidate or reason is not self._reason or at != refused + 1:
+                        self._tell_noise(events, data, start, at)
+                        start, self._reason = at, reason
+                    refused = at
                 at = _next_header(data, at + 1, min(size, candidate) if candidate else size)
         self._held = held = data[start:]
         self._scanned = at - start
@@ -187,28 +195,27 @@ class StreamDecoder:
         return events
 
     def _weigh(self, data: bytes, at: int, limit: int) -> tuple[type[Message] | None, int, Reason]:
-        """What stands at `at`, by the bytes in front of `limit`.
+        """What the header at `at` begins, by the bytes in front of `limit`.
 
         A message and where it ends; or no message, and the size at which more can be told; or no
         message, 0 and the reason.
         """
         head = data[at : min(at + BODY_AT, limit)]
-        if not HEADER.startswith(head[: len(HEADER)]):
-            return None, 0, Reason.BAD_HEADER
         if len(head) >= LENGTH_END and not self._table.may_have(read_length(head)):
             return None, 0, Reason.LENGTH_MISMATCH
         if len(head) < BODY_AT:
             return None, limit + 1, Reason.TOO_SHORT
         known = read_command(head) in self._table.kinds
         reason = Reason.LENGTH_MISMATCH if known else Reason.UNKNOWN_COMMAND
-        for length, count_at, count_end, count, kind, shape in self._table.entries(head):
+        for length, count_at, count_end, count, kind in self._table.entries(head):
             if not count.startswith(data[at + count_at : min(at + count_end, limit)]):
                 reason = Reason.COUNT_MISMATCH
             elif at + count_end > limit:
                 return None, at + count_end, Reason.TOO_SHORT
             elif at + length > limit:
                 return None, at + length, Reason.TOO_SHORT
-            elif shape is None or shape.out_of_range(data[at : at + length]) is None:
+            elif kind.SHAPE.out_of_range(data[at : at + length]) is None:
+                self._table[head]  # learns it for the next time
                 return kind, at + length, reason
             else:
                 reason = Reason.OUT_OF_RANGE
@@ -231,39 +238,40 @@ class StreamDecoder:
         self._reason = Reason.BAD_HEADER
         events.append(UnknownFrame(data[start:end], Reason.UNKNOWN_COMMAND))
 
-    def _tell_noise(self, events: list[Message | Noise], data: bytes, start: int, end: int) -> None:
-        """Tells the bytes from `start` to `end`: a piece for each refused header and its wreck.
+    def _tell_noise(
+        self, events: list[Message | Noise], data: bytes, start: int, end: int, wreck: int = 0
+    ) -> None:
+        """Tells the bytes from `start` to `end`, which may be the wreck of an unknown frame."""
+        if wreck:
+            start = self._tell_wreck(events, data, start, end)
+        if start < end:
+            self._noise += end - start
+            events.append(Noise(data[start:end], self._reason))
 
-        A run of headers, each a byte after the other, is one piece. No message is in there, but
-        frames of unknown command may be.
+    def _tell_wreck(self, events: list[Message | Noise], data: bytes, start: int, end: int) -> int:
+        """Tells what a frame of unknown command leaves that was none, up to its last piece.
+
+        There is a piece for each refused header in it, save that a run of headers, each a byte
+        after the other, is one. No message is in there, but other frames of unknown command may be.
+        Returns where the last piece begins.
         """
-        if data.find(HEADER, start, end + len(HEADER) - 1) < 0:
-            self._tell_piece(events, data[start:end])
-            return
-        piece = start
-        header = -1
-        at = _next_header(data, start, end)
+        at, refused = start, -2
         while at < end:
             if data.startswith(HEADER, at):
                 claimed = self._claimed(data, at)
+                reason = self._weigh(data, at, len(data))[-1]
                 if 0 < claimed <= end:
-                    self._tell_piece(events, data[piece:at])
+                    self._tell_noise(events, data, start, at)
                     self._tell_unknown(events, data, at, claimed)
-                    piece = claimed
-                    at = _next_header(data, claimed, end)
+                    start = at = claimed
+                    at = _next_header(data, at, end)
                     continue
-                reason = self._weigh(data, at, len(data))[2]
-                if reason is not self._reason or at != header + 1:
-                    self._tell_piece(events, data[piece:at])
-                    piece, self._reason = at, reason
-                header = at
+                if reason is not self._reason or at != refused + 1:
+                    self._tell_noise(events, data, start, at)
+                    start, self._reason = at, reason
+                refused = at
             at = _next_header(data, at + 1, end)
-        self._tell_piece(events, data[piece:end])
-
-    def _tell_piece(self, events: list[Message | Noise], data: bytes) -> None:
-        if data:
-            self._noise += len(data)
-            events.append(Noise(data, self._reason))
+        return start
 
 
 def _next_header(data: bytes, at: int, limit: int) -> int:
@@ -271,7 +279,7 @@ def _next_header(data: bytes, at: int, limit: int) -> int:
     found = data.find(HEADER, at, limit)
     if found >= 0:
         return found
-    for begun in range(min(len(HEADER) - 1, limit - at), 0, -1):
-        if data.startswith(HEADER[:begun], limit - begun):
-            return limit - begun
+    for begun in _BEGUN_HEADERS:
+        if data.endswith(begun, at, limit):
+            return limit - len(begun)
     return limit

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from .errors import DecodeError, Reason
-from .octets import spaced
+from .octets import octets, spaced
 from .protocol import BODY_AT, COMMAND_AT, HEADER, LENGTH_AT, UNCOUNTED, read_command, read_length
 
 TYPE_CHECKING = False  # typing alone would double the time that the import takes
@@ -12,11 +12,10 @@ if TYPE_CHECKING:
     from typing import TypeAlias
 
     from .message import Message
-    from .shape import Shape
 
     # The size of the frame; from where to where its count stands, and the bytes it must be; the
-    # class; its shape, where more must be looked at. Without a list, the count is b"" at 0:0.
-    Entry: TypeAlias = "tuple[int, int, int, bytes, type[Message], Shape | None]"
+    # class. Without a list, the count is b"" at 0:0.
+    Entry: TypeAlias = "tuple[int, int, int, bytes, type[Message]]"
 
 
 _new = object.__new__
@@ -26,7 +25,8 @@ class Table(dict[bytes, "Entry | None"]):
     """Maps the head of a frame, up to its command, to what must follow for it to be legal.
 
     It fills itself as heads are looked up. A head that begins no frame of these messages gives
-    None, and is not kept: noise must not fill the memory.
+    None, and is not kept: noise must not fill the memory. So does one that does not decide alone,
+    because two directions share it or a field has a range of its own.
     """
 
     __slots__ = ("kinds", "largest", "waits")
@@ -42,13 +42,10 @@ class Table(dict[bytes, "Entry | None"]):
 
     def __missing__(self, head: bytes) -> Entry | None:
         entries = [*self.entries(head)]
-        if not entries:
+        if len(entries) != 1 or entries[0][-1].SHAPE.narrowed:
             return None
-        size, at, until, count, kind, shape = entries[0]
-        if len(entries) > 1:
-            shape = kind.SHAPE  # it may be the other: look closely
-        self[head] = size, at, until, count, kind, shape
-        return self[head]
+        (self[head],) = entries
+        return entries[0]
 
     def entries(self, head: bytes) -> Iterator[Entry]:
         """What may follow `head`; where two directions share it, the first of them comes first."""
@@ -57,20 +54,20 @@ class Table(dict[bytes, "Entry | None"]):
         length = read_length(head)
         for kind in self.kinds.get(read_command(head), ()):
             if length in kind.LENGTHS:
-                shape = kind.SHAPE
-                at, until, count = shape.count_bytes(length)
-                yield length + UNCOUNTED, at, until, count, kind, shape if shape.narrowed else None
+                yield length + UNCOUNTED, *kind.SHAPE.count_bytes(length), kind
 
     def may_have(self, length: int) -> bool:
         """Whether some frame could have this length, if its command were not known."""
         return BODY_AT <= length + UNCOUNTED <= self.largest
 
-    def read(self, frame: bytes) -> Message:
+    def read(self, frame: bytes | bytearray | memoryview) -> Message:
         """The message that `frame` is, whole and with nothing after it. Raises DecodeError."""
-        entry = self.get(frame[:BODY_AT])
+        if type(frame) is not bytes:
+            frame = octets(frame)
+        entry = self[frame[:BODY_AT]]
         if entry is not None:
-            size, at, until, count, kind, shape = entry
-            if len(frame) == size and shape is None and (not until or frame[at:until] == count):
+            size, at, until, count, kind = entry
+            if len(frame) == size and (not until or frame[at:until] == count):
                 message = _new(kind)
                 message._frame = frame
                 return message
@@ -81,11 +78,10 @@ class Table(dict[bytes, "Entry | None"]):
     def _looked_at(self, frame: bytes) -> type[Message]:
         """The message that `frame` is, though not at first sight; or else why it is none."""
         errors: list[DecodeError] = []
-        self[frame[:BODY_AT]]  # learns the head for the next time
-        for size, at, until, count, kind, _ in self.entries(frame[:BODY_AT]):
-            error = _misfit(frame, size, at, until, count, kind)
+        for entry in self.entries(frame[:BODY_AT]):
+            error = _misfit(frame, *entry)
             if error is None:
-                return kind
+                return entry[-1]
             errors.append(error)
         # Of several messages, the one that fits furthest tells most.
         raise max(errors, key=lambda error: error.offset) if errors else self._headless(frame)

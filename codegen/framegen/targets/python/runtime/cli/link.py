@@ -1,32 +1,118 @@
-"""What the verbs with a port share: how it is named, and what is shown when it fails."""
+"""What the verbs with a port share: how it is named and opened, and what is shown when it fails."""
 
 from __future__ import annotations
 
+import argparse
+import signal
+import sys
 from contextlib import contextmanager
 
-from ..link_errors import TransportError
-from .unusable import UnusableError
+from ..client import MARGIN, Client
+from ..link_errors import ClosedError, DisconnectedError, TransportError, WriteStuckError
+from .exits import LINE_LOST, TERMINATED
+from .unusable import LineLostError, UnusableError
+from .waiting import shown_waiting
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
-    from argparse import ArgumentParser
-    from collections.abc import Iterator
+    from collections.abc import Callable, Iterator
+
+    from ..transport import Transport
+
+ENDS = {
+    LINE_LOST: "the line was lost: a cable pulled, a device gone, the other end hung up",
+    TERMINATED: "ended by SIGTERM, as `timeout 10 ...` does",
+}
+# The longest wait that can be asked for, so that none is without end.
+_LONGEST = 3600.0
 
 
-def add_port(parser: ArgumentParser) -> None:
+def add_port(parser: argparse.ArgumentParser, *, required: bool = True) -> None:
     """Declares the option that names the port."""
     parser.add_argument(
         "--port",
-        required=True,
+        required=required,
         metavar="PORT",
         help="such as /dev/ttyUSB0, COM7 or socket://HOST:PORT; `ports` lists them",
     )
 
 
+def add_timeout(parser: argparse.ArgumentParser) -> None:
+    """Declares the option that says how long an answer may take."""
+    parser.add_argument(
+        "--timeout",
+        type=seconds,
+        default=MARGIN,
+        metavar="S",
+        help="seconds that the board may take for an answer, besides those on the wire "
+        f"(default: {MARGIN})",
+    )
+
+
+def seconds(text: str) -> float:
+    """A time to wait, as an argument."""
+    try:
+        given = float(text)
+    except ValueError:
+        raise argparse.ArgumentTypeError(f"{text!r} is no number of seconds") from None
+    if not 0 < given <= _LONGEST:
+        raise argparse.ArgumentTypeError(f"{text} is not above 0 and up to {_LONGEST:g} seconds")
+    return given
+
+
+def at_least(lowest: int) -> Callable[[str], int]:
+    """A whole number with a bound, as an argument."""
+
+    def read(text: str) -> int:
+        try:
+            given = int(text)
+        except ValueError:
+            raise argparse.ArgumentTypeError(f"{text!r} is no whole number") from None
+        if given < lowest:
+            raise argparse.ArgumentTypeError(f"{given} is below {lowest}, the least there can be")
+        return given
+
+    return read
+
+
+def open_line(port: str) -> Transport:
+    """Opens a port, and shows that it is at it: an address that is far away may take a while."""
+    from ..serial_port import open_transport
+
+    with shown_waiting(lambda waited: f"opening {port}, {waited:.0f} s"):
+        return open_transport(port)
+
+
+def open_client(arguments: argparse.Namespace, *, retries: int = 0) -> Client:
+    """As open_line, for a client that waits as long as the arguments say."""
+    return Client(open_line(arguments.port), margin=arguments.timeout, retries=retries)
+
+
 @contextmanager
 def failures_told() -> Iterator[None]:
-    """Turns what goes wrong with a port into one line that says what to do."""
+    """Turns what goes wrong with a port into one line that says what to do.
+
+    SIGTERM ends it as Ctrl-C does: totals are printed, and ports and the terminal given back.
+    """
     try:
-        yield
+        with _ended_by_sigterm():
+            yield
+    except (ClosedError, DisconnectedError, WriteStuckError) as error:
+        # The library would say `reconnect()`, which is nothing that can be typed here.
+        advice = "see to the cable and the power, then run this again"
+        raise LineLostError(f"{error.port}: {error.happened}; {advice}") from None
     except TransportError as error:
         raise UnusableError(str(error)) from None
+
+
+@contextmanager
+def _ended_by_sigterm() -> Iterator[None]:
+    try:
+        before = signal.signal(signal.SIGTERM, lambda *_: sys.exit(TERMINATED))
+    except ValueError:  # signals are for the main thread, which this is not
+        yield
+        return
+    try:
+        yield
+    finally:
+        signal.signal(signal.SIGTERM, before)

@@ -1,7 +1,17 @@
-"""The error of the command line."""
+"""The errors of the command line: one line for the user, and a number for the shell."""
 
 from __future__ import annotations
+
+from .exits import LINE_LOST, UNUSABLE
 
 
 class UnusableError(Exception):
     """What was given on the command line, or to read, is of no use. The text says why."""
+
+    code = UNUSABLE
+
+
+class LineLostError(UnusableError):
+    """The line was there and is gone: nothing was wrong with what was given."""
+
+    code = LINE_LOST

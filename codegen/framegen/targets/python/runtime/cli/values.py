@@ -55,6 +55,15 @@ def _number_as_text(number: Number, value: int) -> str:
 
 def message_from_text(kind: type[Message], words: list[str]) -> Message:
     """The message with the fields given as `time_ms=1000 targets=1:800,9:800`."""
+    given = fields_from_text(kind, words)
+    try:
+        return kind(**given)
+    except EncodeError as error:
+        raise UnusableError(str(error)) from None
+
+
+def fields_from_text(kind: type[Message], words: list[str]) -> dict[str, Any]:
+    """The fields of a message, all of them, by name; whether a frame can carry them is not seen."""
     given: dict[str, Any] = {}
     for word in words:
         name, equals, text = word.partition("=")
@@ -68,10 +77,7 @@ def message_from_text(kind: type[Message], words: list[str]) -> Message:
     missing = [name for name in kind.__match_args__ if name not in given]
     if missing:
         raise UnusableError(f"{kind.__name__} needs {' and '.join(missing)}; {_usage(kind)}")
-    try:
-        return kind(**given)
-    except EncodeError as error:
-        raise UnusableError(str(error)) from None
+    return given
 
 
 def _usage(kind: type[Message]) -> str:

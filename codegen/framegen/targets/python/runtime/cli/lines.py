@@ -1,0 +1,84 @@
+"""Lines of text for what comes and goes on a line: time, who, bytes, and what they mean."""
+
+from __future__ import annotations
+
+import json
+import time
+
+from ..noise import Noise
+from ..octets import spaced
+from .colour import painted, takes_colour
+from .events import (
+    EITHER,
+    NOISE,
+    SENDERS,
+    UNKNOWN,
+    as_record,
+    bytes_of,
+    counted,
+    in_words,
+    sender_of,
+)
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from typing import Any, TextIO
+
+    from ..direction import Direction
+    from ..message import Message
+
+TIMES = ("absolute", "delta", "zero")
+_COLOURS = {
+    **dict(zip(SENDERS, ("cyan", "green"), strict=False)),
+    EITHER: "yellow",
+    UNKNOWN: "magenta",
+    NOISE: "red",
+}
+
+
+class Lines:
+    """Prints one line for each event, at once, so that a pipe has it when it comes.
+
+    `times` is one of TIMES. Times are handed in as seconds, of the day's clock for `absolute` and
+    of any clock for the others.
+    """
+
+    def __init__(self, screen: TextIO, times: str = "zero", *, as_json: bool = False) -> None:
+        self._screen = screen
+        self._times = times
+        self._began = self._last = 0.0
+        self._json = as_json
+        self._colour = takes_colour(screen) and not as_json
+        self.count = 0
+
+    def begin(self, now: float) -> None:
+        """Says from when on time counts."""
+        self._began = self._last = now
+
+    def show(self, event: Message | Noise, direction: Direction | None, now: float) -> None:
+        """Prints an event that was heard in a direction; None for one of two that share a line."""
+        self.count += 1
+        since = {"absolute": 0.0, "delta": self._last, "zero": self._began}[self._times]
+        at, self._last = now - since, now
+        if self._json:
+            text = self._as_json(event, direction, at)
+        else:
+            text = self._as_text(event, direction, at)
+        print(text, file=self._screen, flush=True)
+
+    def _as_text(self, event: Message | Noise, direction: Direction | None, at: float) -> str:
+        who, data, what = sender_of(event, direction), bytes_of(event), in_words(event, direction)
+        when = time_of_day(at) if self._times == "absolute" else f"{at:12.6f}"
+        size = f" ({counted(len(data), 'byte')})" if isinstance(event, Noise) else ""
+        shown = painted(f"{who:10}", _COLOURS[who]) if self._colour else f"{who:10}"
+        return f"{when:>12}  {shown}  {spaced(data)} | {what}{size}"
+
+    def _as_json(self, event: Message | Noise, direction: Direction | None, at: float) -> str:
+        record: dict[str, Any] = {"time": round(at, 6), "from": sender_of(event, direction)}
+        return json.dumps(record | as_record(event, direction))
+
+
+def time_of_day(now: float) -> str:
+    """The time that a clock on the wall shows, as HH:MM:SS.ffffff."""
+    whole, part = divmod(round(now * 1_000_000), 1_000_000)
+    return f"{time.strftime('%H:%M:%S', time.localtime(whole))}.{part:06d}"

@@ -1,0 +1,104 @@
+"""Sends what was recorded, each part when its time has come, and shows what comes back."""
+
+from __future__ import annotations
+
+import queue
+import sys
+import threading
+import time
+
+from ..decoder import StreamDecoder
+from ..exchanges import RECEIVED
+from ..link_errors import TransportError
+from .events import SENDERS, bytes_of, counted, totals
+from .lines import Lines
+from .waiting import PATIENCE, Waiting
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from typing import TextIO
+
+    from ..message import Message
+    from ..noise import Noise
+    from ..transport import Transport
+    from .recording import Heard
+
+# How long a line is quiet before half a frame is given up, and how long the last answer may take.
+_QUIET = 0.25
+# How long to wait in one piece, so that Ctrl-C is noticed on every system.
+_SLICE = 0.1
+
+
+class Playback:
+    """One replay, on a screen that is handed in."""
+
+    def __init__(self, screen: TextIO) -> None:
+        self._lines = Lines(screen)
+        self._waiting = Waiting(sys.stderr)
+        self._decoder = StreamDecoder(RECEIVED)
+        # What the listener has heard: bytes, or the error that ended it; and when.
+        self._heard: queue.SimpleQueue[tuple[bytes | TransportError, float]] = queue.SimpleQueue()
+        self._over = threading.Event()
+        self._last = 0.0
+
+    def play(self, line: Transport, recorded: list[Heard], times: list[float]) -> None:
+        """Sends each of what was recorded at its time; the totals come in any case."""
+        sent = size = 0
+        # Reading in a thread of its own, since a read may take longer than the time up to the next
+        # frame, and that one is not to be late.
+        listener = threading.Thread(target=self._listen, args=(line,), daemon=True)
+        listener.start()
+        began = self._last = time.monotonic()
+        self._lines.begin(began)
+        try:
+            for heard, at in zip(recorded, times, strict=True):
+                self._wait(began + at, f"{sent} of {len(recorded)} sent, the next")
+                data = bytes_of(heard.event)
+                line.write(data)
+                self._waiting.clear()
+                self._lines.show(heard.event, SENDERS.get(heard.sender), time.monotonic())
+                sent, size = sent + 1, size + len(data)
+            line.drain(1.0)
+            self._wait(time.monotonic() + _QUIET, "the last answer")
+        finally:
+            self._over.set()
+            listener.join(1.0)
+            self._waiting.end()
+            told = f"{sent} of {counted(len(recorded), 'frame')} sent, {counted(size, 'byte')}"
+            try:
+                self._show(self._decoder.flush(), time.monotonic())
+            finally:
+                print(f"{told}; came back: {totals(self._decoder.counters)}", file=sys.stderr)
+
+    def _listen(self, line: Transport) -> None:
+        while not self._over.is_set():
+            try:
+                data = line.read(_SLICE)
+            except TransportError as error:
+                self._heard.put((error, time.monotonic()))
+                return
+            if data:
+                self._heard.put((data, time.monotonic()))
+
+    def _wait(self, until: float, what: str) -> None:
+        """Shows what comes back up to a moment. Raises TransportError once the line is lost."""
+        began = time.monotonic()
+        while (left := until - time.monotonic()) > 0:
+            try:
+                heard, now = self._heard.get(timeout=min(left, _SLICE))
+            except queue.Empty:
+                now = time.monotonic()
+                if self._decoder.pending and now - self._last >= _QUIET:
+                    self._show(self._decoder.flush(), now)
+                if now - began >= PATIENCE:
+                    self._waiting.show(f"{what} in {left:.0f} s")
+                continue
+            if isinstance(heard, TransportError):
+                raise heard
+            self._last = now
+            self._show(self._decoder.feed(heard), now)
+
+    def _show(self, events: list[Message | Noise], now: float) -> None:
+        for event in events:
+            self._waiting.clear()
+            self._lines.show(event, RECEIVED, now)

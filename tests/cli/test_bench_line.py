@@ -1,0 +1,110 @@
+"""The verb `bench-line`: what it measures, and what it makes of questions without an answer."""
+
+from __future__ import annotations
+
+import json
+import re
+
+import pytest
+from busservo import BatteryVoltage, Message, ServoPositions
+from busservo.cli import bench_line, main
+from busservo.client import Client
+from busservo_simulator import Faults, VirtualController
+
+from tests.client.virtual_line import VirtualLine
+
+WORDS = ("ServoPositionsRead", "servo_ids=1,2,3,4,5,6")
+
+
+def test_it_tells_round_trips_and_the_share_of_what_the_line_allows(
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    with VirtualController("tcp", baud=9600) as board:
+        assert main(["bench-line", "--port", board.port, *WORDS, "-n", "5"]) == 0
+        port = board.port
+        assert (board.accepted, board.rejects.total) == (5, 0)
+    first, wire, trips, rate, errors = capsys.readouterr().out.splitlines()
+    assert first == f"ServoPositionsRead servo_ids=1,2,3,4,5,6 on {port}: 5 asked, 5 answered"
+    assert wire == "  the wire alone  35.42 ms: 11 bytes there and 23 back, at 9600 baud"
+    times = [float(each) for each in re.findall(r"([0-9.]+) ms", trips)]
+    assert times == sorted(times)
+    assert times[0] >= 35.42
+    share = re.fullmatch(r"  rate +[0-9.]+ a second, ([0-9.]+)% of what the line allows", rate)
+    assert share is not None
+    assert 10 < float(share[1]) <= 100
+    assert errors == "  errors          none"
+
+
+def test_json_has_the_same_in_seconds(capsys: pytest.CaptureFixture[str]) -> None:
+    with VirtualController("tcp") as board:
+        assert main(["bench-line", "--port", board.port, "-n", "3", "--json"]) == 0
+    found = json.loads(capsys.readouterr().out)
+    assert (found["question"], found["asked"], found["answered"]) == ("BatteryVoltageRead", 3, 3)
+    assert (found["errors"], found["wire"], found["baud"]) == ({}, 0.010417, 9600)
+    assert 0 < found["min"] <= found["median"] <= found["max"]
+
+
+def test_a_line_that_is_faster_than_its_rate_is_none(capsys: pytest.CaptureFixture[str]) -> None:
+    with VirtualController("tcp") as board:
+        assert main(["bench-line", "--port", board.port, "-n", "3"]) == 0
+    assert "it is faster than that rate, so it is no such line" in capsys.readouterr().out
+
+
+def test_errors_are_counted_by_kind(
+    capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    replies: list[list[tuple[float, bytes | Message]]] = [
+        [(0.0, ServoPositions([(1, 5), (2, 6)]))],
+        [],
+        [(0.0, ServoPositions([(2, 6)]))],
+        [(0.0, BatteryVoltage(7500))],
+        [(0.0, ServoPositions([(1, 5), (2, 6)]))],
+    ]
+    line = VirtualLine(lambda _: replies.pop(0))
+    client = Client(line, background=False, clock=line.clock)
+    monkeypatch.setattr(bench_line, "open_client", lambda _: client)
+    words = ["ServoPositionsRead", "servo_ids=1,2", "-n", "5"]
+    assert main(["bench-line", "--port", "COM7", *words]) == 1
+    lines = capsys.readouterr().out.splitlines()
+    assert lines[0].endswith(" on COM7: 5 asked, 3 answered")
+    assert lines[-1] == "  errors          2 no reply, 1 incomplete reply"
+
+
+def test_a_line_that_is_lost_ends_it(capsys: pytest.CaptureFixture[str]) -> None:
+    with VirtualController("tcp", faults=Faults(hang_up=1.0)) as board:
+        assert main(["bench-line", "--port", board.port]) == 3
+    output, errors = capsys.readouterr()
+    assert output.splitlines()[0].endswith(": 0 asked, 0 answered")
+    assert "the line was lost" in errors
+
+
+def test_silence_alone_gives_no_times(capsys: pytest.CaptureFixture[str]) -> None:
+    words = ["--timeout", "0.02", "-n", "2"]
+    assert main(["bench-line", "--port", "loop://", *words]) == 1
+    assert capsys.readouterr().out.splitlines() == [
+        "BatteryVoltageRead on loop://: 2 asked, 0 answered",
+        "  errors          2 no reply",
+    ]
+
+
+@pytest.mark.parametrize(
+    ("words", "told"),
+    [
+        (["ServoMove", "time_ms=1", "targets=1:2"], "nothing answers ServoMove, so it cannot be"),
+        (["ActionGroupStarted"], "ActionGroupStarted is never sent from here"),
+        (["ServoPositionsRead"], "ServoPositionsRead needs servo_ids"),
+        (
+            ["ServoPositionsRead", f"servo_ids={','.join(map(str, range(85)))}"],
+            "servo_ids: 85 items are asked for at once, and a reply has room for 84",
+        ),
+        (["-n", "0"], "argument -n: 0 is below 1"),
+        (["--timeout", "4000"], "argument --timeout: 4000 is not above 0 and up to 3600 seconds"),
+    ],
+)
+def test_what_cannot_be_measured_is_refused(
+    capsys: pytest.CaptureFixture[str], words: list[str], told: str
+) -> None:
+    assert main(["bench-line", "--port", "no-such-port", *words]) == 2
+    errors = capsys.readouterr().err
+    assert told in errors
+    assert "no such port" not in errors

@@ -1,0 +1,213 @@
+"""The verbs as people run them: on a terminal or in a pipe, with Ctrl-C, with cables that fail."""
+
+from __future__ import annotations
+
+import re
+import subprocess
+import sys
+import time
+from typing import TYPE_CHECKING
+
+import pytest
+from busservo import BatteryVoltage
+from busservo_simulator import VirtualController
+
+if sys.platform != "linux":
+    pytest.skip("terminals differ by system, and only Linux's are tried", allow_module_level=True)
+
+from tests.cli.terminal import OnTerminal, run, start
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+    from pathlib import Path
+
+CTRL_C = b"\x03"
+BATTERY = "55 55 04 0F 4C 1D | BatteryVoltage voltage_mv=7500 mV"
+
+
+@pytest.fixture
+def board() -> Iterator[VirtualController]:
+    """A board behind a pty, that is there from the first moment on."""
+    with VirtualController("pty") as board:
+        yield board
+
+
+def test_ctrl_c_ends_a_monitor_with_its_totals(board: VirtualController) -> None:
+    with OnTerminal("monitor", "--port", board.port) as monitor:
+        monitor.wait_for("nothing heard for 1 s")
+        board.report(BatteryVoltage(7500))
+        monitor.wait_for("7500 mV\r\n")
+        monitor.wait_for("nothing to show for 1 s")
+        monitor.type(CTRL_C)
+        assert monitor.end() == 130
+        first, totals, *rest = monitor.lines
+        assert first.endswith(f"\x1b[32mcontroller\x1b[0m  {BATTERY}")
+        assert totals == "6 bytes: 1 message, 0 bytes of noise"
+        assert rest == [""]
+    # The port has been given back: the next one has it, exclusively.
+    assert run("send", "--port", board.port, "BatteryVoltageRead").returncode == 0
+
+
+def test_sigterm_ends_a_monitor_as_cleanly(board: VirtualController) -> None:
+    monitor = start("monitor", "--port", board.port)
+    assert monitor.stdout is not None
+    board.babble(BatteryVoltage(7500).encode())
+    monitor.stdout.readline()
+    monitor.terminate()
+    _, told = monitor.communicate(timeout=20)
+    assert monitor.returncode == 143
+    assert re.fullmatch("[0-9]+ bytes: [0-9]+ messages?, [0-9]+ bytes? of noise\n", told)
+
+
+@pytest.mark.parametrize("variable", [{"NO_COLOR": "1"}, {"TERM": "dumb"}])
+def test_no_colour_where_none_is_wanted(board: VirtualController, variable: dict[str, str]) -> None:
+    with OnTerminal("monitor", "--port", board.port, "-n", "1", **variable) as monitor:
+        monitor.wait_for("nothing heard")
+        board.report(BatteryVoltage(7500))
+        assert monitor.end() == 0
+        assert monitor.lines[0].endswith(f"  controller  {BATTERY}")
+        assert "\x1b" not in monitor.shown
+
+
+def test_a_pipe_that_is_closed_ends_a_monitor(board: VirtualController) -> None:
+    board.babble(BatteryVoltage(7500).encode())
+    monitor = start("monitor", "--port", board.port)
+    head = subprocess.run(
+        ["/usr/bin/env", "head", "-n", "1"],
+        stdin=monitor.stdout,
+        capture_output=True,
+        text=True,
+        check=True,
+    )
+    assert monitor.stdout is not None
+    monitor.stdout.close()
+    assert monitor.wait(20) == 141
+    assert monitor.stderr is not None
+    told = monitor.stderr.read()
+    monitor.stderr.close()
+    assert "BatteryVoltage" in head.stdout
+    assert "messages" in told
+    assert "Traceback" not in told
+    assert len(told.splitlines()) == 1
+
+
+def test_a_full_disk_is_told_of_whatever_is_printed() -> None:
+    with open("/dev/full", "w") as full:  # noqa: PTH123 - a device
+        done = run(
+            "decode", "55 55 02 07", stdout=full, stderr=subprocess.PIPE, capture_output=False
+        )
+    assert done.returncode == 2
+    told = done.stderr.splitlines()
+    assert "the output cannot be written" in told[-1]
+    assert "Traceback" not in done.stderr
+
+
+@pytest.mark.parametrize("via", ["pty", "tcp"])
+def test_a_line_that_is_lost_is_told_and_what_was_seen_is_kept(tmp_path: Path, via: str) -> None:
+    log = tmp_path / "line.hex"
+    with VirtualController("pty" if via == "pty" else "tcp") as board:
+        monitor = start("monitor", "--port", board.port, "--log", str(log), "--json")
+        assert monitor.stdout is not None
+        until = time.monotonic() + 20
+        # A TCP port hears nobody before it has let them in.
+        while not (log.exists() and getattr(board._end, "_guest", True)):
+            assert time.monotonic() < until
+            time.sleep(0.01)
+        board.report(BatteryVoltage(7500))
+        first = monitor.stdout.readline()
+        board.send_bytes(BatteryVoltage(7500).encode()[:3])
+        time.sleep(0.1)
+        board.unplug()
+        rest, told = monitor.communicate(timeout=20)
+    assert monitor.returncode == 3
+    assert "7500" in first
+    assert '"noise": "55 55 04"' in rest
+    assert "Traceback" not in told
+    totals, error = told.splitlines()
+    assert totals == "9 bytes: 1 message, 3 bytes of noise"
+    assert error.startswith(f"busservo: error: {board.port if via == 'tcp' else '/dev/'}")
+    assert error.endswith("see to the cable and the power, then run this again")
+    assert len(log.read_text().splitlines()) == 3
+
+
+def test_send_shows_that_it_waits_for_a_silent_board() -> None:
+    words = ("send", "--port", "loop://", "BatteryVoltageRead", "--timeout", "1.2")
+    with OnTerminal(*words) as send:
+        send.wait_for("waiting for BatteryVoltage, 1 s")
+        assert send.end() == 1
+        (told, rest) = send.lines
+        assert told.startswith("no BatteryVoltage came within 1.2")
+        assert rest == ""
+
+
+def test_ctrl_c_ends_send_on_a_line_of_its_own() -> None:
+    words = ("send", "--port", "loop://", "BatteryVoltageRead", "--timeout", "60")
+    with OnTerminal(*words) as send:
+        send.wait_for("waiting for BatteryVoltage, 1 s")
+        send.type(CTRL_C)
+        assert send.end() == 130
+        assert send.lines == ["", ""]
+
+
+def test_ctrl_c_ends_a_replay_and_says_how_far_it_got(
+    board: VirtualController, tmp_path: Path
+) -> None:
+    log = tmp_path / "line.hex"
+    move = "55 55 08 03 01 E8 03 01 20 03"
+    log.write_text(f"{move}  # 0.0 s, host: a\n{move}  # 60.0 s, host: another\n")
+    with OnTerminal("replay", str(log), "--port", board.port) as replay:
+        replay.wait_for("1 of 2 sent, the next in 59 s")
+        replay.type(CTRL_C)
+        assert replay.end() == 130
+        shown, totals, rest = replay.lines
+        assert shown.endswith(f"{move} | ServoMove time_ms=1000 ms targets=1:800")
+        assert (
+            totals
+            == "1 of 2 frames sent, 10 bytes; came back: 0 bytes: 0 messages, 0 bytes of noise"
+        )
+        assert rest == ""
+    assert board.accepted == 1
+    assert board.rejects.total == 0
+
+
+def test_a_replay_tells_of_a_line_that_is_lost(board: VirtualController, tmp_path: Path) -> None:
+    log = tmp_path / "line.hex"
+    log.write_text("55 55 02 0F  # 0.0 s, host: a\n55 55 02 0F  # 60.0 s, host: another\n")
+    replay = start("replay", str(log), "--port", board.port)
+    assert replay.stdout is not None
+    assert replay.stdout.readline().endswith("| BatteryVoltageRead\n")
+    assert replay.stdout.readline().endswith("| BatteryVoltage voltage_mv=7500 mV\n")
+    board.unplug()
+    _, told = replay.communicate(timeout=20)
+    assert replay.returncode == 3
+    totals, error = told.splitlines()
+    assert totals.startswith("1 of 2 frames sent, 4 bytes; came back: 6 bytes: 1 message")
+    assert "the line was lost" in error
+
+
+def test_ctrl_c_ends_a_measurement_with_what_was_measured(board: VirtualController) -> None:
+    with OnTerminal("bench-line", "--port", board.port, "-n", "1000000") as bench:
+        bench.wait_for(r"[0-9]+ of 1000000 asked")
+        bench.type(CTRL_C)
+        assert bench.end() == 130
+        first, wire, trips, rate, errors, rest = bench.lines
+    assert first.startswith(f"BatteryVoltageRead on {board.port}: ")
+    assert wire.startswith("  the wire alone  10.42 ms: 4 bytes there and 6 back, at 9600 baud")
+    assert trips.startswith("  round trips     min ")
+    assert rate.endswith("it is faster than that rate, so it is no such line")
+    assert (errors, rest) == ("  errors          none", "")
+
+
+def test_a_measurement_ends_with_the_line_and_keeps_what_was_measured(
+    board: VirtualController,
+) -> None:
+    bench = start("bench-line", "--port", board.port, "-n", "1000000", "--json")
+    until = time.monotonic() + 20
+    while board.accepted < 3 and time.monotonic() < until:
+        time.sleep(0.01)
+    board.unplug()
+    shown, told = bench.communicate(timeout=20)
+    assert bench.returncode == 3
+    assert '"question": "BatteryVoltageRead"' in shown
+    assert "the line was lost" in told
+    assert "Traceback" not in told
