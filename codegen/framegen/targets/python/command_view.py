@@ -7,10 +7,11 @@ from typing import TYPE_CHECKING
 
 from framegen.exchanges import exchanges
 from framegen.targets.python.escape import Bracketed, literal
-from framegen.targets.python.view import MessageView, VerbView
+from framegen.targets.python.library_view import VerbView
+from framegen.targets.python.message_view import MessageView
 
 if TYPE_CHECKING:
-    from framegen.targets.python.view import LibraryView
+    from framegen.targets.python.library_view import LibraryView
 
 
 @dataclass(frozen=True, slots=True)
