@@ -16,7 +16,7 @@ MUTATION_VENV := .tools/mutation
 ONLY =
 
 .DEFAULT_GOAL := all
-.PHONY: all venv test quick coverage lint format fuzz mutants bench docs docs-tools wheel clean help
+.PHONY: all venv test quick coverage lint format fuzz soak mutants bench docs docs-tools wheel clean help
 
 all: $(READY)  ## Check the spec, generate everything, decode a recorded noisy line (plain `make`)
 	$(IN)/framegen check
@@ -65,6 +65,9 @@ docs-tools:  ## Install what the tests of the reference need of Node.js: a valid
 	@mkdir -p .tools/node
 	@cp tests/docs/package.json .tools/node/
 	npm install --prefix .tools/node --silent --no-audit --no-fund --no-package-lock
+
+soak: $(READY)  ## Ask a hundred thousand times, with faults, and see that nothing leaks or is lost
+	$(IN)/python -m tests.soak
 
 # Set and dict in the names of tests need the same order in every process.
 mutants:  ## Change the code in many small ways, and list the changes that no test sees

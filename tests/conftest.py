@@ -1,13 +1,24 @@
-"""Hypothesis profiles: `ci`, the same examples in every run; `quick`, fewer of them; and `fuzz`, a
-long search for others.
+"""What holds for every test: a client sends no malformed frame; and how long Hypothesis searches.
 
-Chosen by HYPOTHESIS_PROFILE or --hypothesis-profile. No test sets max_examples of its own: that
-would hold the search back.
+Its profiles are `ci`, the same examples in every run; `quick`, fewer of them; and `fuzz`, a long
+search for others. One is chosen by HYPOTHESIS_PROFILE or --hypothesis-profile. No test sets
+max_examples of its own: that would hold the search back.
 """
 
-import os
+from __future__ import annotations
 
+import os
+from typing import TYPE_CHECKING
+
+import pytest
+from busservo.rejects import Rejects
+from busservo_simulator import VirtualController
 from hypothesis import HealthCheck, settings
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from busservo import Noise
 
 settings.register_profile("ci", derandomize=True, deadline=None, max_examples=100)
 settings.register_profile("quick", derandomize=True, deadline=None, max_examples=20)
@@ -20,3 +31,35 @@ settings.register_profile(
     suppress_health_check=[HealthCheck.too_slow, HealthCheck.data_too_large],
 )
 settings.load_profile(os.environ.get("HYPOTHESIS_PROFILE", "ci"))
+
+
+@pytest.fixture(autouse=True)
+def no_board_refuses_anything(
+    request: pytest.FixtureRequest, monkeypatch: pytest.MonkeyPatch
+) -> Iterator[None]:
+    """Every board that a test starts must understand all that it hears.
+
+    Save in a test marked `garbage`, which sends what is no frame on purpose, and then must.
+    """
+    refused: list[Noise] = []
+    add = Rejects.add
+
+    def noted(self: Rejects, noise: Noise) -> bool:
+        counted = add(self, noise)
+        if counted:
+            refused.append(noise)
+        return counted
+
+    close = VirtualController.close
+
+    def closed(self: VirtualController) -> None:
+        close(self)
+        self.board.quiet()  # half a frame is refused as well
+
+    monkeypatch.setattr(Rejects, "add", noted)
+    monkeypatch.setattr(VirtualController, "close", closed)
+    yield
+    if request.node.get_closest_marker("garbage"):
+        assert refused, "no board has refused anything: the mark is for tests that send garbage"
+    else:
+        assert refused == []

@@ -29,6 +29,7 @@ from typing import TYPE_CHECKING, Any
 from unittest import mock
 
 import busservo
+from busservo.async_opening import open_async_controller
 from busservo.opening import open_controller
 from busservo_simulator import VirtualController
 
@@ -84,11 +85,21 @@ class _Player:
     def _program(self, source: str) -> str:
         """What a program prints that opens a port, whichever it names: a virtual board is there."""
         output = io.StringIO()
+        before = Path.cwd()
         with VirtualController(via="tcp") as board:
-            controller = open_controller(board.port)
-            opening = mock.patch.object(busservo, "open_controller", return_value=controller)
-            with opening, contextlib.redirect_stdout(output):
-                exec(source, self._names)  # noqa: S102 - our own pages
+            opening = mock.patch.multiple(
+                busservo,
+                open_controller=lambda _port, **given: open_controller(board.port, **given),
+                open_async_controller=lambda _port, **given: open_async_controller(
+                    board.port, **given
+                ),
+            )
+            os.chdir(self._folder)
+            try:
+                with opening, contextlib.redirect_stdout(output):
+                    exec(source, self._names)  # noqa: S102 - our own pages
+            finally:
+                os.chdir(before)
         return output.getvalue()
 
     def _console(self, block: str) -> str:

@@ -59,8 +59,9 @@ LIBRARY_NAMES = _words(
     Direction DisconnectedError Element EncodeError Exchange EXCHANGES HEADER
     IncompleteReplyError Items LineError Message MESSAGES Noise NoReplyError NoReportError
     Number open_async_controller open_controller open_transport PortAddressError PortBusyError
-    PortNotFoundError PortPermissionError ProtocolError Reason SearchStrategy Sent Shape
-    StreamDecoder Transport TransportError UNFIT UnknownFrame WriteStuckError
+    PortNotFoundError PortPermissionError ProtocolError Reason RECEIVED Rejects Report
+    SearchStrategy Sent Shape StreamDecoder Table Transport TransportError UNFIT UnknownFrame
+    WriteStuckError
     """
 )
 

@@ -8,14 +8,17 @@ import asyncio
 import logging
 import threading
 import time
+import warnings
+import weakref
 from queue import SimpleQueue
 from typing import TYPE_CHECKING, TypeVar
 
-from .client import GRACE, MARGIN, REPORT_LIMIT, SLICE
+from .client import GRACE, MARGIN, NEVER_CLOSED, REPORT_LIMIT, SLICE, repeat
 from .guarded import Guarded
 from .link_errors import ClosedError, IncompleteReplyError, NoReportError, TransportError
 from .outcome import lacking, parts_of, report_wanted
 from .protocol import BAUD
+from .request import Request
 from .session import Session
 from .tap import Tap
 
@@ -23,14 +26,17 @@ if TYPE_CHECKING:
     from collections.abc import AsyncIterator, Callable, Iterable
     from os import PathLike
     from types import TracebackType
-    from typing import Any
+    from typing import Any, TypeAlias
 
     from typing_extensions import Self
 
     from .counters import LineCounters
     from .message import Message
-    from .request import Request, Sent
+    from .request import Sent
     from .transport import Transport
+
+    # Frames to write, who is to hear that those before are written, and None for the end.
+    _Outbox: TypeAlias = SimpleQueue[bytes | Request | asyncio.Future[None] | None]
 
 logger = logging.getLogger(__package__)
 _Reply = TypeVar("_Reply", bound="Message")
@@ -42,7 +48,8 @@ class AsyncClient:
     Safe to share between the tasks of one event loop: that in which it is first used. A call that
     is cancelled leaves the line usable for the others. Nothing waits for ever: every call ends with
     what it is for, or with an error, in a time that its arguments and `margin` bound. Better used
-    in an `async with`; `close` waits until the last byte is out.
+    in an `async with`; `close` waits until the last byte is out. What nobody holds any more is
+    closed with a ResourceWarning.
 
     `transport` is anything with the methods of Transport; it may block, since threads of its own
     read and write it. The other arguments are those of the client for threads.
@@ -65,13 +72,17 @@ class AsyncClient:
         self._session = Session(baud=baud, margin=margin, report_limit=report_limit, tap=self._tap)
         self._loop: asyncio.AbstractEventLoop | None = None
         self._threads: list[threading.Thread] = []
-        self._outbox: SimpleQueue[bytes | None] = SimpleQueue()
+        self._outbox: _Outbox = SimpleQueue()
         # Whether the reading thread should say that time passes, besides that bytes arrive.
         self._ticking = False
         self._timer: asyncio.TimerHandle | None = None
         self._watchers: set[asyncio.Future[None]] = set()
+        # What waits until the frames before it have been handed over.
+        self._handing: set[asyncio.Future[None]] = set()
         self._callbacks: list[Callable[[Message], object]] = []
         self._failure: TransportError | None = None
+        # Whether the line is being opened again: the port is one, whoever wants it back.
+        self._reopening = asyncio.Lock()
         self._ending: asyncio.Future[None] | None = None
 
     async def __aenter__(self) -> Self:
@@ -89,6 +100,17 @@ class AsyncClient:
     def __repr__(self) -> str:
         state = "closed" if self.closed else "failed" if self._failure else "open"
         return f"<{type(self).__name__} on {self._name}, {state}>"
+
+    def __del__(self, warn: Callable[..., None] = warnings.warn) -> None:
+        # One that could not be made has nothing to give back.
+        if getattr(self, "_ending", True) is not None:
+            return
+        try:
+            warn(f"{self._name} was never closed: {NEVER_CLOSED}", ResourceWarning, source=self)
+        finally:
+            self._outbox.put(None)
+            self._transport.close()
+            self._tap.close()
 
     @property
     def closed(self) -> bool:
@@ -202,20 +224,37 @@ class AsyncClient:
     async def reconnect(self) -> None:
         """Opens the same port again, after the line was lost; what was under way has failed.
 
-        A transport of your own needs a method `reopen()`, which returns the next one. Raises
-        TransportError where that fails, and may then be called again.
+        Reports and counters are kept, and so are callbacks. Where several tasks ask for it at the
+        same time, it is done once. A transport of your own needs a method `reopen()`, which
+        returns the next one. Raises TransportError where that fails, and may then be called again.
         """
-        reopen = self._transport.reopen
-        if self.closed:
-            raise self._closed()
-        self._fail(TransportError(self._name, "the line is being opened again", "ask again"))
-        loop = asyncio.get_running_loop()
-        await loop.run_in_executor(None, self._shut, 0.0)
-        self._transport = Guarded(await loop.run_in_executor(None, reopen))
-        self._session.restart()
-        self._failure = None
-        self._loop = None
-        self._start()
+        before = self._transport
+        async with self._reopening:
+            if self._transport is not before and self._failure is None:
+                return
+            reopen = self._transport.reopen
+            if self.closed:
+                raise self._closed()
+            self._fail(TransportError(self._name, "the line is being opened again", "ask again"))
+            loop = asyncio.get_running_loop()
+            await loop.run_in_executor(None, self._shut, 0.0)
+            opened = loop.run_in_executor(None, reopen)
+            try:
+                transport = await asyncio.shield(opened)
+            except asyncio.CancelledError:
+                opened.add_done_callback(close_late)
+                raise
+            except TransportError as error:
+                self._failure = error
+                raise
+            if self.closed:
+                await loop.run_in_executor(None, transport.close)
+                raise self._closed()
+            self._transport = transport
+            self._session.restart()
+            self._failure = None
+            self._loop = None
+            self._start()
 
     async def _ask(self, message: Message, kind: type[_Reply]) -> _Reply:
         """The reply to a question, whole. Raises IncompleteReplyError."""
@@ -265,7 +304,23 @@ class AsyncClient:
         if request.error is not None:
             error = request.error
             raise error.again() if isinstance(error, TransportError) else error
+        if request.sent is not None:
+            await self._handed_over()
         return request
+
+    async def _handed_over(self) -> None:
+        """Waits until the port has taken all frames so far. Raises TransportError if it did not."""
+        taken: asyncio.Future[None] = asyncio.get_running_loop().create_future()
+        self._handing.add(taken)
+        self._outbox.put(taken)
+        try:
+            # A line that fails lets go of whoever waits here.
+            if self._failure is None:
+                await taken
+        finally:
+            self._handing.discard(taken)
+        if self._failure is not None:
+            raise self._failure.again()
 
     def _start(self) -> None:
         """Binds this to the running loop, and starts the threads, on first use."""
@@ -278,9 +333,13 @@ class AsyncClient:
         self._loop = loop
         self._outbox = SimpleQueue()
         line = _Line(self._transport, self._outbox)
+        # They hold this only while they are at work, so that it can end when nobody else does.
+        reading = weakref.WeakMethod(self._read_once)
+        written = weakref.WeakMethod(self._session.written)
+        lost = weakref.WeakMethod(self._lost)
         self._threads = [
-            threading.Thread(target=self._run_reader, args=(loop, line), daemon=True),
-            threading.Thread(target=self._run_writer, args=(loop, line), daemon=True),
+            threading.Thread(target=repeat, args=(reading, loop, line), daemon=True),
+            threading.Thread(target=_run_writer, args=(loop, line, written, lost), daemon=True),
         ]
         for thread in self._threads:
             thread.name = f"{__package__} on {self._name}"
@@ -289,8 +348,12 @@ class AsyncClient:
     def _advance(self) -> None:
         """Sends what is due, sees when to look again, and tells whoever waits for news."""
         now = time.monotonic()
-        for frame in self._session.outgoing(now):
+        frames = self._session.outgoing(now)
+        for frame in frames:
             self._outbox.put(frame)
+        asked = self._session.unwritten
+        if frames and asked is not None:
+            self._outbox.put(asked)
         self._ticking = self._session.tick_at is not None
         if self._timer is not None:
             self._timer.cancel()
@@ -321,12 +384,17 @@ class AsyncClient:
         if self._failure is None:
             self._failure = error
             self._session.fail(error)
-            self._wake()
+            self._let_go()
+
+    def _let_go(self) -> None:
+        """Tells all who wait that the line has failed."""
+        for taken in self._handing:
+            _set(taken)
+        self._wake()
 
     def _wake(self) -> None:
         for watcher in self._watchers:
-            if not watcher.done():
-                watcher.set_result(None)
+            _set(watcher)
 
     async def _change(self, until: float | None) -> None:
         """Waits until a report has come or the line has failed, or until a time."""
@@ -343,21 +411,30 @@ class AsyncClient:
         self._session.refuse_questions(closed)
         self._advance()
         self._wake()
+        loop = asyncio.get_running_loop()
+        try:
+            await self._drain()
+            await loop.run_in_executor(None, self._shut, GRACE if self._failure is None else 0.0)
+        except asyncio.CancelledError:
+            # The loop is about to end; the port is given back all the same.
+            self._shut(0.0)
+            raise
+        finally:
+            self._failure = self._failure or closed
+            self._session.fail(closed)
+            if self._timer is not None:
+                self._timer.cancel()
+            self._let_go()
+            self._tap.close()
+
+    async def _drain(self) -> None:
+        """Waits until all commands have been sent, and have had their time on the wire."""
         until = time.monotonic() + GRACE
-        free_at = self._session.wire.free_at
         while self._failure is None:
             now, free_at = time.monotonic(), self._session.wire.free_at
             if (self._session.idle and now >= free_at) or now >= max(until, free_at + GRACE):
-                break
+                return
             await asyncio.sleep(min(SLICE, max(0.001, free_at - now)))
-        loop = asyncio.get_running_loop()
-        await loop.run_in_executor(None, self._shut, GRACE if self._failure is None else 0.0)
-        self._failure = self._failure or closed
-        self._session.fail(closed)
-        if self._timer is not None:
-            self._timer.cancel()
-        self._wake()
-        self._tap.close()
 
     def _shut(self, grace: float) -> None:
         """Ends the threads and closes the transport, which may take a moment: not in the loop."""
@@ -383,38 +460,15 @@ class AsyncClient:
     def _closed(self) -> ClosedError:
         return ClosedError(self._name, "it has been closed", "open it again")
 
-    def _run_reader(self, loop: asyncio.AbstractEventLoop, line: _Line) -> None:
-        """Carries bytes from the transport to the loop, until one of them has ended."""
-        while True:
-            began = time.monotonic()
-            try:
-                data = line.transport.read(SLICE)
-            except TransportError as error:
-                _post(loop, self._lost, line, error)
-                return
-            except Exception as error:
-                # The thread must not end unheard: the loop would wait for it for ever.
-                logger.exception("%s failed", self._name)
-                _post(loop, self._lost, line, _broken(self._name, error))
-                return
-            if (data or self._ticking) and not _post(loop, self._arrived, line, data, began):
-                return
-
-    def _run_writer(self, loop: asyncio.AbstractEventLoop, line: _Line) -> None:
-        """Carries frames from the loop to the transport, until there is None."""
-        while True:
-            frame = line.outbox.get()
-            if frame is None:
-                return
-            try:
-                line.transport.write(frame)
-            except TransportError as error:
-                _post(loop, self._lost, line, error)
-                return
-            except Exception as error:
-                logger.exception("%s failed", self._name)
-                _post(loop, self._lost, line, _broken(self._name, error))
-                return
+    def _read_once(self, loop: asyncio.AbstractEventLoop, line: _Line) -> bool:
+        """Carries bytes from the transport to the loop; False once one of them has ended."""
+        began = time.monotonic()
+        try:
+            data = line.transport.read(SLICE)
+        except TransportError as error:
+            _post(loop, self._lost, line, error)
+            return False
+        return not (data or self._ticking) or _post(loop, self._arrived, line, data, began)
 
 
 class _Line:
@@ -422,18 +476,48 @@ class _Line:
 
     __slots__ = ("outbox", "transport")
 
-    def __init__(self, transport: Guarded, outbox: SimpleQueue[bytes | None]) -> None:
+    def __init__(self, transport: Guarded, outbox: _Outbox) -> None:
         self.transport = transport
         self.outbox = outbox
 
 
-def _broken(name: str, error: Exception) -> TransportError:
-    """What a transport that raises anything else is taken for."""
-    return TransportError(name, f"its transport failed ({error!r})", "mend the transport")
+def _run_writer(
+    loop: asyncio.AbstractEventLoop,
+    line: _Line,
+    written: weakref.WeakMethod[Callable[[Request, float], None]],
+    lost: weakref.WeakMethod[Callable[[_Line, TransportError], None]],
+) -> None:
+    """Carries frames from the loop to the transport, until there is None."""
+    while (item := line.outbox.get()) is not None:
+        try:
+            if isinstance(item, bytes):
+                line.transport.write(item)
+            elif isinstance(item, Request):
+                _post(loop, written(), item, time.monotonic())
+            else:
+                _post(loop, _set, item)
+        except TransportError as error:
+            _post(loop, lost(), line, error)
+            return
 
 
-def _post(loop: asyncio.AbstractEventLoop, call: Callable[..., None], *arguments: object) -> bool:
-    """Has the loop call something; False where the loop is no more."""
+def close_late(opened: asyncio.Future[Any]) -> None:
+    """Closes what was opened for somebody who no longer waits for it."""
+    if not opened.cancelled() and opened.exception() is None:
+        opened.result().close()
+
+
+def _set(future: asyncio.Future[None]) -> None:
+    if not future.done():
+        future.set_result(None)
+
+
+def _post(
+    loop: asyncio.AbstractEventLoop, call: Callable[..., None] | None, *arguments: object
+) -> bool:
+    """Has the loop call something; False where that or the loop is no more."""
+    if call is None:
+        return False
     try:
         loop.call_soon_threadsafe(call, *arguments)
     except RuntimeError:

@@ -7,6 +7,8 @@ from __future__ import annotations
 import logging
 import threading
 import time
+import warnings
+import weakref
 from typing import TYPE_CHECKING, TypeVar
 
 from .guarded import Guarded
@@ -40,6 +42,7 @@ REPORT_LIMIT = 1024
 SLICE = 0.02
 # How long a line may take to be drained, beyond what its bytes take by calculation.
 GRACE = 1.0
+NEVER_CLOSED = "use the controller in a `with`, or call close()"
 logger = logging.getLogger(__package__)
 _Reply = TypeVar("_Reply", bound="Message")
 
@@ -49,7 +52,7 @@ class Client:
 
     Safe to share between threads. Nothing blocks for ever: every call ends with what it is for, or
     with an error, in a time that its arguments and `margin` bound. Better used in a `with`; `close`
-    waits until the last byte is out.
+    waits until the last byte is out. What nobody holds any more is closed with a ResourceWarning.
 
     `transport` is anything with the methods of Transport. `baud` is the rate that deadlines and
     pacing are worked out from (math.inf for a line that takes no time), `margin` the seconds that
@@ -80,12 +83,14 @@ class Client:
         # Held for every touch of the session, never for a read; told whenever anything changed.
         self._changed = threading.Condition(threading.Lock())
         self._reading = False
-        self._closing = False
         self._failure: TransportError | None = None
         self._callbacks: list[Callable[[Message], object]] = []
         self._telling = False
         self._background = background
         self._listener: threading.Thread | None = None
+        # Held while the line is opened again: the port is one, whoever wants it back.
+        self._reopening = threading.Lock()
+        self._closing = False
         self._listen()
 
     def __enter__(self) -> Self:
@@ -102,6 +107,17 @@ class Client:
     def __repr__(self) -> str:
         state = "closed" if self._closing else "failed" if self._failure else "open"
         return f"<{type(self).__name__} on {self._name}, {state}>"
+
+    def __del__(self, warn: Callable[..., None] = warnings.warn) -> None:
+        # One that could not be made has nothing to give back.
+        if getattr(self, "_closing", True):
+            return
+        self._closing = True
+        try:
+            warn(f"{self._name} was never closed: {NEVER_CLOSED}", ResourceWarning, source=self)
+        finally:
+            self._transport.close()
+            self._tap.close()
 
     @property
     def closed(self) -> bool:
@@ -172,7 +188,8 @@ class Client:
         """Has `callback` called with every report from now on; returns what ends that.
 
         It is called in order, one at a time, in whichever thread has read the report, and may use
-        this client. What it raises is logged, and hurts nobody else.
+        this client. What it raises is logged, and hurts nobody else. As many reports as are kept
+        wait for a callback that is slow; then the oldest of them are dropped.
         """
         with self._changed:
             self._callbacks.append(callback)
@@ -220,16 +237,18 @@ class Client:
             if self._closing:
                 return
             self._closing = True
-            self._session.refuse_questions(self._closed())
-            self._changed.notify_all()
-            self._drain()
-            left = max(0.0, self._session.wire.free_at - self._clock())
         try:
+            with self._changed:
+                self._session.refuse_questions(self._closed())
+                self._changed.notify_all()
+                self._drain()
+                left = max(0.0, self._session.wire.free_at - self._clock())
             if self._failure is None:
                 self._transport.drain(min(left, GRACE) + GRACE)
         except TransportError as error:
             logger.debug("%s could not be drained: %s", self._name, error)
         finally:
+            # Whatever interrupts the wait, the port is given back.
             self._transport.close()
             self._stop_listening()
             with self._changed:
@@ -240,23 +259,35 @@ class Client:
     def reconnect(self) -> None:
         """Opens the same port again, after the line was lost; what was under way has failed.
 
-        A transport of your own needs a method `reopen()`, which returns the next one. Raises
-        TransportError where that fails, and may then be called again.
+        Reports and counters are kept, and so are callbacks. Where several threads ask for it at
+        the same time, it is done once. A transport of your own needs a method `reopen()`, which
+        returns the next one. Raises TransportError where that fails, and may then be called again.
         """
-        reopen = self._transport.reopen
-        with self._changed:
-            if self._closing:
-                raise self._closed()
-            lost = TransportError(self._name, "the line is being opened again", "ask again")
-            self._fail(lost)
-        self._transport.close()
-        self._stop_listening()
-        transport = Guarded(reopen())
-        with self._changed:
-            self._transport = transport
-            self._session.restart()
-            self._failure = None
-        self._listen()
+        before = self._transport
+        with self._reopening:
+            if self._transport is not before and self._failure is None:
+                return
+            reopen = self._transport.reopen
+            with self._changed:
+                if self._closing:
+                    raise self._closed()
+                lost = TransportError(self._name, "the line is being opened again", "ask again")
+                self._fail(lost)
+            self._transport.close()
+            self._stop_listening()
+            try:
+                transport = reopen()
+            except TransportError as error:
+                self._failure = error
+                raise
+            with self._changed:
+                if self._closing:
+                    transport.close()
+                    raise self._closed()
+                self._transport = transport
+                self._session.restart()
+                self._failure = None
+            self._listen()
 
     def _ask(self, message: Message, kind: type[_Reply]) -> _Reply:
         """The reply to a question, whole. Raises IncompleteReplyError."""
@@ -362,6 +393,9 @@ class Client:
             except TransportError as error:
                 self._fail(error)
                 return
+        asked = self._session.unwritten
+        if asked is not None:
+            self._session.written(asked, self._clock())
 
     def _drain(self) -> None:
         """Sends all commands that wait, and lets the time pass that they take on the wire."""
@@ -406,23 +440,32 @@ class Client:
 
     def _listen(self) -> None:
         if self._background:
+            step = weakref.WeakMethod(self._listen_once)
             name = f"{__package__} on {self._name}"
-            self._listener = threading.Thread(target=self._run_listener, name=name, daemon=True)
+            self._listener = threading.Thread(target=repeat, args=(step,), name=name, daemon=True)
             self._listener.start()
 
-    def _run_listener(self) -> None:
-        """Reads while nobody else does, so that reports are heard and late commands sent."""
-        while True:
-            with self._changed:
-                if self._closing or self._failure is not None:
-                    return
-                self._wait(None)
-            self._tell()
+    def _listen_once(self) -> bool:
+        """Reads if nobody else does, so that reports are heard and late commands sent."""
+        with self._changed:
+            if self._closing or self._failure is not None:
+                return False
+            if self._listener is not threading.current_thread():
+                return False  # it has reconnected, from within a callback, and has a successor
+            self._wait(None)
+        self._tell()
+        return True
 
     def _stop_listening(self) -> None:
         listener = self._listener
         if listener is not None and listener is not threading.current_thread():
             listener.join(GRACE)
+
+
+def repeat(step: weakref.WeakMethod[Callable[..., bool]], *arguments: object) -> None:
+    """Calls a method until it gives False, or until nobody but this holds its object any more."""
+    while (call := step()) is not None and call(*arguments):
+        del call
 
 
 def _call(callback: Callable[[Message], object], report: Message) -> None:

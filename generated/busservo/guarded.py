@@ -4,65 +4,73 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+import logging
+from functools import partial
+from typing import TYPE_CHECKING, TypeVar
 
-from .link_errors import DisconnectedError, TransportError
+from .link_errors import ClosedError, DisconnectedError, TransportError
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
     from .transport import Transport
 
+logger = logging.getLogger(__package__)
+_Result = TypeVar("_Result")
+
 
 class Guarded:
-    """Passes everything on, and turns the operating system's errors into those of this library."""
+    """Passes everything on, and turns whatever is raised into the errors of this library."""
 
     def __init__(self, transport: Transport) -> None:
         self._transport = transport
         self.name = str(getattr(transport, "name", type(transport).__name__))
+        self._closed = False
 
     def read(self, timeout: float) -> bytes:
         """As Transport.read."""
-        try:
-            return self._transport.read(timeout)
-        except TransportError:
-            raise
-        except OSError as error:
-            raise self._lost(error) from error
+        return self._guarded(partial(self._transport.read, timeout))
 
     def write(self, data: bytes) -> None:
         """As Transport.write."""
-        try:
-            self._transport.write(data)
-        except TransportError:
-            raise
-        except OSError as error:
-            raise self._lost(error) from error
+        self._guarded(partial(self._transport.write, data))
 
     def drain(self, timeout: float) -> None:
         """As Transport.drain."""
-        try:
-            self._transport.drain(timeout)
-        except TransportError:
-            raise
-        except OSError as error:
-            raise self._lost(error) from error
+        self._guarded(partial(self._transport.drain, timeout))
 
     def close(self) -> None:
         """As Transport.close; what is gone cannot be closed any better."""
+        self._closed = True
         try:
-            self._transport.close()
-        except OSError:
-            return
+            self._guarded(self._transport.close)
+        except TransportError as error:
+            logger.debug("%s could not be closed: %s", self.name, error)
 
     @property
-    def reopen(self) -> Callable[[], Transport]:
+    def reopen(self) -> Callable[[], Guarded]:
         """What opens the same line anew. Raises TypeError where the transport does not know how."""
         reopen: Callable[[], Transport] | None = getattr(self._transport, "reopen", None)
         if reopen is None:
             raise TypeError(f"{self.name} has no method reopen(), and cannot be opened again")
-        return reopen
+        return lambda: Guarded(self._guarded(reopen))
 
-    def _lost(self, error: OSError) -> DisconnectedError:
-        advice = "see to the cable and the power, then reconnect()"
-        return DisconnectedError(self.name, f"the line was lost ({error})", advice)
+    def _guarded(self, call: Callable[[], _Result]) -> _Result:
+        try:
+            return call()
+        except TransportError:
+            raise
+        except Exception as error:
+            if self._closed:
+                # Whatever a read says that was under way when it was closed.
+                raise ClosedError(self.name, "it has been closed", "open it again") from error
+            raise self._failed(error) from error
+
+    def _failed(self, error: Exception) -> TransportError:
+        if isinstance(error, OSError):
+            advice = "see to the cable and the power, then reconnect()"
+            return DisconnectedError(self.name, f"the line was lost ({error})", advice)
+        # Whoever waits for the line must hear of it, in whichever thread it happened.
+        logger.error("%s failed", self.name, exc_info=error)
+        happened = f"its transport failed ({error!r})"
+        return TransportError(self.name, happened, "mend the transport")

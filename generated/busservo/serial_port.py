@@ -9,6 +9,8 @@ Whatever pyserial opens is a port: `/dev/ttyUSB0`, `COM7`, `hwgrep://CH340`, `so
 from __future__ import annotations
 
 import errno
+import select
+import socket
 import sys
 import threading
 import time
@@ -34,11 +36,16 @@ if TYPE_CHECKING:
     from collections.abc import Callable
     from typing import Any
 
-# pyserial reconfigures the port whenever its timeout changes, so that stays as it is, and longer
-# waits are made of several. It is also how long closing waits for a read that cannot be cancelled.
+# pyserial reconfigures the port whenever its timeout changes, so that stays as it is; longer waits
+# are made of several, and shorter ones are waited for here. It is also how long closing waits for a
+# read that cannot be cancelled.
 _SLICE = 0.05
+# How often to look whether bytes have come, where nothing tells.
+_LOOK = 0.001
 _WRITE_TIMEOUT = 1.0
 _MOST = 4096
+# No driver knows a rate of more bits than this.
+_FASTER = 2**31
 _NAMED = "name a port, such as /dev/ttyUSB0 or COM7, or a URL, such as socket://host:port"
 _PERMITTED = (
     "add yourself to the group that owns it (dialout on most systems, uucp on some), as by "
@@ -54,10 +61,13 @@ def open_transport(port: str, *, baud: float = BAUD, exclusive: bool = True) -> 
     """Opens a port, by the name or the URL that pyserial knows it by.
 
     The rest of the line's parameters are the protocol's. With `exclusive`, no other program that
-    asks for the same can have the port meanwhile. Raises TransportError.
+    asks for the same can have the port meanwhile. Raises TransportError; ValueError for a `baud`
+    that no port can be set to.
     """
     if not isinstance(port, str):
         raise PortAddressError(repr(port), "a port is named by text", _NAMED)
+    if not 1 <= baud < _FASTER:
+        raise ValueError(f"baud is {baud!r}, and must be from 1 to {_FASTER - 1} for a port")
     try:
         opened = serial.serial_for_url(
             port,
@@ -66,11 +76,16 @@ def open_transport(port: str, *, baud: float = BAUD, exclusive: bool = True) -> 
             parity=PARITY[0].upper(),
             stopbits=STOP_BITS,
             timeout=_SLICE,
-            write_timeout=_WRITE_TIMEOUT,
+            # pyserial refuses one for RFC 2217, where its own socket gives up after 5 s.
+            write_timeout=None if port.lower().startswith("rfc2217:") else _WRITE_TIMEOUT,
             exclusive=exclusive or None,
         )
-    except (*_GONE, LookupError, StopIteration) as error:
+    except (*_GONE, LookupError, NotImplementedError, StopIteration) as error:
         raise _not_opened(str(port), error) from error
+    # pyserial leaves a socket to collect small writes: the second of two would wait for 40 ms.
+    behind = getattr(opened, "_socket", None)
+    if behind is not None:
+        behind.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
     return SerialPort(
         str(port), opened, partial(open_transport, port, baud=baud, exclusive=exclusive)
     )
@@ -83,6 +98,7 @@ class SerialPort:
         self.name = name
         self.reopen = reopen
         self._port = port
+        self._handle = _handle_of(port)
         self._closed = False
         # Held while a read is under way, so that the descriptor is not closed underneath it: its
         # number could be another file's by the time it is used.
@@ -92,15 +108,18 @@ class SerialPort:
         """What has arrived, waiting up to `timeout` seconds for the first byte."""
         until = time.monotonic() + timeout
         while True:
+            left = until - time.monotonic()
             with self._reading:
-                data = self._read_some()
+                data = self._read_some(min(max(left, 0.0), _SLICE))
             if data or time.monotonic() >= until:
                 return data
 
-    def _read_some(self) -> bytes:
+    def _read_some(self, timeout: float) -> bytes:
         if self._closed:
             raise self._is_closed()
         try:
+            if not self._comes(timeout):
+                return b""
             waiting = self._port.in_waiting
             data: bytes = self._port.read(min(waiting, _MOST) or 1)
             # A socket tells of one byte at a time.
@@ -112,6 +131,20 @@ class SerialPort:
         except _GONE as error:
             raise self._failed(error) from error
         return data
+
+    def _comes(self, timeout: float) -> bool:
+        """Whether anything comes within `timeout`; True as well where a read of pyserial waits."""
+        if self._handle is not None:
+            return bool(select.select([self._handle], [], [], timeout)[0])
+        if timeout >= _SLICE:
+            return True
+        until = time.monotonic() + timeout
+        while not self._port.in_waiting:
+            left = until - time.monotonic()
+            if left <= 0:
+                return False
+            time.sleep(min(left, _LOOK))
+        return True
 
     def write(self, data: bytes) -> None:
         """Hands over all of `data`."""
@@ -173,6 +206,15 @@ class SerialPort:
             f"the line was lost ({error})",
             "see to the cable and the power, then reconnect()",
         )
+
+
+def _handle_of(port: Any) -> int | None:
+    """What `select` can wait for; None where there is no such thing, as for ports of Windows."""
+    try:
+        handle = port.fileno()
+    except (*_GONE, NotImplementedError):
+        return None
+    return handle if isinstance(handle, int) else None
 
 
 def _not_opened(port: str, error: Exception) -> TransportError:

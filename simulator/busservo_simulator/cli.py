@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING
 from busservo import __version__
 from busservo.protocol import BAUD
 
-from busservo_simulator.faults import CHANCES, Faults
+from busservo_simulator.faults import CHANCES, TO_BOARD, Faults
 from busservo_simulator.servo_list import parse_servos
 from busservo_simulator.tcp_end import LOOPBACK
 
@@ -24,6 +24,7 @@ if TYPE_CHECKING:
 
 PROGRAM = "busservo-simulator"
 UNUSABLE, READER_GONE = 2, 141
+FROM_BOARD = [name for name in CHANCES if name not in TO_BOARD]
 EXAMPLES = f"""\
 examples:
   {PROGRAM}                            a board behind a pty, whose name is printed first
@@ -33,9 +34,11 @@ examples:
   {PROGRAM} --servos 1-6,9 --off 9     seven servos, the last of them off
   {PROGRAM} --fault noise=0.2 --fault dropped=0.1 --seed 7
 
-faults, each a chance from 0 to 1 of what the board sends:
-  {", ".join(CHANCES[:6])},
-  {", ".join(CHANCES[6:])}
+faults, each a chance from 0 to 1, of what the board sends:
+  {", ".join(FROM_BOARD[:6])},
+  {", ".join(FROM_BOARD[6:])}
+and of what it is sent:
+  {", ".join(TO_BOARD)}
 
 What happens is printed line by line: the seconds since the start, who, and what. Ctrl-C ends it.
 """

@@ -7,10 +7,12 @@ from dataclasses import dataclass, fields
 
 @dataclass(frozen=True, slots=True)
 class Faults:
-    """Chances, 0 to 1, of what can go wrong on the way from the board to the host.
+    """Chances, 0 to 1, of what can go wrong on the way from the board to the host, and back.
 
     The same seed and the same traffic give the same faults. There is no checksum: a flipped bit in
-    a value is a wrong value, and no host can tell. Every other fault can be told or outlived.
+    a value is a wrong value, and no host can tell; on the way to the board, it is another command.
+    Every other fault can be told or outlived. Those that end in `_to_board` happen to each piece
+    that the host writes, all others to what the board sends.
     """
 
     seed: int = 0
@@ -34,6 +36,12 @@ class Faults:
     """A report about an action group that nobody asked for comes in front of a frame."""
     hang_up: float = 0.0
     """The line is cut in the middle of a frame."""
+    noise_to_board: float = 0.0
+    """Bytes that hold no header arrive in front of what the host writes."""
+    bit_flips_to_board: float = 0.0
+    """A bit of a byte that the host writes is turned over; the chance is that of each byte."""
+    splits_to_board: float = 0.0
+    """What the host writes arrives in two pieces, with a pause between them."""
     longest_delay: float = 0.3
     """In seconds."""
 
@@ -47,3 +55,5 @@ class Faults:
 CHANCES = tuple(
     field.name for field in fields(Faults) if field.name not in {"seed", "longest_delay"}
 )
+
+TO_BOARD = tuple(name for name in CHANCES if name.endswith("_to_board"))

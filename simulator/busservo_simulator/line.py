@@ -64,8 +64,11 @@ class Line:
 
     def write(self, data: bytes, moment: float) -> None:
         """Takes the bytes that the host sends."""
-        if not self.hung_up:
-            self._to_board.put(data, moment)
+        if self.hung_up or not data:
+            return
+        for pause, piece in self._mischief.hearing(data):
+            start = max(moment, self._to_board.free_at) + pause if pause else moment
+            self._to_board.put(piece, start)
 
     def read(self, moment: float) -> list[bytes]:
         """Lives until then, and gives the pieces that reached the host; `hung_up` may follow."""

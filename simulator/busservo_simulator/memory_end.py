@@ -48,6 +48,10 @@ class MemoryEnd:
             self._inbox.clear()
             return self
 
+    def reopen(self) -> MemoryEnd:
+        """What a client's `reconnect` calls: as `open`."""
+        return self.open()
+
     def read(self, timeout: float) -> bytes:
         """What has arrived, waiting up to `timeout` seconds for the first byte; b"" for nothing."""
         with self._changed:

@@ -1,4 +1,4 @@
-"""Does the faults that were asked for to what the board sends."""
+"""Does the faults that were asked for to what passes on the line."""
 
 from __future__ import annotations
 
@@ -54,16 +54,24 @@ class Mischief:
         faults, pause = self.faults, 0.0
         if self._happens(faults.delays):
             pause = self._random.uniform(0.0, faults.longest_delay)
-        data = self._flipped(frame) if faults.bit_flips else frame
+        data = self._flipped(frame, faults.bit_flips)
         if self._happens(faults.noise):
             data = self._noise() + data
         if self._happens(faults.hang_up):
             return Sending([(pause, data[: len(data) // 2])], hangs_up=True)
         if self._happens(faults.splits):
-            cut = self._random.randrange(1, len(data))
-            rest = self._random.uniform(0.001, 0.02)
-            return Sending([(pause, data[:cut]), (rest, data[cut:])])
+            return Sending(self._split(data, pause))
         return Sending([(pause, data)], waits=self._happens(faults.coalesced))
+
+    def hearing(self, data: bytes) -> list[tuple[float, bytes]]:
+        """How bytes of the host arrive: pieces, each behind a pause in seconds."""
+        faults = self.faults
+        data = self._flipped(data, faults.bit_flips_to_board)
+        if self._happens(faults.noise_to_board):
+            data = self._noise() + data
+        if len(data) > 1 and self._happens(faults.splits_to_board):
+            return self._split(data, 0.0)
+        return [(0.0, data)]
 
     def _happens(self, chance: float) -> bool:
         # Nothing is drawn for what cannot happen: one fault more leaves the others where they were.
@@ -87,10 +95,17 @@ class Mischief:
             kept.append((servo_id, ServoPosition.POSITION_ABSENT if absent else position))
         return ServoPositions(kept)
 
-    def _flipped(self, frame: bytes) -> bytes:
+    def _split(self, data: bytes, pause: float) -> list[tuple[float, bytes]]:
+        cut = self._random.randrange(1, len(data))
+        rest = self._random.uniform(0.001, 0.02)
+        return [(pause, data[:cut]), (rest, data[cut:])]
+
+    def _flipped(self, frame: bytes, chance: float) -> bytes:
+        if not chance:
+            return frame
         data = bytearray(frame)
         for at in range(len(data)):
-            if self._happens(self.faults.bit_flips):
+            if self._happens(chance):
                 data[at] ^= 1 << self._random.randrange(8)
         return bytes(data)
 

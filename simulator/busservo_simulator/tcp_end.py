@@ -56,6 +56,9 @@ class TcpEnd:
 
     def deliver(self, data: bytes) -> None:
         """Sends what the connection takes; without one, nobody hears it."""
+        if self._guest is None and self._listener is not None:
+            # Whoever has called hears all that is said from then on.
+            self._admit(self._listener)
         if self._guest is None:
             return
         try:

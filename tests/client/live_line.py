@@ -12,10 +12,12 @@ from busservo import (
     Direction,
     DisconnectedError,
     Message,
+    Noise,
     ServoPositions,
     ServoPositionsRead,
     StreamDecoder,
 )
+from busservo.rejects import Rejects
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -41,6 +43,8 @@ class LiveLine:
         self.closed = False
         self.drained = 0
         self._answer = answer
+        # No client may ever make this count: see tests/conftest.py.
+        self.rejects = Rejects()
         self._decoder = StreamDecoder(Direction.HOST_TO_CONTROLLER)
         self._arrived = b""
         self._changed = threading.Condition()
@@ -72,7 +76,9 @@ class LiveLine:
         with self._changed:
             self._check()
             for event in self._decoder.feed(data):
-                assert isinstance(event, Message), f"the client sent {event!r}"
+                if isinstance(event, Noise):
+                    self.rejects.add(event)
+                    continue
                 self.received.append(event)
                 for answer in self._answer(event):
                     self._arrived += answer.encode()

@@ -3,7 +3,11 @@
 from __future__ import annotations
 
 import asyncio
+import logging
 import math
+import subprocess
+import sys
+import time
 from typing import TYPE_CHECKING, TypeVar
 
 import pytest
@@ -32,6 +36,7 @@ from tests.client.live_line import LiveLine, answered
 
 if TYPE_CHECKING:
     from collections.abc import Coroutine
+    from pathlib import Path
 
 _T = TypeVar("_T")
 
@@ -135,8 +140,9 @@ def test_no_reply_and_too_little_of_one() -> None:
 
     async def work() -> None:
         async with AsyncController(LiveLine(partly), margin=0.05) as controller:
-            with pytest.raises(NoReplyError):
+            with pytest.raises(NoReplyError) as late:
                 await controller.read_battery_voltage()
+            assert 0.05 <= late.value.waited < 1
             with pytest.raises(IncompleteReplyError) as caught:
                 await controller.read_servo_positions([1, 2])
             assert caught.value.missing == (2,)
@@ -233,5 +239,86 @@ def test_a_transport_that_breaks_its_word_ends_in_an_error() -> None:
         async with AsyncController(Broken(), margin=20) as controller:
             with pytest.raises(TransportError, match="mend the transport"):
                 await controller.read_battery_voltage()
+
+    run(work())
+
+
+def test_every_frame_is_logged_and_traced(tmp_path: Path, caplog: pytest.LogCaptureFixture) -> None:
+    line = LiveLine()
+    trace = tmp_path / "line.log"
+    caplog.set_level(logging.DEBUG, "busservo")
+
+    async def work() -> None:
+        async with AsyncController(line, trace=trace) as controller:
+            line.say(ActionGroupStopped())
+            assert await controller.read_battery_voltage() == 7500
+            await controller.stop_action_group()
+
+    run(work())
+    assert "live line > BatteryVoltageRead() | 55 55 02 0F" in caplog.text
+    assert "live line < BatteryVoltage(voltage_mv=7500) | 55 55 04 0F 4C 1D" in caplog.text
+    done = subprocess.run(
+        [sys.executable, "-m", "busservo", "decode", "--direction", "any", str(trace)],
+        check=True,
+        capture_output=True,
+        text=True,
+    )
+    assert "BatteryVoltage voltage_mv=7500 mV" in done.stdout
+    assert "4 messages, 0 bytes of noise" in done.stderr
+
+
+def test_nothing_is_logged_unless_asked_for(caplog: pytest.LogCaptureFixture) -> None:
+    async def work() -> None:
+        async with AsyncController(LiveLine()) as controller:
+            await controller.read_battery_voltage()
+
+    run(work())
+    assert [each for each in caplog.records if each.name == "busservo"] == []
+
+
+def test_reports_end_when_the_client_is_closed() -> None:
+    line = LiveLine()
+
+    async def work() -> None:
+        controller = AsyncController(line)
+        line.say(ActionGroupStopped())
+
+        async def listen() -> list[Message]:
+            return [report async for report in controller.reports()]
+
+        listening = asyncio.ensure_future(listen())
+        while not controller.counters.reports:
+            await asyncio.sleep(0.001)
+        await controller.close()
+        assert await listening == [ActionGroupStopped()]
+
+    run(work())
+
+
+def test_the_oldest_reports_go_when_there_are_too_many() -> None:
+    line = LiveLine()
+
+    async def work() -> None:
+        async with AsyncController(line, report_limit=4) as controller:
+            for times in range(10):
+                line.say(ActionGroupCompleted(8, times))
+            while controller.counters.reports < 10:
+                await asyncio.sleep(0.001)
+            kept = [report async for report in controller.reports(timeout=0.01)]
+            assert kept == [ActionGroupCompleted(8, times) for times in range(6, 10)]
+            assert controller.counters.lost_reports == 6
+
+    run(work())
+
+
+def test_moves_faster_than_the_line_do_not_pile_up() -> None:
+    async def work() -> None:
+        async with AsyncController(LiveLine(silent)) as controller:
+            began = time.monotonic()
+            for _ in range(5):
+                sent = await controller.move_servos([(servo, 500) for servo in range(6)], 20)
+                assert sent.delay < 0.005
+                assert sent.duration == pytest.approx(25 / 960)
+            assert time.monotonic() - began >= 4 * 25 / 960 - 0.005
 
     run(work())

@@ -10,6 +10,7 @@ import sys
 import threading
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import busservo
 import pytest
@@ -38,11 +39,27 @@ from busservo import (
 from tests.client.live_line import LiveLine, answered
 from tests.client.virtual_line import VirtualLine
 
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
 HEAVY = {"typing", "logging", "threading", "serial", "asyncio"}
 
 
+OPENED: list[Controller] = []
+
+
+@pytest.fixture(autouse=True)
+def all_are_closed() -> Iterator[None]:
+    yield
+    while OPENED:
+        OPENED.pop().close()
+
+
 def virtual(line: VirtualLine, **settings: object) -> Controller:
-    return Controller(line, background=False, clock=line.clock, **settings)  # type: ignore[arg-type]
+    """A client of a line in virtual time; closed when the test ends, if not before."""
+    made = Controller(line, background=False, clock=line.clock, **settings)  # type: ignore[arg-type]
+    OPENED.append(made)
+    return made
 
 
 def at_once(message: Message) -> list[tuple[float, bytes | Message]]:

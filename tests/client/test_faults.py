@@ -163,6 +163,7 @@ def test_a_board_that_sends_nothing_but_headers_ends_in_an_error(
         client.read_battery_voltage()
     assert caught.value.waited <= 1
     assert line.now <= 1
+    client.close()
 
 
 def test_a_flood_of_reports_hides_no_reply() -> None:
@@ -179,6 +180,7 @@ def test_a_flood_of_reports_hides_no_reply() -> None:
     # The queue holds 16; the oldest went, and were counted.
     assert len(kept) + client.counters.lost_reports == 30
     assert client.counters.lost_reports >= 21 - 16
+    client.close()
 
 
 def test_a_soak_with_faults() -> None:
@@ -213,3 +215,4 @@ def test_a_soak_with_faults() -> None:
         == client.counters.timeouts
         == sum(1 for n in range(1, seen + 1) if n % 7 == 0 or n % 11 == 0)
     )
+    client.close()

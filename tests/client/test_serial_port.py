@@ -7,6 +7,7 @@ import os
 import select
 import socket
 import threading
+import time
 from typing import TYPE_CHECKING
 
 import pytest
@@ -18,6 +19,7 @@ from busservo import (
     ClosedError,
     Direction,
     DisconnectedError,
+    Noise,
     PortAddressError,
     PortBusyError,
     PortNotFoundError,
@@ -28,6 +30,7 @@ from busservo import (
     open_controller,
     open_transport,
 )
+from busservo.rejects import Rejects
 
 from tests.client.live_line import answered
 
@@ -45,6 +48,8 @@ class Board:
         self.write = write
         self.mute = False
         self.heard = threading.Event()
+        # No client may ever make this count: see tests/conftest.py.
+        self.rejects = Rejects()
         self._read = read
         self._thread = threading.Thread(target=self._run, daemon=True)
         self._thread.start()
@@ -58,9 +63,12 @@ class Board:
                 return
             if not data:
                 return
-            for message in decoder.feed(data):
+            for event in decoder.feed(data):
                 self.heard.set()
-                for answer in [] if self.mute else answered(message):  # type: ignore[arg-type]
+                if isinstance(event, Noise):
+                    self.rejects.add(event)
+                    continue
+                for answer in [] if self.mute else answered(event):
                     self.write(answer.encode())
 
     def join(self) -> None:
@@ -137,6 +145,12 @@ def test_a_session_over_a_socket(tcp: tuple[str, list[socket.socket]]) -> None:
         assert controller.read_servo_positions([1, 2]) == ((1, 10), (2, 20))
 
 
+def test_a_socket_sends_small_frames_at_once(tcp: tuple[str, list[socket.socket]]) -> None:
+    transport = open_transport(tcp[0])
+    assert transport._port._socket.getsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY)
+    transport.close()
+
+
 def test_a_session_with_asyncio(board: PtyBoard) -> None:
     async def work() -> None:
         async with open_async_controller(board.port, margin=10) as controller:
@@ -190,6 +204,12 @@ def test_what_is_no_port_is_refused_with_advice(
         open_transport(port)
     assert isinstance(caught.value, TransportError)
     assert caught.value.port == str(port)
+
+
+@pytest.mark.parametrize("baud", [0, -9600, float("inf"), float("nan"), 2**31])
+def test_a_rate_that_no_port_has_is_refused(baud: float) -> None:
+    with pytest.raises(ValueError, match="must be from 1 to 2147483647"):
+        open_controller("loop://", baud=baud)
 
 
 def test_permission_denied_comes_with_advice(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -259,6 +279,20 @@ def test_a_transport_on_its_own(board: PtyBoard) -> None:
         transport.read(1)
     with pytest.raises(ClosedError):
         transport.write(b"\x55")
+
+
+@pytest.mark.parametrize("port", ["a pseudo-terminal", "loop://"])
+@pytest.mark.parametrize("timeout", [0.0, 0.01, 0.12])
+def test_a_read_waits_as_long_as_it_is_told(board: PtyBoard, port: str, timeout: float) -> None:
+    transport = open_transport(port if "://" in port else board.port)
+    taken = []
+    for _ in range(5):
+        began = time.monotonic()
+        assert transport.read(timeout) == b""
+        taken.append(time.monotonic() - began)
+    transport.close()
+    # A busy machine may be late at any time, but not each time.
+    assert timeout <= min(taken) < timeout + 0.03 + timeout / 2
 
 
 def test_closing_ends_a_read_in_another_thread(board: PtyBoard) -> None:

@@ -33,6 +33,7 @@ def session(**changed: float) -> Session:
 def asked(at: Session, message: Message, now: float = 0.0, retries: int = 0) -> Request:
     request = at.submit(message, retries=retries)
     assert at.outgoing(now) == [message.encode()]
+    at.written(request, now)
     return request
 
 
@@ -97,6 +98,36 @@ def test_no_reply_is_an_error_that_says_what_was_asked() -> None:
     assert isinstance(request.error, TimeoutError)
     assert request.error.request == BatteryVoltageRead()
     assert "no BatteryVoltage came within" in str(request.error)
+
+
+def test_the_time_for_an_answer_begins_when_the_port_has_the_question() -> None:
+    line = session()
+    request = line.submit(BatteryVoltageRead())
+    line.outgoing(4.0)
+    line.tick(5.0)
+    assert line.unwritten is request
+    line.written(request, 5.0)
+    assert line.unwritten is None
+    assert line.wire.free_at == pytest.approx(5 + 4 / 960)
+    line.tick(5.25)
+    assert not request.done
+    line.written(request, 9.0)  # said once, it holds
+    line.tick(5 + (4 + 6) / 960 + 0.25)
+    assert isinstance(request.error, NoReplyError)
+    assert request.error.waited == pytest.approx(1 + 10 / 960 + 0.25)
+    # And so does the time that its late reply has: nothing of its kind is asked meanwhile.
+    line.submit(BatteryVoltageRead())
+    assert line.outgoing(5.5) == []
+
+
+def test_a_question_that_the_port_never_takes_ends_all_the_same() -> None:
+    line = session()
+    request = line.submit(BatteryVoltageRead())
+    line.outgoing(0.0)
+    assert line.tick_at is not None
+    assert line.tick_at < 2
+    line.tick(line.tick_at)
+    assert isinstance(request.error, NoReplyError)
 
 
 def test_the_next_question_of_a_kind_waits_for_the_late_reply() -> None:
@@ -259,6 +290,20 @@ def test_a_lost_line_ends_everything() -> None:
     line.fail(error)
     assert [request.error for request in requests] == [error, error]
     assert line.idle
+
+
+def test_a_board_may_answer_on_the_next_line_what_it_was_asked_on_the_one_before() -> None:
+    line = session()
+    asked(line, BatteryVoltageRead())
+    line.fail(TransportError("port", "gone", "look for it"))
+    line.restart()
+    request = line.submit(BatteryVoltageRead())
+    assert line.outgoing(0.1) == []
+    line.receive(BatteryVoltage(1).encode(), 0.2)
+    assert line.outgoing(0.2) == [BatteryVoltageRead().encode()]
+    line.written(request, 0.2)
+    line.receive(BatteryVoltage(2).encode(), 0.3)
+    assert request.reply == BatteryVoltage(2)
 
 
 @pytest.mark.parametrize(

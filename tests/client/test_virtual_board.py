@@ -65,3 +65,27 @@ def test_a_motion_and_a_group_from_beginning_to_end() -> None:
             with pytest.raises(NoReportError):
                 controller.wait_for(ActionGroupCompleted, group=8, timeout=1)
         assert board.rejects.total == 0
+
+
+def test_positions_are_read_at_the_speed_of_the_wire() -> None:
+    """By the board's own clock; on the clock of a machine, `python -m benchmarks.line` measures."""
+    clock = VirtualClock(follow_reads=True)
+    with (
+        VirtualController(baud=9600, clock=clock) as board,
+        Controller(board.transport, background=False, clock=clock.now) as controller,
+    ):
+        for _ in range(200):
+            assert len(controller.read_servo_positions(range(1, 7))) == 6
+        assert 200 * 34 / 960 / clock.now() >= 0.999
+
+
+def test_commands_fill_the_wire_and_no_more() -> None:
+    clock = VirtualClock(follow_reads=True)
+    with VirtualController(baud=9600, clock=clock) as board:
+        with Controller(board.transport, background=False, clock=clock.now) as controller:
+            moves = [(servo, 500) for servo in range(1, 7)]
+            for _ in range(100):
+                # What is said of when it will be on the wire holds: no lag builds up unseen.
+                assert controller.move_servos(moves, time_ms=20).delay < 0.005
+        assert clock.now() == pytest.approx(100 * 25 / 960, abs=0.01)
+        assert board.accepted == 100

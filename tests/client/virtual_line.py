@@ -5,7 +5,8 @@ from __future__ import annotations
 import heapq
 from typing import TYPE_CHECKING
 
-from busservo import Direction, Message, StreamDecoder
+from busservo import Direction, Message, Noise, StreamDecoder
+from busservo.rejects import Rejects
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable
@@ -33,6 +34,8 @@ class VirtualLine:
         self.closed = False
         self.drained = False
         self.error: Exception | None = None
+        # No client may ever make this count: see tests/conftest.py.
+        self.rejects = Rejects()
         self._decoder = StreamDecoder(Direction.HOST_TO_CONTROLLER)
         self._arriving: list[tuple[float, int, bytes]] = []
         self._number = 0
@@ -66,7 +69,9 @@ class VirtualLine:
         if self.error is not None:
             raise self.error
         for event in self._decoder.feed(data):
-            assert isinstance(event, Message), f"the client sent {event!r}"
+            if isinstance(event, Noise):
+                self.rejects.add(event)
+                continue
             self.received.append(event)
             self.sent_at.append(self.now)
             for delay, answer in self.answer(event):

@@ -267,6 +267,7 @@ def test_the_battery_runs_down_but_not_below_empty(board: VirtualController, hos
 # -------------------------------------------------------------------- LED, buzzer, restart
 
 
+@pytest.mark.garbage
 def test_right_frames_blink_and_wrong_ones_beep(board: VirtualController, host: Host) -> None:
     host.say(BatteryVoltageRead())
     host.transport.write(bytes.fromhex("55 55 08 03 02 E8 03 01 20 03"))
@@ -281,6 +282,7 @@ def test_right_frames_blink_and_wrong_ones_beep(board: VirtualController, host: 
     assert not board.board.led_stays_on
 
 
+@pytest.mark.garbage
 def test_a_wrong_frame_is_met_with_silence(board: VirtualController, host: Host) -> None:
     host.transport.write(bytes.fromhex("55 55 04 0F 4C 1D"))
     assert host.hear() is None

@@ -5,7 +5,6 @@ from __future__ import annotations
 import os
 import subprocess
 import sys
-from pathlib import Path
 
 import busservo
 import pytest
@@ -24,7 +23,6 @@ from busservo.device import Device
 from hypothesis import given
 from hypothesis import strategies as st
 
-ROOT = Path(__file__).parents[2]
 HOST = Direction.HOST_TO_CONTROLLER
 
 
@@ -84,6 +82,7 @@ def test_it_sends_nothing_that_the_host_sends() -> None:
         ("01 02 03", Reason.BAD_HEADER),
     ],
 )
+@pytest.mark.garbage
 def test_what_is_refused_is_counted_once_with_its_reason(data: str, reason: Reason) -> None:
     refused: list[Noise] = []
 
@@ -101,6 +100,7 @@ def test_what_is_refused_is_counted_once_with_its_reason(data: str, reason: Reas
         assert device.rejects.total == len(refused) == 1
 
 
+@pytest.mark.garbage
 def test_a_truncated_frame_eats_what_follows_until_the_line_is_said_to_be_quiet() -> None:
     meter = Meter()
     assert meter.receive(bytes.fromhex("55 55 08 03 01")) == b""
@@ -137,6 +137,7 @@ def test_legal_traffic_is_never_refused_however_it_is_cut(
 
 
 @given(st.lists(st.binary() | strategies.messages(HOST).map(lambda message: message.encode())))
+@pytest.mark.garbage
 def test_no_bytes_can_make_it_raise(chunks: list[bytes]) -> None:
     device = Meter()
     for chunk in chunks:
@@ -153,6 +154,7 @@ FRAGMENTS = (
 
 
 @given(st.lists(FRAGMENTS, max_size=12).map(b"".join), st.integers(1, 9))
+@pytest.mark.garbage
 def test_how_bytes_are_cut_makes_no_difference_to_what_is_refused(data: bytes, size: int) -> None:
     def refused(pieces: list[bytes]) -> dict[Reason, int]:
         device = Device()
@@ -163,64 +165,6 @@ def test_how_bytes_are_cut_makes_no_difference_to_what_is_refused(data: bytes, s
 
     cut = [data[at : at + size] for at in range(0, len(data), size)]
     assert refused(cut) == refused([data])
-
-
-def test_a_new_message_in_the_spec_is_a_new_handler(tmp_path: Path) -> None:
-    spec = (ROOT / "spec" / "busservo.yaml").read_text(encoding="utf-8")
-    new = """
-  LampSet:
-    vendor_name: CMD_LAMP_SET
-    id: 99
-    direction: host -> controller
-    summary: Switch the lamp.
-    cite: vendor, section 1.1
-    length: 3
-    fields:
-      level:
-        type: u8
-        about: How bright.
-    examples:
-      - title: The lamp at level 7
-        hex: 55 55 03 63 07
-        values: {level: 7}
-        constructed: For this test.
-
-  ServoUnload:"""
-    (tmp_path / "spec").mkdir()
-    file = tmp_path / "spec" / "busservo.yaml"
-    file.write_text(spec.replace("\n  ServoUnload:", new, 1), encoding="utf-8")
-    script = """
-from busservo.device import Device
-
-class Lamp(Device):
-    level = 0
-
-    def on_lamp_set(self, message):
-        self.level = message.level
-
-lamp = Lamp()
-lamp.receive(bytes.fromhex("55 55 03 63 07"))
-print(lamp.level, lamp.rejects.total)
-"""
-    search = os.pathsep.join(sys.path)
-    generate = [sys.executable, "-m", "framegen", "generate", str(file)]
-    done = subprocess.run(
-        generate,
-        env={**os.environ, "PYTHONPATH": search},
-        check=False,
-        capture_output=True,
-        text=True,
-    )
-    assert done.returncode == 0, done.stdout + done.stderr
-    search = os.pathsep.join([str(tmp_path / "generated"), *sys.path])
-    output = subprocess.run(
-        [sys.executable, "-c", script],
-        env={**os.environ, "PYTHONPATH": search},
-        check=True,
-        capture_output=True,
-        text=True,
-    )
-    assert output.stdout == "7 0\n"
 
 
 def test_the_codec_alone_does_not_import_it() -> None:

@@ -198,6 +198,9 @@ FAULTS = st.builds(
     absent=CHANCE,
     unasked=CHANCE,
     hang_up=st.floats(0, 0.05),
+    noise_to_board=CHANCE,
+    bit_flips_to_board=CHANCE,
+    splits_to_board=CHANCE,
 )
 CHUNKS = st.lists(
     st.tuples(
@@ -209,6 +212,7 @@ CHUNKS = st.lists(
 
 
 @given(CHUNKS, FAULTS, st.sampled_from([0.0, 10 / 9600]))
+@pytest.mark.garbage
 def test_nothing_that_arrives_can_make_the_board_fail(
     chunks: list[tuple[bytes, float]], faults: Faults, seconds_per_byte: float
 ) -> None:
@@ -223,6 +227,7 @@ def test_nothing_that_arrives_can_make_the_board_fail(
 
 
 @given(CHUNKS, FAULTS)
+@pytest.mark.garbage
 def test_the_same_seed_and_the_same_traffic_give_the_same_bytes(
     chunks: list[tuple[bytes, float]], faults: Faults
 ) -> None:
@@ -247,6 +252,17 @@ def test_legal_traffic_is_never_refused(messages: list[Message], size: int, slow
     line.read(len(data) / 960 + 1)
     assert line.board.heard == len(messages)
     assert line.board.rejects.total == 0
+
+
+@pytest.mark.garbage
+@given(st.lists(strategies.messages(HOST)), st.integers(0, 99))
+def test_no_noise_on_the_way_to_the_board_costs_a_frame(messages: list[Message], seed: int) -> None:
+    faults = Faults(seed=seed, noise_to_board=0.5, splits_to_board=0.5)
+    line = Line(Board(), faults=faults)
+    for message in messages:
+        line.write(message.encode(), 0.0)
+    line.read(len(messages) + 1)
+    assert line.board.heard == len(messages)
 
 
 @given(strategies.messages(HOST), st.floats(0, 5), st.integers(1, 10))

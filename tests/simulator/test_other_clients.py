@@ -1,12 +1,14 @@
-"""Clients in the manner of those in public use, odd habits included: all are served.
+"""Clients that others wrote, odd habits included: all are served.
 
-They were written for this test, after what such programs are seen to do on the wire.
+One of them is `xarm` itself, from the package index, where it is installed. The rest were written
+for this test, after what such programs are seen to do on the wire.
 """
 
 from __future__ import annotations
 
 import sys
 import time
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 import pytest
@@ -15,7 +17,6 @@ from busservo_simulator import Faults, VirtualController
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
-    from pathlib import Path
 
 pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="Windows has no pty")
 READ_TWO = bytes.fromhex("55 55 05 15 02 01 02")
@@ -72,3 +73,21 @@ def test_one_sends_and_closes_and_never_listens(tmp_path: Path) -> None:
             time.sleep(0.01)
         assert (board.accepted, board.rejects.total) == (6, 0)
         assert board.servos[1].target == 800
+
+
+def test_xarm_is_served(board: VirtualController, monkeypatch: pytest.MonkeyPatch) -> None:
+    """It takes a port only by a name that begins with COM, and waits a second for each answer."""
+    xarm = pytest.importorskip("xarm", reason="it is in the dependency group `test`")
+    link = Path(board.port)
+    monkeypatch.chdir(link.parent)
+    arm = xarm.Controller(link.name)
+    arm.setPosition([[1, 700], [2, 300]], duration=0)
+    assert arm.getBatteryVoltage() == pytest.approx(7.5, abs=0.1)
+    servos = [xarm.Servo(number) for number in range(1, 7)]
+    arm.getPosition(servos)
+    assert [servo.position for servo in servos] == [700, 300, 500, 500, 500, 500]
+    arm.servoOff()
+    assert arm.getPosition(3) == 500
+    assert not any(servo.loaded for servo in board.servos.values())
+    assert (board.accepted, board.rejects.total) == (5, 0)
+    arm._device.close()

@@ -60,6 +60,7 @@ def test_writes_may_be_cut_anywhere(connect: Connect) -> None:
 
 
 @pytest.mark.parametrize("stray", ["00", "55", "FF 55", "55 55 FF"])
+@pytest.mark.garbage
 def test_a_stray_byte_costs_no_frame(connect: Connect, stray: str) -> None:
     board, host = connect()
     host.transport.write(bytes.fromhex(stray))
@@ -201,6 +202,18 @@ def test_tcp_serves_one_host_at_a_time_and_then_the_next() -> None:
                 if data:
                     break
         assert data == VOLTAGE.encode()
+
+
+def test_over_tcp_whoever_has_called_hears_all_that_is_said_then() -> None:
+    with VirtualController("tcp") as board:
+        for _ in range(20):
+            host = Host(open_transport(board.port))
+            board.report(ActionGroupStopped())
+            assert host.hear() == ActionGroupStopped()
+            host.hang_up()
+            end = time.monotonic() + 5
+            while board._end._guest is not None and time.monotonic() < end:  # type: ignore[attr-defined]
+                time.sleep(0.001)
 
 
 def test_tcp_comes_back_on_the_same_number() -> None:

@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING
 
 from framegen import __version__
 from framegen.targets.python.client_view import ClientView
-from framegen.targets.python.command_view import CommandView
 from framegen.targets.python.device_view import DeviceView
 from framegen.targets.python.escape import comment, docstring, literal
 from framegen.targets.python.library_view import LibraryView
@@ -59,7 +58,6 @@ def _from_templates(library: LibraryView) -> list[tuple[str, str]]:
             templates.get_template(name).render(
                 library=library,
                 client=ClientView(library.layout),
-                command=CommandView(library),
                 device=DeviceView(library.layout),
                 frame=library.layout.frame,
                 package_version=__version__,

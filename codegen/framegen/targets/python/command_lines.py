@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from framegen.exchanges import exchanges
 from framegen.targets.python.escape import Bracketed, literal
 from framegen.targets.python.message_view import MessageView
 
@@ -11,6 +12,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterable
 
     from framegen.layout import Layout
+    from framegen.spec import Example
 
 
 def decode_examples(layout: Layout) -> list[str]:
@@ -41,38 +43,66 @@ def encode_examples(layout: Layout) -> list[str]:
 
 
 def line_examples(layout: Layout) -> dict[str, list[str]]:
-    """For each verb that has to do with a port."""
+    """For each verb that has to do with a port, in the order of the alphabet."""
     program = layout.spec.protocol.name
-    sent = [
-        (f"{program} send --port COM7 {' '.join([message.name, *words])}", summary)
+    questions = _questions(layout)
+    lines = {
+        "bench-line": [
+            (f"{words} -n 20" if at else words, f"how long {reply} takes to come")
+            for at, (words, _, reply) in enumerate(questions)
+        ],
+        "monitor": [
+            ("--port COM7", "every frame and all noise"),
+            ("--port COM7 -t delta -n 5", "five, and their distances"),
+            ("--port COM7 --only noise", "what is no frame"),
+            ("--port COM7 --log line.hex", "kept for `decode`"),
+            ("--port COM7 --direction any -t absolute", "both ends of a line, the time of day"),
+            ("--port COM7 --hide noise --json", "messages, for a program to read"),
+        ],
+        "ports": [
+            ("", "the name, VID:PID and description of each"),
+            ("--json", "a line of JSON for each"),
+        ],
+        "replay": [
+            ("line.hex --dry-run", "what would be sent, and when"),
+            ("line.hex --port COM7", "what was recorded, once more"),
+            ("line.hex --port COM7 --speed 0.5", "at half the pace"),
+            ("line.bin --port COM7 --skip-noise", "raw bytes, of which some are no frames"),
+        ],
+        "send": [*_commands(layout)[:4], *((words, what) for words, what, _ in questions)],
+        "simulate": [
+            ("", "a board behind a port, whose name is printed first"),
+            ("--help", "what else it can do"),
+        ],
+    }
+    return {
+        verb: _pairs((f"{program} {verb} {words}".rstrip(), what) for words, what in examples)
+        for verb, examples in lines.items()
+    }
+
+
+def _commands(layout: Layout) -> list[tuple[str, str]]:
+    """An example of each message of the first direction, and what it does."""
+    return [
+        (_sent(message, message.example), message.layout.message.summary)
         for message in _messages(layout)
         if message.example is not None and message.layout.direction == layout.directions[0]
-        for words in [message.command_words(message.example.values)]
-        for summary in [message.layout.message.summary]
     ]
-    return {
-        "monitor": _pairs(
-            [
-                (f"{program} monitor --port COM7", "every frame and all noise"),
-                (f"{program} monitor --port COM7 -t delta -n 5", "five, and their distances"),
-                (f"{program} monitor --port COM7 --only noise", "what is no frame"),
-                (f"{program} monitor --port COM7 --log line.hex", "kept for `decode`"),
-            ]
-        ),
-        "ports": _pairs(
-            [
-                (f"{program} ports", "the name, VID:PID and description of each"),
-                (f"{program} ports --json", "a line of JSON for each"),
-            ]
-        ),
-        "send": _pairs(sent[:4]),
-        "simulate": _pairs(
-            [
-                (f"{program} simulate", "a board behind a port, whose name is printed first"),
-                (f"{program} simulate --help", "what else it can do"),
-            ]
-        ),
-    }
+
+
+def _questions(layout: Layout) -> list[tuple[str, str, str]]:
+    """An example of each question that the spec has one for, what it does, and its reply."""
+    return [
+        (_sent(message, message.example), message.layout.message.summary, exchange.reply.name)
+        for exchange in exchanges(layout)
+        for message in [MessageView(exchange.request, layout)]
+        if exchange.reply is not None and message.example is not None
+    ]
+
+
+def _sent(message: MessageView, example: Example) -> str:
+    words = " ".join([message.name, *message.command_words(example.values)])
+    return f"--port COM7 {words}"
 
 
 def _messages(layout: Layout) -> list[MessageView]:

@@ -6,6 +6,7 @@ import asyncio
 from functools import partial
 from typing import TYPE_CHECKING
 
+from .async_client import close_late
 from .async_controller import AsyncController
 from .client import MARGIN, REPORT_LIMIT
 from .protocol import BAUD
@@ -51,7 +52,7 @@ class Opening:
         try:
             transport = await asyncio.shield(opened)
         except asyncio.CancelledError:
-            opened.add_done_callback(_close)
+            opened.add_done_callback(close_late)
             raise
         try:
             self._controller = self._make(transport)
@@ -86,8 +87,3 @@ def open_async_controller(
         report_limit=report_limit,
     )
     return Opening(opener, make)
-
-
-def _close(opened: asyncio.Future[SerialPort]) -> None:
-    if not opened.cancelled() and opened.exception() is None:
-        opened.result().close()

@@ -119,7 +119,7 @@ class StreamDecoder:
         # From `start` to `at` is noise that has not been told yet, all of it for one reason, unless
         # it may be a frame of unknown command, which ends at `candidate`.
         start, at, candidate = 0, self._scanned, self._candidate
-        refused = -2  # where the last refused header stands
+        refused, reason = -2, self._reason  # where the last refused header stands, and why
         messages = wake = 0
         while True:
             # Whether a frame of unknown command is shown as one is decided by its own bytes alone,

@@ -45,6 +45,7 @@ class Request:
         "retries",
         "sent",
         "sent_at",
+        "written",
     )
 
     def __init__(
@@ -56,6 +57,8 @@ class Request:
         # Whether it gives way to a newer one of its kind.
         self.latest = latest
         self.attempts = 0
+        # Whether the port is known to have the frame of the latest attempt.
+        self.written = False
         self.done = False
         self.sent: Sent | None = None
         self.reply: Message | None = None

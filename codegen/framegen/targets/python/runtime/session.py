@@ -7,9 +7,10 @@ How a reply is known. It has the class that answers the request, and tells of no
 asked. A message of such a class that is no reply to what is under way answers nothing: it is
 counted as a stray and dropped, and never taken for anything else. Everything else is a report.
 
-A late reply. After a request has timed out, or was cancelled, its reply may still come, and would
-look like the reply to the next request of the same kind. So the next waits, unsent, until that
-reply has come and gone, or until it is overdue by as long again as the request was given.
+A late reply. After a request has timed out, or was cancelled, or the line was lost, its reply may
+still come, and would look like the reply to the next request of the same kind. So the next waits,
+unsent, until that reply has come and gone, or until it is overdue by as long again as the request
+was given.
 """
 
 from __future__ import annotations
@@ -33,6 +34,8 @@ if TYPE_CHECKING:
 # How long before the line is free the next frame is handed over, so that it is never idle. More
 # would be lag that nobody sees.
 _AHEAD = 0.004
+# How long a port may take to accept a frame: longer than it takes until it is said to be stuck.
+_WRITING = 1.5
 _REPLIES = frozenset(each.reply for each in EXCHANGES.values() if each.reply is not None)
 
 
@@ -124,6 +127,25 @@ class Session:
             frames.append(self._put(request, now))
         return frames
 
+    @property
+    def unwritten(self) -> Request | None:
+        """The question under way, until `written` has been told of it."""
+        return None if self._asked is None or self._asked.written else self._asked
+
+    def written(self, request: Request, now: float) -> None:
+        """Takes in that the port has the frame of a question only `now`, however long it took.
+
+        The time that the controller has for its answer begins then.
+        """
+        if request is not self._asked or request.written:
+            return
+        request.written = True
+        left_at = max(request.left_at, now + self.wire.seconds(len(request.message.encode())))
+        if self.wire.free_at == request.left_at:
+            self.wire.free_at = left_at
+        request.deadline += left_at - request.left_at
+        request.left_at = left_at
+
     def receive(self, data: bytes, now: float) -> None:
         """Takes in bytes that have arrived."""
         if data:
@@ -133,7 +155,7 @@ class Session:
     def tick(self, now: float) -> None:
         """Takes in that it is `now`, and that all which arrived before has been received."""
         asked = self._asked
-        expired = asked is not None and now >= asked.deadline
+        expired = asked is not None and now >= self._ends_at(asked)
         if self._decoder.pending and (expired or now - self._heard_at >= self._margin):
             # The line has gone quiet: half a frame must not grow together with the next reply.
             self._take_in(self._decoder.flush(), now)
@@ -165,7 +187,7 @@ class Session:
     @property
     def tick_at(self) -> float | None:
         """When to call `tick` again, at the latest."""
-        times = [] if self._asked is None else [self._asked.deadline]
+        times = [] if self._asked is None else [self._ends_at(self._asked)]
         if self._decoder.pending:
             times.append(self._heard_at + self._margin)
         if self._queue:
@@ -178,6 +200,8 @@ class Session:
         self._queue.clear()
         self._asked = None
         for request in waiting:
+            # The board may answer yet, on the line that is opened next.
+            self._remember(request)
             request.finish(error=error)
 
     def refuse_questions(self, error: Exception) -> None:
@@ -192,6 +216,11 @@ class Session:
         self._take_in(self._decoder.flush(), self._heard_at)
         self._decoder = StreamDecoder(RECEIVED)
         self.wire.free_at = float("-inf")
+
+    @staticmethod
+    def _ends_at(asked: Request) -> float:
+        """When a question is given up: its time has not even begun before the port has it."""
+        return asked.deadline + (0.0 if asked.written else _WRITING)
 
     def _next(self, now: float) -> Request | None:
         """The first in the queue that may go now."""
@@ -212,6 +241,7 @@ class Session:
         starts = self.wire.take(len(frame), now)
         request.left_at = self.wire.free_at
         request.attempts += 1
+        request.written = False
         self.counters.sent += 1
         if self._tap is not None:
             self._tap.sent(request.message, now)

@@ -1,0 +1,194 @@
+"""Long conversations with a virtual board, in which every wrong value shows.
+
+The board answers each question with a number that no other answer has, so that a reply taken for
+another's is seen. Every report that leaves it is written down, and so is every value that a client
+was given: none may be given twice, and none that was told before the call began.
+"""
+
+from __future__ import annotations
+
+import threading
+import time
+from random import Random
+from typing import TYPE_CHECKING
+
+from busservo import (
+    BatteryVoltage,
+    DisconnectedError,
+    IncompleteReplyError,
+    NoReplyError,
+    ServoPosition,
+    ServoPositions,
+    TransportError,
+)
+from busservo_simulator.mischief import REPLIES
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterator
+
+    from busservo import (
+        AsyncController,
+        BatteryVoltageRead,
+        Controller,
+        ServoPositionsRead,
+    )
+    from busservo.device import Report
+    from busservo_simulator import VirtualController
+
+ABSENT = ServoPosition.POSITION_ABSENT
+BOUND = 10.0
+
+
+class Ledger:
+    """What a board was asked and has reported, and what its clients were told."""
+
+    def __init__(self, board: VirtualController) -> None:
+        self.board = board
+        self.asked = 0
+        self.reported: list[Report] = []
+        self.right = self.refused = self.reconnected = 0
+        # By number, so that a long soak needs no more room than a short one.
+        self._given = bytearray(1 << 20)
+        self._lock = threading.Lock()
+        board.board.on_battery_voltage_read = self._voltage  # type: ignore[method-assign, assignment]
+        board.board.on_servo_positions_read = self._positions  # type: ignore[method-assign]
+        mischief = board._line._mischief
+        reports = mischief.reports
+
+        def noted(report: Report) -> Iterator[Report]:
+            for told in reports(report):
+                if not isinstance(told, REPLIES):
+                    self.reported.append(told)
+                yield told
+
+        mischief.reports = noted  # type: ignore[method-assign]
+
+    def _next(self) -> int:
+        self.asked += 1
+        # Of 16 bits, and never the number that stands for a servo that is not there.
+        return self.asked % ABSENT
+
+    def _voltage(self, _message: BatteryVoltageRead) -> BatteryVoltage:
+        return BatteryVoltage(self._next())
+
+    def _positions(self, message: ServoPositionsRead) -> ServoPositions:
+        number = self._next()
+        return ServoPositions([(servo, number) for servo in message.servo_ids])
+
+    def given(self, before: int, values: set[int]) -> None:
+        """A call that began after answer `before` was given these values."""
+        with self._lock:
+            assert len(values) <= 1, "of one reply, all values are the same"
+            for value in values:
+                number = self.asked - (self.asked - value) % ABSENT
+                assert before < number <= self.asked, "a value was told before it was asked for"
+                assert not self._given[number], "a reply was given to two callers"
+                self._given[number] = 1
+            self.right += 1
+
+    def given_part(self, before: int, asked: list[int], error: IncompleteReplyError) -> None:
+        """A call was told of some servos, and which are missing."""
+        there = [each for each in error.arrived if isinstance(each, ServoPosition)]
+        assert sorted([*(each.servo_id for each in there), *error.missing]) == sorted(asked)
+        assert error.missing
+        self.given(before, {each.position for each in there} - {ABSENT})
+
+    def given_all(self, before: int, asked: list[int], told: tuple[ServoPosition, ...]) -> None:
+        """A call was told of all servos."""
+        assert sorted(each.servo_id for each in told) == sorted(asked)
+        self.given(before, {each.position for each in told} - {ABSENT})
+
+
+def turns(seed: int, count: int) -> Iterator[list[int] | str]:
+    """What is asked: a list of servos to ask for, or the name of something else."""
+    random = Random(seed)  # noqa: S311 - to be repeated
+    for _ in range(count):
+        if random.random() < 0.5:
+            yield random.choice(["battery", "battery", "move", "unload"])
+        else:
+            yield random.sample(range(1, 7), random.randint(1, 6))
+
+
+def converse(
+    controller: Controller,
+    ledger: Ledger,
+    seed: int,
+    count: int,
+    now: Callable[[], float] = time.monotonic,
+    bound: float = BOUND,
+) -> None:
+    """Asks `count` times. Whatever goes wrong: a right value or a declared error, in time."""
+    for turn in turns(seed, count):
+        before, began = ledger.asked, now()
+        try:
+            if turn == "battery":
+                ledger.given(before, {controller.read_battery_voltage()})
+            elif turn == "move":
+                controller.move_servos([(1, 500)], time_ms=20)
+            elif turn == "unload":
+                controller.unload_servos([200])
+            elif isinstance(turn, list):
+                ledger.given_all(before, turn, controller.read_servo_positions(turn))
+        except NoReplyError:
+            ledger.refused += 1
+        except IncompleteReplyError as error:
+            assert isinstance(turn, list)
+            ledger.given_part(before, turn, error)
+        except DisconnectedError:
+            assert now() - began <= bound
+            ledger.board.plug_in()
+            _again(controller)
+            ledger.reconnected += 1
+            continue
+        assert now() - began <= bound
+
+
+async def converse_async(
+    controller: AsyncController, ledger: Ledger, seed: int, count: int, bound: float = BOUND
+) -> None:
+    """The same, for asyncio."""
+    for turn in turns(seed, count):
+        before, began = ledger.asked, time.monotonic()
+        try:
+            if turn == "battery":
+                ledger.given(before, {await controller.read_battery_voltage()})
+            elif turn == "move":
+                await controller.move_servos([(1, 500)], time_ms=20)
+            elif turn == "unload":
+                await controller.unload_servos([200])
+            elif isinstance(turn, list):
+                ledger.given_all(before, turn, await controller.read_servo_positions(turn))
+        except NoReplyError:
+            ledger.refused += 1
+        except IncompleteReplyError as error:
+            assert isinstance(turn, list)
+            ledger.given_part(before, turn, error)
+        except DisconnectedError:
+            assert time.monotonic() - began <= bound
+            ledger.board.plug_in()
+            await _again_async(controller)
+            ledger.reconnected += 1
+            continue
+        assert time.monotonic() - began <= bound
+
+
+def _again(controller: Controller) -> None:
+    end = time.monotonic() + BOUND
+    while True:
+        try:
+            controller.reconnect()
+        except TransportError:
+            assert time.monotonic() < end
+        else:
+            return
+
+
+async def _again_async(controller: AsyncController) -> None:
+    end = time.monotonic() + BOUND
+    while True:
+        try:
+            await controller.reconnect()
+        except TransportError:
+            assert time.monotonic() < end
+        else:
+            return

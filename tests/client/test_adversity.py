@@ -1,0 +1,386 @@
+"""What a live line can do to a client: pulled, reset, stolen, flooded, rebooted, told nonsense.
+
+Over pseudo-terminals and TCP. Whatever happens, a call ends with the right value or with an error
+that is declared, in bounded time; and where the line lives on, so does the client.
+"""
+
+from __future__ import annotations
+
+import asyncio
+import os
+import socket
+import struct
+import sys
+import threading
+import time
+from concurrent.futures import ThreadPoolExecutor
+from contextlib import contextmanager
+from typing import TYPE_CHECKING
+
+import pytest
+import serial
+from busservo import (
+    ActionGroupCompleted,
+    ActionGroupStopped,
+    BatteryVoltage,
+    BatteryVoltageRead,
+    ClosedError,
+    Controller,
+    DisconnectedError,
+    NoReplyError,
+    PortBusyError,
+    PortNotFoundError,
+    ServoPosition,
+    TransportError,
+    open_async_controller,
+    open_controller,
+    open_transport,
+)
+from busservo_simulator import Faults, VirtualController
+from serial.tools import list_ports
+from serial.tools.list_ports_common import ListPortInfo
+
+from tests.client.rfc2217_server import Rfc2217Server
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+    from pathlib import Path
+
+WAYS = ["tcp"] if sys.platform == "win32" else ["tcp", "pty"]
+needs_pty = pytest.mark.skipif(sys.platform == "win32", reason="Windows has no pty")
+# No call may take longer, on however slow a machine.
+BOUND = 10.0
+MARGIN = 0.2
+
+
+@pytest.fixture(params=WAYS)
+def board(request: pytest.FixtureRequest, tmp_path: Path) -> Iterator[VirtualController]:
+    """A board behind a port whose name stays the same when it is plugged in again."""
+    link = tmp_path / "COM7" if request.param == "pty" else None
+    with VirtualController(request.param, link=link) as board:
+        yield board
+
+
+@contextmanager
+def bounded(seconds: float = BOUND) -> Iterator[None]:
+    began = time.monotonic()
+    yield
+    assert time.monotonic() - began < seconds
+
+
+def again(controller: Controller) -> None:
+    """Reconnects, as often as it takes."""
+    end = time.monotonic() + BOUND
+    while True:
+        try:
+            controller.reconnect()
+        except TransportError:
+            assert time.monotonic() < end
+            time.sleep(0.01)
+        else:
+            return
+
+
+# -------------------------------------------------------------------- pulled
+
+
+def test_pulled_in_the_middle_of_a_reply(board: VirtualController) -> None:
+    board.faults = Faults(hang_up=1)
+    with open_controller(board.port, margin=MARGIN) as controller:
+        with bounded(), pytest.raises(DisconnectedError, match=r"was lost .*; see to the cable"):
+            controller.read_battery_voltage()
+        with pytest.raises(DisconnectedError):
+            controller.stop_action_group()
+        with pytest.raises(TransportError):
+            controller.reconnect()
+        board.faults = Faults()
+        board.plug_in()
+        again(controller)
+        # Half of the reply had come on the old line. It is not the beginning of the next.
+        assert controller.read_battery_voltage() == 7500
+
+
+def test_pulled_in_the_middle_of_a_reply_with_asyncio(board: VirtualController) -> None:
+    board.faults = Faults(hang_up=1)
+
+    async def work() -> None:
+        async with open_async_controller(board.port, margin=MARGIN) as controller:
+            asking = [asyncio.ensure_future(controller.read_battery_voltage()) for _ in range(5)]
+            with bounded():
+                for each in asking:
+                    with pytest.raises(DisconnectedError):
+                        await each
+            board.faults = Faults()
+            board.plug_in()
+            end = time.monotonic() + BOUND
+            while time.monotonic() < end:
+                try:
+                    await controller.reconnect()
+                    break
+                except TransportError:
+                    await asyncio.sleep(0.01)
+            assert await controller.read_battery_voltage() == 7500
+
+    asyncio.run(work())
+
+
+def test_a_connection_that_is_reset_in_the_middle_of_a_reply() -> None:
+    listener = socket.create_server(("127.0.0.1", 0))
+
+    def serve() -> None:
+        guest, _ = listener.accept()
+        guest.recv(4)
+        guest.sendall(BatteryVoltage(7500).encode()[:3])
+        # Closed like this, it is reset, and not ended in good order.
+        guest.setsockopt(socket.SOL_SOCKET, socket.SO_LINGER, struct.pack("ii", 1, 0))
+        guest.close()
+
+    thread = threading.Thread(target=serve)
+    thread.start()
+    url = f"socket://127.0.0.1:{listener.getsockname()[1]}"
+    with (
+        open_controller(url, margin=BOUND) as controller,
+        bounded(),
+        pytest.raises(DisconnectedError),
+    ):
+        controller.read_battery_voltage()
+    thread.join()
+    listener.close()
+
+
+# -------------------------------------------------------------------- stolen
+
+
+@needs_pty
+def test_a_port_that_somebody_else_has_is_busy() -> None:
+    with (
+        VirtualController("pty") as board,
+        serial.Serial(board.port, exclusive=True),
+        pytest.raises(PortBusyError, match=f"{board.port}: it is in use; close the other"),
+    ):
+        open_controller(board.port)
+
+
+@needs_pty
+def test_a_thief_who_reads_along_takes_replies_and_never_makes_a_wrong_one() -> None:
+    with VirtualController("pty") as board:
+        stolen = 0
+        over = threading.Event()
+
+        def steal() -> None:
+            nonlocal stolen
+            with serial.Serial(board.port, 9600, timeout=0) as thief:
+                while not over.is_set():
+                    try:
+                        stolen += len(thief.read(3))
+                    except serial.SerialException:
+                        # Ready, and empty when read: the other has been quicker.
+                        continue
+
+        thread = threading.Thread(target=steal)
+        thread.start()
+        outcomes = set()
+        with open_controller(board.port, exclusive=False, margin=0.02) as controller:
+            for _ in range(60):
+                with bounded():
+                    try:
+                        outcomes.add(controller.read_battery_voltage())
+                    except (NoReplyError, TransportError) as error:
+                        if isinstance(error, TransportError):
+                            again(controller)
+        over.set()
+        thread.join()
+        assert stolen
+        assert outcomes <= {7500}
+
+
+# -------------------------------------------------------------------- rebooted
+
+
+def test_a_board_that_reboots_is_silent_and_then_back_by_itself(board: VirtualController) -> None:
+    with open_controller(board.port, margin=0.05) as controller:
+        assert controller.read_battery_voltage() == 7500
+        board.reboot(0.4)
+        with bounded(), pytest.raises(NoReplyError, match="is the board switched on"):
+            controller.read_battery_voltage()
+        assert controller.request(BatteryVoltageRead(), retries=20) == BatteryVoltage(7500)
+        # The port was there all the while, so there is nothing to reconnect; it does no harm.
+        again(controller)
+        assert controller.read_battery_voltage() == 7500
+
+
+def test_a_board_whose_port_goes_away_while_it_reboots(board: VirtualController) -> None:
+    with open_controller(board.port, margin=MARGIN) as controller:
+        heard: list[object] = []
+        controller.on_report(heard.append)
+        board.report(ActionGroupStopped())
+        assert next(controller.reports(timeout=BOUND)) == ActionGroupStopped()
+        board.unplug()
+        with bounded(), pytest.raises(DisconnectedError):
+            controller.wait_for(ActionGroupCompleted, timeout=BOUND)
+        with pytest.raises(PortNotFoundError):
+            controller.reconnect()
+        board.plug_in()
+        again(controller)
+        board.report(ActionGroupCompleted(8, 1))
+        assert next(controller.reports(timeout=BOUND)) == ActionGroupCompleted(8, 1)
+        assert controller.read_battery_voltage() == 7500
+        # Callbacks and counters live on.
+        assert heard == [ActionGroupStopped(), ActionGroupCompleted(8, 1)]
+        assert controller.counters.reports == 2
+
+
+# -------------------------------------------------------------------- flooded
+
+
+def test_a_flood_of_reports_hides_no_reply_and_is_counted(board: VirtualController) -> None:
+    flood = ActionGroupCompleted(8, 1).encode() * 8
+    with open_controller(board.port, margin=2, report_limit=64) as controller:
+        board.babble(flood, per_second=400, deaf=False)
+        with bounded():
+            for _ in range(10):
+                assert controller.read_battery_voltage() == 7500
+                assert controller.read_servo_positions([1]) == (ServoPosition(1, 500),)
+        end = time.monotonic() + BOUND
+        while controller.counters.reports < 500 and time.monotonic() < end:
+            controller.read_battery_voltage()
+        board.babble(None)
+        kept = sum(1 for _ in controller.reports(timeout=0.1))
+        counters = controller.counters
+        assert counters.reports >= 500
+        assert kept + counters.lost_reports == counters.reports
+        assert counters.noise == 0
+
+
+def test_a_flood_of_reports_hides_no_reply_with_asyncio(board: VirtualController) -> None:
+    async def work() -> None:
+        async with open_async_controller(board.port, margin=2, report_limit=64) as controller:
+            board.babble(ActionGroupCompleted(8, 1).encode() * 8, per_second=400, deaf=False)
+            with bounded():
+                for _ in range(10):
+                    assert await controller.read_battery_voltage() == 7500
+            board.babble(None)
+            kept = [report async for report in controller.reports(timeout=0.1)]
+            assert len(kept) + controller.counters.lost_reports == controller.counters.reports
+
+    asyncio.run(work())
+
+
+@pytest.mark.parametrize("nonsense", [b"\x55", b"\x55\x55\xfe\x15", bytes(range(256))])
+def test_a_board_that_sends_nonsense_alone_ends_in_an_error(
+    board: VirtualController, nonsense: bytes
+) -> None:
+    with open_controller(board.port, margin=0.1) as controller:
+        board.babble(nonsense, per_second=500)
+        for _ in range(2):
+            with bounded(2), pytest.raises(NoReplyError):
+                controller.read_battery_voltage()
+        board.babble(None)
+        assert controller.request(BatteryVoltageRead(), retries=9) == BatteryVoltage(7500)
+        assert controller.counters.noise
+
+
+def test_a_board_that_sends_nonsense_alone_ends_in_an_error_with_asyncio(
+    board: VirtualController,
+) -> None:
+    async def work() -> None:
+        async with open_async_controller(board.port, margin=0.1) as controller:
+            board.babble(b"\x55", per_second=500)
+            with bounded(2), pytest.raises(NoReplyError):
+                await controller.read_battery_voltage()
+            board.babble(None)
+            answer = await controller.request(BatteryVoltageRead(), retries=9)
+            assert answer == BatteryVoltage(7500)
+
+    asyncio.run(work())
+
+
+# -------------------------------------------------------------------- closed, cancelled
+
+
+def test_close_ends_what_waits_on_a_live_line(board: VirtualController) -> None:
+    board.faults = Faults(dropped=1)
+    controller = open_controller(board.port, margin=BOUND)
+    with ThreadPoolExecutor(4) as pool, bounded():
+        asking = [pool.submit(controller.read_battery_voltage) for _ in range(2)]
+        listening = pool.submit(lambda: list(controller.reports()))
+        waiting = pool.submit(controller.wait_for, ActionGroupStopped, timeout=BOUND)
+        while not board.accepted:
+            time.sleep(0.002)
+        controller.close()
+        for each in asking:
+            with pytest.raises(ClosedError):
+                each.result(BOUND)
+        with pytest.raises(ClosedError):
+            waiting.result(BOUND)
+        assert listening.result(BOUND) == []
+
+
+def test_what_is_cancelled_leaves_a_live_line_usable(board: VirtualController) -> None:
+    async def work() -> None:
+        async with open_async_controller(board.port, margin=MARGIN) as controller:
+            for turn in range(20):
+                asking = asyncio.ensure_future(controller.read_servo_positions([1, 2]))
+                moving = asyncio.ensure_future(controller.move_servos([(1, 500)], 0))
+                await asyncio.sleep(0.0005 * turn)
+                asking.cancel()
+                moving.cancel()
+                found = await controller.read_servo_positions([3])
+                assert found == (ServoPosition(3, 500),)
+                await asyncio.gather(asking, moving, return_exceptions=True)
+
+    asyncio.run(work())
+
+
+# -------------------------------------------------------------------- ports by other names
+
+
+@needs_pty
+@pytest.mark.filterwarnings("ignore:set(Daemon|Name):DeprecationWarning")
+def test_a_port_over_rfc_2217() -> None:
+    with (
+        VirtualController("pty") as board,
+        Rfc2217Server(board.port) as server,
+        open_controller(server.url, margin=MARGIN) as controller,
+    ):
+        assert controller.read_battery_voltage() == 7500
+        # 255 is an escape to that protocol.
+        controller.set_action_group_speed(0xFF, percent=0x01FF)
+        assert controller.read_servo_positions([1, 2]) == ((1, 500), (2, 500))
+        assert set(board.board.speeds.values()) == {0x01FF}
+        server.hang_up()
+        with bounded(), pytest.raises(DisconnectedError):
+            controller.wait_for(ActionGroupStopped, timeout=BOUND)
+        again(controller)
+        assert controller.read_battery_voltage() == 7500
+
+
+@needs_pty
+def test_a_port_by_what_is_plugged_in(
+    board: VirtualController, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    if board.port.startswith("socket:"):
+        pytest.skip("no port of this machine")
+    plugged = ListPortInfo(os.path.realpath(board.port))
+    plugged.description = "USB Serial CH340"
+    monkeypatch.setattr(list_ports, "comports", lambda: [plugged])
+    monkeypatch.setattr(list_ports, "grep", lambda regexp: iter([plugged] * ("CH340" in regexp)))
+    with open_controller("hwgrep://CH340", margin=BOUND) as controller:
+        assert controller.read_battery_voltage() == 7500
+    with pytest.raises(PortNotFoundError, match=f"these exist: {plugged.device}"):
+        open_controller("hwgrep://FTDI")
+
+
+@needs_pty
+def test_a_port_by_the_name_that_windows_would_give_it(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    with VirtualController("pty", link="COM7"), open_controller("COM7", margin=BOUND) as controller:
+        assert controller.read_battery_voltage() == 7500
+
+
+@pytest.mark.parametrize("port", ["rfc2217://127.0.0.1:1", "rfc2217://nowhere", "cp2110://"])
+def test_a_url_that_leads_nowhere_is_an_error_that_says_so(port: str) -> None:
+    with bounded(), pytest.raises(TransportError, match=port):
+        open_transport(port)

@@ -1,0 +1,415 @@
+"""How a line ends: closed, lost, given up, forgotten; and how it comes back."""
+
+from __future__ import annotations
+
+import asyncio
+import gc
+import threading
+import time
+from concurrent.futures import ThreadPoolExecutor
+from typing import TYPE_CHECKING, Literal
+
+import pytest
+from busservo import (
+    ActionGroupStopped,
+    AsyncController,
+    ClosedError,
+    Controller,
+    DisconnectedError,
+    PortNotFoundError,
+    TransportError,
+    open_transport,
+)
+from busservo_simulator import VirtualController
+
+from tests.client.live_line import LiveLine, answered
+from tests.client.virtual_line import VirtualLine
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+    from pathlib import Path
+
+BOUND = 10.0
+
+
+def await_that(true: Callable[[], bool]) -> None:
+    """Waits until something is true; fails when it takes too long."""
+    end = time.monotonic() + BOUND
+    while not true():
+        assert time.monotonic() < end
+        time.sleep(0.001)
+
+
+def own_threads() -> list[str]:
+    return [each.name for each in threading.enumerate() if each.name.startswith("busservo on")]
+
+
+class Refusing(LiveLine):
+    """A line that takes no bytes."""
+
+    def write(self, _data: bytes) -> None:
+        raise DisconnectedError(self.name, "it takes no bytes", "plug it in again")
+
+
+class Unplugged(LiveLine):
+    """A line that comes back at the third attempt, and tells how often it was opened."""
+
+    attempts = 0
+
+    def reopen(self) -> LiveLine:
+        self.attempts += 1
+        if self.attempts < 3:
+            raise PortNotFoundError(self.name, "there is no such port", "plug it in")
+        return LiveLine()
+
+
+# -------------------------------------------------------------------- forgotten
+
+
+def test_a_client_that_is_forgotten_says_so_and_gives_everything_back(tmp_path: Path) -> None:
+    line, trace = LiveLine(), tmp_path / "line.log"
+    controller = Controller(line, trace=trace)
+    assert controller.read_battery_voltage() == 7500
+    assert len(own_threads()) == 1
+    # Wherever the last one to hold it is, that thread is told, not this one: it warns there.
+    warned: list[str] = []
+    controller.__class__ = type("Watched", (Controller,), {"__del__": _watched(warned)})
+    del controller
+    await_that(lambda: line.closed)
+    await_that(lambda: not own_threads())
+    assert warned == ["live line was never closed: use the controller in a `with`, or call close()"]
+    assert trace.read_text().count("\n") == 2
+
+
+def _watched(warned: list[str]) -> Callable[[Controller], None]:
+    def forget(controller: Controller) -> None:
+        def warn(text: str, kind: type[Warning], source: object) -> None:
+            assert kind is ResourceWarning
+            assert source is controller
+            warned.append(text)
+
+        Controller.__del__(controller, warn)
+
+    return forget
+
+
+def test_a_client_for_asyncio_that_is_forgotten_says_so_and_gives_everything_back() -> None:
+    line = LiveLine()
+    warned: list[str] = []
+
+    class Watched(AsyncController):
+        def __del__(self) -> None:  # type: ignore[override]
+            super().__del__(lambda text, *_, **__: warned.append(text))
+
+    async def work() -> None:
+        controller = Watched(line)
+        assert await controller.read_battery_voltage() == 7500
+        assert len(own_threads()) == 2
+
+    asyncio.run(work())
+    gc.collect()
+    await_that(lambda: line.closed)
+    await_that(lambda: not own_threads())
+    assert len(warned) == 1
+
+
+def test_the_warning_is_a_resource_warning() -> None:
+    controller = Controller(VirtualLine(), background=False)
+    with pytest.warns(ResourceWarning, match=r"virtual line was never closed: use .* a `with`"):
+        controller.__del__()
+    controller = Controller(VirtualLine(), background=False)
+    controller.close()
+    controller.__del__()  # and says nothing
+
+
+def test_what_could_not_be_made_has_nothing_to_give_back() -> None:
+    for kind in (Controller, AsyncController):
+        with pytest.raises(ValueError, match="margin"):
+            kind(VirtualLine(), margin=0)
+    gc.collect()
+
+
+def test_no_thread_is_left_behind() -> None:
+    for _ in range(10):
+        with Controller(LiveLine()) as controller:
+            controller.read_battery_voltage()
+    await_that(lambda: not own_threads())
+
+
+# -------------------------------------------------------------------- a write that fails
+
+
+def test_a_command_that_the_port_does_not_take_fails_at_once() -> None:
+    with (
+        Controller(Refusing(), background=False) as controller,
+        pytest.raises(DisconnectedError, match="takes no bytes"),
+    ):
+        controller.stop_action_group()
+
+
+def test_a_command_that_the_port_does_not_take_fails_at_once_with_asyncio() -> None:
+    async def work() -> None:
+        async with AsyncController(Refusing()) as controller:
+            with pytest.raises(DisconnectedError, match="takes no bytes"):
+                await asyncio.wait_for(controller.stop_action_group(), BOUND)
+
+    asyncio.run(work())
+
+
+def test_a_question_that_the_port_does_not_take_fails_at_once_with_asyncio() -> None:
+    async def work() -> None:
+        async with AsyncController(Refusing(), margin=BOUND) as controller:
+            began = time.monotonic()
+            with pytest.raises(DisconnectedError, match="takes no bytes"):
+                await controller.read_battery_voltage()
+            assert time.monotonic() - began < BOUND / 2
+
+    asyncio.run(work())
+
+
+def test_a_command_counts_as_sent_only_when_the_port_has_taken_it() -> None:
+    taken = threading.Event()
+
+    class Slow(LiveLine):
+        def write(self, data: bytes) -> None:
+            time.sleep(0.05)
+            super().write(data)
+            taken.set()
+
+    async def work() -> None:
+        async with AsyncController(Slow()) as controller:
+            await controller.stop_action_group()
+            assert taken.is_set()
+
+    asyncio.run(work())
+
+
+# -------------------------------------------------------------------- a transport of one's own
+
+
+class Broken(LiveLine):
+    """A transport with a bug."""
+
+    def read(self, timeout: float) -> bytes:
+        raise KeyError(timeout)
+
+
+def test_a_transport_with_a_bug_ends_in_an_error_that_says_so() -> None:
+    with Controller(Broken(), margin=BOUND) as controller:
+        for _ in range(3):
+            with pytest.raises(TransportError, match=r"failed .*KeyError.*; mend the transport"):
+                controller.read_battery_voltage()
+
+
+def test_what_a_transport_says_of_being_closed_is_no_bug(caplog: pytest.LogCaptureFixture) -> None:
+    class Touchy(LiveLine):
+        def read(self, timeout: float) -> bytes:
+            try:
+                return super().read(timeout)
+            except ClosedError:
+                raise ValueError("file descriptor cannot be a negative integer (-1)") from None
+
+    for _ in range(3):
+        with Controller(Touchy()) as controller:
+            assert controller.read_battery_voltage() == 7500
+    assert caplog.records == []
+
+
+# -------------------------------------------------------------------- closed
+
+
+def test_close_gives_the_port_back_even_when_it_is_interrupted() -> None:
+    class Interrupted(VirtualLine):
+        def read(self, _timeout: float) -> bytes:
+            raise KeyboardInterrupt
+
+    line = Interrupted()
+    controller = Controller(line, background=False, clock=line.clock)
+    controller.move_servos([(servo, 500) for servo in range(60)], 100)
+    with pytest.raises(KeyboardInterrupt):
+        controller.close()
+    assert line.closed
+    with pytest.raises(ClosedError):
+        controller.stop_action_group()
+
+
+def test_close_that_is_cancelled_is_done_all_the_same() -> None:
+    line = LiveLine()
+
+    async def work() -> None:
+        controller = AsyncController(line)
+        await controller.move_servos([(servo, 500) for servo in range(80)], 100)
+        with pytest.raises(asyncio.TimeoutError):
+            await asyncio.wait_for(controller.close(), 0.02)
+
+    # The loop ends while the frame is still on its way.
+    asyncio.run(work())
+    assert line.closed
+    await_that(lambda: not own_threads())
+
+
+def test_closing_from_within_a_callback_ends_all_the_same() -> None:
+    line = LiveLine()
+    controller = Controller(line)
+    controller.on_report(lambda _: controller.close())
+    line.say(ActionGroupStopped())
+    await_that(lambda: line.closed)
+    await_that(lambda: not own_threads())
+
+
+def test_a_call_that_is_interrupted_leaves_the_line_usable() -> None:
+    class Once(VirtualLine):
+        interrupted = False
+
+        def read(self, timeout: float) -> bytes:
+            if not self.interrupted:
+                self.interrupted = True
+                raise KeyboardInterrupt
+            return super().read(timeout)
+
+    line = Once(lambda message: [(0.1, each) for each in answered(message)])
+    with Controller(line, background=False, clock=line.clock) as controller:
+        with pytest.raises(KeyboardInterrupt):
+            controller.read_battery_voltage()
+        assert controller.read_servo_positions([1]) == ((1, 10),)
+        assert controller.read_battery_voltage() == 7500
+        # The reply to the first came late, and was not taken for another's.
+        assert controller.counters.strays == 1
+
+
+@pytest.mark.parametrize("via", ["memory", "tcp"])
+def test_nothing_of_the_last_frame_is_cut_off(via: Literal["memory", "tcp"]) -> None:
+    with VirtualController(via, baud=9600) as board:
+        transport = board.transport if via == "memory" else open_transport(board.port)
+        with Controller(transport) as controller:
+            controller.unload_servos(range(1, 101))
+            assert board.accepted == 0
+        await_that(lambda: board.accepted == 1)
+        assert board.rejects.total == 0
+
+
+# -------------------------------------------------------------------- opened again
+
+
+def test_a_line_that_does_not_come_back_says_why_until_it_does() -> None:
+    line = Unplugged()
+    with Controller(line) as controller:
+        line.unplug()
+        for _ in range(2):
+            with pytest.raises(PortNotFoundError, match="plug it in"):
+                controller.reconnect()
+            with pytest.raises(PortNotFoundError, match="plug it in"):
+                controller.read_battery_voltage()
+        controller.reconnect()
+        assert controller.read_battery_voltage() == 7500
+
+
+def test_a_line_that_does_not_come_back_says_why_until_it_does_with_asyncio() -> None:
+    line = Unplugged()
+
+    async def work() -> None:
+        async with AsyncController(line) as controller:
+            line.unplug()
+            for _ in range(2):
+                with pytest.raises(PortNotFoundError, match="plug it in"):
+                    await controller.reconnect()
+                with pytest.raises(PortNotFoundError, match="plug it in"):
+                    await controller.read_battery_voltage()
+            await controller.reconnect()
+            assert await controller.read_battery_voltage() == 7500
+
+    asyncio.run(work())
+
+
+class Counted(LiveLine):
+    """A line that takes a moment to open, and counts how many of it are open."""
+
+    open = 0
+
+    def __init__(self) -> None:
+        super().__init__()
+        Counted.open += 1
+
+    def close(self) -> None:
+        if not self.closed:
+            Counted.open -= 1
+        super().close()
+
+    def reopen(self) -> LiveLine:
+        assert Counted.open == 0, "the port was opened twice"
+        time.sleep(0.05)
+        return Counted()
+
+
+def test_threads_that_reconnect_at_once_open_the_port_once() -> None:
+    Counted.open = 0
+    line = Counted()
+    with Controller(line) as controller, ThreadPoolExecutor(8) as pool:
+        line.unplug()
+        list(pool.map(lambda _: controller.reconnect(), range(8)))
+        assert controller.read_battery_voltage() == 7500
+        assert Counted.open == 1
+        assert len(own_threads()) == 1
+    assert Counted.open == 0
+
+
+def test_tasks_that_reconnect_at_once_open_the_port_once() -> None:
+    Counted.open = 0
+    line = Counted()
+
+    async def work() -> None:
+        async with AsyncController(line) as controller:
+            line.unplug()
+            await asyncio.gather(*(controller.reconnect() for _ in range(20)))
+            assert await controller.read_battery_voltage() == 7500
+            assert Counted.open == 1
+            assert len(own_threads()) == 2
+
+    asyncio.run(work())
+    assert Counted.open == 0
+
+
+def test_what_is_closed_while_it_is_opened_again_stays_closed() -> None:
+    Counted.open = 0
+    line = Counted()
+    controller = Controller(line)
+    with ThreadPoolExecutor(1) as pool:
+        again = pool.submit(controller.reconnect)
+        await_that(lambda: Counted.open == 0)
+        controller.close()
+        with pytest.raises(ClosedError):
+            again.result(BOUND)
+    assert Counted.open == 0
+
+
+def test_opening_again_that_is_cancelled_leaves_no_port_open() -> None:
+    Counted.open = 0
+    line = Counted()
+
+    async def work() -> None:
+        async with AsyncController(line) as controller:
+            with pytest.raises(asyncio.TimeoutError):
+                await asyncio.wait_for(controller.reconnect(), 0.02)
+            await asyncio.sleep(0.1)
+            assert Counted.open == 0
+            await controller.reconnect()
+            assert await controller.read_battery_voltage() == 7500
+
+    asyncio.run(work())
+    assert Counted.open == 0
+
+
+def test_reconnecting_from_within_a_callback() -> None:
+    line = LiveLine()
+    done = threading.Event()
+    with Controller(line) as controller:
+
+        def again(_: object) -> None:
+            controller.reconnect()
+            done.set()
+
+        controller.on_report(again)
+        line.say(ActionGroupStopped())
+        assert done.wait(BOUND)
+        assert controller.read_battery_voltage() == 7500
+        await_that(lambda: len(own_threads()) == 1)

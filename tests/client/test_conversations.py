@@ -1,0 +1,225 @@
+"""No wrong value is ever returned: the right reply or a declared error, in bounded time.
+
+With every fault, by seeded schedules: in this process in virtual time by the hundred, and over
+pseudo-terminals, TCP and memory in real time, for threads and for asyncio.
+"""
+
+from __future__ import annotations
+
+import asyncio
+import math
+import sys
+from concurrent.futures import ThreadPoolExecutor
+from contextlib import contextmanager
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+import pytest
+from busservo import AsyncController, Controller, open_async_controller, open_controller
+from busservo_simulator import Faults, VirtualClock, VirtualController
+from hypothesis import given
+from hypothesis import strategies as st
+
+from tests import soak
+from tests.client.conversation import Ledger, converse, converse_async
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+    from pathlib import Path
+
+    from busservo import Message
+
+WAYS = ["memory", "tcp"] if sys.platform == "win32" else ["memory", "tcp", "pty"]
+MARGIN = 0.25
+# A reply may come long after its request has timed out, but not so late that nobody could tell it
+# from the next: that is after as long again. In pieces, it takes a little longer.
+LATE = 1.7 * MARGIN
+# A question waits for the late reply of the one before, for twice as long as that was given, and
+# then for its own; the clock counts in floats.
+MOST = 3 * MARGIN + 1e-6
+
+chance = st.sampled_from([0.0, 0.0, 0.1, 0.3, 0.7])
+
+
+def schedules_of(
+    unasked: st.SearchStrategy[float], longest_delay: float
+) -> st.SearchStrategy[Faults]:
+    return st.builds(
+        Faults,
+        seed=st.integers(0, 2**32),
+        noise=chance,
+        splits=chance,
+        coalesced=chance,
+        delays=chance,
+        dropped=chance,
+        fewer=chance,
+        absent=chance,
+        unasked=unasked,
+        longest_delay=st.sampled_from([0.01, longest_delay / 2, longest_delay]),
+        splits_to_board=chance,
+    )
+
+
+# Where a report comes in front of a reply, both may be late.
+schedules = schedules_of(chance, LATE / 2) | schedules_of(st.just(0.0), LATE)
+
+
+def virtual(faults: Faults) -> tuple[VirtualController, Ledger, VirtualClock]:
+    clock = VirtualClock(follow_reads=True)
+    board = VirtualController(clock=clock, faults=faults)
+    return board, Ledger(board), clock
+
+
+@given(schedules, st.integers(0, 2**32), st.integers(0, 2))
+def test_whatever_the_schedule_of_faults(faults: Faults, seed: int, retries: int) -> None:
+    board, ledger, clock = virtual(faults)
+    with (
+        board,
+        Controller(
+            board.transport,
+            background=False,
+            clock=clock.now,
+            baud=math.inf,
+            margin=MARGIN,
+            retries=retries,
+        ) as controller,
+    ):
+        converse(controller, ledger, seed, 15, clock.now, bound=MOST + retries * MARGIN)
+        assert list(controller.reports(timeout=1)) == ledger.reported
+        assert controller.counters.lost_reports == 0
+
+
+@given(schedules, st.integers(0, 2**32), st.floats(0.01, 0.3))
+def test_a_line_that_is_cut_in_mid_frame_comes_back(faults: Faults, seed: int, cut: float) -> None:
+    board, ledger, clock = virtual(replace(faults, hang_up=cut, splits_to_board=0))
+    with (
+        board,
+        Controller(
+            board.transport, background=False, clock=clock.now, baud=math.inf, margin=MARGIN
+        ) as controller,
+    ):
+        converse(controller, ledger, seed, 15, clock.now, bound=MOST)
+        board.faults = replace(faults, hang_up=0)
+        board.plug_in()
+        controller.reconnect()
+        heard = list(controller.reports(timeout=1))
+        # What was under way when the line was cut is lost; nothing else is, and nothing is made up.
+        rest: Iterator[Message] = iter(ledger.reported)
+        assert all(report in rest for report in heard)
+
+
+@pytest.mark.garbage
+@given(st.integers(0, 2**32), st.sampled_from([0.02, 0.1]))
+def test_requests_that_arrive_damaged_give_no_wrong_value(seed: int, flips: float) -> None:
+    board, ledger, clock = virtual(Faults(seed=seed, bit_flips_to_board=flips, noise_to_board=0.5))
+    with (
+        board,
+        Controller(
+            board.transport, background=False, clock=clock.now, baud=math.inf, margin=MARGIN
+        ) as controller,
+    ):
+        converse(controller, ledger, seed, 15, clock.now, bound=MOST)
+
+
+# -------------------------------------------------------------------- live
+
+
+FAULTS = {
+    "mixed": Faults(
+        noise=0.3,
+        splits=0.3,
+        coalesced=0.2,
+        delays=0.3,
+        dropped=0.05,
+        fewer=0.1,
+        absent=0.1,
+        unasked=0.5,
+        longest_delay=0.05,
+        splits_to_board=0.3,
+    ),
+    "cut": Faults(noise=0.2, splits=0.2, unasked=0.3, hang_up=0.08),
+}
+# As if on a slow machine, where an answer takes its time; each lost one costs twice as much.
+LIVE_MARGIN = 0.15
+
+
+@contextmanager
+def board_at(way: str, folder: Path, faults: Faults) -> Iterator[tuple[VirtualController, Ledger]]:
+    link = folder / "board" if way == "pty" else None
+    with VirtualController(way, faults=faults, link=link) as board:  # type: ignore[arg-type]
+        yield board, Ledger(board)
+
+
+def opened(board: VirtualController, way: str) -> Controller:
+    if way == "memory":
+        return Controller(board.transport, margin=LIVE_MARGIN)
+    return open_controller(board.port, margin=LIVE_MARGIN)
+
+
+@pytest.mark.parametrize("kind", FAULTS)
+@pytest.mark.parametrize("way", WAYS)
+def test_over_a_live_line(way: str, kind: str, tmp_path: Path) -> None:
+    seed = WAYS.index(way)
+    with board_at(way, tmp_path, replace(FAULTS[kind], seed=seed)) as (board, ledger):
+        with opened(board, way) as controller:
+            converse(controller, ledger, seed, 30)
+            if kind == "mixed":
+                assert list(controller.reports(timeout=0.3)) == ledger.reported
+            assert controller.counters.lost_reports == 0
+        assert ledger.right >= 5
+
+
+@pytest.mark.parametrize("kind", FAULTS)
+@pytest.mark.parametrize("way", WAYS)
+def test_over_a_live_line_with_asyncio(way: str, kind: str, tmp_path: Path) -> None:
+    seed = 10 + WAYS.index(way)
+    with board_at(way, tmp_path, replace(FAULTS[kind], seed=seed)) as (board, ledger):
+
+        async def work() -> None:
+            async with (
+                AsyncController(board.transport, margin=LIVE_MARGIN)
+                if way == "memory"
+                else open_async_controller(board.port, margin=LIVE_MARGIN)
+            ) as controller:
+                await converse_async(controller, ledger, seed, 30)
+                if kind == "mixed":
+                    heard = [report async for report in controller.reports(timeout=0.3)]
+                    assert heard == ledger.reported
+                assert controller.counters.lost_reports == 0
+
+        asyncio.run(work())
+        assert ledger.right >= 5
+
+
+@pytest.mark.parametrize("way", WAYS)
+def test_eight_threads_share_a_line_with_faults(way: str, tmp_path: Path) -> None:
+    with board_at(way, tmp_path, replace(FAULTS["mixed"], seed=3)) as (board, ledger):
+        with opened(board, way) as controller, ThreadPoolExecutor(8) as pool:
+            list(pool.map(lambda seed: converse(controller, ledger, seed, 6), range(8)))
+            assert list(controller.reports(timeout=0.3)) == ledger.reported
+        assert ledger.right >= 10
+
+
+@pytest.mark.parametrize("way", WAYS)
+def test_a_hundred_tasks_share_a_line_with_faults(way: str, tmp_path: Path) -> None:
+    with board_at(way, tmp_path, replace(FAULTS["mixed"], seed=4)) as (board, ledger):
+
+        async def work() -> None:
+            async with (
+                AsyncController(board.transport, margin=LIVE_MARGIN)
+                if way == "memory"
+                else open_async_controller(board.port, margin=LIVE_MARGIN)
+            ) as controller:
+                talks = (converse_async(controller, ledger, seed, 1, 30) for seed in range(100))
+                await asyncio.gather(*talks)
+                heard = [report async for report in controller.reports(timeout=0.3)]
+                assert heard == ledger.reported
+
+        asyncio.run(work())
+        assert ledger.right >= 40
+
+
+def test_the_soak_runs(capsys: pytest.CaptureFixture[str]) -> None:
+    """In short; `make soak` asks a hundred thousand times."""
+    soak.main(["--requests", "800", "--rounds", "2"])
+    assert capsys.readouterr().out.count("and 0 lost") == 3

@@ -1,0 +1,159 @@
+"""A soak: a virtual board is asked a hundred thousand times, with faults all the while.
+
+    python -m tests.soak [--requests N] [--rounds N] [--seed S]
+
+In virtual time; by eight threads over TCP; and by a hundred tasks of asyncio over TCP. Every value
+that comes back must be the right one, or an error that is declared, in bounded time; every report
+must be heard, in order; and in the end no more memory, threads and waiting messages may be there
+than after the first fifth. It is no part of `make test`, which only tries that it runs.
+"""
+
+from __future__ import annotations
+
+import argparse
+import asyncio
+import gc
+import math
+import sys
+import threading
+import time
+from concurrent.futures import ThreadPoolExecutor
+from typing import TYPE_CHECKING
+
+from busservo import AsyncController, Controller, open_transport
+from busservo_simulator import Faults, VirtualClock, VirtualController
+
+from tests.client.conversation import Ledger, converse, converse_async
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from busservo import Message
+
+THREADS, TASKS = 8, 100
+MARGIN = 0.25
+# So that rounds end soon although a lost reply costs twice the margin.
+LIVE = {"noise": 0.1, "splits": 0.002, "coalesced": 0.002, "delays": 0.002, "dropped": 0.0005}
+LIVE["longest_delay"] = 0.1
+VIRTUAL = {"noise": 0.2, "splits": 0.2, "coalesced": 0.1, "delays": 0.2, "dropped": 0.1}
+# A report and the reply behind it, both late: later than a request waits, not than the next does.
+VIRTUAL["longest_delay"] = 0.2
+BOTH = {"fewer": 0.05, "absent": 0.05, "unasked": 0.2}
+# What a round may leave behind: caches that grow by a little, and never by a message each.
+SPARE_BLOCKS = 2000
+# Fewer do not even fill what is kept on purpose: the board's journal, the latest reports.
+ENOUGH = 50_000
+
+
+class Watch:
+    """Sees that nothing grows from round to round."""
+
+    def __init__(self, name: str, ledger: Ledger, client: Controller | AsyncController) -> None:
+        self._name = name
+        self._ledger = ledger
+        self._client = client
+        self._blocks: list[int] = []
+        self._threads: list[int] = []
+        self._began = time.monotonic()
+
+    def round(self, done: int, heard: Sequence[Message]) -> None:
+        """A round is over: so many requests in all, and these reports since the round before."""
+        ledger, session = self._ledger, self._client._session
+        assert list(heard) == ledger.reported, "a report was lost"
+        ledger.reported.clear()
+        assert session.idle
+        assert not session.news
+        assert len(session._overdue) < THREADS
+        assert session.reports.take() is None
+        assert session.counters.lost_reports == 0
+        assert ledger.board.rejects.total == 0
+        gc.collect()
+        self._blocks.append(sys.getallocatedblocks())
+        self._threads.append(threading.active_count())
+        if sys.stderr.isatty():
+            print(f"\r{self._name}: {done} requests", end="", file=sys.stderr, flush=True)
+
+    def end(self, requests: int) -> None:
+        """Says what came of it. Raises AssertionError where something has grown."""
+        fifth = len(self._blocks) // 5
+        grown = min(self._blocks[-3:]) - min(self._blocks[fifth : fifth + 3])
+        counters = self._client.counters
+        taken = time.monotonic() - self._began
+        print(
+            f"{self._name}: {requests} requests in {taken:.0f} s; {self._ledger.right} answered "
+            f"rightly, {self._ledger.refused} ended in a declared error, {counters.reports} "
+            f"reports heard and {counters.lost_reports} lost; {counters.strays} strays, "
+            f"{counters.noise} bytes of noise; memory grew by {grown} blocks, threads from "
+            f"{self._threads[0]} to {self._threads[-1]}",
+            flush=True,
+        )
+        assert requests < ENOUGH or grown < SPARE_BLOCKS, f"memory grows: {self._blocks}"
+        assert self._threads[-1] <= self._threads[0], f"threads grow: {self._threads}"
+
+
+def in_virtual_time(requests: int, rounds: int, seed: int) -> None:
+    """One thread, in this process: the board's time is moved on, and nobody sleeps."""
+    clock = VirtualClock(follow_reads=True)
+    faults = Faults(seed=seed, **VIRTUAL, **BOTH)
+    with VirtualController(clock=clock, faults=faults) as board:
+        ledger = Ledger(board)
+        with Controller(
+            board.transport, background=False, clock=clock.now, baud=math.inf, margin=MARGIN
+        ) as controller:
+            watch = Watch("virtual time", ledger, controller)
+            for turn in range(rounds):
+                size = requests // rounds
+                converse(controller, ledger, seed + turn, size, clock.now, 3 * MARGIN + 0.001)
+                watch.round((turn + 1) * size, list(controller.reports(timeout=1)))
+            watch.end(requests)
+
+
+def with_threads(requests: int, rounds: int, seed: int) -> None:
+    """Eight threads share a controller."""
+    faults = Faults(seed=seed, **LIVE, **BOTH)
+    with VirtualController("tcp", faults=faults) as board, ThreadPoolExecutor(THREADS) as pool:
+        ledger = Ledger(board)
+        with Controller(open_transport(board.port), baud=math.inf, margin=MARGIN) as controller:
+            watch = Watch(f"{THREADS} threads", ledger, controller)
+            size = requests // rounds // THREADS
+            for turn in range(rounds):
+                seeds = range(seed + turn * THREADS, seed + (turn + 1) * THREADS)
+                list(pool.map(lambda each: converse(controller, ledger, each, size), seeds))
+                heard = list(controller.reports(timeout=0.25))
+                watch.round((turn + 1) * size * THREADS, heard)
+            watch.end(size * THREADS * rounds)
+
+
+async def with_tasks(requests: int, rounds: int, seed: int) -> None:
+    """A hundred tasks share a controller."""
+    faults = Faults(seed=seed, **LIVE, **BOTH)
+    with VirtualController("tcp", faults=faults) as board:
+        ledger = Ledger(board)
+        transport = open_transport(board.port)
+        async with AsyncController(transport, baud=math.inf, margin=MARGIN) as controller:
+            watch = Watch(f"{TASKS} tasks", ledger, controller)
+            size = requests // rounds // TASKS
+            for turn in range(rounds):
+                seeds = range(seed + turn * TASKS, seed + (turn + 1) * TASKS)
+                talks = (converse_async(controller, ledger, each, size) for each in seeds)
+                await asyncio.gather(*talks)
+                heard = [report async for report in controller.reports(timeout=0.25)]
+                watch.round((turn + 1) * size * TASKS, heard)
+            watch.end(size * TASKS * rounds)
+
+
+def main(words: Sequence[str] | None = None) -> None:
+    """Soaks all three ways. Raises AssertionError at the first thing that is wrong."""
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--requests", type=int, default=100_000, help="for each (default: 100000)")
+    parser.add_argument("--rounds", type=int, default=50, help="after each, all is looked at")
+    parser.add_argument("--seed", type=int, default=1, help="of the faults (default: 1)")
+    arguments = parser.parse_args(words)
+    asked = arguments.requests, arguments.rounds, arguments.seed
+    in_virtual_time(*asked)
+    with_threads(*asked)
+    asyncio.run(with_tasks(*asked))
+
+
+if __name__ == "__main__":
+    main()

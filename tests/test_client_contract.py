@@ -1,0 +1,176 @@
+"""What a client does with each request, typed in by hand; and every fact behind it is guarded.
+
+Each key of the spec that faces a client (`method`, `echoed`, `reply`, `reports`) is changed in each
+way that there is. Then `framegen check` must speak up, or this table.
+"""
+
+from __future__ import annotations
+
+import json
+from typing import TYPE_CHECKING, Any, TypeAlias
+
+import pytest
+from busservo.exchanges import EXCHANGES
+from framegen.checks import check
+from framegen.exchanges import exchanges
+from framegen.layout import derive
+from framegen.load import load
+from framegen.source import Source
+
+from tests.specimens import BUSSERVO, Data, data_of, layout_of
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+# Method, arguments in order, reply, what is returned of it, reports that follow, what is echoed.
+Row: TypeAlias = (
+    "tuple[str, tuple[str, ...], str | None, str, tuple[str, ...], tuple[tuple[str, str], ...]]"
+)
+STARTED, COMPLETED = "ActionGroupStarted", "ActionGroupCompleted"
+ECHO = (("servo_ids", "positions.servo_id"),)
+CONTRACT: dict[str, Row] = {
+    "ServoMove": ("move_servos", ("targets", "time_ms"), None, "", (), ()),
+    "ActionGroupRun": (
+        "run_action_group",
+        ("group", "times"),
+        None,
+        "",
+        (STARTED, COMPLETED),
+        (),
+    ),
+    "ActionGroupStop": ("stop_action_group", (), None, "", ("ActionGroupStopped",), ()),
+    "ActionGroupSpeed": ("set_action_group_speed", ("group", "percent"), None, "", (), ()),
+    "BatteryVoltageRead": (
+        "read_battery_voltage",
+        (),
+        "BatteryVoltage",
+        "voltage_mv",
+        (),
+        (),
+    ),
+    "ServoUnload": ("unload_servos", ("servo_ids",), None, "", (), ()),
+    "ServoPositionsRead": (
+        "read_servo_positions",
+        ("servo_ids",),
+        "ServoPositions",
+        "positions",
+        (),
+        ECHO,
+    ),
+}
+TREE = data_of(BUSSERVO)
+
+
+def said_by(data: Data) -> dict[str, Row] | None:
+    """What a spec says of its requests; None where `framegen check` objects to it."""
+    loaded = load(Source("changed.yaml", json.dumps(data)))
+    if check(loaded) or loaded.spec is None:
+        return None
+    return {
+        each.request.name: (
+            each.method.name,
+            tuple(each.method.arguments),
+            None if each.reply is None else each.reply.name,
+            each.method.result,
+            each.reports,
+            each.echoed,
+        )
+        for each in exchanges(derive(loaded.spec))
+    }
+
+
+def test_the_spec_says_what_the_table_says() -> None:
+    assert said_by(TREE) == CONTRACT
+
+
+def test_the_library_does_what_the_table_says() -> None:
+    assert {
+        kind.__name__: (
+            each.method,
+            each.arguments,
+            None if each.reply is None else each.reply.__name__,
+            each.result,
+            tuple(report.__name__ for report in each.reports),
+            each.echoed,
+        )
+        for kind, each in EXCHANGES.items()
+    } == CONTRACT
+
+
+def test_what_a_reply_has_room_for() -> None:
+    rooms = {each.request.name: each.most for each in exchanges(layout_of(TREE)) if each.most}
+    assert rooms == {"ServoPositionsRead": 84}
+
+
+# -------------------------------------------------------------------- each fact, changed
+
+
+def methods() -> Iterator[tuple[str, str, Any]]:
+    for name, (method, arguments, _, result, *_rest) in CONTRACT.items():
+        returns = f" -> {result}" if result else ""
+
+        def said(
+            method: str = method, given: tuple[str, ...] = arguments, returns: str = returns
+        ) -> str:
+            return f"{method}({', '.join(given)}){returns}"
+
+        yield name, "method", None
+        yield name, "method", said(method=f"{method}_now")
+        yield name, "method", said(method="close")
+        others = [row[0] for other, row in CONTRACT.items() if other != name]
+        yield name, "method", said(method=others[0])
+        yield name, "method", said(returns=" -> nothing")
+        yield name, "method", said(given=(*arguments, "force"))
+        if result:
+            yield name, "method", said(returns="")
+        if arguments:
+            yield name, "method", said(given=arguments[1:])
+            yield name, "method", said(given=(*arguments, arguments[0]))
+        if len(arguments) > 1:
+            yield name, "method", said(given=arguments[::-1])
+
+
+def echoes() -> Iterator[tuple[str, str, Any]]:
+    name = "ServoPositionsRead"
+    yield name, "echoed", None
+    yield name, "echoed", {}
+    yield name, "echoed", {"servo_ids": "positions.position"}
+    yield name, "echoed", {"servo_ids": "positions"}
+    yield name, "echoed", {"servo_ids": "servo_count"}
+    yield name, "echoed", {"servo_count": "positions.servo_id"}
+    yield name, "echoed", {"group": "positions.servo_id"}
+    for other in CONTRACT:
+        if other != name:
+            yield other, "echoed", {"servo_ids": "positions.servo_id"}
+
+
+def answers() -> Iterator[tuple[str, str, Any]]:
+    replies = [name for name in TREE["messages"] if name not in CONTRACT]
+    for name, (_, _, reply, _, reports, _) in CONTRACT.items():
+        for other in replies:
+            if other != reply:
+                yield name, "reply", other
+        if reply is not None:
+            yield name, "reply", None
+        for at in range(len(reports)):
+            yield name, "reports", [*reports[:at], *reports[at + 1 :]]
+        for other in replies:
+            if other not in reports:
+                yield name, "reports", [*reports, other]
+
+
+CHANGES = [*methods(), *echoes(), *answers()]
+
+
+@pytest.mark.parametrize(
+    ("name", "key", "value"), [pytest.param(*each, id=str(each)[:90]) for each in CHANGES]
+)
+def test_a_changed_fact_is_seen(name: str, key: str, value: Any) -> None:
+    data = json.loads(json.dumps(TREE))
+    message = data["messages"][name]
+    assert message.get(key) != value, "a mutation changes something"
+    if value is None:
+        del message[key]
+    else:
+        message[key] = value
+    assert said_by(data) != CONTRACT

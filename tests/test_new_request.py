@@ -1,0 +1,183 @@
+"""A new request in the spec is a new method, verb, handler and page, with no hand-written line."""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).parent.parent
+
+NEW = """
+  LampSet:
+    id: 99
+    direction: host -> controller
+    summary: Switch lamps.
+    cite: vendor, section 1.1
+    length: 2 * lamp_count + 3
+    fields:
+      lamp_count: {type: u8, about: How many lamps.}
+      lamps:
+        element: Lamp
+        counted_by: lamp_count
+        count: 1..
+        about: The lamps.
+        fields:
+          lamp_id: {type: u8, about: The lamp.}
+          level: {type: u8, about: How bright.}
+    examples:
+      - title: Lamp 7 at level 9
+        hex: 55 55 05 63 01 07 09
+        values: {lamps: [{lamp_id: 7, level: 9}]}
+        constructed: For this test.
+
+  LampsRead:
+    id: 100
+    direction: host -> controller
+    reply: LampsState
+    method: read_lamps(lamp_ids) -> lamps
+    echoed: {lamp_ids: lamps.lamp_id}
+    summary: Ask how bright lamps are.
+    cite: vendor, section 1.1
+    length: lamp_count + 3
+    fields:
+      lamp_count: {type: u8, about: How many lamps.}
+      lamp_ids: {type: u8, counted_by: lamp_count, count: 1.., about: The lamps.}
+    examples:
+      - title: Lamp 7
+        hex: 55 55 04 64 01 07
+        values: {lamp_ids: [7]}
+        constructed: For this test.
+
+  LampsState:
+    id: 100
+    direction: controller -> host
+    summary: How bright lamps are.
+    cite: vendor, section 1.1
+    length: 2 * lamp_count + 3
+    fields:
+      lamp_count: {type: u8, about: How many lamps.}
+      lamps:
+        element: LampLevel
+        counted_by: lamp_count
+        about: The lamps.
+        fields:
+          lamp_id: {type: u8, about: The lamp.}
+          level: {type: u8, about: How bright.}
+    examples:
+      - title: Lamp 7 at level 9
+        hex: 55 55 05 64 01 07 09
+        values: {lamps: [{lamp_id: 7, level: 9}]}
+        constructed: For this test.
+
+  ServoUnload:"""
+
+BOARD = """
+import asyncio, socket, threading
+import busservo
+from busservo import LampsState
+from busservo.device import Device
+
+class Board(Device):
+    levels = {1: 0, 2: 0, 7: 0}
+
+    def on_lamp_set(self, message):
+        self.levels = self.levels | {lamp.lamp_id: lamp.level for lamp in message.lamps}
+
+    def on_lamps_read(self, message):
+        asked = [number for number in message.lamp_ids if number in self.levels]
+        return LampsState([(number, self.levels[number]) for number in asked])
+
+def serve(listener, board):
+    while True:
+        guest, _ = listener.accept()
+        while data := guest.recv(99):
+            guest.sendall(board.receive(data))
+        guest.close()
+
+board, listener = Board(), socket.create_server(("127.0.0.1", 0))
+threading.Thread(target=serve, args=(listener, board), daemon=True).start()
+port = f"socket://127.0.0.1:{listener.getsockname()[1]}"
+"""
+
+METHODS = """
+with busservo.open_controller(port, margin=10) as controller:
+    controller.lamp_set([(7, 9), (1, 3)])
+    print(controller.read_lamps([7, 1]))
+    print(len(controller.read_lamps([1, 2, 7] * 20)))
+    try:
+        controller.read_lamps([1, 5])
+    except busservo.IncompleteReplyError as error:
+        print(error)
+
+async def work():
+    async with busservo.open_async_controller(port, margin=10) as controller:
+        await controller.lamp_set([(2, 200)])
+        print(await controller.read_lamps([2]))
+
+asyncio.run(work())
+print(board.rejects)
+"""
+
+VERB = """
+from busservo.cli import main
+assert main(["send", "--port", port, "LampSet", "lamps=7:9"]) == 0
+assert main(["send", "--port", port, "LampsRead", "lamp_ids=7"]) == 0
+assert main(["encode", "LampSet", "lamps=7:9"]) == 0
+"""
+
+
+@pytest.fixture(scope="module")
+def project(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A project of the spec with one command, one question and its reply more."""
+    folder = tmp_path_factory.mktemp("lamps")
+    text = (ROOT / "spec" / "busservo.yaml").read_text(encoding="utf-8")
+    (folder / "spec").mkdir()
+    spec = folder / "spec" / "busservo.yaml"
+    spec.write_text(text.replace("\n  ServoUnload:", NEW, 1), encoding="utf-8")
+    run([sys.executable, "-m", "framegen", "generate", str(spec)], sys.path)
+    return folder
+
+
+def run(command: list[str], search: list[str]) -> str:
+    environment = {**os.environ, "PYTHONPATH": os.pathsep.join(search)}
+    done = subprocess.run(
+        command, env=environment, capture_output=True, encoding="utf-8", timeout=60, check=False
+    )
+    assert done.returncode == 0, done.stdout + done.stderr
+    return done.stdout
+
+
+def script(project: Path, text: str) -> str:
+    """What a program prints that uses the library of `project`."""
+    command = [sys.executable, "-W", "error", "-c", text]
+    return run(command, [str(project / "generated"), *sys.path])
+
+
+def test_it_is_a_method_of_both_clients_and_a_handler_of_the_device(project: Path) -> None:
+    assert script(project, BOARD + METHODS).splitlines() == [
+        "(LampLevel(lamp_id=7, level=9), LampLevel(lamp_id=1, level=3))",
+        "60",
+        "nothing was told of lamp_ids 5; what did arrive (1) is kept in `arrived`",
+        "(LampLevel(lamp_id=2, level=200),)",
+        "Rejects(0)",
+    ]
+
+
+def test_it_can_be_sent_from_the_command_line(project: Path) -> None:
+    shown = script(project, BOARD + VERB)
+    assert "LampsState" in shown
+    assert "7:9" in shown
+    assert "55 55 05 63 01 07 09" in shown
+
+
+def test_it_is_in_the_reference_and_in_the_vectors(project: Path) -> None:
+    reference = project / "docs" / "reference"
+    for name in ("LampSet", "LampsRead", "LampsState"):
+        assert name in (reference / "README.md").read_text(encoding="utf-8")
+        assert name in (reference / "messages" / f"{name}.md").read_text(encoding="utf-8")
+    vectors = (project / "generated" / "busservo" / "vectors.json").read_text(encoding="utf-8")
+    assert '"LampsState"' in vectors
