@@ -20,8 +20,12 @@ from framegen.yamltree import Unusable
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from tests.specimens import DEMO, data_of, loaded_of
+
 if TYPE_CHECKING:
     from framegen.checks.rule import LayoutRule, ReadingRule, StructureRule
+
+    from tests.specimens import Steps
 
 ROOT = Path(__file__).parent.parent
 SPECS = ROOT / "tests" / "specs"
@@ -47,6 +51,23 @@ def said_of(source: Source) -> list[str]:
     return [f"{f.rule} {f.span.line}:{f.span.column}: {f.message}" for f in findings]
 
 
+def more_of(source: Source) -> list[str]:
+    """What else the findings say: at which path, what other place to see, and what to do."""
+    lines: list[str] = []
+    for finding in findings_of(source):
+        lines.append(f"# at: {finding.path}".rstrip())
+        lines += [f"# see: {each.span.line}: {each.text}" for each in finding.related]
+        lines += [f"# hint: {finding.hint}"] if finding.hint else []
+    return lines
+
+
+def findings_of(source: Source) -> list[Finding]:
+    try:
+        return check(load(source))
+    except Unusable as refusal:
+        return [] if refusal.finding is None else [refusal.finding]
+
+
 def expected_of(source: Source) -> list[str]:
     return [
         line.removeprefix(EXPECT) for line in source.text.split("\n") if line.startswith(EXPECT)
@@ -67,6 +88,16 @@ def test_a_bad_spec_gives_exactly_its_findings(file: Path) -> None:
     source = read_source(file)
     assert expected_of(source), "the first line says what to expect"
     assert expected_of(source) == said_of(source)
+
+
+@pytest.mark.parametrize("file", BAD, ids=lambda file: file.stem)
+def test_a_finding_tells_where_it_is_and_what_to_do(file: Path) -> None:
+    """As the last lines of the file have it."""
+    source = read_source(file)
+    lines = source.text.split("\n")
+    assert [line for line in lines if line.startswith(("# at:", "# see: ", "# hint: "))] == (
+        more_of(source)
+    )
 
 
 @pytest.mark.parametrize("file", GOOD, ids=lambda file: file.stem)
@@ -102,6 +133,74 @@ def test_an_example_that_would_be_encoded_otherwise_is_found(
     monkeypatch.setattr(checks.example, "encode", lambda *_: b"\x55")
     messages = {finding.message for finding in check(load(read_source(SPECS / "demo.yaml")))}
     assert messages == {"its values encode to 55, which is not this"}
+
+
+ANGLE = ("messages", "VentsOpen", "fields", "vents", "fields", "angle")
+SIZE = ("frame", "size")
+LONG = "abcdefghij" * 4
+
+
+@pytest.mark.parametrize(
+    ("path", "value", "said", "hint"),
+    [
+        (("link",), None, "a mapping of keys is expected here, not nothing", ""),
+        (("link",), {}, "the key `baud` is missing", "Bits per second."),
+        (("link", "baud"), LONG, f"a whole number is expected here, not `{LONG}`", ""),
+        (("link", "baud"), f"{LONG}k", f"a whole number is expected here, not `{LONG}...`", ""),
+        (
+            ("protocol", "title"),
+            True,
+            (
+                "text is expected here, not the truth value `true`; "
+                "put a number or a word like true in quotes"
+            ),
+            "",
+        ),
+        (
+            ("protocol", "title"),
+            {"en": "Greenhouse"},
+            "text is expected here, not a mapping; put a number or a word like true in quotes",
+            "",
+        ),
+        (
+            ("frame", "size"),
+            {"is": "id"},
+            "the key `type` is missing",
+            "The number type, such as u8.",
+        ),
+        (
+            ("frame", "preamble"),
+            {"is": "constant"},
+            "the key `bytes` is missing",
+            "The bytes, in hex.",
+        ),
+        ((*ANGLE, "unti"), "V", "there is no key `unti` here", "did you mean `unit`?"),
+        (
+            ("messages", "VentsOpen", "fields", "vents", "elment"),
+            "Vent",
+            "there is no key `elment` here",
+            "did you mean `element`?",
+        ),
+        (
+            ("messages", "VentsOpen", "examples", 0, "titel"),
+            "All of them",
+            "there is no key `titel` here",
+            "did you mean `title`?",
+        ),
+    ],
+)
+def test_what_does_not_fit_the_language_is_told_in_its_words(
+    path: Steps, value: object, said: str, hint: str
+) -> None:
+    data = data_of(DEMO)
+    around: Any = data
+    for step in path[:-1]:
+        around = around[step]
+    around[path[-1]] = value
+    finding = loaded_of(data).findings[0]
+    assert (finding.message, finding.hint) == (said, hint)
+    steps = [f"[{step}]" if isinstance(step, int) else f".{step}" for step in path]
+    assert f".{finding.path}".startswith("".join(steps))
 
 
 # ------------------------------------------------------------------ the rules themselves
@@ -219,6 +318,7 @@ def test_findings_come_from_the_top_of_the_file_down() -> None:
     [
         ("C3 5A A5 04 02 20 01 D8", "orchard", 0x20, ""),
         ("C3 5A A5 04 01 20 DA", "orchard", 0x20, ""),
+        ("C3 5A A5 04 02 20 02 D7", "orchard", 0x20, ""),
         ("C3 5A A5 21 00 00", "old_stations", 0x21, "asks for the firmware"),
         ("C3 5A A5 22 00 00", None, None, None),  # no code of theirs
         ("C3 5A A5 04 02 20 01 D9", None, None, None),  # a wrong checksum

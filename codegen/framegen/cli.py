@@ -19,7 +19,7 @@ CLEAN, FINDINGS, UNUSABLE = 0, 1, 2
 # What a shell reports for a program that SIGINT or SIGPIPE ended.
 INTERRUPTED, READER_GONE = 130, 141
 
-VERBS = ("check", "generate", "docs", "explain", "schema", "rules")
+VERBS = ("check", "generate", "diff", "docs", "explain", "schema", "rules")
 
 
 _CLOSING = """\

@@ -95,7 +95,7 @@ def _finding(tree: Tree, problem: Any) -> Finding:
             tree.key_at(path),
             dotted(path),
             message,
-            did_you_mean(last, _keys_at(path[:-1])),
+            did_you_mean(last, _keys_at(tree, path[:-1])),
         )
     message = _MESSAGES.get(kind, "{msg}").format(
         msg=problem["msg"], found=_kind(problem["input"]), **context
@@ -148,44 +148,44 @@ def _steps_in(tree: Tree, steps: tuple[str | int, ...]) -> Iterator[str | int]:
             yield step
 
 
-def _keys_at(path: KeyPath) -> list[str]:
-    """List the keys that the language has at `path`."""
-    model = _model_at(path)
-    return (
-        [] if model is None else [info.alias or name for name, info in model.model_fields.items()]
-    )
+def _keys_at(tree: Tree, path: KeyPath) -> list[str]:
+    """List the keys that the language has at `path`; of a union, those of what fits best there."""
+    here: Any = tree.data
+    for step in path:
+        here = here[step]
+    known = [
+        [info.alias or name for name, info in model.model_fields.items()]
+        for model in _models_at(path)
+    ]
+    return max(known, key=lambda keys: len(here.keys() & keys), default=[])
 
 
 def _described(path: KeyPath, key: str) -> str:
     """Say what a missing key is for, with the description that editors show too."""
-    model = _model_at(path[:-1])
-    if model is None:
-        return ""
-    for name, info in model.model_fields.items():
-        if key in (name, info.alias):
-            return info.description or ""
-    return ""
+    told = [
+        info.description
+        for model in _models_at(path[:-1])
+        for name, info in model.model_fields.items()
+        if key in (name, info.alias)
+    ]
+    return next(filter(None, told), "")
 
 
-def _model_at(path: KeyPath) -> type[BaseModel] | None:
-    """Find the model of the mapping at `path`; of a union, the member with the most keys."""
+def _models_at(path: KeyPath) -> list[type[BaseModel]]:
+    """Find the model of the mapping at `path`; of a union, every member."""
     models: list[type[BaseModel]] = [Spec]
     for step in path:
-        if isinstance(step, int):
-            continue
         named = [
             info.annotation
             for model in models
             for name, info in model.model_fields.items()
             if step in (name, info.alias)
         ]
-        # A step that is no key of the model is a name the author chose: the mapping goes on
-        # below it.
+        # A step that is no key of the model is a place in a list, or a name that the author chose:
+        # the mapping goes on below it.
         if named:
             models = [model for annotation in named for model in _models_in(annotation)]
-        if not models:
-            return None
-    return max(models, key=lambda model: len(model.model_fields), default=None)
+    return models
 
 
 def _models_in(annotation: Any) -> list[type[BaseModel]]:

@@ -1,0 +1,71 @@
+"""`framegen diff`: what lies between two editions of a spec, and what of it breaks."""
+
+from __future__ import annotations
+
+import json
+import sys
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from framegen.wording import counted
+
+if TYPE_CHECKING:
+    from argparse import ArgumentParser, Namespace
+
+    from framegen.comparison import Difference
+
+SUMMARY = "Tell what changed between two editions of a spec, and what of it breaks."
+EXAMPLES = (
+    ("framegen diff old.yaml", "from old.yaml to the only spec/*.yaml, here or above"),
+    ("framegen diff old.yaml new.yaml", "from one to the other; 1 if anything breaks"),
+    ("framegen diff old.yaml --json", "one difference a line, for programs"),
+    ("git show v1.0.0:spec/name.yaml > old.yaml", "how to get at an old edition"),
+)
+
+
+def add_arguments(parser: ArgumentParser) -> None:
+    """Declare the arguments of the verb."""
+    parser.add_argument("old", type=Path, metavar="OLD", help="a spec file")
+    parser.add_argument("new", nargs="?", type=Path, metavar="NEW", help="a later edition of it")
+    parser.add_argument("--json", action="store_true", help="print each as a line of JSON")
+
+
+def run(arguments: Namespace) -> int:
+    """Print the differences, what breaks first. 1 where the wire or programs break."""
+    from framegen.commands.spec_argument import read_layout  # noqa: PLC0415
+    from framegen.comparison import differences  # noqa: PLC0415
+
+    found = differences(read_layout(arguments.old), read_layout(arguments.new))
+    order = ["wire", "programs", "nothing"]
+    found.sort(key=lambda difference: order.index(difference.breaks))
+    for difference in found:
+        print(_json(difference) if arguments.json else _text(difference))
+    sys.stdout.flush()
+    print(_summary(found), file=sys.stderr)
+    return 1 if any(difference.breaks != "nothing" for difference in found) else 0
+
+
+def _text(difference: Difference) -> str:
+    return f"{difference.breaks:8}  {difference.path}: {difference.kind}: {difference}"
+
+
+def _json(difference: Difference) -> str:
+    return json.dumps(
+        {
+            "breaks": difference.breaks,
+            "kind": difference.kind,
+            "path": difference.path,
+            "old": difference.old,
+            "new": difference.new,
+        }
+    )
+
+
+def _summary(found: list[Difference]) -> str:
+    if not found:
+        return "nothing changed that a spec says"
+    counts = [
+        f"{sum(difference.breaks == what for difference in found)} {words}"
+        for what, words in (("wire", "break the wire"), ("programs", "break programs"))
+    ]
+    return f"{counted(len(found), 'difference')}: {', '.join(counts)}"

@@ -1,0 +1,324 @@
+"""What lies between two editions of a spec, and what of it breaks."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Literal, TypeAlias
+
+from framegen.exchanges import method_of, sent_by_client
+from framegen.spec import ConstantPart, GroupField, IdPart, LengthPart
+from framegen.values import Direction, to_hex
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Iterator, Mapping
+
+    from framegen.layout import Layout, MessageLayout, Repeat, WireField
+    from framegen.spec import FramePart, Message
+
+Breaks: TypeAlias = Literal["wire", "programs", "nothing"]
+
+# Every kind of difference. `wire`: an end that knows the old edition and one that knows the new
+# misread each other, or refuse what the other sends. `programs`: what was written for the old
+# library may not run with the new one. Names of kinds are for programs to rely on, and stay.
+KINDS: dict[str, Breaks] = {
+    "byte-order": "wire",
+    "frame": "wire",
+    "link": "wire",
+    "version": "nothing",
+    "library-renamed": "programs",
+    "endpoint-renamed": "programs",
+    "message-added": "nothing",
+    "message-removed": "wire",
+    "message-renamed": "programs",
+    "message-id": "wire",
+    "message-direction": "wire",
+    "message-reply": "wire",
+    "message-deprecated": "nothing",
+    "method-renamed": "programs",
+    "method-arguments": "programs",
+    "method-result": "programs",
+    "field-added": "wire",
+    "field-removed": "wire",
+    "field-renamed": "programs",
+    "field-order": "wire",
+    "field-type": "wire",
+    "field-unit": "wire",
+    "count-renamed": "nothing",
+    "element": "programs",
+    "range-narrowed": "wire",
+    "range-widened": "nothing",
+    "value-added": "nothing",
+    "value-removed": "programs",
+    "value-renamed": "programs",
+    "value-changed": "wire",
+    "example-added": "nothing",
+    "example-removed": "nothing",
+    "words": "nothing",
+}
+
+
+# What a spec says besides the protocol itself.
+_SECTIONS = ("sources", "reserved", "errata", "unknowns", "lookalikes", "history")
+
+
+@dataclass(frozen=True, slots=True)
+class Difference:
+    """One thing that changed, at its path in the new edition, or in the old where it is gone."""
+
+    kind: str
+    path: str
+    old: str | None = None
+    new: str | None = None
+
+    @property
+    def breaks(self) -> Breaks:
+        """What does not go together any more."""
+        return KINDS[self.kind]
+
+    def __str__(self) -> str:
+        if self.kind == "words":
+            return "is said otherwise"
+        if self.old is None:
+            return f"{self.new} is new"
+        return f"{self.old} is gone" if self.new is None else f"{self.old} became {self.new}"
+
+
+def differences(old: Layout, new: Layout) -> list[Difference]:
+    """All that changed from one edition to the next, in the order of the new spec."""
+    return [*_line(old, new), *_messages(old, new), *_said_of_all(old, new)]
+
+
+def _line(old: Layout, new: Layout) -> Iterator[Difference]:
+    """What all messages share: the library, the ends, the link and the envelope of a frame."""
+    was, now = old.spec, new.spec
+    versions = was.protocol.version, now.protocol.version
+    yield from _changed("version", "protocol.version", *versions)
+    yield from _changed("library-renamed", "protocol.name", was.protocol.name, now.protocol.name)
+    for one, other in _renamed_ends(old, new).items():
+        yield from _changed("endpoint-renamed", f"endpoints.{other}", one, other)
+    for name in ("baud", "data_bits", "parity", "stop_bits"):
+        settings = getattr(was.link, name), getattr(now.link, name)
+        yield from _changed("link", f"link.{name}", *settings)
+    yield from _changed("byte-order", "byte_order", was.byte_order, now.byte_order)
+    yield from _changed("frame", "frame", _envelope(was.frame), _envelope(now.frame))
+
+
+def _messages(old: Layout, new: Layout) -> Iterator[Difference]:
+    ends = _renamed_ends(old, new)
+    names = _renamed(
+        {name: _identity(message, ends) for name, message in old.messages.items()},
+        {name: _identity(message, {}) for name, message in new.messages.items()},
+    )
+    before = {names.get(name, name): message for name, message in old.messages.items()}
+    for name, message in new.messages.items():
+        path = f"messages.{name}"
+        if name not in before:
+            yield Difference("message-added", path, None, name)
+            continue
+        was = before[name]
+        yield from _changed("message-renamed", path, was.name, name)
+        yield from _changed("message-id", f"{path}.id", was.id, message.id)
+        way = _seen(was.direction, ends)
+        yield from _changed("message-direction", f"{path}.direction", way, message.direction)
+        reply = was.message.reply
+        reply = None if reply is None else names.get(reply, reply)
+        yield from _changed("message-reply", f"{path}.reply", reply, message.message.reply)
+        yield from _fields(f"{path}.fields", was.numbers, message.numbers, message)
+        yield from _list(f"{path}.fields", was.repeat, message.repeat)
+        if was.direction == sent_by_client(old.spec) and _is_sent(new, message):
+            yield from _method(f"{path}.method", was, message)
+        yield from _told(path, was.message, message.message)
+    for name, message in before.items():
+        if name not in new.messages:
+            yield Difference("message-removed", f"messages.{message.name}", message.name)
+
+
+def _is_sent(layout: Layout, message: MessageLayout) -> bool:
+    return message.direction == sent_by_client(layout.spec)
+
+
+def _method(path: str, old: MessageLayout, new: MessageLayout) -> Iterator[Difference]:
+    was, now = method_of(old.name, old.message), method_of(new.name, new.message)
+    yield from _changed("method-renamed", path, was.name, now.name)
+    arguments = ", ".join(was.arguments), ", ".join(now.arguments)
+    yield from _changed("method-arguments", path, *(f"({each})" for each in arguments))
+    yield from _changed("method-result", path, was.result or None, now.result or None)
+
+
+def _fields(
+    path: str,
+    old: tuple[WireField, ...],
+    new: tuple[WireField, ...],
+    message: MessageLayout | None = None,
+) -> Iterator[Difference]:
+    """Numbers, one behind the other: those of a message, or of an element of its list."""
+    names = _renamed(
+        {field.name: (at, field.wire) for at, field in enumerate(old)},
+        {field.name: (at, field.wire) for at, field in enumerate(new)},
+    )
+    before = {names.get(field.name, field.name): field for field in old}
+    for field in new:
+        here = f"{path}.{field.name}"
+        if field.name not in before:
+            yield Difference("field-added", here, None, field.wire.name)
+            continue
+        was = before[field.name]
+        counts = message is not None and message.counts_with(field)
+        kind = "count-renamed" if counts else "field-renamed"
+        yield from _changed(kind, here, was.name, field.name)
+        yield from _number(here, was, field)
+    after = [field.name for field in new]
+    for name, was in before.items():
+        if name not in after:
+            yield Difference("field-removed", f"{path}.{was.name}", was.wire.name)
+    kept = [name for name in before if name in after]
+    order = [name for name in after if name in before]
+    yield from _changed("field-order", path, ", ".join(kept), ", ".join(order))
+
+
+def _number(path: str, old: WireField, new: WireField) -> Iterator[Difference]:
+    if old.wire != new.wire:
+        yield Difference("field-type", f"{path}.type", old.wire.name, new.wire.name)
+    else:
+        yield from _range(f"{path}.range", (old.low, old.high), (new.low, new.high))
+    for name in ("unit", "scale"):
+        was, now = getattr(old.field, name), getattr(new.field, name)
+        yield from _changed("field-unit", f"{path}.{name}", was or None, now or None)
+    yield from _values(f"{path}.values", old, new)
+
+
+def _values(path: str, old: WireField, new: WireField) -> Iterator[Difference]:
+    was = {name: value.value for name, value in old.field.values.items()}
+    now = {name: value.value for name, value in new.field.values.items()}
+    names = _renamed(was, now)
+    before = {names.get(name, name): (name, value) for name, value in was.items()}
+    for name, value in now.items():
+        if name not in before:
+            yield Difference("value-added", f"{path}.{name}", None, str(value))
+            continue
+        yield from _changed("value-renamed", f"{path}.{name}", before[name][0], name)
+        yield from _changed("value-changed", f"{path}.{name}", before[name][1], value)
+    for name, (called, value) in before.items():
+        if name not in now:
+            yield Difference("value-removed", f"{path}.{called}", str(value))
+
+
+def _list(path: str, old: Repeat | None, new: Repeat | None) -> Iterator[Difference]:
+    if old is None or new is None:
+        if new is not None:
+            yield Difference("field-added", f"{path}.{new.name}", None, "a list")
+        if old is not None:
+            yield Difference("field-removed", f"{path}.{old.name}", "a list")
+        return
+    here = f"{path}.{new.name}"
+    yield from _changed("field-renamed", here, old.name, new.name)
+    yield from _changed("element", f"{here}.element", old.element, new.element)
+    yield from _range(f"{here}.count", (old.low, old.high), (new.low, new.high))
+    if old.element is None and new.element is None:
+        yield from _number(here, old.fields[0], new.fields[0])
+    else:
+        yield from _fields(f"{here}.fields", old.fields, new.fields)
+
+
+def _range(path: str, old: tuple[int, int], new: tuple[int, int]) -> Iterator[Difference]:
+    wider = new[0] <= old[0] and old[1] <= new[1]
+    kind = "range-widened" if wider else "range-narrowed"
+    yield from _changed(kind, path, *(f"{low}..{high}" for low, high in (old, new)))
+
+
+def _told(path: str, old: Message, new: Message) -> Iterator[Difference]:
+    """What no byte and no program depends on."""
+    yield from _changed(
+        "message-deprecated", f"{path}.deprecated", old.deprecated or None, new.deprecated or None
+    )
+    was = {example.hex: example for example in old.examples}
+    now = {example.hex: example for example in new.examples}
+    for hex_ in now.keys() - was.keys():
+        yield Difference("example-added", f"{path}.examples", None, to_hex(hex_))
+    for hex_ in was.keys() - now.keys():
+        yield Difference("example-removed", f"{path}.examples", to_hex(hex_))
+    said, says = _prose(old), _prose(new)
+    if any(said[what] != says[what] for what in said.keys() & says.keys()):
+        yield Difference("words", path)
+
+
+def _prose(message: Message) -> dict[object, object]:
+    """What is said of a message, and of each of its fields, named values and examples."""
+    said: dict[object, object] = {
+        "message": (message.vendor_name, message.summary, message.description, message.cite),
+        "versions": message.since,
+        "exchange": (message.echoed, message.reports),
+        **{each.hex: (each.title, each.cite, each.constructed) for each in message.examples},
+    }
+    for name, field in message.fields.items():
+        said[name] = (field.about, field.notes, field.cite)
+        inner = field.fields if isinstance(field, GroupField) else {"": field}
+        for key, number in inner.items():
+            said[name, key] = (number.about, number.notes, number.cite)
+            for word, value in number.values.items():
+                said[name, key, word] = (value.about, value.cite)
+    return said
+
+
+def _said_of_all(old: Layout, new: Layout) -> Iterator[Difference]:
+    """What is said of no message alone."""
+    was, now = (
+        {
+            "protocol": each.protocol.model_copy(update={"name": "", "version": ""}),
+            "endpoints": list(each.endpoints.values()),
+            "link": each.link.cite,
+            "frame": [part.about for part in each.frame.values()],
+            **{name: getattr(each, name) for name in _SECTIONS},
+        }
+        for each in (old.spec, new.spec)
+    )
+    yield from (Difference("words", name) for name in was if was[name] != now[name])
+
+
+def _changed(kind: str, path: str, old: object, new: object) -> Iterator[Difference]:
+    if old != new:
+        was, now = (None if each is None else str(each) for each in (old, new))
+        yield Difference(kind, path, was, now)
+
+
+def _renamed(old: Mapping[str, object], new: Mapping[str, object]) -> dict[str, str]:
+    """Old names and new ones of what is otherwise the same, where nobody has both names."""
+    gone = [name for name in old if name not in new]
+    come = [name for name in new if name not in old]
+    found: dict[str, str] = {}
+    for name in gone:
+        same = [each for each in come if new[each] == old[name] and each not in found.values()]
+        if same:
+            found[name] = same[0]
+    return found
+
+
+def _renamed_ends(old: Layout, new: Layout) -> dict[str, str]:
+    places = ({name: at for at, name in enumerate(each.spec.endpoints)} for each in (old, new))
+    return _renamed(*places)
+
+
+def _seen(way: Direction, ends: Mapping[str, str]) -> Direction:
+    """A direction between ends that may be called otherwise now."""
+    return Direction(*(ends.get(end, end) for end in (way.sender, way.receiver)))
+
+
+def _identity(message: MessageLayout, ends: Mapping[str, str]) -> object:
+    """What makes two messages of different names the same: their frames."""
+    numbers = tuple(field.wire for field in message.numbers)
+    listed = () if message.repeat is None else tuple(f.wire for f in message.repeat.fields)
+    return message.id, _seen(message.direction, ends), numbers, listed
+
+
+def _envelope(parts: Mapping[str, FramePart]) -> str:
+    """The parts of a frame, without their names: `55 55, u8 length of 2 and 3, ...`."""
+    return ", ".join(_part(part, [*parts]) for part in parts.values())
+
+
+def _part(part: FramePart, names: Iterable[str]) -> str:
+    if isinstance(part, ConstantPart):
+        return to_hex(part.bytes_)
+    if isinstance(part, LengthPart):
+        counted = [str(at) for at, name in enumerate(names, 1) if name in part.counts]
+        return f"length {part.type} of part {' and '.join(counted)}"
+    return f"{part.is_} {part.type}" if isinstance(part, IdPart) else part.is_

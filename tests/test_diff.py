@@ -1,0 +1,518 @@
+"""`framegen diff`: what changed between two editions of a spec, and what of it breaks."""
+
+import copy
+import json
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import pytest
+from framegen.cli import main
+from framegen.comparison import KINDS, differences
+from framegen.layout import Layout, derive
+
+from tests.specimens import BUSSERVO, DEMO, Data, Steps, data_of, loaded_of, renamed, yaml_of
+
+SPECS = {"busservo": data_of(BUSSERVO), "greenhouse": data_of(DEMO)}
+GONE = "(gone)"
+
+
+def derived(data: Data) -> Layout:
+    """The layout of a spec that need not agree with itself: one fact is changed at a time."""
+    spec = loaded_of(data).spec
+    assert spec is not None
+    return derive(spec)
+
+
+def with_(data: Data, *path_and_value: Any) -> Data:
+    """A copy with a value at a path, or without what is GONE."""
+    *steps, last, value = path_and_value
+    changed = copy.deepcopy(data)
+    around = changed
+    for step in steps:
+        around = around[step]
+    if value == GONE:
+        del around[last]
+    else:
+        around[last] = value
+    return changed
+
+
+def told(old: Data, new: Data) -> list[str]:
+    """Each difference as the command has it."""
+    found = differences(derived(old), derived(new))
+    return [f"{each.breaks} {each.path}: {each.kind}: {each}" for each in found]
+
+
+SERVO, HOUSE = SPECS["busservo"], SPECS["greenhouse"]
+MOVE = ("messages", "ServoMove")
+VENTS = ("messages", "VentsOpen")
+ANGLE = (*VENTS, "fields", "vents", "fields", "angle")
+
+
+def reordered(data: Data, path: Steps, order: list[str]) -> Data:
+    here: Any = data
+    for step in path:
+        here = here[step]
+    return with_(data, *path, {name: here[name] for name in order})
+
+
+BEEP: Data = {
+    "id": 40,
+    "direction": "host -> controller",
+    "summary": "Beep.",
+    "cite": "vendor, section 1.8",
+    "length": "3",
+    "fields": {"times": {"type": "u8", "about": "How often."}},
+    "examples": [],
+}
+
+# Two editions, and what there is to be told.
+CASES: list[tuple[Data, Data, list[str]]] = [
+    # ------------------------------------------------------------------ the line
+    (
+        SERVO,
+        with_(SERVO, "link", "baud", 19200),
+        ["wire link.baud: link: 9600 became 19200"],
+    ),
+    (
+        HOUSE,
+        with_(HOUSE, "link", "parity", GONE),
+        ["wire link.parity: link: even became none"],
+    ),
+    (
+        SERVO,
+        with_(SERVO, "byte_order", "big"),
+        ["wire byte_order: byte-order: little became big"],
+    ),
+    (
+        SERVO,
+        with_(SERVO, "frame", "header", "bytes", "55 AA"),
+        [
+            (
+                "wire frame: frame: 55 55, length u8 of part 2 and 3 and 4, id u8, body became "
+                "55 AA, length u8 of part 2 and 3 and 4, id u8, body"
+            )
+        ],
+    ),
+    (
+        HOUSE,
+        with_(HOUSE, "frame", "size", "counts", ["size", "payload"]),
+        [
+            (
+                "wire frame: frame: C3 5A A5, id u8, length u16 of part 4, body became "
+                "C3 5A A5, id u8, length u16 of part 3 and 4, body"
+            ),
+        ],
+    ),
+    # The name of a part is on no wire.
+    (HOUSE, renamed(HOUSE, "preamble", "start"), ["nothing lookalikes: words: is said otherwise"]),
+    (
+        SERVO,
+        with_(SERVO, "protocol", "name", "servobus"),
+        ["programs protocol.name: library-renamed: busservo became servobus"],
+    ),
+    (
+        SERVO,
+        with_(SERVO, "protocol", "version", "2.0.0"),
+        [
+            f"nothing protocol.version: version: {SERVO['protocol']['version']} became 2.0.0",
+        ],
+    ),
+    (
+        HOUSE,
+        renamed(HOUSE, "display", "screen"),
+        [
+            "programs endpoints.screen: endpoint-renamed: display became screen",
+            (
+                "nothing messages.TextShow.deprecated: message-deprecated: "
+                "The display reads the bus by itself since 2024. became "
+                "The screen reads the bus by itself since 2024."
+            ),
+            "nothing messages.TextShow: words: is said otherwise",
+            "nothing protocol: words: is said otherwise",
+        ],
+    ),
+    # ------------------------------------------------------------------ messages
+    (
+        SERVO,
+        with_(SERVO, "messages", "Beep", BEEP),
+        ["nothing messages.Beep: message-added: Beep is new"],
+    ),
+    (
+        with_(SERVO, "messages", "Beep", BEEP),
+        SERVO,
+        ["wire messages.Beep: message-removed: Beep is gone"],
+    ),
+    (
+        SERVO,
+        with_(SERVO, *MOVE, "id", 4),
+        ["wire messages.ServoMove.id: message-id: 3 became 4"],
+    ),
+    (
+        HOUSE,
+        with_(HOUSE, "messages", "TextShow", "direction", "gateway -> station"),
+        [
+            (
+                "wire messages.TextShow.direction: message-direction: "
+                "gateway -> display became gateway -> station"
+            )
+        ],
+    ),
+    (
+        HOUSE,
+        renamed(HOUSE, "StationState", "Measured"),
+        [
+            "programs messages.Measured: message-renamed: StationState became Measured",
+            "nothing errata: words: is said otherwise",
+            "nothing unknowns: words: is said otherwise",
+        ],
+    ),
+    (
+        HOUSE,
+        with_(HOUSE, "messages", "StationRead", "reply", GONE),
+        ["wire messages.StationRead.reply: message-reply: StationState is gone"],
+    ),
+    (
+        HOUSE,
+        with_(HOUSE, "messages", "VentJammed", "deprecated", "Vents do not jam any more."),
+        [
+            (
+                "nothing messages.VentJammed.deprecated: message-deprecated: "
+                "Vents do not jam any more. is new"
+            )
+        ],
+    ),
+    # ------------------------------------------------------------------ methods
+    (
+        HOUSE,
+        with_(HOUSE, *VENTS, "method", "open(ramp_s, vents)"),
+        [
+            "programs messages.VentsOpen.method: method-renamed: vents_open became open",
+            (
+                "programs messages.VentsOpen.method: method-arguments: "
+                "(vents, ramp_s) became (ramp_s, vents)"
+            ),
+        ],
+    ),
+    (
+        HOUSE,
+        with_(HOUSE, "messages", "StationRead", "method", "station_read() -> readings"),
+        ["programs messages.StationRead.method: method-result: readings is new"],
+    ),
+    # ------------------------------------------------------------------ fields
+    (
+        HOUSE,
+        with_(HOUSE, "messages", "VentJammed", "fields", "trim", GONE),
+        ["wire messages.VentJammed.fields.trim: field-removed: i8 is gone"],
+    ),
+    (
+        with_(HOUSE, "messages", "VentJammed", "fields", "trim", GONE),
+        HOUSE,
+        ["wire messages.VentJammed.fields.trim: field-added: i8 is new"],
+    ),
+    (
+        HOUSE,
+        renamed(HOUSE, "trim", "offset"),
+        ["programs messages.VentJammed.fields.offset: field-renamed: trim became offset"],
+    ),
+    (
+        HOUSE,
+        reordered(HOUSE, ("messages", "VentJammed", "fields"), ["trim", "vent_id"]),
+        ["wire messages.VentJammed.fields: field-order: vent_id, trim became trim, vent_id"],
+    ),
+    (
+        HOUSE,
+        with_(HOUSE, "messages", "VentJammed", "fields", "trim", "type", "i16"),
+        ["wire messages.VentJammed.fields.trim.type: field-type: i8 became i16"],
+    ),
+    (
+        SERVO,
+        with_(SERVO, *MOVE, "fields", "time_ms", "unit", "s"),
+        ["wire messages.ServoMove.fields.time_ms.unit: field-unit: ms became s"],
+    ),
+    (
+        HOUSE,
+        with_(HOUSE, "messages", "StationState", "fields", "readings", "scale", GONE),
+        ["wire messages.StationState.fields.readings.scale: field-unit: 0.01 K is gone"],
+    ),
+    (
+        HOUSE,
+        with_(HOUSE, *ANGLE, "type", "i8"),
+        ["wire messages.VentsOpen.fields.vents.fields.angle.type: field-type: i16 became i8"],
+    ),
+    (
+        HOUSE,
+        with_(HOUSE, *ANGLE, "range", "-900..800"),
+        [
+            (
+                "wire messages.VentsOpen.fields.vents.fields.angle.range: range-narrowed: "
+                "-900..900 became -900..800"
+            )
+        ],
+    ),
+    (
+        HOUSE,
+        with_(HOUSE, *ANGLE, "range", GONE),
+        [
+            (
+                "nothing messages.VentsOpen.fields.vents.fields.angle.range: range-widened: "
+                "-900..900 became -32768..32767"
+            )
+        ],
+    ),
+    (
+        HOUSE,
+        with_(HOUSE, *ANGLE, "range", "-800..1000"),
+        [
+            (
+                "wire messages.VentsOpen.fields.vents.fields.angle.range: range-narrowed: "
+                "-900..900 became -800..1000"
+            )
+        ],
+    ),
+    (
+        HOUSE,
+        with_(HOUSE, *VENTS, "fields", "vents", "count", "0..8"),
+        ["nothing messages.VentsOpen.fields.vents.count: range-widened: 1..8 became 0..8"],
+    ),
+    (
+        HOUSE,
+        with_(HOUSE, *VENTS, "fields", "vents", "count", "1..7"),
+        ["wire messages.VentsOpen.fields.vents.count: range-narrowed: 1..8 became 1..7"],
+    ),
+    (
+        SERVO,
+        # What was left open, and what the frame has room for.
+        with_(SERVO, *MOVE, "fields", "targets", "count", "1..83"),
+        [],
+    ),
+    (
+        HOUSE,
+        renamed(HOUSE, "vent_count", "how_many"),
+        ["nothing messages.VentsOpen.fields.how_many: count-renamed: vent_count became how_many"],
+    ),
+    (
+        HOUSE,
+        renamed(HOUSE, "readings", "values"),
+        [
+            "programs messages.StationState.fields.values: field-renamed: readings became values",
+            "nothing errata: words: is said otherwise",
+            "nothing unknowns: words: is said otherwise",
+        ],
+    ),
+    (
+        HOUSE,
+        renamed(HOUSE, "ramp_s", "seconds"),
+        [
+            "programs messages.VentsOpen.fields.seconds: field-renamed: ramp_s became seconds",
+            (
+                "programs messages.VentsOpen.method: method-arguments: "
+                "(vents, ramp_s) became (vents, seconds)"
+            ),
+        ],
+    ),
+    (
+        HOUSE,
+        with_(HOUSE, *VENTS, "fields", "vents", "element", "Flap"),
+        ["programs messages.VentsOpen.fields.vents.element: element: Vent became Flap"],
+    ),
+    # ------------------------------------------------------------------ named values
+    (
+        HOUSE,
+        with_(HOUSE, *VENTS, "fields", "ramp_s", "values", GONE),
+        ["programs messages.VentsOpen.fields.ramp_s.values.at_once: value-removed: 0 is gone"],
+    ),
+    (
+        with_(HOUSE, *VENTS, "fields", "ramp_s", "values", GONE),
+        HOUSE,
+        ["nothing messages.VentsOpen.fields.ramp_s.values.at_once: value-added: 0 is new"],
+    ),
+    (
+        HOUSE,
+        renamed(HOUSE, "at_once", "now"),
+        ["programs messages.VentsOpen.fields.ramp_s.values.now: value-renamed: at_once became now"],
+    ),
+    (
+        HOUSE,
+        with_(HOUSE, *VENTS, "fields", "ramp_s", "values", "at_once", "value", 1),
+        ["wire messages.VentsOpen.fields.ramp_s.values.at_once: value-changed: 0 became 1"],
+    ),
+    # ------------------------------------------------------------------ what is said
+    (
+        HOUSE,
+        with_(HOUSE, "messages", "TextShow", "examples", 0, "hex", "C3 5A A5 10 00 04 00 00 00 01"),
+        [
+            (
+                "nothing messages.TextShow.examples: example-added: "
+                "C3 5A A5 10 00 04 00 00 00 01 is new"
+            ),
+            (
+                "nothing messages.TextShow.examples: example-removed: "
+                "C3 5A A5 10 00 04 FF FF FF FE is gone"
+            ),
+        ],
+    ),
+    (
+        HOUSE,
+        with_(HOUSE, *ANGLE, "about", "How far it opens."),
+        ["nothing messages.VentsOpen: words: is said otherwise"],
+    ),
+    (HOUSE, with_(HOUSE, "reserved", []), ["nothing reserved: words: is said otherwise"]),
+]
+
+
+def _named(case: object) -> str:
+    return case[0] if isinstance(case, list) and case else ""
+
+
+@pytest.mark.parametrize(("old", "new", "expected"), CASES, ids=_named)
+def test_a_difference_is_told_with_what_it_breaks(
+    old: Data, new: Data, expected: list[str]
+) -> None:
+    assert told(old, new) == expected
+
+
+def test_every_kind_of_difference_is_shown_above() -> None:
+    shown = {line.split(": ")[1] for _, _, lines in CASES for line in lines}
+    assert shown == set(KINDS)
+
+
+@pytest.mark.parametrize(("old", "new"), [case[:2] for case in CASES])
+def test_what_is_new_one_way_is_gone_the_other_way(old: Data, new: Data) -> None:
+    there, back = differences(derived(old), derived(new)), differences(derived(new), derived(old))
+    turned = [(each.new, each.old) for each in there]
+    assert sorted(map(str, turned)) == sorted(str((each.old, each.new)) for each in back)
+
+
+@pytest.mark.parametrize("name", SPECS)
+def test_nothing_differs_from_itself(name: str) -> None:
+    assert told(SPECS[name], copy.deepcopy(SPECS[name])) == []
+
+
+def _leaves(value: Any, path: Steps = ()) -> Iterator[tuple[Steps, Any]]:
+    if isinstance(value, dict | list):
+        for key, item in value.items() if isinstance(value, dict) else enumerate(value):
+            yield from _leaves(item, (*path, key))
+    else:
+        yield path, value
+
+
+def _other(value: Any) -> list[Any]:
+    """What might stand in the place of a value: the spec decides what can."""
+    if isinstance(value, bool) or value is None:
+        return []
+    if isinstance(value, int):
+        return [value + 1]
+    return [f"{value} too", f"{value}2", "host -> controller", "55 55 02 07", "0..9", "u8", "odd"]
+
+
+def follows(path: Steps) -> bool:
+    """Whether it follows from other facts, and is compared where those are."""
+    return path[-1] in {"length", "covers", "counted_by"} or {"examples", "values"} <= {*path}
+
+
+def test_no_fact_changes_unseen() -> None:
+    """One text or number at a time, wherever the spec can be read with another in its place."""
+    before = derived(HOUSE)
+    seen = 0
+    for path, value in _leaves(HOUSE):
+        for other in () if follows(path) else _other(value):
+            try:
+                after = derived(with_(HOUSE, *path, other))
+            except (AssertionError, KeyError, StopIteration):
+                continue
+            if other != value:
+                assert differences(before, after), (path, value, other)
+                seen += 1
+                break
+    assert seen > 130
+
+
+# ------------------------------------------------------------------ the command
+
+
+def written(folder: Path, name: str, data: Data) -> str:
+    file = folder / name
+    file.write_text(yaml_of(data), encoding="utf-8")
+    return str(file)
+
+
+@pytest.mark.parametrize(
+    ("change", "code", "line", "summary"),
+    [
+        (
+            ("link", "baud", 9600),
+            1,
+            "wire      link.baud: link: 19200 became 9600\n",
+            "1 difference: 1 break the wire, 0 break programs\n",
+        ),
+        (
+            ("protocol", "name", "hothouse"),
+            1,
+            "programs  protocol.name: library-renamed: greenhouse became hothouse\n",
+            "1 difference: 0 break the wire, 1 break programs\n",
+        ),
+        (
+            ("protocol", "summary", "Frames."),
+            0,
+            "nothing   protocol: words: is said otherwise\n",
+            "1 difference: 0 break the wire, 0 break programs\n",
+        ),
+        (("protocol", "name", "greenhouse"), 0, "", "nothing changed that a spec says\n"),
+    ],
+)
+def test_the_exit_code_tells_whether_anything_breaks(
+    tmp_path: Path,
+    capsys: pytest.CaptureFixture[str],
+    change: tuple[Any, ...],
+    code: int,
+    line: str,
+    summary: str,
+) -> None:
+    old = written(tmp_path, "old.yaml", HOUSE)
+    new = written(tmp_path, "new.yaml", with_(HOUSE, *change))
+    assert main(["diff", old, new]) == code
+    assert capsys.readouterr() == (line, summary)
+
+
+def test_what_breaks_most_comes_first(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    changed = with_(HOUSE, "protocol", "name", "hothouse")
+    changed = with_(changed, "messages", "StationRead", "id", 0x20)
+    for example in changed["messages"]["StationRead"]["examples"]:
+        example["hex"] = "C3 5A A5 20 00 00"
+    files = written(tmp_path, "old.yaml", HOUSE), written(tmp_path, "new.yaml", changed)
+    assert main(["diff", *files]) == 1
+    assert [line.split()[0] for line in capsys.readouterr().out.splitlines()] == [
+        "wire",
+        "programs",
+        "nothing",
+        "nothing",
+    ]
+
+
+def test_a_difference_is_a_line_of_json(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    files = (
+        written(tmp_path, "old.yaml", HOUSE),
+        written(tmp_path, "new.yaml", with_(HOUSE, "link", "baud", 9600)),
+    )
+    assert main(["diff", *files, "--json"]) == 1
+    assert [json.loads(line) for line in capsys.readouterr().out.splitlines()] == [
+        {"breaks": "wire", "kind": "link", "path": "link.baud", "old": "19200", "new": "9600"}
+    ]
+
+
+def test_a_spec_with_findings_is_not_compared(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    broken = written(tmp_path, "broken.yaml", with_(HOUSE, *VENTS, "length", "5"))
+    assert main(["diff", broken, str(DEMO)]) == 2
+    assert "length-rule" in capsys.readouterr().err
+
+
+def test_what_is_compared_with_is_the_spec_of_the_project(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(BUSSERVO.parent)
+    assert main(["diff", written(tmp_path, "same.yaml", SERVO)]) == 0
+    assert capsys.readouterr().err == "nothing changed that a spec says\n"
