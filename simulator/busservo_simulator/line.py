@@ -101,8 +101,9 @@ class Line:
         self._to_host.clear()
 
     def mend(self) -> None:
-        """Makes it whole again."""
+        """Makes it whole again, also where it was only about to be cut."""
         self.hung_up = False
+        self._hangs_up_at = None
 
     @property
     def _next_inside(self) -> float | None:

@@ -142,6 +142,18 @@ def test_the_line_is_cut_in_the_middle_of_a_frame() -> None:
         assert host.ask(ASK) == VOLTAGE
 
 
+def test_a_cable_that_is_put_back_is_not_cut_by_what_was_due_before() -> None:
+    with faulty(hang_up=1, delays=1, longest_delay=0.5) as board:
+        host = host_of(board)
+        host.say(ASK)
+        board.advance(0.001)
+        board.faults = Faults()
+        board.plug_in()
+        board.advance(1)
+        board.transport.read(1)  # the half of the frame that was on its way
+        assert host.ask(ASK) == VOLTAGE
+
+
 @pytest.mark.garbage
 def test_noise_on_the_way_to_the_board_costs_no_frame() -> None:
     with faulty(noise_to_board=1) as board:
