@@ -18,6 +18,7 @@ was given.
 from __future__ import annotations
 
 from collections import deque
+from copy import copy
 from typing import TYPE_CHECKING
 
 from .counters import LineCounters
@@ -158,9 +159,11 @@ class Session:
         """Takes in that it is `now`, and that all which arrived before has been received."""
         asked = self._asked
         expired = asked is not None and now >= self._ends_at(asked)
-        if self._decoder.pending and (expired or now - self._heard_at >= self._margin):
+        if self._decoder.pending and now - self._heard_at >= self._margin:
             # The line has gone quiet: half a frame must not grow together with the next reply.
             self._take_in(self._decoder.flush(), now)
+        elif self._decoder.pending and expired:
+            self._look_behind(now)
         self._overdue = [each for each in self._overdue if each.until > now]
         if asked is None or not expired or asked.done:
             return
@@ -218,6 +221,14 @@ class Session:
         self._take_in(self._decoder.flush(), self._heard_at)
         self._decoder = StreamDecoder(RECEIVED)
         self.wire.free_at = float("-inf")
+
+    def _look_behind(self, now: float) -> None:
+        """Takes what a false header is holding back; half a frame is left to come in full."""
+        decoder = copy(self._decoder)
+        events = decoder.flush()
+        if any(not isinstance(event, Noise) for event in events):
+            self._decoder = decoder
+            self._take_in(events, now)
 
     @staticmethod
     def _ends_at(asked: Request) -> float:

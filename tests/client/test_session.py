@@ -269,6 +269,31 @@ def test_half_a_frame_does_not_grow_together_with_the_next_reply() -> None:
     assert request.reply == BatteryVoltage(7400)
 
 
+def test_half_a_report_is_not_lost_because_a_request_times_out_meanwhile() -> None:
+    line = session()
+    request = asked(line, BatteryVoltageRead())
+    report = ActionGroupCompleted(8, 1)
+    assert line.tick_at is not None
+    expires = line.tick_at
+    line.receive(report.encode()[:4], expires - 0.01)
+    line.tick(expires)
+    assert isinstance(request.error, NoReplyError)
+    line.receive(report.encode()[4:], expires + 0.01)
+    assert line.reports.take() == report
+    assert line.counters.noise == 0
+
+
+def test_a_reply_behind_a_false_header_is_found_before_the_time_is_up() -> None:
+    line = session()
+    request = asked(line, BatteryVoltageRead())
+    line.receive(bytes.fromhex("55 55 21 15 0A") + BatteryVoltage(7500).encode(), 0.25)
+    assert not request.done
+    assert line.tick_at is not None
+    line.tick(line.tick_at)
+    assert request.reply == BatteryVoltage(7500)
+    assert line.counters.noise == 5
+
+
 def test_more_than_a_reply_can_tell_is_refused() -> None:
     line = session()
     line.submit(ServoPositionsRead(range(84)))
