@@ -203,6 +203,15 @@ def test_what_does_not_fit_the_language_is_told_in_its_words(
     assert f".{finding.path}".startswith("".join(steps))
 
 
+def test_a_key_that_is_no_number_is_told_once_however_its_value_looks() -> None:
+    data = data_of(DEMO)
+    data["lookalikes"]["old_stations"]["commands"] = {"lit": {"what": "It shines."}}
+    found = [(f.path, f.message) for f in loaded_of(data).findings]
+    path = "lookalikes.old_stations.commands.lit"
+    assert found[0] == (path, "a whole number is expected here, not `lit`")
+    assert {each for each, _ in found} == {path}
+
+
 # ------------------------------------------------------------------ the rules themselves
 
 
@@ -302,6 +311,10 @@ def test_a_misspelt_word_is_guessed_or_the_choices_are_named(
     assert did_you_mean(word, known, otherwise=otherwise) == hint
 
 
+def test_where_nothing_is_known_nothing_is_guessed() -> None:
+    assert did_you_mean("size", []) == ""
+
+
 def test_findings_come_from_the_top_of_the_file_down() -> None:
     text = (SPECS / "demo.yaml").read_text(encoding="utf-8")
     broken = text.replace("cite: manual, section 2\n", "cite: manaul, section 2\n")
@@ -337,6 +350,20 @@ def test_a_lookalike_is_recognised(
     found = recognise(spec, bytes.fromhex(hex_))
     told = (None, None, None) if found is None else (found.name, found.command, found.meaning)
     assert told == (name, command, meaning)
+
+
+@pytest.mark.parametrize(("order", "size"), [("big", "00 01"), ("little", "01 00")])
+def test_a_lookalike_is_cut_into_its_parts_in_the_byte_order(order: str, size: str) -> None:
+    spec = loaded_of({**data_of(DEMO), "byte_order": order}).spec
+    assert spec is not None
+    found = recognise(spec, bytes.fromhex(f"C3 5A A5 21 {size} FF"))
+    assert found is not None
+    assert found.parts == {
+        "preamble": b"\xc3\x5a\xa5",
+        "kind": b"\x21",
+        "size": bytes.fromhex(size),
+        "payload": b"\xff",
+    }
 
 
 # ------------------------------------------------------------------ what is no spec at all

@@ -1,11 +1,22 @@
 """Edges that mutation of the code has shown to be unguarded; docs/testing.md tells how."""
 
+import busservo
 import pytest
-from busservo import DecodeError, EncodeError, Reason, ServoMove
+from busservo import (
+    DecodeError,
+    EncodeError,
+    Message,
+    Noise,
+    Reason,
+    ServoMove,
+    StreamDecoder,
+)
+from busservo.table import worded
 from framegen.codec import NotAFrame, decode, describe_range, encode
 from framegen.layout import derive
 from framegen.values import Citation, Direction
 
+from tests.cases import CASES
 from tests.specimens import BUSSERVO, DEMO, data_of, layout_of, loaded_of
 
 
@@ -107,3 +118,101 @@ def test_what_is_no_frame_is_told_in_full(text: str, expected: str) -> None:
     with pytest.raises(NotAFrame) as refused:
         decode(layout, Direction("gateway", "station"), bytes.fromhex(text))
     assert refused.value.expected == expected
+
+
+# ------------------------------------------------------------------ the library
+
+
+def test_the_class_of_all_messages_says_what_to_do_instead() -> None:
+    with pytest.raises(TypeError) as unmade:
+        Message()
+    assert str(unmade.value) == (
+        "Message is what all messages are: make one of its subclasses instead"
+    )
+    with pytest.raises(TypeError) as unread:
+        Message.decode(b"\x55\x55\x02\x07")
+    assert str(unread.value) == (
+        "Message is what all messages are: decode with one of its subclasses, "
+        "or with the function `decode` of this package"
+    )
+
+
+def test_what_differs_is_spread_over_a_table() -> None:
+    """Frames that are equal in both directions, and noise of one reason and another, too."""
+    messages = [case.message for case in CASES]
+    assert len({*map(hash, messages)}) == len({*messages})
+    noise = [Noise(data, reason) for data in (b"", b"\x55", b"\0") for reason in Reason]
+    assert len({*map(hash, noise)}) == len(noise)
+
+
+@pytest.mark.parametrize(
+    ("given", "said"),
+    [
+        (2**128 - 1, f"{2**128 - 1} is outside 0..65535"),
+        (2**128, "an integer of 129 bits is outside 0..65535"),
+        ("x" * 58, f"'{'x' * 58}' is not a whole number, but a str"),
+        ("x" * 59, f"'{'x' * 56}... is not a whole number, but a str"),
+        (..., "Ellipsis is not a whole number, but an ellipsis"),
+        (None, "None is not a whole number, but nothing"),
+    ],
+)
+def test_a_value_is_shown_as_far_as_it_helps(given: object, said: str) -> None:
+    with pytest.raises(EncodeError) as refused:
+        ServoMove(given, [(1, 800)])  # type: ignore[arg-type]
+    assert str(refused.value) == f"time_ms: {said}"
+
+
+class OldTruth:
+    """A truth value as NumPy had it before its version 2: a number, too."""
+
+    dtype = "bool"
+
+    def __index__(self) -> int:
+        return 1
+
+    def __repr__(self) -> str:
+        return "True"
+
+
+def test_a_truth_value_that_is_a_number_is_refused() -> None:
+    with pytest.raises(EncodeError) as refused:
+        ServoMove(OldTruth(), [(1, 800)])  # type: ignore[arg-type]
+    assert str(refused.value) == "time_ms: True is a truth value, not a whole number"
+
+
+@pytest.mark.parametrize(
+    ("frame", "said"),
+    [
+        ("55", "a frame begins 55 55"),
+        ("55 55", "the shortest frame has 4 bytes"),
+        ("55 55 02 63", "the command is 99, and only 3, 6, 7, 8, 11, 15, 20, 21 can be here"),
+        (
+            "55 55 06 06 08 01 00",
+            "the length is 6, and must be 5 (ActionGroupRun, ActionGroupStarted)",
+        ),
+        (
+            "55 55 02 15",
+            (
+                "the length is 2, and must be 4..255 (ServoPositionsRead) "
+                "or 3, 6, 9 .. 255 (ServoPositions)"
+            ),
+        ),
+        ("55 55 02 07 00", "ActionGroupStop with this length has 4 bytes, not 5"),
+    ],
+)
+def test_a_frame_that_is_none_is_told_in_full(frame: str, said: str) -> None:
+    with pytest.raises(DecodeError) as refused:
+        busservo.decode(bytes.fromhex(frame), None)
+    assert refused.value.problem == said
+
+
+def test_five_lengths_are_too_many_to_be_listed() -> None:
+    assert worded(range(4)) == "0, 1, 2, 3"
+    assert worded(range(5)) == "0..4"
+    assert worded(range(0, 10, 2)) == "0, 2, 4 .. 8"
+
+
+def test_each_unknown_frame_is_counted() -> None:
+    decoder = StreamDecoder(None)
+    decoder.feed(bytes.fromhex("55 55 03 01 2A 55 55 03 02 2A"))
+    assert decoder.counters.unknown_frames == 2

@@ -84,7 +84,7 @@ def _finding(tree: Tree, problem: Any) -> Finding:
     steps = problem["loc"]
     path = tuple(_steps_in(tree, steps))
     kind, context = problem["type"], problem.get("ctx", {})
-    last = str(steps[-1]) if steps else ""
+    last = str(steps[-1])
     if kind == "missing":
         message, hint = f"the key `{last}` is missing", _described(path, last)
         return Finding("missing-key", tree.key_at(path), dotted(path), message, hint)
