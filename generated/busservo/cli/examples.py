@@ -5,7 +5,7 @@
 from __future__ import annotations
 
 PROGRAM = "busservo"
-SUMMARY = "Send, read, record and replay the frames of: Hiwonder bus servo controller."
+SUMMARY = "Send, read and replay frames of: Hiwonder bus servo controller."
 
 VERBS = {
     "bench-line": "Measure how long questions take on a line, against what it allows.",

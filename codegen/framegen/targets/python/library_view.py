@@ -166,7 +166,7 @@ class LibraryView:
     @property
     def command_summary(self) -> str:
         """What the command is for."""
-        return f"Send, read, record and replay the frames of: {self.layout.spec.protocol.title}."
+        return f"Send, read and replay frames of: {self.layout.spec.protocol.title}."
 
     @property
     def decode_examples(self) -> list[str]:
