@@ -419,6 +419,27 @@ def test_a_file_that_is_refused_is_named_with_what_to_do(
     assert (str(refused.value), refused.value.hint) == (f"{file.as_posix()} {said}", hint)
 
 
+@pytest.mark.parametrize(
+    ("error", "reason"),
+    [
+        (PermissionError(13, "Permission denied"), "Permission denied"),
+        (ValueError("embedded null byte"), "embedded null byte"),
+    ],
+)
+def test_a_file_that_cannot_be_read_is_refused_with_the_reason(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, error: Exception, reason: str
+) -> None:
+    def unreadable(_: Path) -> bytes:
+        raise error
+
+    file = tmp_path / "spec.yaml"
+    file.write_bytes(b"framegen: 1")
+    monkeypatch.setattr(Path, "read_bytes", unreadable)
+    with pytest.raises(Unusable) as refused:
+        read_source(file)
+    assert str(refused.value) == f"{file.as_posix()} cannot be read: {reason}"
+
+
 def test_a_folder_is_refused_with_what_to_name_instead(tmp_path: Path) -> None:
     with pytest.raises(Unusable) as refused:
         read_source(tmp_path)
