@@ -105,6 +105,13 @@ def test_a_question_that_no_frame_carries_is_refused_before_anything_is_sent(wro
     assert line.received == []
 
 
+def test_a_wrong_element_is_named_by_its_place_in_the_whole_list() -> None:
+    line = VirtualLine(at_once)
+    with pytest.raises(EncodeError, match=r"servo_ids\[100\]: 300 is outside 0\.\.255"):
+        virtual(line).read_servo_positions([*range(100), 300])
+    assert line.received == []
+
+
 def test_what_did_not_arrive_is_named_and_what_did_is_kept() -> None:
     def answer(message: Message) -> list[tuple[float, bytes | Message]]:
         assert isinstance(message, ServoPositionsRead)
