@@ -395,6 +395,44 @@ def test_a_file_that_is_not_there_is_refused(tmp_path: Path) -> None:
         read_source(tmp_path)
 
 
+@pytest.mark.parametrize(
+    ("data", "said", "hint"),
+    [
+        (None, "does not exist", "name a spec file, or run this where spec/*.yaml is"),
+        (b"\xff", "is not UTF-8 text: byte 0 is 0xFF", "save it as UTF-8"),
+        (
+            b"#" * (MAX_BYTES + 1),
+            "has 1.0 MB, and a spec has at most 1 MB",
+            "is it the right file?",
+        ),
+    ],
+    ids=["absent", "binary", "huge"],
+)
+def test_a_file_that_is_refused_is_named_with_what_to_do(
+    tmp_path: Path, data: bytes | None, said: str, hint: str
+) -> None:
+    file = tmp_path / "spec.yaml"
+    if data is not None:
+        file.write_bytes(data)
+    with pytest.raises(Unusable) as refused:
+        read_source(file)
+    assert (str(refused.value), refused.value.hint) == (f"{file.as_posix()} {said}", hint)
+
+
+def test_a_folder_is_refused_with_what_to_name_instead(tmp_path: Path) -> None:
+    with pytest.raises(Unusable) as refused:
+        read_source(tmp_path)
+    assert str(refused.value) == f"{tmp_path.as_posix()} is not a file"
+    assert refused.value.hint == "name the spec itself, such as spec/busservo.yaml"
+
+
+def test_a_file_of_the_largest_size_is_read(tmp_path: Path) -> None:
+    file = tmp_path / "spec.yaml"
+    file.write_bytes(b"#" * MAX_BYTES)
+    source = read_source(file)
+    assert (source.name, len(source.text)) == (file.as_posix(), MAX_BYTES)
+
+
 @pytest.mark.parametrize("start", [b"", b"\xef\xbb\xbf"], ids=["plain", "byte order mark"])
 @pytest.mark.parametrize("end", [b"\n", b"\r\n"], ids=["lf", "crlf"])
 def test_line_ends_and_a_byte_order_mark_change_nothing(

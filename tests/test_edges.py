@@ -152,6 +152,8 @@ def test_what_differs_is_spread_over_a_table() -> None:
         (2**128, "an integer of 129 bits is outside 0..65535"),
         ("x" * 58, f"'{'x' * 58}' is not a whole number, but a str"),
         ("x" * 59, f"'{'x' * 56}... is not a whole number, but a str"),
+        # Python refuses to write out a number of so many digits.
+        ([10**5000], "a list is not a whole number, but a list"),
         (..., "Ellipsis is not a whole number, but an ellipsis"),
         (None, "None is not a whole number, but nothing"),
     ],
