@@ -317,7 +317,7 @@ class Client:
     def _reply(self, message: Message, kind: type[_Reply]) -> _Reply:
         reply = self.request(message)
         if not isinstance(reply, kind):
-            raise AssertionError(f"{message!r} is answered by {type(reply).__name__}")
+            raise TypeError(f"{message!r} is answered by {type(reply).__name__}")
         return reply
 
     def _done(self, message: Message, retries: int | None) -> Request:
@@ -351,8 +351,6 @@ class Client:
         self._send_due()
         if self._session.counters.sent != sent:
             self._changed.notify_all()
-            return
-        if self._failure is not None:
             return
         now = self._clock()
         times = [now + SLICE, self._session.send_at(now), until]

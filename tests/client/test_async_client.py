@@ -374,6 +374,9 @@ def test_a_question_of_one_request_names_what_its_reply_lacks() -> None:
                 await controller._ask(ServoPositionsRead([1, 2, 3]), ServoPositions)
             assert caught.value.missing == (1, 3)
             assert caught.value.arrived == ((2, 20),)
+        async with AsyncController(LiveLine()) as controller:
+            with pytest.raises(TypeError, match="is answered by BatteryVoltage"):
+                await controller._ask(BatteryVoltageRead(), ServoPositions)
 
     run(work())
 

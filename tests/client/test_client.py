@@ -230,6 +230,7 @@ def test_callbacks_may_use_the_client_and_fail_alone(caplog: pytest.LogCaptureFi
     assert heard == [(ActionGroupStopped(), 7500), (ActionGroupCompleted(8, 1), 7500)]
     assert "ZeroDivisionError" in caplog.text
     stop()
+    stop()  # what has been ended may be ended again
     line.say(ActionGroupStopped())
     assert list(controller.reports(timeout=0.1))[-1] == ActionGroupStopped()
     assert len(heard) == 2
@@ -393,6 +394,8 @@ def test_a_question_of_one_request_names_what_its_reply_lacks() -> None:
         virtual(line)._ask(ServoPositionsRead([1, 2, 3]), ServoPositions)
     assert caught.value.missing == (1, 3)
     assert caught.value.arrived == ((2, 20),)
+    with pytest.raises(TypeError, match="is answered by BatteryVoltage"):
+        virtual(VirtualLine(at_once))._ask(BatteryVoltageRead(), ServoPositions)
 
 
 def test_what_is_shown_of_a_client_tells_its_state() -> None:

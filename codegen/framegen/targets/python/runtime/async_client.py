@@ -282,7 +282,7 @@ class AsyncClient:
     async def _reply(self, message: Message, kind: type[_Reply]) -> _Reply:
         reply = await self.request(message)
         if not isinstance(reply, kind):
-            raise AssertionError(f"{message!r} is answered by {type(reply).__name__}")
+            raise TypeError(f"{message!r} is answered by {type(reply).__name__}")
         return reply
 
     async def _done(self, message: Message, retries: int | None) -> Request:
