@@ -218,3 +218,19 @@ def test_each_unknown_frame_is_counted() -> None:
     decoder = StreamDecoder(None)
     decoder.feed(bytes.fromhex("55 55 03 01 2A 55 55 03 02 2A"))
     assert decoder.counters.unknown_frames == 2
+
+
+def test_bytes_of_a_class_of_ones_own_are_bytes() -> None:
+    class Own(bytes):
+        __slots__ = ()
+
+    frame = ServoMove(1000, [(1, 800)]).encode()
+    assert busservo.decode(Own(frame), None) == ServoMove(1000, [(1, 800)])
+    assert StreamDecoder(None).feed(Own(frame)) == [ServoMove(1000, [(1, 800)])]
+
+
+def test_what_is_imported_only_when_asked_for_is_listed_all_the_same() -> None:
+    assert {*busservo.__all__} <= {*dir(busservo)}
+    slip = "Contoller"
+    with pytest.raises(AttributeError, match=f"has no attribute '{slip}'"):
+        getattr(busservo, slip)

@@ -130,7 +130,7 @@ class AsyncClient:
         """
         sent = (await self._done(message, None)).sent
         if sent is None:
-            raise self._closed()
+            raise AssertionError(f"{message!r} ended without an error, and was not sent")
         return sent
 
     def send_latest(self, message: Message) -> None:
@@ -150,7 +150,7 @@ class AsyncClient:
         """
         done = await self._done(message, self._retries if retries is None else retries)
         if done.reply is None:
-            raise self._closed()
+            raise AssertionError(f"{message!r} ended without an error, and without a reply")
         return done.reply
 
     async def reports(self, timeout: float | None = None) -> AsyncIterator[Message]:
@@ -258,9 +258,7 @@ class AsyncClient:
 
     async def _ask(self, message: Message, kind: type[_Reply]) -> _Reply:
         """The reply to a question, whole. Raises IncompleteReplyError."""
-        reply = await self.request(message)
-        if not isinstance(reply, kind):
-            raise TypeError(f"{message!r} is answered by {type(reply).__name__}")
+        reply = await self._reply(message, kind)
         asked, missing, arrived = lacking(message, reply)
         if missing:
             raise IncompleteReplyError(asked, missing, [reply], arrived)
@@ -273,9 +271,8 @@ class AsyncClient:
         replies: list[_Reply] = []
         asked, missing, arrived = "", [], []
         for message in parts_of(kind, items):
-            got = await self.request(message)
-            if isinstance(got, reply):
-                replies.append(got)
+            got = await self._reply(message, reply)
+            replies.append(got)
             field, lacks, came = lacking(message, got)
             asked = field or asked
             missing += lacks
@@ -283,6 +280,12 @@ class AsyncClient:
         if missing:
             raise IncompleteReplyError(asked, missing, replies, arrived)
         return replies
+
+    async def _reply(self, message: Message, kind: type[_Reply]) -> _Reply:
+        reply = await self.request(message)
+        if not isinstance(reply, kind):
+            raise TypeError(f"{message!r} is answered by {type(reply).__name__}")
+        return reply
 
     async def _done(self, message: Message, retries: int | None) -> Request:
         """Submits a message, a command where `retries` is None, and waits until it is done."""

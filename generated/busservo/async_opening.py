@@ -31,7 +31,7 @@ class Opening:
     ) -> None:
         self._open = opener
         self._make = make
-        self._controller: AsyncController | None = None
+        self._controller: AsyncController
 
     def __await__(self) -> Generator[Any, None, AsyncController]:
         return self._opened().__await__()
@@ -45,8 +45,7 @@ class Opening:
         error: BaseException | None,
         traceback: TracebackType | None,
     ) -> None:
-        if self._controller is not None:
-            await self._controller.close()
+        await self._controller.close()
 
     async def _opened(self) -> AsyncController:
         # Opening may take a while (a socket, a slow adapter), and would hold up the loop.

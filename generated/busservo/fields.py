@@ -118,14 +118,13 @@ class Items:
             raise EncodeError(self.name, values, f"{len(items)} items is outside {bounds}")
         numbers: list[int] = []
         for position, item in enumerate(items):
-            path = f"{self.name}[{position}]"
-            if self.element is None:
-                numbers.append(self.fields[0].checked(item, path))
-            else:
-                numbers += self._parts(item, path)
+            numbers += self.checked_one(item, f"{self.name}[{position}]")
         return numbers
 
-    def _parts(self, item: Any, path: str) -> list[int]:
+    def checked_one(self, item: Any, path: str) -> list[int]:
+        """The numbers of one element. Raises EncodeError, which names what stands at `path`."""
+        if self.element is None:
+            return [self.fields[0].checked(item, path)]
         parts = as_tuple(item)
         if parts is None or len(parts) != len(self.fields):
             raise EncodeError(path, item, f"{shown(item)} is not {self._wanted}")

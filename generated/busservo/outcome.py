@@ -17,13 +17,18 @@ if TYPE_CHECKING:
 
 
 def parts_of(kind: type[Message], items: Iterable[Any]) -> list[Message]:
-    """A question about a list, as several, each about as much as a reply has room for."""
+    """A question about a list, as several, each about as much as a reply has room for.
+
+    Raises EncodeError, which names the place in the whole list.
+    """
     (name,) = kind.__match_args__
     most = EXCHANGES[kind].most
     whole = as_tuple(items)
     # What is no list, or is empty, is for the message to refuse.
-    if not whole:
+    if not whole or kind.SHAPE.items is None:
         return [kind(**{name: items})]
+    for position, item in enumerate(whole):
+        kind.SHAPE.items.checked_one(item, f"{name}[{position}]")
     return [kind(**{name: whole[at : at + most]}) for at in range(0, len(whole), most)]
 
 

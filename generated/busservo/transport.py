@@ -25,7 +25,10 @@ class Transport(Protocol):
         ...
 
     def write(self, data: bytes) -> None:
-        """Hands over all of `data`, or raises. It need not be on the wire yet."""
+        """Hands over all of `data`, or raises, within a second or two: whoever writes waits for it.
+
+        It need not be on the wire yet.
+        """
         ...
 
     def drain(self, timeout: float) -> None:

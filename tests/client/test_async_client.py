@@ -18,6 +18,7 @@ from busservo import (
     ActionGroupStop,
     ActionGroupStopped,
     AsyncController,
+    BatteryVoltage,
     BatteryVoltageRead,
     ClosedError,
     Controller,
@@ -322,3 +323,90 @@ def test_moves_faster_than_the_line_do_not_pile_up() -> None:
             assert time.monotonic() - began >= 4 * 25 / 960 - 0.005
 
     run(work())
+
+
+def test_a_callback_that_fails_hurts_nobody_else_and_ends_when_told(
+    caplog: pytest.LogCaptureFixture,
+) -> None:
+    line = LiveLine()
+
+    async def work() -> None:
+        async with AsyncController(line) as controller:
+            heard: list[Message] = []
+            controller.on_report(lambda _: 1 / 0)
+            stop = controller.on_report(heard.append)
+            line.say(ActionGroupStopped())
+            assert await controller.wait_for(ActionGroupStopped, timeout=10) == ActionGroupStopped()
+            assert heard == [ActionGroupStopped()]
+            stop()
+            stop()  # what has been ended may be ended again
+            line.say(ActionGroupCompleted(8, 1))
+            await controller.wait_for(ActionGroupCompleted, timeout=10)
+            assert heard == [ActionGroupStopped()]
+
+    run(work())
+    assert caplog.text.count("ZeroDivisionError") == 2
+
+
+def test_a_client_belongs_to_the_loop_in_which_it_was_first_used() -> None:
+    async def work() -> None:
+        async with AsyncController(LiveLine()) as controller:
+
+            def elsewhere() -> None:
+                with pytest.raises(RuntimeError, match="belongs to another event loop"):
+                    asyncio.run(controller.stop_action_group())
+
+            await asyncio.get_running_loop().run_in_executor(None, elsewhere)
+            assert await controller.read_battery_voltage() == 7500
+
+    run(work())
+
+
+def test_a_question_of_one_request_names_what_its_reply_lacks() -> None:
+    """As for a protocol whose replies have room for all that can be asked at once."""
+
+    def partly(_message: Message) -> list[Message]:
+        return [ServoPositions([(2, 20)])]
+
+    async def work() -> None:
+        async with AsyncController(LiveLine(partly)) as controller:
+            with pytest.raises(IncompleteReplyError) as caught:
+                await controller._ask(ServoPositionsRead([1, 2, 3]), ServoPositions)
+            assert caught.value.missing == (1, 3)
+            assert caught.value.arrived == ((2, 20),)
+        async with AsyncController(LiveLine()) as controller:
+            with pytest.raises(TypeError, match="is answered by BatteryVoltage"):
+                await controller._ask(BatteryVoltageRead(), ServoPositions)
+
+    run(work())
+
+
+def test_a_reply_that_comes_as_its_question_is_cancelled_hurts_nobody() -> None:
+    class Counting(LiveLine):
+        reads = 0
+
+        def read(self, timeout: float) -> bytes:
+            self.reads += 1
+            return super().read(timeout)
+
+    line = Counting(silent)
+
+    async def work() -> None:
+        async with AsyncController(line, margin=10) as controller:
+            task = asyncio.ensure_future(controller.read_battery_voltage())
+            while not line.received:
+                await asyncio.sleep(0)
+            # The loop stands still meanwhile, so that both are there when it goes on: the reply,
+            # and then the end of whoever waited for it.
+            line.say(BatteryVoltage(7500))
+            before = line.reads
+            while line.reads < before + 2:
+                time.sleep(0.001)
+            task.cancel()
+            with pytest.raises(asyncio.CancelledError):
+                await task
+            assert controller.counters.replies == 1
+            await controller.stop_action_group()
+
+    run(work())
+    assert line.received == [BatteryVoltageRead(), ActionGroupStop()]

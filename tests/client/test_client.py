@@ -105,6 +105,13 @@ def test_a_question_that_no_frame_carries_is_refused_before_anything_is_sent(wro
     assert line.received == []
 
 
+def test_a_wrong_element_is_named_by_its_place_in_the_whole_list() -> None:
+    line = VirtualLine(at_once)
+    with pytest.raises(EncodeError, match=r"servo_ids\[100\]: 300 is outside 0\.\.255"):
+        virtual(line).read_servo_positions([*range(100), 300])
+    assert line.received == []
+
+
 def test_what_did_not_arrive_is_named_and_what_did_is_kept() -> None:
     def answer(message: Message) -> list[tuple[float, bytes | Message]]:
         assert isinstance(message, ServoPositionsRead)
@@ -230,6 +237,7 @@ def test_callbacks_may_use_the_client_and_fail_alone(caplog: pytest.LogCaptureFi
     assert heard == [(ActionGroupStopped(), 7500), (ActionGroupCompleted(8, 1), 7500)]
     assert "ZeroDivisionError" in caplog.text
     stop()
+    stop()  # what has been ended may be ended again
     line.say(ActionGroupStopped())
     assert list(controller.reports(timeout=0.1))[-1] == ActionGroupStopped()
     assert len(heard) == 2
@@ -384,3 +392,37 @@ def test_the_codec_pays_for_no_client() -> None:
 
     assert loaded("import busservo") == loaded("pass")
     assert "asyncio" not in loaded("import busservo; busservo.Controller")
+
+
+def test_a_question_of_one_request_names_what_its_reply_lacks() -> None:
+    """As for a protocol whose replies have room for all that can be asked at once."""
+    line = VirtualLine(lambda _: [(0.0, ServoPositions([(2, 20)]))])
+    with pytest.raises(IncompleteReplyError) as caught:
+        virtual(line)._ask(ServoPositionsRead([1, 2, 3]), ServoPositions)
+    assert caught.value.missing == (1, 3)
+    assert caught.value.arrived == ((2, 20),)
+    with pytest.raises(TypeError, match="is answered by BatteryVoltage"):
+        virtual(VirtualLine(at_once))._ask(BatteryVoltageRead(), ServoPositions)
+
+
+def test_what_is_shown_of_a_client_tells_its_state() -> None:
+    line = VirtualLine(at_once)
+    controller = virtual(line)
+    assert repr(controller) == "<Controller on virtual line, open>"
+    line.error = BrokenPipeError("nobody there")
+    with pytest.raises(DisconnectedError):
+        controller.stop_action_group()
+    assert repr(controller) == "<Controller on virtual line, failed>"
+    controller.close()
+    assert repr(controller) == "<Controller on virtual line, closed>"
+
+
+def test_what_is_shown_of_a_line_tells_its_numbers() -> None:
+    controller = virtual(VirtualLine(at_once))
+    sent = controller.send(ActionGroupStop())
+    assert repr(sent) == "Sent(ActionGroupStop(), delay=0.0000, duration=0.0042)"
+    controller.read_battery_voltage()
+    assert repr(controller.counters) == (
+        "LineCounters(lost_reports=0, noise=0, replaced=0, replies=1, reports=0, retries=0, "
+        "sent=2, strays=0, timeouts=0)"
+    )

@@ -7,7 +7,7 @@ import gc
 import threading
 import time
 from concurrent.futures import ThreadPoolExecutor
-from typing import TYPE_CHECKING, Literal
+from typing import TYPE_CHECKING, Any, Literal
 
 import pytest
 from busservo import (
@@ -17,9 +17,11 @@ from busservo import (
     Controller,
     DisconnectedError,
     PortNotFoundError,
+    ServoUnload,
     TransportError,
     open_transport,
 )
+from busservo.async_opening import Opening
 from busservo_simulator import VirtualController
 
 from tests.client.live_line import LiveLine, answered
@@ -413,3 +415,285 @@ def test_reconnecting_from_within_a_callback() -> None:
         assert done.wait(BOUND)
         assert controller.read_battery_voltage() == 7500
         await_that(lambda: len(own_threads()) == 1)
+
+
+def test_closing_for_asyncio_while_it_is_opened_again_gives_the_new_port_back() -> None:
+    Counted.open = 0
+    line = Counted()
+
+    async def work() -> None:
+        controller = AsyncController(line)
+        await controller.stop_action_group()
+        again = asyncio.ensure_future(controller.reconnect())
+        while Counted.open:
+            await asyncio.sleep(0.001)
+        await controller.close()
+        with pytest.raises(ClosedError):
+            await again
+        with pytest.raises(ClosedError):
+            await controller.reconnect()
+
+    asyncio.run(work())
+    assert Counted.open == 0
+
+
+def test_opening_again_that_fails_after_it_was_cancelled_is_nobodys_error() -> None:
+    begun, go_on = threading.Event(), threading.Event()
+
+    class Gone(LiveLine):
+        def reopen(self) -> LiveLine:
+            begun.set()
+            assert go_on.wait(BOUND)
+            raise PortNotFoundError(self.name, "there is no such port", "plug it in")
+
+    async def work() -> None:
+        errors: list[object] = []
+        asyncio.get_running_loop().set_exception_handler(lambda _, about: errors.append(about))
+        async with AsyncController(Gone()) as controller:
+            again = asyncio.ensure_future(controller.reconnect())
+            while not begun.is_set():
+                await asyncio.sleep(0.001)
+            again.cancel()
+            with pytest.raises(asyncio.CancelledError):
+                await again
+            go_on.set()
+            await asyncio.sleep(0.01)
+        assert errors == []
+
+    asyncio.run(work())
+
+
+class Stuck(LiveLine):
+    """A line whose reads do not end when it is closed, but when they are let go, with an error."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.let_go = threading.Event()
+        self.ended = threading.Event()
+
+    def read(self, _timeout: float) -> bytes:
+        assert self.let_go.wait(BOUND)
+        self.ended.set()
+        raise DisconnectedError(self.name, "the line was lost", "plug it in again")
+
+    def reopen(self) -> LiveLine:
+        return LiveLine()
+
+
+def test_the_end_of_a_read_of_the_line_before_does_not_end_the_new_one(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.setattr("busservo.client.GRACE", 0.02)
+    line = Stuck()
+    with Controller(line) as controller:
+        controller.reconnect()
+        line.let_go.set()
+        await_that(lambda: len(own_threads()) == 1)
+        assert controller.read_battery_voltage() == 7500
+
+
+def test_the_end_of_a_read_of_the_line_before_does_not_end_the_new_one_with_asyncio(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.setattr("busservo.async_client.GRACE", 0.02)
+    line = Stuck()
+
+    async def work() -> None:
+        async with AsyncController(line) as controller:
+            await controller.reconnect()
+            line.let_go.set()
+            await_that(lambda: len(own_threads()) == 2)
+            assert await controller.read_battery_voltage() == 7500
+
+    asyncio.run(work())
+
+
+# -------------------------------------------------------------------- a driver that gives trouble
+
+
+class Troublesome(LiveLine):
+    """A line that can be used, and neither drained nor closed without an error."""
+
+    def drain(self, _timeout: float) -> None:
+        raise OSError("it cannot tell")
+
+    def close(self) -> None:
+        super().close()
+        raise OSError("it is gone")
+
+
+def test_what_cannot_be_drained_is_closed_all_the_same(caplog: pytest.LogCaptureFixture) -> None:
+    caplog.set_level("DEBUG", "busservo")
+    lines = [Troublesome(), Troublesome()]
+    with Controller(lines[0]) as controller:
+        controller.stop_action_group()
+
+    async def work() -> None:
+        async with AsyncController(lines[1]) as controller:
+            await controller.stop_action_group()
+
+    asyncio.run(work())
+    assert all(line.closed and len(line.received) == 1 for line in lines)
+    assert caplog.text.count("live line could not be drained") == 2
+    assert caplog.text.count("live line could not be closed") == 2
+    await_that(lambda: not own_threads())
+
+
+def test_what_is_still_to_be_sent_when_the_line_is_lost_does_not_hold_up_closing() -> None:
+    line = LiveLine()
+
+    async def work() -> None:
+        controller = AsyncController(line)
+        controller.send_latest(ServoUnload(range(200)))
+        controller.send_latest(ServoUnload(range(100)))
+        await_that(lambda: len(line.received) == 1)
+        closing = asyncio.ensure_future(controller.close())
+        await asyncio.sleep(0)
+        line.unplug()
+        began = time.monotonic()
+        await asyncio.wait_for(closing, BOUND)
+        assert time.monotonic() - began < 0.1  # on the wire, it would take twice as long
+        assert repr(controller) == "<AsyncController on live line, closed>"
+
+    asyncio.run(work())
+    assert line.received == [ServoUnload(range(200))]
+    await_that(lambda: not own_threads())
+
+
+def test_a_command_whose_turn_comes_as_the_line_is_lost_is_not_told_to_be_sent() -> None:
+    line = LiveLine()
+
+    async def work() -> None:
+        async with AsyncController(line) as controller:
+            assert repr(controller) == "<AsyncController on live line, open>"
+            await controller.unload_servos(range(20))
+            waiting = asyncio.ensure_future(controller.stop_action_group())
+            await asyncio.sleep(0)
+            # The loop stands still until it is the turn of the second command. When it goes on, the
+            # line is lost, as it learns only after that command has been handed over.
+            time.sleep(0.05)
+            await asyncio.sleep(0)
+            line.unplug()
+            await_that(lambda: len(own_threads()) == 1)
+            with pytest.raises(DisconnectedError):
+                await waiting
+            assert repr(controller) == "<AsyncController on live line, failed>"
+            assert controller.counters.sent == 2
+
+    asyncio.run(work())
+    assert line.received == [ServoUnload(range(20))]
+
+
+def test_what_arrives_after_a_line_was_given_up_is_not_told() -> None:
+    class Deaf(Refusing):
+        reads = 0
+
+        def read(self, timeout: float) -> bytes:
+            self.reads += 1
+            return super().read(timeout)
+
+    line = Deaf()
+
+    async def work() -> None:
+        async with AsyncController(line) as controller:
+            heard: list[object] = []
+            controller.on_report(heard.append)
+            controller.send_latest(ServoUnload([1]))
+            # The loop stands still: first it will learn that the write has failed, then of this.
+            await_that(lambda: len(own_threads()) == 1)
+            line.say(ActionGroupStopped())
+            before = line.reads
+            await_that(lambda: line.reads >= before + 2)
+            with pytest.raises(DisconnectedError, match="takes no bytes"):
+                await controller.wait_for(ActionGroupStopped, timeout=BOUND)
+            await asyncio.sleep(0)
+            assert heard == []
+            assert controller.counters.reports == 0
+
+    asyncio.run(work())
+
+
+# -------------------------------------------------------------------- a loop that is no more
+
+
+class Unheard(AsyncController):
+    """A client whose warning is of no interest."""
+
+    def __del__(self) -> None:  # type: ignore[override]
+        super().__del__(lambda *_, **__: None)
+
+
+def test_a_line_goes_quiet_when_its_loop_has_ended() -> None:
+    line = LiveLine()
+
+    async def work() -> Unheard:
+        controller = Unheard(line)
+        await controller.stop_action_group()
+        return controller
+
+    controller = asyncio.run(work())
+    assert len(own_threads()) == 2
+    line.say(ActionGroupStopped())
+    await_that(lambda: len(own_threads()) == 1)
+    assert controller.counters.reports == 0
+    del controller
+    gc.collect()
+    await_that(lambda: not own_threads())
+    assert line.closed
+
+
+def test_a_client_that_is_forgotten_while_the_port_takes_its_question() -> None:
+    begun, go_on = threading.Event(), threading.Event()
+
+    class Slow(LiveLine):
+        def write(self, _data: bytes) -> None:
+            begun.set()
+            assert go_on.wait(BOUND)
+
+    line = Slow()
+
+    async def work() -> None:
+        controller = Unheard(line)
+        asking = asyncio.ensure_future(controller.read_battery_voltage())
+        assert await asyncio.get_running_loop().run_in_executor(None, begun.wait, BOUND)
+        asking.cancel()
+        with pytest.raises(asyncio.CancelledError):
+            await asking
+        del asking, controller
+        gc.collect()
+
+    asyncio.run(work())
+    gc.collect()
+    await_that(lambda: line.closed)
+    go_on.set()
+    # Nobody is left to hear that the question is written, and the thread that wrote it ends.
+    await_that(lambda: not own_threads())
+
+
+# -------------------------------------------------------------------- a port that opens too late
+
+
+def test_opening_that_is_cancelled_leaves_no_port_open() -> None:
+    line = LiveLine()
+    begun, go_on = threading.Event(), threading.Event()
+
+    def open_late() -> Any:
+        begun.set()
+        assert go_on.wait(BOUND)
+        return line
+
+    async def open_it() -> None:
+        await Opening(open_late, AsyncController)
+
+    async def work() -> None:
+        opening = asyncio.ensure_future(open_it())
+        while not begun.is_set():
+            await asyncio.sleep(0.001)
+        opening.cancel()
+        with pytest.raises(asyncio.CancelledError):
+            await opening
+        go_on.set()
+        while not line.closed:
+            await asyncio.sleep(0.001)
+
+    asyncio.run(asyncio.wait_for(work(), BOUND))

@@ -26,11 +26,13 @@ from busservo import (
     PortPermissionError,
     StreamDecoder,
     TransportError,
+    WriteStuckError,
     open_async_controller,
     open_controller,
     open_transport,
 )
 from busservo.rejects import Rejects
+from busservo.serial_port import SerialPort
 
 from tests.client.live_line import answered
 
@@ -310,3 +312,146 @@ def test_closing_ends_a_read_in_another_thread(board: PtyBoard) -> None:
     transport.close()
     assert ended.wait(10)
     thread.join()
+
+
+def test_a_port_is_given_back_where_no_controller_can_be_made_of_it(board: PtyBoard) -> None:
+    with pytest.raises(ValueError, match="margin"):
+        open_controller(board.port, margin=0)
+
+    async def work() -> None:
+        with pytest.raises(ValueError, match="margin"):
+            await open_async_controller(board.port, margin=0)
+
+    asyncio.run(work())
+    # Nobody has it: it can be had exclusively.
+    with open_controller(board.port, margin=10) as controller:
+        assert controller.read_battery_voltage() == 7500
+
+
+# ------------------------------------------------------------- drivers that cannot be had here
+
+
+class Driver:
+    """As much of a port of pyserial as a test needs; whatever is set here is what it does."""
+
+    in_waiting = 0
+
+    def __init__(self, error: Exception | None = None) -> None:
+        self.error = error
+        self.closed = False
+        self.left = 0
+
+    @property
+    def out_waiting(self) -> int:
+        if self.error is not None:
+            raise self.error
+        self.left = max(0, self.left - 1)
+        return self.left
+
+    def write(self, _data: bytes) -> None:
+        if self.error is not None:
+            raise self.error
+
+    def cancel_read(self) -> None:
+        if self.error is not None:
+            raise self.error
+
+    def close(self) -> None:
+        self.closed = True
+        if self.error is not None:
+            raise self.error
+
+
+def driven_by(driver: Driver) -> SerialPort:
+    def never() -> SerialPort:
+        raise NotImplementedError
+
+    return SerialPort("COM7", driver, never)
+
+
+def test_an_adapter_that_takes_no_more_bytes_is_told_with_what_helps() -> None:
+    port = driven_by(Driver(serial.SerialTimeoutException("Write timeout")))
+    with pytest.raises(WriteStuckError, match="has taken no bytes for 1 s; unplug and replug"):
+        port.write(b"UU")
+
+
+@pytest.mark.parametrize("error", [OSError(5, "Input/output error"), TypeError("fd is None")])
+def test_an_adapter_that_is_gone_is_lost_in_whatever_it_was_at(error: Exception) -> None:
+    driver = Driver(error)
+    port = driven_by(driver)
+    with pytest.raises(DisconnectedError, match="reconnect"):
+        port.write(b"UU")
+    with pytest.raises(DisconnectedError, match="reconnect"):
+        port.drain(1)
+    port.close()
+    assert driver.closed
+    # Once it is closed at this end, that is what is said.
+    with pytest.raises(ClosedError):
+        port.drain(1)
+
+
+def test_draining_waits_until_the_driver_has_sent_all_and_no_longer_than_told() -> None:
+    driver = Driver()
+    port = driven_by(driver)
+    driver.left = 5
+    port.drain(10)
+    assert driver.left == 0
+    driver.left = 1_000_000
+    began = time.monotonic()
+    port.drain(0.02)
+    assert 0.02 <= time.monotonic() - began < 1
+    assert driver.left > 0
+    port.close()
+
+
+def test_a_port_is_closed_even_under_a_read_that_does_not_end(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    reading, go_on = threading.Event(), threading.Event()
+
+    class Stuck(Driver):
+        @property
+        def in_waiting(self) -> int:  # type: ignore[override]
+            reading.set()
+            assert go_on.wait(10)
+            raise OSError("gone")
+
+    driver = Stuck()
+    port = driven_by(driver)
+
+    def read() -> None:
+        with pytest.raises(ClosedError):
+            port.read(0.01)
+
+    thread = threading.Thread(target=read)
+    thread.start()
+    assert reading.wait(10)
+    acquire = port._reading.acquire
+
+    class Impatient:
+        """The lock, without the second that closing waits for it."""
+
+        release = port._reading.release
+
+        def acquire(self, timeout: float) -> bool:
+            assert timeout == 1.0
+            return acquire(timeout=0.01)
+
+    monkeypatch.setattr(port, "_reading", Impatient())
+    port.close()
+    assert driver.closed
+    go_on.set()
+    thread.join(10)
+    assert not thread.is_alive()
+
+
+def test_a_port_that_fails_to_open_in_a_way_of_its_own_is_told_in_its_words(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    def fail(*_: object, **__: object) -> None:
+        raise serial.SerialException(5, "could not open port COM7: Input/output error")
+
+    monkeypatch.setattr(serial, "serial_for_url", fail)
+    with pytest.raises(TransportError, match=r"it cannot be opened .*Input/output") as caught:
+        open_transport("COM7")
+    assert type(caught.value) is TransportError

@@ -20,6 +20,7 @@ from busservo import (
     ServoPositionsRead,
     TransportError,
 )
+from busservo.exchange import Exchange
 from busservo.session import Session
 
 if TYPE_CHECKING:
@@ -359,3 +360,31 @@ def test_a_run_is_the_cause_of_its_reports() -> None:
     assert log.find(ActionGroupCompleted, {"group": 8}, since=1, asked_at=2) is None
     assert log.take() == log.take() == ActionGroupCompleted(8, 1)
     assert log.take() is None
+
+
+# -------------------------------------------------------------------- how long a reply may be
+
+
+def test_the_time_for_a_reply_is_that_of_the_largest_that_can_answer() -> None:
+    """Of a reply whose list is as long as what was asked, it is that one, and else the largest."""
+    echoed = (("servo_ids", "positions.servo_id"),)
+    question = ServoPositionsRead([1, 2])
+    largest = 2 + 255
+    for exchange, size in (
+        (Exchange("ask", (), reply=ServoPositions, echoed=echoed), len(two_positions())),
+        (Exchange("ask", (), reply=ServoPositions), largest),
+        (Exchange("ask", (), reply=ServoPositions, echoed=(("servo_ids", "other"),)), largest),
+        (Exchange("tell", ()), 0),
+    ):
+        assert exchange.reply_size(question) == size
+    # More than fits in one reply: there is no such frame, and the largest stands for it.
+    assert (
+        Exchange("ask", (), reply=ServoPositions, echoed=echoed).reply_size(
+            ServoPositionsRead(range(200))
+        )
+        == largest
+    )
+
+
+def two_positions() -> bytes:
+    return ServoPositions([(1, 500), (2, 500)]).encode()

@@ -39,10 +39,7 @@ def in_parts(name: str, words: list[str]) -> list[Message]:
     asked = fields_from_text(kind, words)[items.name]
     if len(asked) <= exchange.most:
         return [message_from_text(kind, words)]
-    # One by one first, so that an error names the place in the list that was given.
-    for at, item in enumerate(asked):
-        try:
-            kind(**{items.name: [item]})
-        except EncodeError as error:
-            raise UnusableError(str(error).replace("[0]", f"[{at}]", 1)) from None
-    return parts_of(kind, asked)
+    try:
+        return parts_of(kind, asked)
+    except EncodeError as error:
+        raise UnusableError(str(error)) from None

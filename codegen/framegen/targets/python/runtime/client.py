@@ -135,7 +135,7 @@ class Client:
         """
         sent = self._done(message, None).sent
         if sent is None:
-            raise self._closed()
+            raise AssertionError(f"{message!r} ended without an error, and was not sent")
         return sent
 
     def send_latest(self, message: Message) -> None:
@@ -157,7 +157,7 @@ class Client:
         """
         reply = self._done(message, self._retries if retries is None else retries).reply
         if reply is None:
-            raise self._closed()
+            raise AssertionError(f"{message!r} ended without an error, and without a reply")
         return reply
 
     def reports(self, timeout: float | None = None) -> Iterator[Message]:
@@ -289,9 +289,7 @@ class Client:
 
     def _ask(self, message: Message, kind: type[_Reply]) -> _Reply:
         """The reply to a question, whole. Raises IncompleteReplyError."""
-        reply = self.request(message)
-        if not isinstance(reply, kind):
-            raise TypeError(f"{message!r} is answered by {type(reply).__name__}")
+        reply = self._reply(message, kind)
         asked, missing, arrived = lacking(message, reply)
         if missing:
             raise IncompleteReplyError(asked, missing, [reply], arrived)
@@ -304,9 +302,8 @@ class Client:
         replies: list[_Reply] = []
         asked, missing, arrived = "", [], []
         for message in parts_of(kind, items):
-            got = self.request(message)
-            if isinstance(got, reply):
-                replies.append(got)
+            got = self._reply(message, reply)
+            replies.append(got)
             field, lacks, came = lacking(message, got)
             asked = field or asked
             missing += lacks
@@ -314,6 +311,12 @@ class Client:
         if missing:
             raise IncompleteReplyError(asked, missing, replies, arrived)
         return replies
+
+    def _reply(self, message: Message, kind: type[_Reply]) -> _Reply:
+        reply = self.request(message)
+        if not isinstance(reply, kind):
+            raise TypeError(f"{message!r} is answered by {type(reply).__name__}")
+        return reply
 
     def _done(self, message: Message, retries: int | None) -> Request:
         """Submits a message, a command where `retries` is None, and waits until it is done."""
@@ -346,8 +349,6 @@ class Client:
         self._send_due()
         if self._session.counters.sent != sent:
             self._changed.notify_all()
-            return
-        if self._failure is not None:
             return
         now = self._clock()
         times = [now + SLICE, self._session.send_at(now), until]

@@ -1,0 +1,137 @@
+"""The verbs without a port, `decode` and `encode`: where bytes come from, and what is refused."""
+
+from __future__ import annotations
+
+import io
+import sys
+from typing import TYPE_CHECKING
+
+import pytest
+from busservo import ServoUnload
+from busservo.cli import main
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+STOP = "55 55 02 07"
+SHOWN = f"     0  host        ActionGroupStop | {STOP}\n"
+
+
+def test_the_bytes_may_be_words_or_a_file_or_standard_input(
+    capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    hexed, raw = tmp_path / "stop.log", tmp_path / "stop.bin"
+    hexed.write_text(STOP)
+    raw.write_bytes(bytes.fromhex(STOP))
+    for words in (
+        STOP.split(),
+        [STOP],
+        [str(hexed)],
+        [str(raw)],
+        ["--file", str(hexed)],
+        ["--file", str(raw), "--format", "raw"],
+        [],
+        ["-"],
+        ["--file", "-"],
+    ):
+        monkeypatch.setattr(sys, "stdin", io.TextIOWrapper(io.BytesIO(raw.read_bytes())))
+        assert main(["decode", "--direction", "host", *words]) == 0
+        assert capsys.readouterr().out == SHOWN, words
+
+
+def test_what_is_raw_and_long_is_read_piece_by_piece(
+    capsys: pytest.CaptureFixture[str], tmp_path: Path
+) -> None:
+    recording = tmp_path / "long.bin"
+    frame = ServoUnload(range(200)).encode()
+    recording.write_bytes(frame * 1000)
+    assert main(["decode", str(recording)]) == 0
+    output, errors = capsys.readouterr()
+    assert output.count("ServoUnload servo_ids=0,1,2,") == 1000
+    assert "1000 messages, 0 bytes of noise" in errors
+
+
+@pytest.mark.parametrize(
+    ("words", "told"),
+    [
+        (["--file", "line.bin", "55"], "give either --file or bytes, not both"),
+        (["--file", "absent.bin"], "absent.bin cannot be read: No such file or directory"),
+        (["absent.bin"], "is not hex: 's' is no hex digit; write two digits a byte"),
+        (["absent.bin"], "and there is no file 'absent.bin'"),
+        (["55 5"], "'5' is not hex: it has 1 digits; write two digits a byte"),
+        (["a\0b"], "there is no file 'a\\x00b'"),
+        (["x" * 5000], "is not hex: 'x' is no hex digit"),
+        (["55", "zz"], "'zz' is not hex: 'z' is no hex digit"),
+    ],
+)
+def test_what_cannot_be_decoded_is_told_in_a_line(
+    capsys: pytest.CaptureFixture[str],
+    monkeypatch: pytest.MonkeyPatch,
+    tmp_path: Path,
+    words: list[str],
+    told: str,
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    assert main(["decode", *words]) == 2
+    output, errors = capsys.readouterr()
+    assert output == ""
+    assert told in errors
+    assert errors.startswith("busservo: error: ")
+    assert errors.count("\n") == 1
+
+
+def test_a_folder_is_no_file(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
+    assert main(["decode", "--file", str(tmp_path)]) == 2
+    assert "cannot be read: " in capsys.readouterr().err
+
+
+def test_a_frame_can_be_hex_or_the_bytes_themselves(
+    capfdbinary: pytest.CaptureFixture[bytes],
+) -> None:
+    assert main(["encode", "action_group-stop"]) == 0
+    assert capfdbinary.readouterr().out == f"{STOP}\n".encode()
+    assert main(["encode", "--raw", "ActionGroupStop"]) == 0
+    assert capfdbinary.readouterr().out == bytes.fromhex(STOP)
+
+
+def test_numbers_may_have_any_base_and_values_their_names(
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    assert main(["encode", "ServoMove", "time_ms=0x3E8", "targets=1:0b11,9:0o17"]) == 0
+    assert capsys.readouterr().out == "55 55 0B 03 02 E8 03 01 03 00 09 0F 00\n"
+    assert main(["encode", "ServoPositions", "positions=1:absent"]) == 0
+    assert capsys.readouterr().out.endswith("01 FF FF\n")
+
+
+@pytest.mark.parametrize(
+    ("words", "told"),
+    [
+        (["ServoMove", "1000"], "'1000' is no field: write it as NAME=VALUE"),
+        (["ServoMove", "tme=1"], "ServoMove has no field 'tme'; it is written ServoMove time_ms="),
+        (["ServoMove", "time_ms=1", "time_ms=2"], "time_ms is given twice"),
+        (["ServoMove", "time_ms=1", "targets=1"], "targets[0]: '1' is not servo_id:position"),
+        (["ServoMove", "time_ms=soon", "targets=1:2"], "time_ms: 'soon' is no number: write it"),
+        (["ServoMove", "time_ms=70000", "targets=1:2"], "70000 is outside 0..65535"),
+        (["ServoMove", "time_ms=1", "targets="], "targets: "),
+        (["ServoUnload", "servo_ids=1,x"], "servo_ids[1]: 'x' is no number"),
+        (["ServoUnload"], "ServoUnload needs servo_ids"),
+        (["Zzz"], "there is no message 'Zzz'; there are "),
+    ],
+)
+def test_what_cannot_be_encoded_is_told_in_a_line(
+    capsys: pytest.CaptureFixture[str], words: list[str], told: str
+) -> None:
+    assert main(["encode", *words]) == 2
+    output, errors = capsys.readouterr()
+    assert output == ""
+    assert told in errors
+    assert errors.count("\n") == 1
+
+
+def test_without_a_verb_the_verbs_are_listed(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main([]) == 2
+    output, errors = capsys.readouterr()
+    assert output == ""
+    assert "\nverbs:\n" in errors
+    assert main(["dcode"]) == 2
+    assert "there is no verb 'dcode'; there are " in capsys.readouterr().err
