@@ -500,3 +500,34 @@ def test_a_python_without_docstrings_is_refused_before_it_drops_descriptions(
     assert (result.returncode, result.stdout) == (2, "")
     assert "started with -OO" in result.stderr
     assert "start it without -OO" in result.stderr
+
+
+def test_a_module_of_its_own_that_is_missing_is_not_taken_for_a_package(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.setitem(sys.modules, "framegen.commands.check", None)
+    with pytest.raises(ModuleNotFoundError, match=r"framegen\.commands\.check"):
+        main(["check"])
+
+
+def test_an_output_that_is_no_file_may_end_early(monkeypatch: pytest.MonkeyPatch) -> None:
+    class Closed(io.StringIO):
+        def write(self, _text: str) -> int:
+            raise BrokenPipeError
+
+    monkeypatch.setattr(sys, "stdout", Closed())
+    assert main(["rules"]) == READER_GONE
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="nobody removes a folder there that is in use")
+def test_a_folder_that_is_gone_has_no_spec(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: Capture
+) -> None:
+    gone = tmp_path / "gone"
+    gone.mkdir()
+    monkeypatch.chdir(gone)
+    gone.rmdir()
+    assert main(["check"]) == 2
+    assert capsys.readouterr().err == (
+        "framegen: error: the current folder is gone\n  hint: name the spec in full\n"
+    )

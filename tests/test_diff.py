@@ -217,6 +217,16 @@ CASES: list[tuple[Data, Data, list[str]]] = [
         ["programs messages.VentJammed.fields.offset: field-renamed: trim became offset"],
     ),
     (
+        SERVO,
+        with_(SERVO, "messages", "ServoUnload", "fields", "servo_ids", GONE),
+        ["wire messages.ServoUnload.fields.servo_ids: field-removed: a list is gone"],
+    ),
+    (
+        with_(SERVO, "messages", "ServoUnload", "fields", "servo_ids", GONE),
+        SERVO,
+        ["wire messages.ServoUnload.fields.servo_ids: field-added: a list is new"],
+    ),
+    (
         HOUSE,
         reordered(HOUSE, ("messages", "VentJammed", "fields"), ["trim", "vent_id"]),
         ["wire messages.VentJammed.fields: field-order: vent_id, trim became trim, vent_id"],

@@ -4,8 +4,9 @@ from typing import Any, NamedTuple
 
 import pytest
 from framegen.codec import NotAFrame, Unencodable, decode, describe_range, encode
+from framegen.facts import NoSuchFact, look_up
 from framegen.layout import Layout, MessageLayout, derive_frame, part_size
-from framegen.spec import Spec
+from framegen.spec import Concern, Spec
 from framegen.values import Direction
 from hypothesis import given
 from hypothesis import strategies as st
@@ -437,3 +438,31 @@ def test_what_the_reference_codec_accepts_it_writes_again(house: str, data: st.D
 )
 def test_a_range_in_words(numbers: range, words: str) -> None:
     assert describe_range(numbers) == words
+
+
+def nth(message: str, parameter: int) -> Concern:
+    return Concern.model_validate({"message": message, "parameter": parameter})
+
+
+@pytest.mark.parametrize(
+    ("message", "parameter", "name"),
+    [
+        ("ServoMove", 1, "servo_count"),
+        ("ServoMove", 3, "time_ms, high byte"),
+        ("ServoMove", 5, "targets[0].position, low byte"),
+        ("ServoUnload", 3, "servo_ids[1]"),
+    ],
+)
+def test_a_parameter_is_named_by_its_number(message: str, parameter: int, name: str) -> None:
+    assert str(look_up(SERVO, nth(message, parameter))) == name
+
+
+@pytest.mark.parametrize(
+    ("message", "parameter", "most"),
+    [("ActionGroupRun", 4, 3), ("ServoUnload", 254, 253), ("ActionGroupStop", 1, 0)],
+)
+def test_a_parameter_that_there_is_not_is_told_with_how_many_there_are(
+    message: str, parameter: int, most: int
+) -> None:
+    with pytest.raises(NoSuchFact, match=f"no parameter byte {parameter}: it has {most} at most"):
+        look_up(SERVO, nth(message, parameter))

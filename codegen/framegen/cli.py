@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import contextlib
 import io
 import os
 import sys
@@ -114,11 +115,7 @@ def _run_verb(name: str, words: Sequence[str]) -> int:
         return verb.run(arguments)
     except Unusable as error:
         sys.stdout.flush()
-        message = str(error)
-        if error.finding is not None:
-            span = error.finding.span
-            message += f"\nline {span.line}, column {span.column}: {error.finding.message}"
-        _complain(message, error.hint)
+        _complain(str(error), error.hint)
         return UNUSABLE
 
 
@@ -167,9 +164,7 @@ def _never_fail_to_print() -> None:
 
 def _discard_output() -> None:
     """Send what is left nowhere, so that the interpreter does not fail on it at exit."""
-    try:
-        nowhere = os.open(os.devnull, os.O_WRONLY)
+    nowhere = os.open(os.devnull, os.O_WRONLY)
+    with contextlib.suppress(OSError, ValueError):  # it is no file, and fails on nothing
         os.dup2(nowhere, sys.stdout.fileno())
-    except (OSError, ValueError):
-        return
     os.close(nowhere)

@@ -129,8 +129,8 @@ def _run(arguments: argparse.Namespace) -> int:
         print(board.port, flush=True)
         named.set()
         # In slices: on Windows a wait without end cannot be interrupted.
-        while not ended.wait(0.5):
-            pass
+        while not ended.is_set():
+            ended.wait(0.5)
         journal.listener = None
         print(f"{board.accepted} messages, {board.rejects.total} rejected", file=sys.stderr)
     return 0

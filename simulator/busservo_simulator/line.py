@@ -57,11 +57,6 @@ class Line:
         """How many bytes of the host are still under way."""
         return self._to_board.held
 
-    @property
-    def heard_at(self) -> float:
-        """When the last byte of the host has arrived."""
-        return self._to_board.free_at
-
     def write(self, data: bytes, moment: float) -> None:
         """Takes the bytes that the host sends."""
         if self.hung_up or not data:

@@ -108,3 +108,13 @@ def test_what_cannot_be_measured_is_refused(
     errors = capsys.readouterr().err
     assert told in errors
     assert "no such port" not in errors
+
+
+def test_a_question_must_be_named_where_each_has_fields(
+    capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(bench_line, "_usual", lambda: None)
+    assert main(["bench-line", "--port", "no-such-port"]) == 2
+    errors = capsys.readouterr().err
+    assert "name the question that is to be asked" in errors
+    assert "questions are BatteryVoltageRead, ServoPositionsRead" in errors

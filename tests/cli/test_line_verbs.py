@@ -5,13 +5,15 @@ import ast
 import json
 import re
 import shlex
+import signal
 import subprocess
 import sys
+from concurrent.futures import ThreadPoolExecutor
 from importlib import import_module
 
 import pytest
-from busservo import ServoPositions
-from busservo.cli import main, send
+from busservo import ServoPositions, ServoPositionsRead
+from busservo.cli import main, send, simulate
 from busservo.cli.examples import EXAMPLES, VERBS
 from busservo.cli.questions import in_parts
 from busservo.client import Client
@@ -272,3 +274,51 @@ def test_an_example_is_a_command_line(line: str) -> None:
     given = parser.parse_intermixed_args(words)
     if "message" in given:
         assert given.message is None or in_parts(given.message, given.fields)[0].encode()
+
+
+def test_no_port_is_said_where_nothing_is_plugged_in(
+    capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("serial.tools.list_ports.comports", list)
+    assert main(["ports"]) == 0
+    assert capsys.readouterr() == ("", "no serial port is plugged in\n")
+
+
+def test_more_than_a_reply_has_room_for_is_refused_where_it_cannot_be_asked_in_parts(
+    capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """As for a protocol whose question has more fields than its list."""
+    monkeypatch.setattr(send, "in_parts", lambda *_: [ServoPositionsRead(range(85))])
+    assert main(["send", "--port", "loop://", "ServoPositionsRead"]) == 2
+    told = "85 items are asked for at once, and a reply has room for 84\n"
+    assert capsys.readouterr().err.endswith(told)
+
+
+def test_ctrl_c_is_quiet_where_no_terminal_has_shown_it(
+    capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def interrupted(*_: object, **__: object) -> None:
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(send, "open_client", interrupted)
+    assert main(["send", "--port", "loop://", "ActionGroupStop"]) == 130
+    assert capsys.readouterr() == ("", "")
+
+
+def test_a_verb_can_be_run_from_any_thread() -> None:
+    """Signals are for the main thread alone, and SIGTERM is then left as it is."""
+    before = signal.getsignal(signal.SIGTERM)
+    with VirtualController("tcp") as board, ThreadPoolExecutor(1) as pool:
+        done = pool.submit(main, ["send", "--port", board.port, "BatteryVoltageRead"])
+        assert done.result(20) == 0
+        assert board.accepted == 1
+    assert signal.getsignal(signal.SIGTERM) is before
+
+
+def test_a_package_that_the_simulator_lacks_is_not_taken_for_the_simulator(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.delitem(sys.modules, "busservo_simulator.cli", raising=False)
+    monkeypatch.setitem(sys.modules, "argparse", None)
+    with pytest.raises(ModuleNotFoundError, match="argparse"):
+        simulate.hand_over([])

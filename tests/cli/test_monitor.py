@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import errno
 import io
 import json
 import os
@@ -23,6 +24,8 @@ from busservo import (
 )
 from busservo.cli import main, monitor
 from busservo.cli.recorder import Recorder
+from busservo.cli.unusable import UnusableError
+from busservo.cli.waiting import Waiting
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -332,3 +335,34 @@ def test_a_full_disk_is_told(capsys: pytest.CaptureFixture[str]) -> None:
     assert capsys.readouterr().err.endswith(
         "/dev/full cannot be written: No space left on device\n"
     )
+
+
+class FullDisk(io.StringIO):
+    """A file whose last bytes no longer fit."""
+
+    def close(self) -> None:
+        raise OSError(errno.ENOSPC, "No space left on device")
+
+
+def test_a_recording_whose_end_does_not_fit_is_told(tmp_path: Path) -> None:
+    recorder = Recorder(tmp_path / "line.hex")
+    assert recorder._file is not None
+    recorder._file.close()
+    recorder._file = FullDisk()
+    with pytest.raises(UnusableError, match=r"line\.hex.*No space left"), recorder:
+        pass
+    # What went wrong before it is what is told.
+    with pytest.raises(DisconnectedError), recorder:
+        raise DisconnectedError("COM7", "the line was lost", "plug it in again")
+
+
+def test_the_same_sign_of_life_is_written_once() -> None:
+    class Terminal(io.StringIO):
+        def isatty(self) -> bool:
+            return True
+
+    screen = Terminal()
+    waiting = Waiting(screen)
+    for text in ("opening COM7, 1 s", "opening COM7, 1 s", "opening COM7, 2 s"):
+        waiting.show(text)
+    assert screen.getvalue() == "\ropening COM7, 1 s\ropening COM7, 2 s"

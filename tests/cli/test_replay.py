@@ -179,6 +179,12 @@ EITHER = f"{hexed(RUN)}  # 0.1 s, either: ActionGroupRun(...) or ActionGroupStar
             ["--skip-noise"],
             [ASK],
         ),
+        # It was none when it was heard, and so it is none now.
+        (
+            f"{hexed(MOVE)}  # 0 s, host noise: cut\n{hexed(ASK)}  # 1 s, host: b\n",
+            ["--skip-noise"],
+            [ASK],
+        ),
         ("55 55 02 0F 55 55 02 0F 55 55 04 0F 4C 1D", [], [ASK, ASK]),
     ],
 )

@@ -3,11 +3,15 @@
 from pathlib import Path
 
 import pytest
+from framegen.layout import derive
+from framegen.targets.docs.drawing import interruption
 from framegen.targets.docs.lessons import lessons
 from framegen.targets.docs.walk import Walk, walk
+from framegen.targets.vectors import _spoilt
 
 from tests.docs.peers import Event, library, noisy_lines, python_events
 from tests.docs.reference import SPECS, reference
+from tests.specimens import DEMO, data_of, layout_of, loaded_of
 
 BUSSERVO = reference("busservo").layout
 
@@ -65,3 +69,35 @@ def test_a_stray_byte_costs_one_byte() -> None:
         (4, "07", True),
         (1, "", True),
     ]
+
+
+def test_where_every_code_has_a_meaning_no_lesson_is_about_one_that_has_none() -> None:
+    data = data_of(DEMO)
+    plain = data["messages"]["StationRead"]
+    sent = [each for each in data["messages"].values() if each["direction"] == plain["direction"]]
+    for code in set(range(256)) - {each["id"] for each in sent}:
+        name = f"Code{chr(65 + code // 26)}{chr(97 + code % 26)}"
+        data["messages"][name] = {**plain, "id": code, "examples": []}
+    spec = loaded_of(data).spec
+    assert spec is not None
+    layout = derive(spec)
+    assert "unknown" not in [lesson.id for lesson in lessons(layout)]
+    told = [said for said, _ in _spoilt(layout, layout.messages["StationRead"], bytes(6))]
+    assert "a byte too many" in told
+    assert "an unknown command" not in told
+
+
+def test_a_report_comes_between_a_request_and_its_reply_only_from_the_same_end() -> None:
+    data = data_of(DEMO)
+    shown = interruption(layout_of(data))
+    assert shown is not None
+    assert [arrow.message for arrow in shown.arrows] == [
+        "StationRead",
+        "VentJammed",
+        "StationState",
+    ]
+    # Without that report, nothing that the station sends is one.
+    del data["messages"]["VentJammed"], data["messages"]["VentsOpen"]["reports"]
+    spec = loaded_of(data).spec
+    assert spec is not None
+    assert interruption(derive(spec)) is None

@@ -123,3 +123,39 @@ def test_servos_are_listed_as_people_write_them(text: str, servos: list[int]) ->
 def test_what_names_no_servo_is_refused(text: str) -> None:
     with pytest.raises(ValueError):  # noqa: PT011 - argparse shows its own words
         parse_servos(text)
+
+
+def test_a_board_that_the_network_reaches_says_so(
+    start: Callable[..., tuple[subprocess.Popen[str], str]],
+) -> None:
+    process, _ = start("--tcp", "--host", "0.0.0.0")  # noqa: S104 - it is what is asked for
+    process.send_signal(signal.SIGTERM)
+    _, errors = process.communicate(timeout=20)
+    assert errors.startswith("busservo-simulator: the network reaches it at 0.0.0.0\n")
+
+
+@not_windows
+def test_it_ends_when_whoever_read_along_has_gone(
+    start: Callable[..., tuple[subprocess.Popen[str], str]],
+) -> None:
+    process, port = start("--tcp")
+    assert process.stdout is not None
+    process.stdout.close()
+    process.stdout = None
+    host = Host(open_transport(port))
+    host.say(BatteryVoltageRead())
+    _, errors = process.communicate(timeout=20)
+    host.hang_up()
+    assert (process.returncode, errors) == (0, "1 messages, 0 rejected\n")
+
+
+@not_windows
+def test_it_ends_at_once_where_nobody_reads_the_name_of_its_port() -> None:
+    ours, theirs = os.pipe()
+    os.close(ours)
+    command = [sys.executable, "-m", "busservo_simulator", "--tcp"]
+    done = subprocess.run(
+        command, env=ENVIRONMENT, stdout=theirs, stderr=subprocess.PIPE, timeout=20, check=False
+    )
+    os.close(theirs)
+    assert (done.returncode, done.stderr) == (141, b"")

@@ -279,3 +279,24 @@ def test_how_often_one_looks_makes_no_difference(
     once = run([until])
     often = run([until * look / looks for look in range(looks)] + [until])
     assert once == often
+
+
+def test_what_is_said_to_nobody_is_lost(board: VirtualController, host: Host) -> None:
+    line = Line(Board())
+    line.cut()
+    line.send(b"UU", 0.0)
+    line.mend()
+    assert line.read(1.0) == []
+    board.unplug()
+    board.send_bytes(BatteryVoltage(7500).encode())
+    board.plug_in()
+    again = Host(board.open())
+    assert again.ask(BatteryVoltageRead()) == BatteryVoltage(7500)
+    assert again.transport.read(1.0) == b""
+    assert len(board.board.journal) == len([*board.board.journal]) > 0
+
+
+def test_no_bytes_take_no_time() -> None:
+    wire = Wire(10 / 9600)
+    wire.put(b"", 1.0)
+    assert (wire.next_event, wire.held) == (None, 0)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import socket
+import struct
 import sys
 import time
 from typing import TYPE_CHECKING, Any
@@ -24,6 +25,7 @@ from busservo import (
 from busservo.link_errors import TransportError
 from busservo.serial_port import open_transport
 from busservo_simulator import VirtualClock, VirtualController
+from busservo_simulator.tcp_end import TcpEnd
 
 from tests.simulator.hosts import Host
 
@@ -35,6 +37,7 @@ if TYPE_CHECKING:
 
 VOLTAGE = BatteryVoltage(7500)
 ASK = BatteryVoltageRead()
+STOPPED = ActionGroupStopped()
 needs_pty = pytest.mark.skipif(sys.platform == "win32", reason="Windows has no pty")
 
 
@@ -238,3 +241,51 @@ def test_a_host_that_reads_nothing_stops_nobody() -> None:
             board.send_bytes(bytes(50_000))
         host.hang_up()
         assert board.battery.voltage_mv == 7500
+
+
+def test_a_host_that_crashes_makes_room_for_the_next() -> None:
+    with VirtualController("tcp") as board:
+        address = ("127.0.0.1", int(board.port.rpartition(":")[2]))
+        host = socket.create_connection(address, timeout=5)
+        host.sendall(ASK.encode())
+        assert host.recv(100) == VOLTAGE.encode()
+        crash(host)
+        again = Host(open_transport(board.port))
+        assert again.ask(ASK) == VOLTAGE
+        again.hang_up()
+
+
+def test_what_is_said_to_a_host_that_has_crashed_is_lost() -> None:
+    end = TcpEnd()
+    end.plug_in()
+    try:
+        address = ("127.0.0.1", int(end.port.rpartition(":")[2]))
+        host = socket.create_connection(address, timeout=5)
+        end.wait(5, listening=True)
+        assert end.receive() == b""
+        crash(host)
+        end.wait(5, listening=True)
+        end.deliver(VOLTAGE.encode())
+        with socket.create_connection(address, timeout=5) as again:
+            end.wait(5, listening=True)
+            end.deliver(STOPPED.encode())
+            assert again.recv(100) == STOPPED.encode()
+    finally:
+        end.close()
+
+
+def crash(host: socket.socket) -> None:
+    """Ends a connection as a computer does that is switched off: nothing is finished."""
+    host.setsockopt(socket.SOL_SOCKET, socket.SO_LINGER, struct.pack("ii", 1, 0))
+    host.close()
+
+
+def test_an_unplugged_board_speaks_to_nobody(connect: Connect) -> None:
+    board, _ = connect()
+    board.unplug()
+    board.send_bytes(STOPPED.encode())
+    board.plug_in()
+    host = Host(board.open() if board.port == "virtual board" else open_transport(board.port))
+    assert host.ask(ASK) == VOLTAGE
+    assert host.heard == []
+    host.hang_up()

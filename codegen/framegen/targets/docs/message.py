@@ -46,11 +46,6 @@ class MessageView:
         return f"messages/{self.name}.html"
 
     @property
-    def markdown_address(self) -> str:
-        """The Markdown twin of its page."""
-        return f"messages/{self.name}.md"
-
-    @property
     def code(self) -> int:
         """Its code."""
         return self.layout.id

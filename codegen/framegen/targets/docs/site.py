@@ -156,11 +156,6 @@ class SiteView:
         return sorted(self.messages, key=lambda message: message.code)
 
     @cached_property
-    def by_name(self) -> dict[str, MessageView]:
-        """Every message, to be found by name."""
-        return {message.name: message for message in self.messages}
-
-    @cached_property
     def addresses(self) -> dict[str, str]:
         """The page of each message."""
         return {message.name: message.address for message in self.messages}

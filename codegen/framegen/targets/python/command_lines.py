@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 def decode_examples(layout: Layout) -> list[str]:
     """For `decode`: the ways to hand it bytes."""
     program, sender = layout.spec.protocol.name, layout.directions[0].sender
-    frame = next(message.example.hex for message in _messages(layout) if message.example)
+    frame = _messages(layout)[0].example.hex
     hex_ = frame.hex(" ").upper()
     examples = [
         (f"{program} decode {hex_}", "bytes in hex, however they are written"),
@@ -34,11 +34,10 @@ def encode_examples(layout: Layout) -> list[str]:
     program = layout.spec.protocol.name
     shapes: dict[tuple[bool, bool], tuple[str, str]] = {}
     for message in _messages(layout):
-        if message.example is not None:
-            words = message.command_words(message.example.values)
-            line = " ".join([program, "encode", message.name, *words])
-            shape = bool(message.given), message.repeat is not None
-            shapes.setdefault(shape, (line, message.layout.message.summary))
+        words = message.command_words(message.example.values)
+        line = " ".join([program, "encode", message.name, *words])
+        shape = bool(message.given), message.repeat is not None
+        shapes.setdefault(shape, (line, message.layout.message.summary))
     return _pairs(shapes.values())
 
 
@@ -86,17 +85,17 @@ def _commands(layout: Layout) -> list[tuple[str, str]]:
     return [
         (_sent(message, message.example), message.layout.message.summary)
         for message in _messages(layout)
-        if message.example is not None and message.layout.direction == layout.directions[0]
+        if message.layout.direction == layout.directions[0]
     ]
 
 
 def _questions(layout: Layout) -> list[tuple[str, str, str]]:
-    """An example of each question that the spec has one for, what it does, and its reply."""
+    """An example of each question, what it does, and its reply."""
     return [
         (_sent(message, message.example), message.layout.message.summary, exchange.reply.name)
         for exchange in exchanges(layout)
         for message in [MessageView(exchange.request, layout)]
-        if exchange.reply is not None and message.example is not None
+        if exchange.reply is not None
     ]
 
 

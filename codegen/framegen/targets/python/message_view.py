@@ -131,15 +131,13 @@ class MessageView:
         return f"{numbers}, {self.repeat.name}" if self.repeat else numbers
 
     @property
-    def example(self) -> Example | None:
+    def example(self) -> Example:
         """The shortest example, for the docstring."""
-        return min(self.layout.message.examples, key=lambda example: len(example.hex), default=None)
+        return min(self.layout.message.examples, key=lambda example: len(example.hex))
 
     @property
     def example_lines(self) -> list[str]:
         """That example as an interactive session."""
-        if self.example is None:
-            return []
         call = f">>> {self.call(self.example.values)}.encode().hex(' ')"
         return [call, f"'{self.example.hex.hex(' ')}'"]
 

@@ -98,15 +98,12 @@ class MethodView:
     @property
     def example_lines(self) -> list[str]:
         """The first example of the message, as an interactive session."""
-        examples = self.exchange.request.message.examples
-        if not examples:
-            return []
-        values = examples[0].values
+        values = self.exchange.request.message.examples[0].values
         call = f"{self.flavour.wait}controller.{self.name}({self._example(values)})"
         reply = self.exchange.reply
         if reply is None:
             return [f">>> sent = {call}"]
-        if isinstance(self._result, WireField) and reply.message.examples:
+        if isinstance(self._result, WireField):
             return [f">>> {call}", str(reply.message.examples[0].values[self._result.name])]
         return [f">>> answer = {call}"]
 
