@@ -147,6 +147,30 @@ def test_a_session_over_a_socket(tcp: tuple[str, list[socket.socket]]) -> None:
         assert controller.read_servo_positions([1, 2]) == ((1, 10), (2, 20))
 
 
+def test_what_a_socket_holds_is_read_at_once_and_not_byte_by_byte(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    sent = bytes(range(256)) * 8
+    with socket.create_server(("127.0.0.1", 0)) as listener:
+        transport = open_transport(f"socket://127.0.0.1:{listener.getsockname()[1]}")
+        pieces: list[bytes] = []
+        read = transport._port.read
+
+        def noted(size: int) -> bytes:
+            pieces.append(read(size))
+            return pieces[-1]
+
+        monkeypatch.setattr(transport._port, "read", noted)
+        other_end, _ = listener.accept()
+        with other_end:
+            other_end.sendall(sent)
+            while sum(map(len, pieces)) < len(sent):
+                transport.read(5)
+            transport.close()
+    assert b"".join(pieces) == sent
+    assert len(pieces) < 10
+
+
 def test_a_socket_sends_small_frames_at_once(tcp: tuple[str, list[socket.socket]]) -> None:
     transport = open_transport(tcp[0])
     assert transport._port._socket.getsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY)

@@ -44,6 +44,7 @@ _WRITE_TIMEOUT = 1.0
 _MOST = 4096
 # No driver knows a rate of more bits than this.
 _FASTER = 2**31
+_SOCKET = "socket:"
 _NAMED = "name a port, such as /dev/ttyUSB0 or COM7, or a URL, such as socket://host:port"
 _PERMITTED = (
     "add yourself to the group that owns it (dialout on most systems, uucp on some), as by "
@@ -73,7 +74,8 @@ def open_transport(port: str, *, baud: float = BAUD, exclusive: bool = True) -> 
             bytesize=DATA_BITS,
             parity=PARITY[0].upper(),
             stopbits=STOP_BITS,
-            timeout=_SLICE,
+            # pyserial reads a socket byte by byte, unless it must not wait: `select` waits for it.
+            timeout=0 if port.lower().startswith(_SOCKET) else _SLICE,
             # pyserial refuses one for RFC 2217, where its own socket gives up after 5 s.
             write_timeout=None if port.lower().startswith("rfc2217:") else _WRITE_TIMEOUT,
             exclusive=exclusive or None,
@@ -97,6 +99,7 @@ class SerialPort:
         self.reopen = reopen
         self._port = port
         self._handle = _handle_of(port)
+        self._at_once = getattr(port, "timeout", None) == 0
         self._closed = False
         # Held while a read is under way, so that the descriptor is not closed underneath it: its
         # number could be another file's by the time it is used.
@@ -118,9 +121,10 @@ class SerialPort:
         try:
             if not self._comes(timeout):
                 return b""
+            if self._at_once:
+                return bytes(self._port.read(_MOST))
             waiting = self._port.in_waiting
             data: bytes = self._port.read(min(waiting, _MOST) or 1)
-            # A socket tells of one byte at a time.
             while data and len(data) < _MOST:
                 waiting = self._port.in_waiting
                 if not waiting:
