@@ -120,7 +120,7 @@ def test_a_list_whose_example_is_empty_takes_no_lesson_away() -> None:
 
 def test_a_report_of_another_end_comes_between_no_request_and_its_reply() -> None:
     data = data_of(DEMO)
-    data["messages"]["VentJammed"]["direction"] = "gateway -> display"
+    data["messages"]["VentJammed"]["direction"] = "display -> gateway"
     spec = loaded_of(data).spec
     assert spec is not None
     assert interruption(derive(spec)) is None
