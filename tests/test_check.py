@@ -20,7 +20,7 @@ from framegen.yamltree import Unusable
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from tests.specimens import DEMO, data_of, loaded_of
+from tests.specimens import BUSSERVO, DEMO, data_of, loaded_of
 
 if TYPE_CHECKING:
     from framegen.checks.rule import LayoutRule, ReadingRule, StructureRule
@@ -636,3 +636,18 @@ def test_any_frame_with_any_fields_is_checked_without_a_crash(
     message = {**TREE["messages"]["ActionGroupStop"], "reports": [], "examples": []}
     message["fields"] = fields if last is None else {**fields, "last": last}
     survives(json.dumps({**tree, "frame": frame, "messages": {"Ask": message}}))
+
+
+@pytest.mark.parametrize(
+    ("key", "said", "told"),
+    [
+        ("targets", None, "the frame says a list, not nothing"),
+        ("targets", {}, "the frame says a list, not an element"),
+        ("time_ms", True, "the frame says 1000, not true"),
+        ("time_ms", [1000], "the frame says 1000, not a list"),
+    ],
+)
+def test_a_value_of_another_kind_is_told_by_its_kind(key: str, said: object, told: str) -> None:
+    data = data_of(BUSSERVO)
+    data["messages"]["ServoMove"]["examples"][0]["values"][key] = said
+    assert [finding.message for finding in check(loaded_of(data))][:1] == [told]

@@ -101,3 +101,26 @@ def test_a_report_comes_between_a_request_and_its_reply_only_from_the_same_end()
     spec = loaded_of(data).spec
     assert spec is not None
     assert interruption(derive(spec)) is None
+
+
+def test_a_list_whose_example_is_empty_takes_no_lesson_away() -> None:
+    data = data_of(DEMO)
+    message = data["messages"]["VentsOpen"]
+    message["fields"]["vents"]["count"] = "0..8"
+    message["examples"][0] |= {
+        "hex": "C3 5A A5 10 00 03 00 00 00",
+        "values": {"ramp_s": 0, "vents": []},
+    }
+    spec = loaded_of(data).spec
+    assert spec is not None
+    told = lessons(derive(spec))
+    assert [each.id for each in told] == [each.id for each in lessons(layout_of(data_of(DEMO)))]
+    assert told[0].walk.data.hex() == "c35aa5100003000000"
+
+
+def test_a_report_of_another_end_comes_between_no_request_and_its_reply() -> None:
+    data = data_of(DEMO)
+    data["messages"]["VentJammed"]["direction"] = "display -> gateway"
+    spec = loaded_of(data).spec
+    assert spec is not None
+    assert interruption(derive(spec)) is None

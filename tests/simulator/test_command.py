@@ -125,6 +125,7 @@ def test_what_names_no_servo_is_refused(text: str) -> None:
         parse_servos(text)
 
 
+@not_windows
 def test_a_board_that_the_network_reaches_says_so(
     start: Callable[..., tuple[subprocess.Popen[str], str]],
 ) -> None:

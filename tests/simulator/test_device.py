@@ -178,3 +178,12 @@ def test_the_codec_alone_does_not_import_it() -> None:
         text=True,
     )
     assert output.stdout == "\n"
+
+
+@pytest.mark.garbage
+def test_what_is_shown_of_what_was_refused_names_the_reasons() -> None:
+    device = Device()
+    assert repr(device.rejects) == "Rejects(0)"
+    for wrong in ("00", "55 55 02 63", "01"):
+        device.accept(bytes.fromhex(wrong) + BatteryVoltageRead().encode())
+    assert repr(device.rejects) == "Rejects(3: bad header: 2, unknown command: 1)"

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import select
 import socket
 import struct
 import sys
@@ -26,6 +27,7 @@ from busservo.link_errors import TransportError
 from busservo.serial_port import open_transport
 from busservo_simulator import VirtualClock, VirtualController
 from busservo_simulator.tcp_end import TcpEnd
+from busservo_simulator.waker import Waker
 
 from tests.simulator.hosts import Host
 
@@ -289,3 +291,17 @@ def test_an_unplugged_board_speaks_to_nobody(connect: Connect) -> None:
     assert host.ask(ASK) == VOLTAGE
     assert host.heard == []
     host.hang_up()
+
+
+def test_a_waker_that_is_not_open_wakes_nobody() -> None:
+    waker = Waker()
+    waker.wake()
+    waker.clear()
+    assert waker.fileno() == -1
+    waker.open()
+    waker.wake()
+    assert select.select([waker], [], [], 5)[0] == [waker]
+    waker.clear()
+    assert select.select([waker], [], [], 0)[0] == []
+    waker.close()
+    assert waker.fileno() == -1
