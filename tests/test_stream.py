@@ -451,6 +451,56 @@ def test_a_line_reads_as(
     assert joined(read(direction, single_bytes(data))) == events
 
 
+@pytest.mark.parametrize(
+    ("line", "events"),
+    [
+        (
+            "55 55 0C 63 01 55 55 09 0F 55 55 04 0F 4C 1D",
+            [
+                noise("55 55 0C 63 01", Reason.UNKNOWN_COMMAND),
+                noise("55 55 09 0F", Reason.LENGTH_MISMATCH),
+                BatteryVoltage(7500),
+            ],
+        ),
+        # But one piece for a run of headers, each a byte after the other.
+        (
+            "55 55 0C 63 55 55 55 55 55 55 55 55 04 0F 4C 1D",
+            [
+                noise("55 55 0C 63", Reason.UNKNOWN_COMMAND),
+                noise("55 55 55 55 55 55", Reason.UNKNOWN_COMMAND),
+                BatteryVoltage(7500),
+            ],
+        ),
+        # Two headers with a byte between them are no run.
+        (
+            "55 55 10 63 55 55 09 0F 55 55 09 0F 55 55 04 0F 4C 1D",
+            [
+                noise("55 55 10 63", Reason.UNKNOWN_COMMAND),
+                noise("55 55 09 0F", Reason.LENGTH_MISMATCH),
+                noise("55 55 09 0F", Reason.LENGTH_MISMATCH),
+                BatteryVoltage(7500),
+            ],
+        ),
+        # Other unknown frames may be in there, and what follows them is judged anew.
+        (
+            "55 55 12 63 55 55 02 63 07 55 55 02 63 55 55 09 0F 55 55 04 0F 4C 1D",
+            [
+                noise("55 55 12 63", Reason.UNKNOWN_COMMAND),
+                UnknownFrame(bytes.fromhex("55 55 02 63"), Reason.UNKNOWN_COMMAND),
+                noise("07", Reason.BAD_HEADER),
+                UnknownFrame(bytes.fromhex("55 55 02 63"), Reason.UNKNOWN_COMMAND),
+                noise("55 55 09 0F", Reason.LENGTH_MISMATCH),
+                BatteryVoltage(7500),
+            ],
+        ),
+    ],
+)
+def test_what_an_unknown_frame_leaves_that_was_none_has_a_piece_for_each_refused_header(
+    line: str, events: list[Message | Noise]
+) -> None:
+    assert read(CONTROLLER, [bytes.fromhex(line)]) == events
+
+
 @each_case
 def test_twenty_frames_are_all_read_after_one_stray_55(case: Case) -> None:
     line = b"\x55" + 20 * case.frame
