@@ -341,6 +341,7 @@ class FullDisk(io.StringIO):
     """A file whose last bytes no longer fit."""
 
     def close(self) -> None:
+        super().close()  # or it would be closed, and fail, once more when it is collected
         raise OSError(errno.ENOSPC, "No space left on device")
 
 
