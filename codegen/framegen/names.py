@@ -55,8 +55,8 @@ PYTHON_CLASSES = _words(
 # What the library exports or is built of, whatever the protocol.
 LIBRARY_NAMES = _words(
     """
-    AsyncClient AsyncController Client ClosedError Controller Counters decode DecodeError Device
-    Direction DisconnectedError Element EncodeError Exchange EXCHANGES HEADER
+    AsyncClient AsyncController Client ClosedError Column Controller Counters decode DecodeError
+    Device Direction DisconnectedError Element EncodeError Exchange EXCHANGES HEADER
     IncompleteReplyError Items LineError Message MESSAGES Noise NoReplyError NoReportError
     Number open_async_controller open_controller open_transport PortAddressError PortBusyError
     PortNotFoundError PortPermissionError ProtocolError Reason RECEIVED Rejects Report
@@ -73,5 +73,5 @@ CLIENT_ATTRIBUTES = _words(
 )
 
 # What every message class has or calls, and what every element has as a tuple.
-MESSAGE_ATTRIBUTES = frozenset(["COMMAND", "DIRECTION", "LENGTHS", "decode", "encode", "listed"])
+MESSAGE_ATTRIBUTES = frozenset(["COMMAND", "DIRECTION", "LENGTHS", "columns", "decode", "encode"])
 ELEMENT_ATTRIBUTES = frozenset(["count", "index"])

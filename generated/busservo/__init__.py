@@ -15,36 +15,16 @@ command and, where it has one, its count.
 
 from __future__ import annotations
 
-from .codec import decode
-from .decoder import Counters, StreamDecoder
-from .direction import Direction
-from .errors import DecodeError, EncodeError, ProtocolError, Reason
-from .message import Message
-from .messages import (
-    MESSAGES,
-    ActionGroupCompleted,
-    ActionGroupRun,
-    ActionGroupSpeed,
-    ActionGroupStarted,
-    ActionGroupStop,
-    ActionGroupStopped,
-    BatteryVoltage,
-    BatteryVoltageRead,
-    ServoMove,
-    ServoPosition,
-    ServoPositions,
-    ServoPositionsRead,
-    ServoTarget,
-    ServoUnload,
-)
-from .noise import Noise, UnknownFrame
-
-TYPE_CHECKING = False  # typing alone would double the time that the import takes
+TYPE_CHECKING = False  # typing alone would double the time that an import takes
 if TYPE_CHECKING:
     from .async_controller import AsyncController
     from .async_opening import open_async_controller
+    from .codec import decode
     from .controller import Controller
+    from .decoder import Counters, StreamDecoder
     from .device import Device
+    from .direction import Direction
+    from .errors import DecodeError, EncodeError, ProtocolError, Reason
     from .link_errors import (
         ClosedError,
         DisconnectedError,
@@ -58,36 +38,81 @@ if TYPE_CHECKING:
         TransportError,
         WriteStuckError,
     )
+    from .message import Message
+    from .messages import (
+        MESSAGES,
+        ActionGroupCompleted,
+        ActionGroupRun,
+        ActionGroupSpeed,
+        ActionGroupStarted,
+        ActionGroupStop,
+        ActionGroupStopped,
+        BatteryVoltage,
+        BatteryVoltageRead,
+        ServoMove,
+        ServoPosition,
+        ServoPositions,
+        ServoPositionsRead,
+        ServoTarget,
+        ServoUnload,
+    )
+    from .noise import Noise, UnknownFrame
     from .opening import open_controller
     from .request import Sent
     from .serial_port import open_transport
     from .transport import Transport
 else:
-    # What talks to a port is imported when it is asked for: a user of the codec needs none of it.
-    _LAZY = {
+    # Each is imported when it is first asked for: nobody waits for what is not used.
+    _HOMES = {
+        "MESSAGES": "messages",
+        "ActionGroupCompleted": "messages",
+        "ActionGroupRun": "messages",
+        "ActionGroupSpeed": "messages",
+        "ActionGroupStarted": "messages",
+        "ActionGroupStop": "messages",
+        "ActionGroupStopped": "messages",
         "AsyncController": "async_controller",
+        "BatteryVoltage": "messages",
+        "BatteryVoltageRead": "messages",
         "ClosedError": "link_errors",
         "Controller": "controller",
+        "Counters": "decoder",
+        "DecodeError": "errors",
         "Device": "device",
+        "Direction": "direction",
         "DisconnectedError": "link_errors",
+        "EncodeError": "errors",
         "IncompleteReplyError": "link_errors",
+        "Message": "message",
         "NoReplyError": "link_errors",
         "NoReportError": "link_errors",
+        "Noise": "noise",
         "PortAddressError": "link_errors",
         "PortBusyError": "link_errors",
         "PortNotFoundError": "link_errors",
         "PortPermissionError": "link_errors",
+        "ProtocolError": "errors",
+        "Reason": "errors",
         "Sent": "request",
+        "ServoMove": "messages",
+        "ServoPosition": "messages",
+        "ServoPositions": "messages",
+        "ServoPositionsRead": "messages",
+        "ServoTarget": "messages",
+        "ServoUnload": "messages",
+        "StreamDecoder": "decoder",
         "Transport": "transport",
         "TransportError": "link_errors",
+        "UnknownFrame": "noise",
         "WriteStuckError": "link_errors",
+        "decode": "codec",
         "open_async_controller": "async_opening",
         "open_controller": "opening",
         "open_transport": "serial_port",
     }
 
     def __getattr__(name: str) -> object:
-        module = _LAZY.get(name)
+        module = _HOMES.get(name)
         if module is None:
             raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
         # Not importlib, which would have to be imported first.
@@ -96,7 +121,7 @@ else:
         return value
 
     def __dir__() -> list[str]:
-        return sorted({*globals(), *_LAZY})
+        return sorted({*globals(), *_HOMES})
 
 
 __version__ = "0.1.0"

@@ -16,9 +16,11 @@ from .shape import Shape
 TYPE_CHECKING = False  # typing alone would double the time that the import takes
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable
-    from typing import ClassVar, Final
+    from typing import ClassVar, Final, TypeAlias
 
     from typing_extensions import Self
+
+    Column: TypeAlias = tuple[int, ...]
 
 
 class ServoTarget(Element, tuple[int, int]):
@@ -161,6 +163,14 @@ class ServoMove(Message):
         1..83 of them.
         """
         return tuple(map(_make_servo_target, _read_servo_target(self._frame[7:])))
+
+    def columns(self) -> tuple[Column, Column]:
+        """The targets as columns of plain numbers: every servo_id and every position.
+
+        For arrays and plots of a recording: several times as fast as `targets`.
+        """
+        numbers = self.SHAPE.listed(self._frame)
+        return numbers[0::2], numbers[1::2]
 
 
 class ActionGroupRun(Message):
@@ -613,6 +623,14 @@ class ServoPositions(Message):
         repositories)
         """
         return tuple(map(_make_servo_position, _read_servo_position(self._frame[5:])))
+
+    def columns(self) -> tuple[Column, Column]:
+        """The positions as columns of plain numbers: every servo_id and every position.
+
+        For arrays and plots of a recording: several times as fast as `positions`.
+        """
+        numbers = self.SHAPE.listed(self._frame)
+        return numbers[0::2], numbers[1::2]
 
 
 MESSAGES: tuple[type[Message], ...] = (

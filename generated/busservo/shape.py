@@ -27,7 +27,7 @@ class Shape:
     (its count among them), and `items` the list itself, where there is one.
     """
 
-    __slots__ = ("_packers", "command", "items", "lengths", "narrowed", "numbers")
+    __slots__ = ("_packers", "_unpackers", "command", "items", "lengths", "narrowed", "numbers")
 
     def __init__(
         self,
@@ -45,6 +45,7 @@ class Shape:
         # Whether a field has a range of its own, which what struct accepts says nothing about.
         self.narrowed = narrowed
         self._packers: dict[int, tuple[Callable[..., bytes], bytes]] = {}
+        self._unpackers: dict[int, Callable[[bytes], tuple[int, ...]]] = {}
 
     def count_bytes(self, length: int) -> tuple[int, int, bytes]:
         """Where the count of a frame of legal length begins and ends, and what it must be."""
@@ -70,6 +71,11 @@ class Shape:
                 return at, f"{field.name} is {value}, outside {field.low}..{field.high}"
             at += struct.calcsize(STRUCT_ORDER + field.code)
         return None
+
+    def listed(self, frame: bytes) -> tuple[int, ...]:
+        """All numbers of the list of a legal frame, in its order; one without a list has none."""
+        unpack = self._unpackers.get(len(frame)) or self._unpacker(len(frame))
+        return unpack(frame)
 
     def frame(self, numbers: tuple[Any, ...], given: Iterable[Any] = ()) -> bytes:
         """The frame with these values. Raises EncodeError.
@@ -120,4 +126,13 @@ class Shape:
             codes += "".join(field.code for field in self.items.fields) * count
         made = struct.Struct(f"{STRUCT_ORDER}{BODY_AT}s{codes}").pack, head(self.command, length)
         self._packers[count] = made
+        return made
+
+    def _unpacker(self, size: int) -> Callable[[bytes], tuple[int, ...]]:
+        """What unpacks the list of a frame of this size. Made once for each size."""
+        codes = "".join(number.code for number in self.numbers)
+        at = BODY_AT + struct.calcsize(STRUCT_ORDER + codes)
+        element = "".join(field.code for field in self.items.fields) if self.items else ""
+        count = (size - at) // max(1, struct.calcsize(STRUCT_ORDER + element))
+        made = self._unpackers[size] = struct.Struct(f"{STRUCT_ORDER}{at}x{element * count}").unpack
         return made

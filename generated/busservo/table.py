@@ -66,7 +66,8 @@ class Table(dict[bytes, "Entry | None"]):
         """The message that `frame` is, whole and with nothing after it. Raises DecodeError."""
         if type(frame) is not bytes:
             frame = octets(frame)
-        entry = self[frame[:BODY_AT]]
+        # What is known is found sooner by `get`, and what is not is learnt by the index.
+        entry = self.get(frame[:BODY_AT]) or self[frame[:BODY_AT]]
         if entry is not None:
             size, at, until, count, kind = entry
             if len(frame) == size and (not until or frame[at:until] == count):

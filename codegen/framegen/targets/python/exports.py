@@ -4,46 +4,40 @@ from __future__ import annotations
 
 from framegen.targets.python.escape import WIDTH
 
-# What else every library exports, and the module that each is in: imported when it is asked for,
-# because a user of the codec needs no port.
-LAZY = {
+# What every library exports besides its messages, and the module that each is in.
+HOMES = {
+    "MESSAGES": "messages",
     "AsyncController": "async_controller",
     "ClosedError": "link_errors",
     "Controller": "controller",
+    "Counters": "decoder",
+    "DecodeError": "errors",
     "Device": "device",
+    "Direction": "direction",
     "DisconnectedError": "link_errors",
+    "EncodeError": "errors",
     "IncompleteReplyError": "link_errors",
+    "Message": "message",
     "NoReplyError": "link_errors",
     "NoReportError": "link_errors",
+    "Noise": "noise",
     "PortAddressError": "link_errors",
     "PortBusyError": "link_errors",
     "PortNotFoundError": "link_errors",
     "PortPermissionError": "link_errors",
+    "ProtocolError": "errors",
+    "Reason": "errors",
     "Sent": "request",
+    "StreamDecoder": "decoder",
     "Transport": "transport",
     "TransportError": "link_errors",
+    "UnknownFrame": "noise",
     "WriteStuckError": "link_errors",
+    "decode": "codec",
     "open_async_controller": "async_opening",
     "open_controller": "opening",
     "open_transport": "serial_port",
 }
-
-# What every library exports besides its messages.
-EXPORTED = (
-    "MESSAGES",
-    "Counters",
-    "DecodeError",
-    "Direction",
-    "EncodeError",
-    "Message",
-    "Noise",
-    "ProtocolError",
-    "Reason",
-    "StreamDecoder",
-    "UnknownFrame",
-    "__version__",
-    "decode",
-)
 
 
 def export_order(name: str) -> tuple[int, str]:

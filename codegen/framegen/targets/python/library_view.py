@@ -12,7 +12,7 @@ from framegen.targets.python.command_lines import (
     line_examples,
 )
 from framegen.targets.python.escape import literal
-from framegen.targets.python.exports import EXPORTED, LAZY, export_order, relative_import
+from framegen.targets.python.exports import HOMES, export_order, relative_import
 from framegen.targets.python.message_view import MessageView
 from framegen.targets.python.words import direction_member, struct_order
 
@@ -108,7 +108,11 @@ class LibraryView:
         fields += [field for element in self.elements for field in element.fields]
         wanted: dict[str, dict[str, object]] = {
             "collections.abc": {"Callable": self.elements, "Iterable": lists},
-            "typing": {"ClassVar": True, "Final": any(field.constants for field in fields)},
+            "typing": {
+                "ClassVar": True,
+                "Final": any(field.constants for field in fields),
+                "TypeAlias": self.elements,
+            },
         }
         found = {
             module: [name for name, needed in names.items() if needed]
@@ -125,35 +129,32 @@ class LibraryView:
         return [name for name, needed in names.items() if needed]
 
     @property
-    def _from_messages(self) -> list[str]:
-        names = {message.name for message in self.messages}
-        names |= {element.element for element in self.elements if element.element is not None}
-        return sorted(names)
-
-    @property
-    def import_messages(self) -> str:
-        names = sorted(["MESSAGES", *self._from_messages], key=export_order)
-        return relative_import("messages", names)
-
-    @property
     def import_message_classes(self) -> str:
         return relative_import("messages", sorted(message.name for message in self.messages))
 
     @property
+    def _homes(self) -> dict[str, str]:
+        """Every name that the package exports from its modules, in the order that linters want."""
+        elements = [element.element for element in self.elements if element.element is not None]
+        classes = [*(message.name for message in self.messages), *elements]
+        homes = {**HOMES, **dict.fromkeys(classes, "messages")}
+        return {name: homes[name] for name in sorted(homes, key=export_order)}
+
+    @property
     def exported(self) -> list[str]:
         """Every name that the package exports, in the order that linters want."""
-        return sorted([*EXPORTED, *LAZY, *self._from_messages], key=export_order)
+        return sorted([*self._homes, "__version__"], key=export_order)
 
     @property
-    def lazy_entries(self) -> list[str]:
-        """The names imported when they are asked for, and their modules."""
-        return [f"{literal(name)}: {literal(module)}," for name, module in LAZY.items()]
+    def homes(self) -> list[str]:
+        """The entries of a dict: each name that the package exports, and its module."""
+        return [f"{literal(name)}: {literal(module)}," for name, module in self._homes.items()]
 
     @property
-    def lazy_imports(self) -> list[str]:
-        """The imports of all of those, for type checkers."""
+    def exports(self) -> list[str]:
+        """The imports of all of those."""
         modules: dict[str, list[str]] = {}
-        for name, module in LAZY.items():
+        for name, module in self._homes.items():
             modules.setdefault(module, []).append(name)
         return [relative_import(module, names, 4) for module, names in sorted(modules.items())]
 

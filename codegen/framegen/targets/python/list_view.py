@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from framegen.exchanges import snake_case
-from framegen.targets.python.escape import Bracketed, literal
+from framegen.targets.python.escape import WIDTH, Bracketed, literal
 from framegen.targets.python.number_view import NumberView
 from framegen.targets.python.words import range_expression, struct_order
 
@@ -101,6 +101,32 @@ class ListView:
         if self.layout.fields[0].wire.name == "u8":
             return f"tuple({data})"
         return f"tuple(chain.from_iterable(iter_unpack({literal(self.codes)}, {data})))"
+
+    @property
+    def column_types(self) -> str:
+        """The types of its columns, as many as there is room for in the line."""
+        types = ", ".join("Column" for _ in self.fields)
+        return f"tuple[{types if len(self.fields) <= 6 else 'Column, ...'}]"
+
+    @property
+    def columns(self) -> str:
+        """The columns, of all the numbers in the order of the frame."""
+        width = len(self.fields)
+        parts = [f"numbers[{place}::{width}]" for place in range(width)]
+        line = ", ".join(parts) + ("," if width == 1 else "")
+        if len("        return ") + len(line) <= WIDTH:
+            return line
+        return Bracketed("(", parts, ")").fitted(8)
+
+    @property
+    def columns_doc(self) -> list[str]:
+        """What its columns are, and what they are for."""
+        *others, last = [f"every {field.name}" for field in self.fields]
+        told = f"{', '.join(others)} and {last}" if others else last
+        return [
+            f"The {self.name} as columns of plain numbers: {told}.",
+            f"For arrays and plots of a recording: several times as fast as `{self.name}`.",
+        ]
 
     @property
     def counts(self) -> str:

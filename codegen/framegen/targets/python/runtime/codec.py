@@ -4,11 +4,14 @@ from __future__ import annotations
 
 from .direction import Direction
 from .messages import MESSAGES
+from .protocol import BODY_AT
 from .table import Table
 
 TYPE_CHECKING = False  # typing alone would double the time that the import takes
 if TYPE_CHECKING:
     from .message import Message
+
+_new = object.__new__
 
 _tables: dict[Direction | None, Table] = {}
 
@@ -36,4 +39,13 @@ def decode(frame: bytes | bytearray | memoryview, direction: Direction | None) -
         table = _tables[direction]
     except KeyError:
         table = table_for(direction)
+    # What `read` does with a frame of a kind seen before; the call alone would cost a fifth more.
+    if type(frame) is bytes:
+        entry = table.get(frame[:BODY_AT])
+        if entry is not None:
+            size, at, until, count, kind = entry
+            if len(frame) == size and (not until or frame[at:until] == count):
+                message = _new(kind)
+                message._frame = frame
+                return message
     return table.read(frame)
