@@ -117,7 +117,8 @@ def measure_imports(
     """Import everything that can be imported, and `struct`, which the floor needs."""
     processes.measure_import(FLOOR, "import struct", None, rounds, results)
     if ours:
-        processes.measure_import(OURS, ours.IMPORT_STATEMENT, None, rounds, results)
+        for contender, statement in ours.IMPORTS.items():
+            processes.measure_import(contender, statement, None, rounds, results)
     for peer in present:
         processes.measure_import(
             peer.name, peer.import_statement, peer.import_path, rounds, results

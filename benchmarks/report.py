@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from benchmarks import captures, streams
 from benchmarks.peers import NOT_INSTALLED
-from benchmarks.results import EVERY_FIELD, FLOOR, OURS, Results
+from benchmarks.results import AS_COLUMNS, EVERY_FIELD, FLOOR, IN_USE, OURS, Results
 from benchmarks.targets import TARGETS
 
 if TYPE_CHECKING:
@@ -72,7 +72,8 @@ def everything(
     rounds: int,
 ) -> str:
     """The whole report."""
-    titles = {FLOOR: "floor (struct by hand)", OURS: OURS, EVERY_FIELD: EVERY_FIELD}
+    titles = {FLOOR: "floor (struct by hand)"}
+    titles |= {name: name for name in (OURS, EVERY_FIELD, AS_COLUMNS, IN_USE)}
     titles |= {peer.name: peer.title for peer in present}
     missing = [*([] if with_ours else [OURS]), *(one.name for one in absent)]
     rounds_text = "1 round" if rounds == 1 else f"{rounds} rounds"

@@ -13,6 +13,8 @@ OURS = "busservo"
 AT_HAND = "busservo, message at hand"
 BY_CLASS = "busservo, class known"
 EVERY_FIELD = "busservo, every field read"
+AS_COLUMNS = "busservo, every field read, as columns"
+IN_USE = "busservo, its codec in use"
 """The library in the plainest use of a row, and in other uses."""
 
 

@@ -475,6 +475,9 @@ def holds(data: Data, folder: Path) -> None:
             assert kind(**arguments(vector["fields"])).encode() == frame
             message = library_.decode(frame, library_.Direction(vector["direction"]))
             assert said_by(message) == arguments(vector["fields"])
+            for rows in said_by(message).values():
+                if rows and isinstance(rows, list | tuple) and isinstance(rows[0], tuple):
+                    assert message.columns() == tuple(zip(*rows, strict=True))
             for at in range(len(frame)):
                 for data_ in (frame[:at], frame[:at] + bytes([frame[at] ^ 1]) + frame[at + 1 :]):
                     try:
@@ -564,6 +567,35 @@ SHAPES: dict[str, tuple[Data, str | int]] = {
             ({"mode": 3, "numbers": []}, "AA 02 06 03 00"),
         ),
         "n + 2",
+    ),
+    "elements of eight fields, behind another": (
+        message_of(
+            10,
+            {
+                "mode": {"type": "i16"},
+                "n": COUNT,
+                "rows": {
+                    "element": "Step",
+                    "counted_by": "n",
+                    "count": "0..2",
+                    "fields": {
+                        **{f"column{n}": {"type": "u8", "about": "It."} for n in range(7)},
+                        "last": {"type": "i16", "about": "It."},
+                    },
+                },
+            },
+            (
+                {
+                    "mode": 1,
+                    "rows": [
+                        {**{f"column{n}": 100 + n for n in range(7)}, "last": -1},
+                        {**{f"column{n}": 6 - n for n in range(7)}, "last": 258},
+                    ],
+                },
+                "AA 15 0A 00 01 02 64 65 66 67 68 69 6A FF FF 06 05 04 03 02 01 00 01 02",
+            ),
+        ),
+        "9 * n + 3",
     ),
     "no fields at all": (message_of(7, {}, ({}, "AA 00 07")), 0),
     "one field": (message_of(8, {"only": {"type": "u8"}}, ({"only": 5}, "AA 01 08 05")), 1),

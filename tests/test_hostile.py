@@ -558,6 +558,7 @@ ODD_MESSAGES = [
     "Test",
 ]
 ODD_FIELDS = [
+    "columns",
     "flat",
     "listed",
     "numbers",

@@ -90,6 +90,13 @@ def test_fields_are_read_as_plain_numbers_and_tuples() -> None:
     assert ActionGroupSpeed(1, 200).percent == 200
 
 
+@given(st.lists(st.tuples(st.integers(0, 255), st.integers(0, 65535)), min_size=1, max_size=83))
+def test_a_list_can_be_read_as_columns_of_plain_numbers(pairs: list[tuple[int, int]]) -> None:
+    for message in (ServoMove(1000, pairs), ServoPositions(pairs)):
+        assert message.columns() == tuple(zip(*pairs, strict=True))
+        assert {type(number) for column in message.columns() for number in column} == {int}
+
+
 def test_named_elements_and_plain_pairs_make_the_same_message() -> None:
     plain = ServoMove(time_ms=1000, targets=[(1, 800)])
     named = ServoMove(time_ms=1000, targets=[ServoTarget(servo_id=1, position=800)])
@@ -568,18 +575,26 @@ def _has_code(value: object) -> bool:
 @pytest.mark.parametrize(
     "unwanted", ["serial", "typing", "typing_extensions", "dataclasses", "hypothesis", "json", "re"]
 )
-def test_importing_the_package_imports_little(unwanted: str, imported: set[str]) -> None:
+def test_importing_the_codec_imports_little(unwanted: str, imported: set[str]) -> None:
     assert "busservo" in imported
     assert unwanted not in imported
 
 
 @pytest.fixture(scope="module")
 def imported() -> set[str]:
-    """What `import busservo` alone imports; -S keeps away what a site's .pth files would."""
+    """What is imported with all that needs no port."""
+    return modules_after(f"from busservo import {', '.join(sorted(PUBLIC))}")
+
+
+def test_the_package_alone_imports_no_module_of_its_own() -> None:
+    assert {name for name in modules_after("import busservo") if "busservo" in name} == {"busservo"}
+
+
+def modules_after(statement: str) -> set[str]:
+    """All that is imported then; -S keeps away what a site's .pth files would."""
     home = Path(busservo.__file__).parent.parent
-    program = "import sys, busservo; print(*sys.modules)"
     output = subprocess.run(
-        [sys.executable, "-S", "-c", program],
+        [sys.executable, "-S", "-c", f"import sys; {statement}; print(*sys.modules)"],
         env={**os.environ, "PYTHONPATH": str(home)},
         capture_output=True,
         text=True,

@@ -165,9 +165,10 @@ class ServoMove(Message):
         return tuple(map(_make_servo_target, _read_servo_target(self._frame[7:])))
 
     def columns(self) -> tuple[Column, Column]:
-        """The targets as columns of plain numbers: every servo_id and every position.
+        """The targets as columns of plain numbers.
 
-        For arrays and plots of a recording: several times as fast as `targets`.
+        One for each field: servo_id and position. For arrays and plots of a recording: several
+        times as fast as `targets`.
         """
         numbers = self.SHAPE.listed(self._frame)
         return numbers[0::2], numbers[1::2]
@@ -625,9 +626,10 @@ class ServoPositions(Message):
         return tuple(map(_make_servo_position, _read_servo_position(self._frame[5:])))
 
     def columns(self) -> tuple[Column, Column]:
-        """The positions as columns of plain numbers: every servo_id and every position.
+        """The positions as columns of plain numbers.
 
-        For arrays and plots of a recording: several times as fast as `positions`.
+        One for each field: servo_id and position. For arrays and plots of a recording: several
+        times as fast as `positions`.
         """
         numbers = self.SHAPE.listed(self._frame)
         return numbers[0::2], numbers[1::2]

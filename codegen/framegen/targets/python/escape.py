@@ -92,6 +92,12 @@ class Bracketed:
         )
 
 
+def session(call: Bracketed, indent: int) -> list[str]:
+    """A call as lines of an interactive session that stand behind `indent` blanks."""
+    first, *others = call.fitted(indent + len(">>> ")).split("\n")
+    return [f">>> {first}", *(f"... {line[indent + len('... ') :]}" for line in others)]
+
+
 def _escaped(character: str, special: str) -> str:
     if character in special:
         return "\\" + character

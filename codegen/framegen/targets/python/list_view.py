@@ -6,13 +6,28 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from framegen.exchanges import snake_case
-from framegen.targets.python.escape import WIDTH, Bracketed, literal
+from framegen.layout import Repeat, WireField
+from framegen.targets.python.escape import WIDTH, Bracketed, lines, literal
 from framegen.targets.python.number_view import NumberView
 from framegen.targets.python.words import range_expression, struct_order
 
 if TYPE_CHECKING:
-    from framegen.layout import Repeat
+    from typing import Any
+
     from framegen.spec import Spec
+
+_COLUMNS_FOR = "For arrays and plots of a recording: several times as fast as"
+
+
+def given(argument: WireField | Repeat, value: Any, before: str = "") -> str | Bracketed:
+    """A value of an example as an argument, behind `before`; elements as plain tuples."""
+    if isinstance(argument, WireField):
+        return f"{before}{value}"
+    if argument.element is None:
+        return Bracketed(f"{before}[", [str(item) for item in value], "]")
+    names = [field.name for field in argument.fields]
+    elements = [tuple(item[name] for name in names) for item in value]
+    return Bracketed(f"{before}[", [str(element) for element in elements], "]")
 
 
 @dataclass(frozen=True, slots=True)
@@ -52,8 +67,18 @@ class ListView:
         return Bracketed("def __new__(", ["cls", *fields], ") -> Self:").fitted(4)
 
     @property
+    def made(self) -> str:
+        """What makes one of the arguments of its signature."""
+        names = Bracketed("(", [field.name for field in self.fields], ")", lone=",")
+        return Bracketed("return tuple.__new__(", ["cls", names], ")").fitted(8)
+
+    @property
     def element_doc(self) -> list[str]:
-        return [f"One of the {self.name} of a message: a tuple ({self.names}) with names."]
+        whole = f"One of the {self.name} of a message: a tuple ({self.names}) with names."
+        # A summary has to fit into a line.
+        if len(lines(whole, 4)) == 1:
+            return [whole]
+        return [f"One of the {self.name} of a message: a tuple with names.", f"({self.names})"]
 
     @property
     def types(self) -> str:
@@ -113,19 +138,19 @@ class ListView:
         """The columns, of all the numbers in the order of the frame."""
         width = len(self.fields)
         parts = [f"numbers[{place}::{width}]" for place in range(width)]
-        line = ", ".join(parts) + ("," if width == 1 else "")
-        if len("        return ") + len(line) <= WIDTH:
+        line = ", ".join(parts)
+        if width > 1 and len("        return ") + len(line) <= WIDTH:
             return line
-        return Bracketed("(", parts, ")").fitted(8)
+        return Bracketed("(", parts, ")", lone=",").fitted(8)
 
     @property
     def columns_doc(self) -> list[str]:
         """What its columns are, and what they are for."""
-        *others, last = [f"every {field.name}" for field in self.fields]
-        told = f"{', '.join(others)} and {last}" if others else last
+        *others, last = [field.name for field in self.fields]
+        fields = f"{', '.join(others)} and {last}" if others else last
         return [
-            f"The {self.name} as columns of plain numbers: {told}.",
-            f"For arrays and plots of a recording: several times as fast as `{self.name}`.",
+            f"The {self.name} as columns of plain numbers.",
+            f"One for each field: {fields}. {_COLUMNS_FOR} `{self.name}`.",
         ]
 
     @property

@@ -9,8 +9,8 @@ from framegen.codec import describe_range
 from framegen.exchanges import snake_case
 from framegen.layout import Repeat, WireField
 from framegen.names import PYTHON_BUILTINS, PYTHON_KEYWORDS
-from framegen.targets.python.escape import Bracketed, literal
-from framegen.targets.python.list_view import ListView
+from framegen.targets.python.escape import Bracketed, literal, session
+from framegen.targets.python.list_view import ListView, given
 from framegen.targets.python.number_view import NumberView
 from framegen.targets.python.words import direction_member, range_expression
 
@@ -138,16 +138,13 @@ class MessageView:
     @property
     def example_lines(self) -> list[str]:
         """That example as an interactive session."""
-        call = f">>> {self.call(self.example.values)}.encode().hex(' ')"
-        return [call, f"'{self.example.hex.hex(' ')}'"]
+        given_values = self.given_values(self.example.values)
+        call = Bracketed(f"{self.name}(", given_values, ").encode().hex(' ')")
+        return [*session(call, 4), f"'{self.example.hex.hex(' ')}'"]
 
-    def call(self, values: dict[str, Any]) -> str:
-        """The call that makes the message of an example."""
-        return f"{self.name}({', '.join(self.given_values(values))})"
-
-    def given_values(self, values: dict[str, Any]) -> list[str]:
-        """The arguments of that call."""
-        return [f"{argument.name}={_shown(argument, values)}" for argument in self.layout.arguments]
+    def given_values(self, values: dict[str, Any]) -> list[str | Bracketed]:
+        """The arguments that make the message of an example."""
+        return [given(each, values[each.name], f"{each.name}=") for each in self.layout.arguments]
 
     def command_words(self, values: dict[str, Any]) -> list[str]:
         """The fields of an example as the command takes them: `targets=1:800,9:800`."""
@@ -203,13 +200,3 @@ class MessageView:
 def _items(names: list[str]) -> str:
     """Names as the inside of a tuple."""
     return ", ".join(names) + ("," if len(names) == 1 else "")
-
-
-def _shown(argument: WireField | Repeat, values: dict[str, Any]) -> str:
-    """A value of an example as an argument: elements as tuples, in the order of the frame."""
-    value = values[argument.name]
-    if isinstance(argument, WireField) or argument.element is None:
-        return str(value)
-    names = [field.name for field in argument.fields]
-    elements = [tuple(item[name] for name in names) for item in value]
-    return f"[{', '.join(str(element) for element in elements)}]"

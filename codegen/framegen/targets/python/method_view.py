@@ -6,13 +6,11 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from framegen.layout import Repeat, WireField
-from framegen.targets.python.escape import Bracketed
-from framegen.targets.python.list_view import ListView
+from framegen.targets.python.escape import Bracketed, session
+from framegen.targets.python.list_view import ListView, given
 from framegen.targets.python.number_view import NumberView
 
 if TYPE_CHECKING:
-    from typing import Any
-
     from framegen.exchanges import Exchange
     from framegen.layout import Layout
 
@@ -98,14 +96,14 @@ class MethodView:
     @property
     def example_lines(self) -> list[str]:
         """The first example of the message, as an interactive session."""
-        values = self.exchange.request.message.examples[0].values
-        call = f"{self.flavour.wait}controller.{self.name}({self._example(values)})"
+        call = f"{self.flavour.wait}controller.{self.name}("
         reply = self.exchange.reply
         if reply is None:
-            return [f">>> sent = {call}"]
+            return self._session(f"sent = {call}")
         if isinstance(self._result, WireField):
-            return [f">>> {call}", str(reply.message.examples[0].values[self._result.name])]
-        return [f">>> answer = {call}"]
+            shown = str(reply.message.examples[0].values[self._result.name])
+            return [*self._session(call), shown]
+        return self._session(f"answer = {call}")
 
     @property
     def body(self) -> str:
@@ -145,8 +143,11 @@ class MethodView:
         return next((field for field in fields if field.name == name), None)
 
     def _argument(self, name: str) -> NumberView | ListView:
+        return self._shown(self._field(name))
+
+    def _field(self, name: str) -> WireField | Repeat:
         fields = self.exchange.request.arguments
-        return self._shown(next(field for field in fields if field.name == name))
+        return next(field for field in fields if field.name == name)
 
     def _shown(self, field: WireField | Repeat) -> NumberView | ListView:
         return self._list(field) if isinstance(field, Repeat) else self._number(field)
@@ -160,15 +161,11 @@ class MethodView:
     def _type(self, argument: NumberView | ListView) -> str:
         return argument.given_as if isinstance(argument, ListView) else "int"
 
-    def _example(self, values: dict[str, Any]) -> str:
-        """The arguments of an example: the first by place, the others by name."""
-        shown: list[str] = []
-        for at, name in enumerate(self._names):
-            value = values[name]
-            argument = self._argument(name)
-            if isinstance(argument, ListView) and argument.element is not None:
-                names = [field.name for field in argument.fields]
-                items = [", ".join(str(item[each]) for each in names) for item in value]
-                value = f"[{', '.join(f'({item})' for item in items)}]"
-            shown.append(f"{name}={value}" if at else f"{value}")
-        return ", ".join(shown)
+    def _session(self, before: str) -> list[str]:
+        """A call of it in an interactive session: the first argument by place, others by name."""
+        values = self.exchange.request.message.examples[0].values
+        shown = [
+            given(self._field(name), values[name], f"{name}=" if at else "")
+            for at, name in enumerate(self._names)
+        ]
+        return session(Bracketed(before, shown, ")"), 8)
