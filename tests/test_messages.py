@@ -590,6 +590,12 @@ def test_the_package_alone_imports_no_module_of_its_own() -> None:
     assert {name for name in modules_after("import busservo") if "busservo" in name} == {"busservo"}
 
 
+def test_a_port_has_to_be_opened_before_pyserial_is_imported() -> None:
+    modules = modules_after("from busservo import *")
+    assert "busservo.serial_port" in modules
+    assert "serial" not in modules
+
+
 def modules_after(statement: str) -> set[str]:
     """All that is imported then; -S keeps away what a site's .pth files would."""
     home = Path(busservo.__file__).parent.parent

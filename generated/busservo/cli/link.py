@@ -11,6 +11,7 @@ from contextlib import contextmanager
 
 from ..client import MARGIN, Client
 from ..link_errors import ClosedError, DisconnectedError, TransportError, WriteStuckError
+from ..serial_port import open_transport
 from .exits import LINE_LOST, TERMINATED
 from .unusable import LineLostError, UnusableError
 from .waiting import shown_waiting
@@ -79,8 +80,6 @@ def at_least(lowest: int) -> Callable[[str], int]:
 
 def open_line(port: str) -> Transport:
     """Opens a port, and shows that it is at it: an address that is far away may take a while."""
-    from ..serial_port import open_transport
-
     with shown_waiting(lambda waited: f"opening {port}, {waited:.0f} s"):
         return open_transport(port)
 

@@ -15,9 +15,6 @@ import time
 from functools import partial
 from typing import TYPE_CHECKING
 
-import serial
-from serial.tools import list_ports
-
 from .link_errors import (
     ClosedError,
     DisconnectedError,
@@ -63,6 +60,8 @@ def open_transport(port: str, *, baud: float = BAUD, exclusive: bool = True) -> 
     asks for the same can have the port meanwhile. Raises TransportError; ValueError for a `baud`
     that no port can be set to.
     """
+    import serial
+
     if not isinstance(port, str):
         raise PortAddressError(repr(port), "a port is named by text", _NAMED)
     if not 1 <= baud < _FASTER:
@@ -150,11 +149,13 @@ class SerialPort:
 
     def write(self, data: bytes) -> None:
         """Hands over all of `data`."""
+        from serial import SerialTimeoutException
+
         if self._closed:
             raise self._is_closed()
         try:
             self._port.write(data)
-        except serial.SerialTimeoutException as error:
+        except SerialTimeoutException as error:
             raise WriteStuckError(
                 self.name,
                 f"it has taken no bytes for {_WRITE_TIMEOUT:g} s",
@@ -244,5 +245,7 @@ def _not_opened(port: str, error: Exception) -> TransportError:
 
 
 def _listed() -> str:
+    from serial.tools import list_ports
+
     found = sorted(each.device for each in list_ports.comports())
     return f"these exist: {', '.join(found)}" if found else "no serial port is plugged in"
