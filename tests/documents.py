@@ -142,7 +142,7 @@ class _Player:
                     stdout=subprocess.PIPE,
                     stderr=subprocess.STDOUT,
                     encoding="utf-8",
-                    timeout=4 * PATIENCE,
+                    timeout=5 * PATIENCE,
                     check=False,
                 ).stdout
             output = told_as(printed)

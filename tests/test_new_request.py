@@ -9,6 +9,8 @@ from pathlib import Path
 
 import pytest
 
+from tests.patience import PATIENCE
+
 ROOT = Path(__file__).parent.parent
 
 NEW = """
@@ -145,7 +147,12 @@ def project(tmp_path_factory: pytest.TempPathFactory) -> Path:
 def run(command: list[str], search: list[str]) -> str:
     environment = {**os.environ, "PYTHONPATH": os.pathsep.join(search)}
     done = subprocess.run(
-        command, env=environment, capture_output=True, encoding="utf-8", timeout=60, check=False
+        command,
+        env=environment,
+        capture_output=True,
+        encoding="utf-8",
+        timeout=5 * PATIENCE,
+        check=False,
     )
     assert done.returncode == 0, done.stdout + done.stderr
     return done.stdout

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import io
 import re
+import socket
 import sys
 from typing import TYPE_CHECKING
 from unittest import mock
@@ -52,8 +53,10 @@ def replayed(log: Path, *words: str) -> tuple[int, list[Message | Noise]]:
     ):
         status = main(["replay", str(log), "--port", board.port, *words])
         # Whoever calls next is let in once all has been heard that was sent before.
-        with open_controller(board.port, margin=PATIENCE) as controller:
-            controller.read_battery_voltage()
+        address = ("127.0.0.1", int(board.port.rpartition(":")[2]))
+        with socket.create_connection(address, PATIENCE) as caller:
+            caller.sendall(ASK.encode())
+            assert caller.recv(100)
     assert heard.pop() == ASK
     return status, heard
 
