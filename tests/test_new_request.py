@@ -106,7 +106,7 @@ port = f"socket://127.0.0.1:{listener.getsockname()[1]}"
 """
 
 METHODS = """
-with busservo.open_controller(port, margin=10) as controller:
+with busservo.open_controller(port, margin=60) as controller:
     controller.lamp_set([(7, 9), (1, 3)])
     print(controller.read_lamps([7, 1]))
     print(len(controller.read_lamps([1, 2, 7] * 20)))
@@ -116,7 +116,7 @@ with busservo.open_controller(port, margin=10) as controller:
         print(error)
 
 async def work():
-    async with busservo.open_async_controller(port, margin=10) as controller:
+    async with busservo.open_async_controller(port, margin=60) as controller:
         await controller.lamp_set([(2, 200)])
         print(await controller.read_lamps([2]))
 
