@@ -23,7 +23,7 @@ from busservo import (
 from busservo.cli import main, playback
 from busservo_simulator import Faults, VirtualController
 
-from tests.patience import PATIENCE
+from tests.patience import PATIENCE, await_that
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -32,6 +32,8 @@ MOVE = ServoMove(time_ms=100, targets=[(1, 600)])
 ASK = BatteryVoltageRead()
 READ = ServoPositionsRead([1])
 RUN = ActionGroupRun(group=8, times=1)
+# What no recording holds.
+LAST = ServoPositionsRead([200])
 
 
 def hexed(message: Message) -> str:
@@ -55,9 +57,9 @@ def replayed(log: Path, *words: str) -> tuple[int, list[Message | Noise]]:
         # Whoever calls next is let in once all has been heard that was sent before.
         address = ("127.0.0.1", int(board.port.rpartition(":")[2]))
         with socket.create_connection(address, PATIENCE) as caller:
-            caller.sendall(ASK.encode())
-            assert caller.recv(100)
-    assert heard.pop() == ASK
+            caller.sendall(LAST.encode())
+            await_that(lambda: LAST in heard)
+    assert heard.pop() == LAST
     return status, heard
 
 
