@@ -20,15 +20,21 @@ if TYPE_CHECKING:
 
     from busservo import Noise
 
-settings.register_profile("ci", derandomize=True, deadline=None, max_examples=100)
-settings.register_profile("quick", derandomize=True, deadline=None, max_examples=20)
+# How long something takes to draw says more about the machine than about the test.
+TIMELESS = [HealthCheck.too_slow]
+settings.register_profile(
+    "ci", derandomize=True, deadline=None, max_examples=100, suppress_health_check=TIMELESS
+)
+settings.register_profile(
+    "quick", derandomize=True, deadline=None, max_examples=20, suppress_health_check=TIMELESS
+)
 settings.register_profile(
     "fuzz",
     deadline=None,
     max_examples=5_000,
     print_blob=True,
     # What is rare is what is searched for here, and rare things are slow to draw.
-    suppress_health_check=[HealthCheck.too_slow, HealthCheck.data_too_large],
+    suppress_health_check=[*TIMELESS, HealthCheck.data_too_large],
 )
 settings.load_profile(os.environ.get("HYPOTHESIS_PROFILE", "ci"))
 

@@ -24,6 +24,7 @@ import subprocess
 import sys
 import tempfile
 import traceback
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 from unittest import mock
@@ -33,6 +34,8 @@ from busservo.async_opening import open_async_controller
 from busservo.opening import open_controller
 from busservo_simulator import VirtualController
 
+from tests.patience import PATIENCE
+
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
 
@@ -41,6 +44,10 @@ ROOT = Path(__file__).parent.parent
 _GUIDE = ROOT / "docs" / "test-your-robot.md"
 _GUIDES = sorted({*(ROOT / "docs").glob("*.md")} - {_GUIDE})
 PAGES = [ROOT / "README.md", ROOT / "CONTRIBUTING.md", *_GUIDES]
+
+# A page need not say that the machine on which it is tried may be busy.
+PATIENT = {"margin": PATIENCE}
+PATIENT_WORDS = {verb: ["--timeout", str(PATIENCE)] for verb in ("send", "bench-line")}
 
 _NEEDED = ("spec", "generated", "codegen", "docs", "tests/captures")
 _COMMANDS = {"busservo", "framegen"}
@@ -89,10 +96,13 @@ class _Player:
         with VirtualController(via="tcp") as board:
             opening = mock.patch.multiple(
                 busservo,
-                open_controller=lambda _port, **given: open_controller(board.port, **given),
-                open_async_controller=lambda _port, **given: open_async_controller(
-                    board.port, **given
+                open_controller=lambda _port, **given: open_controller(
+                    board.port, **PATIENT | given
                 ),
+                open_async_controller=lambda _port, **given: open_async_controller(
+                    board.port, **PATIENT | given
+                ),
+                Controller=partial(busservo.Controller, margin=PATIENCE),
             )
             os.chdir(self._folder)
             try:
@@ -132,7 +142,7 @@ class _Player:
                     stdout=subprocess.PIPE,
                     stderr=subprocess.STDOUT,
                     encoding="utf-8",
-                    timeout=60,
+                    timeout=5 * PATIENCE,
                     check=False,
                 ).stdout
             output = told_as(printed)
@@ -170,7 +180,7 @@ def _connected(words: list[str]) -> Iterator[tuple[list[str], Callable[[str], st
     at = words.index("--port") + 1
     with VirtualController(via="tcp") as board:
         yield (
-            [*words[:at], board.port, *words[at + 1 :]],
+            [*words[:at], board.port, *words[at + 1 :], *PATIENT_WORDS.get(words[0], [])],
             lambda text: text.replace(board.port, words[at]),
         )
 

@@ -18,6 +18,8 @@ from framegen.yamltree import Unusable
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from tests.patience import PATIENCE
+
 if TYPE_CHECKING:
     from framegen.checks.rule import LayoutRule, ReadingRule, StructureRule
 
@@ -56,7 +58,7 @@ def run(*words: str) -> tuple[int, str, str]:
         [sys.executable, "-m", "framegen", *words],
         capture_output=True,
         encoding="utf-8",
-        timeout=60,
+        timeout=5 * PATIENCE,
         check=False,
     )
     return result.returncode, result.stdout, result.stderr
@@ -376,7 +378,7 @@ def test_a_reader_that_has_seen_enough_is_no_error() -> None:
         [sys.executable, "-m", "framegen", "schema"],
         stdout=write,
         stderr=subprocess.PIPE,
-        timeout=60,
+        timeout=5 * PATIENCE,
         check=False,
     )
     os.close(write)
@@ -390,7 +392,7 @@ def test_a_full_disk_is_told() -> None:
             [sys.executable, "-m", "framegen", "schema"],
             stdout=full,
             stderr=subprocess.PIPE,
-            timeout=60,
+            timeout=5 * PATIENCE,
             check=False,
         )
     assert result.returncode == 2
@@ -403,7 +405,7 @@ def test_characters_that_the_terminal_lacks_are_escaped() -> None:
         [sys.executable, "-c", script],
         env={**os.environ, "PYTHONIOENCODING": "ascii:strict"},
         capture_output=True,
-        timeout=60,
+        timeout=5 * PATIENCE,
         check=False,
     )
     assert result.returncode == 2
@@ -416,7 +418,7 @@ def test_a_missing_package_is_named_with_its_cure() -> None:
         "from framegen.cli import main; sys.exit(main(['check']))"
     )
     result = subprocess.run(
-        [sys.executable, "-c", script], capture_output=True, timeout=60, check=False
+        [sys.executable, "-c", script], capture_output=True, timeout=5 * PATIENCE, check=False
     )
     assert result.returncode == 2
     assert result.stderr.decode().splitlines() == [
@@ -435,7 +437,7 @@ def test_what_runs_no_verb_imports_nothing_heavy(words: list[str]) -> None:
         "sys.exit(f'imported {heavy}' if heavy else 0)"
     )
     result = subprocess.run(
-        [sys.executable, "-c", script], capture_output=True, timeout=60, check=False
+        [sys.executable, "-c", script], capture_output=True, timeout=5 * PATIENCE, check=False
     )
     assert (result.returncode, result.stderr.decode().partition("imported")[2]) == (0, "")
 
@@ -494,7 +496,7 @@ def test_a_python_without_docstrings_is_refused_before_it_drops_descriptions(
         [sys.executable, "-OO", "-m", "framegen", *words],
         capture_output=True,
         encoding="utf-8",
-        timeout=60,
+        timeout=5 * PATIENCE,
         check=False,
     )
     assert (result.returncode, result.stdout) == (2, "")

@@ -9,6 +9,8 @@ from pathlib import Path
 
 import pytest
 
+from tests.patience import PATIENCE
+
 ROOT = Path(__file__).parent.parent
 
 NEW = """
@@ -104,7 +106,7 @@ port = f"socket://127.0.0.1:{listener.getsockname()[1]}"
 """
 
 METHODS = """
-with busservo.open_controller(port, margin=10) as controller:
+with busservo.open_controller(port, margin=60) as controller:
     controller.lamp_set([(7, 9), (1, 3)])
     print(controller.read_lamps([7, 1]))
     print(len(controller.read_lamps([1, 2, 7] * 20)))
@@ -114,7 +116,7 @@ with busservo.open_controller(port, margin=10) as controller:
         print(error)
 
 async def work():
-    async with busservo.open_async_controller(port, margin=10) as controller:
+    async with busservo.open_async_controller(port, margin=60) as controller:
         await controller.lamp_set([(2, 200)])
         print(await controller.read_lamps([2]))
 
@@ -145,7 +147,12 @@ def project(tmp_path_factory: pytest.TempPathFactory) -> Path:
 def run(command: list[str], search: list[str]) -> str:
     environment = {**os.environ, "PYTHONPATH": os.pathsep.join(search)}
     done = subprocess.run(
-        command, env=environment, capture_output=True, encoding="utf-8", timeout=60, check=False
+        command,
+        env=environment,
+        capture_output=True,
+        encoding="utf-8",
+        timeout=5 * PATIENCE,
+        check=False,
     )
     assert done.returncode == 0, done.stdout + done.stderr
     return done.stdout

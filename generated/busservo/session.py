@@ -12,7 +12,8 @@ counted as a stray and dropped, and never taken for anything else. Everything el
 A late reply. After a request has timed out, or was cancelled, or the line was lost, its reply may
 still come, and would look like the reply to the next request of the same kind. So the next waits,
 unsent, until that reply has come and gone, or until it is overdue by as long again as the request
-was given.
+was given. That time begins when the request is given up, which may be long after its deadline where
+the whole machine has paused, and the reply with it.
 """
 
 from __future__ import annotations
@@ -113,10 +114,10 @@ class Session:
         if request.done:
             return
         if request is self._asked:
-            self._give_up(request)
+            self._give_up(request, request.deadline)
         else:
             self._queue.remove(request)
-            self._remember(request)
+            self._remember(request, request.deadline)
         request.done = True
 
     def outgoing(self, now: float) -> list[bytes]:
@@ -173,7 +174,7 @@ class Session:
             self._asked = None
             self._queue.appendleft(asked)
             return
-        self._give_up(asked)
+        self._give_up(asked, now)
         waited = now - asked.sent_at
         kind = "" if asked.exchange.reply is None else asked.exchange.reply.__name__
         asked.finish(error=NoReplyError(asked.message, kind, waited, asked.attempts))
@@ -206,7 +207,7 @@ class Session:
         self._asked = None
         for request in waiting:
             # The board may answer yet, on the line that is opened next.
-            self._remember(request)
+            self._remember(request, request.deadline)
             request.finish(error=error)
 
     def refuse_questions(self, error: Exception) -> None:
@@ -297,7 +298,7 @@ class Session:
             self.wire.seen_idle(now)
         if asked.attempts > 1:
             # Which of the attempts it answers, nobody knows: the others may be answered yet.
-            self._expect_late(type(reply), asked.attempts - 1, asked)
+            self._expect_late(type(reply), asked.attempts - 1, asked, asked.deadline)
         asked.finish(reply=reply)
 
     def _stray(self, message: Message) -> None:
@@ -309,17 +310,17 @@ class Session:
                     self._overdue.remove(each)
                 return
 
-    def _give_up(self, request: Request) -> None:
+    def _give_up(self, request: Request, now: float) -> None:
         """No longer waits for a reply, which may come all the same."""
         self._asked = None
-        self._remember(request)
+        self._remember(request, now)
 
-    def _remember(self, request: Request) -> None:
+    def _remember(self, request: Request, now: float) -> None:
         if request.attempts and request.exchange.reply is not None:
-            self._expect_late(request.exchange.reply, request.attempts, request)
+            self._expect_late(request.exchange.reply, request.attempts, request, now)
 
-    def _expect_late(self, kind: type[Message], count: int, request: Request) -> None:
-        until = request.deadline + (request.deadline - request.left_at)
+    def _expect_late(self, kind: type[Message], count: int, request: Request, now: float) -> None:
+        until = max(request.deadline, now) + (request.deadline - request.left_at)
         self._overdue.append(_Overdue(kind, count, until))
 
     def _replace(self, message: Message) -> None:

@@ -12,6 +12,8 @@ import termios
 import time
 from typing import TYPE_CHECKING, Any
 
+from tests.patience import PATIENCE
+
 if TYPE_CHECKING:
     from types import TracebackType
 
@@ -31,7 +33,6 @@ signal.signal(signal.SIGINT, signal.default_int_handler)
 from busservo.cli import main
 sys.exit(main())
 """
-_ENOUGH = 20.0
 
 
 class OnTerminal:
@@ -68,7 +69,7 @@ class OnTerminal:
 
     def wait_for(self, pattern: str) -> None:
         """Reads on until the screen has shown it."""
-        until = time.monotonic() + _ENOUGH
+        until = time.monotonic() + PATIENCE
         while not re.search(pattern, self.shown):
             assert time.monotonic() < until, f"{pattern!r} was not shown: {self.shown!r}"
             self._read(0.1)
@@ -78,7 +79,7 @@ class OnTerminal:
 
     def end(self) -> int:
         """Waits until it has ended, and gives its exit status; the terminal must be as it was."""
-        status = self._process.wait(_ENOUGH)
+        status = self._process.wait(PATIENCE)
         while self._read(0.0):
             pass
         assert termios.tcgetattr(self._terminal) == self._before
@@ -106,7 +107,7 @@ def _overwritten(line: str) -> str:
 def run(*words: str, **options: Any) -> subprocess.CompletedProcess[str]:
     """A verb in a process of its own, without a terminal."""
     command = [sys.executable, "-m", "busservo", *words]
-    options = {"capture_output": True, "text": True, "timeout": _ENOUGH, "check": False} | options
+    options = {"capture_output": True, "text": True, "timeout": PATIENCE, "check": False} | options
     return subprocess.run(command, env=ENVIRONMENT, **options)  # noqa: PLW1510 - among the options
 
 

@@ -22,11 +22,14 @@ from serial.tools.list_ports_common import ListPortInfo
 
 from tests.client.virtual_line import VirtualLine
 from tests.documents import ROOT
+from tests.patience import PATIENCE
+
+PATIENT = ("--timeout", str(PATIENCE))
 
 
 def test_a_reply_is_printed_as_decode_prints_it(capsys: pytest.CaptureFixture[str]) -> None:
     with VirtualController("tcp") as board:
-        assert main(["send", "--port", board.port, "BatteryVoltageRead"]) == 0
+        assert main(["send", "--port", board.port, "BatteryVoltageRead", *PATIENT]) == 0
     shown = "     0  controller  BatteryVoltage voltage_mv=7500 mV | 55 55 04 0F 4C 1D\n"
     assert capsys.readouterr().out == shown
 
@@ -34,7 +37,7 @@ def test_a_reply_is_printed_as_decode_prints_it(capsys: pytest.CaptureFixture[st
 def test_a_reply_can_be_json(capsys: pytest.CaptureFixture[str]) -> None:
     words = ["ServoPositionsRead", "servo_ids=1", "--json"]
     with VirtualController("tcp") as board:
-        assert main(["send", "--port", board.port, *words]) == 0
+        assert main(["send", "--port", board.port, *words, *PATIENT]) == 0
     record = json.loads(capsys.readouterr().out)
     assert record["fields"] == {"positions": [{"servo_id": 1, "position": 500}]}
 
@@ -43,7 +46,7 @@ def test_a_command_arrives_and_prints_nothing(capsys: pytest.CaptureFixture[str]
     with VirtualController("tcp") as board:
         assert main(["send", "--port", board.port, "ServoUnload", "servo_ids=1,2"]) == 0
         # Its answer proves that the command before it has been taken in.
-        assert main(["send", "--port", board.port, "BatteryVoltageRead"]) == 0
+        assert main(["send", "--port", board.port, "BatteryVoltageRead", *PATIENT]) == 0
         assert (board.servos[1].loaded, board.servos[3].loaded) == (False, True)
         assert board.rejects.total == 0
     assert "ServoUnload" not in capsys.readouterr().out
@@ -54,7 +57,7 @@ def test_a_reply_that_leaves_something_out_is_printed_and_what_it_lacks_is_named
 ) -> None:
     with VirtualController("tcp", servos=[1, 3]) as board:
         words = ["ServoPositionsRead", "servo_ids=1,2,3,9"]
-        assert main(["send", "--port", board.port, *words]) == 1
+        assert main(["send", "--port", board.port, *words, *PATIENT]) == 1
     output, errors = capsys.readouterr()
     assert "ServoPositions positions=1:500,3:500" in output
     assert errors == "the reply is incomplete: nothing of servo_ids 2, 9\n"
@@ -66,7 +69,7 @@ def test_what_one_reply_has_no_room_for_is_asked_in_parts_as_the_controller_does
     servos = range(1, 201)
     with VirtualController("tcp", servos=servos) as board:
         words = ["ServoPositionsRead", f"servo_ids={','.join(map(str, servos))}", "--json"]
-        assert main(["send", "--port", board.port, *words]) == 0
+        assert main(["send", "--port", board.port, *words, *PATIENT]) == 0
         assert board.accepted == 3
     output, errors = capsys.readouterr()
     told = [json.loads(line)["fields"]["positions"] for line in output.splitlines()]
@@ -176,7 +179,7 @@ def test_a_line_that_is_lost_in_the_middle_of_a_reply_has_a_status_of_its_own(
     capsys: pytest.CaptureFixture[str],
 ) -> None:
     with VirtualController("tcp", faults=Faults(hang_up=1.0)) as board:
-        assert main(["send", "--port", board.port, "BatteryVoltageRead"]) == 3
+        assert main(["send", "--port", board.port, "BatteryVoltageRead", *PATIENT]) == 3
         told = capsys.readouterr().err
         assert told.startswith(f"busservo: error: {board.port}: the line was lost")
         assert told.endswith("; see to the cable and the power, then run this again\n")
@@ -309,8 +312,8 @@ def test_a_verb_can_be_run_from_any_thread() -> None:
     """Signals are for the main thread alone, and SIGTERM is then left as it is."""
     before = signal.getsignal(signal.SIGTERM)
     with VirtualController("tcp") as board, ThreadPoolExecutor(1) as pool:
-        done = pool.submit(main, ["send", "--port", board.port, "BatteryVoltageRead"])
-        assert done.result(20) == 0
+        done = pool.submit(main, ["send", "--port", board.port, "BatteryVoltageRead", *PATIENT])
+        assert done.result(PATIENCE) == 0
         assert board.accepted == 1
     assert signal.getsignal(signal.SIGTERM) is before
 

@@ -5,7 +5,6 @@ from __future__ import annotations
 import re
 import subprocess
 import sys
-import time
 from typing import TYPE_CHECKING
 
 import pytest
@@ -16,6 +15,7 @@ if sys.platform != "linux":
     pytest.skip("terminals differ by system, and only Linux's are tried", allow_module_level=True)
 
 from tests.cli.terminal import OnTerminal, run, start
+from tests.patience import PATIENCE, await_that
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -34,10 +34,10 @@ def board() -> Iterator[VirtualController]:
 
 def test_ctrl_c_ends_a_monitor_with_its_totals(board: VirtualController) -> None:
     with OnTerminal("monitor", "--port", board.port) as monitor:
-        monitor.wait_for("nothing heard for 1 s")
+        monitor.wait_for("nothing heard for [0-9]+ s")
         board.report(BatteryVoltage(7500))
         monitor.wait_for("7500 mV\r\n")
-        monitor.wait_for("nothing to show for 1 s")
+        monitor.wait_for("nothing to show for [0-9]+ s")
         monitor.type(CTRL_C)
         assert monitor.end() == 130
         first, totals, *rest = monitor.lines
@@ -45,7 +45,8 @@ def test_ctrl_c_ends_a_monitor_with_its_totals(board: VirtualController) -> None
         assert totals == "6 bytes: 1 message, 0 bytes of noise"
         assert rest == [""]
     # The port has been given back: the next one has it, exclusively.
-    assert run("send", "--port", board.port, "BatteryVoltageRead").returncode == 0
+    words = ("send", "--port", board.port, "BatteryVoltageRead", "--timeout", str(PATIENCE))
+    assert run(*words).returncode == 0
 
 
 def test_sigterm_ends_a_monitor_as_cleanly(board: VirtualController) -> None:
@@ -54,7 +55,7 @@ def test_sigterm_ends_a_monitor_as_cleanly(board: VirtualController) -> None:
     board.babble(BatteryVoltage(7500).encode())
     monitor.stdout.readline()
     monitor.terminate()
-    _, told = monitor.communicate(timeout=20)
+    _, told = monitor.communicate(timeout=PATIENCE)
     assert monitor.returncode == 143
     assert re.fullmatch("[0-9]+ bytes: [0-9]+ messages?, [0-9]+ bytes? of noise\n", told)
 
@@ -69,9 +70,12 @@ def test_no_colour_where_none_is_wanted(board: VirtualController, variable: dict
         assert "\x1b" not in monitor.shown
 
 
-def test_a_pipe_that_is_closed_ends_a_monitor(board: VirtualController) -> None:
+def test_a_pipe_that_is_closed_ends_a_monitor(board: VirtualController, tmp_path: Path) -> None:
+    log = tmp_path / "line.hex"
+    monitor = start("monitor", "--port", board.port, "--log", str(log))
+    # Opening a port throws away what has come before, in the middle of a frame or not.
+    await_that(log.exists)
     board.babble(BatteryVoltage(7500).encode())
-    monitor = start("monitor", "--port", board.port)
     head = subprocess.run(
         ["/usr/bin/env", "head", "-n", "1"],
         stdin=monitor.stdout,
@@ -81,7 +85,7 @@ def test_a_pipe_that_is_closed_ends_a_monitor(board: VirtualController) -> None:
     )
     assert monitor.stdout is not None
     monitor.stdout.close()
-    assert monitor.wait(20) == 141
+    assert monitor.wait(PATIENCE) == 141
     assert monitor.stderr is not None
     told = monitor.stderr.read()
     monitor.stderr.close()
@@ -108,17 +112,14 @@ def test_a_line_that_is_lost_is_told_and_what_was_seen_is_kept(tmp_path: Path, v
     with VirtualController("pty" if via == "pty" else "tcp") as board:
         monitor = start("monitor", "--port", board.port, "--log", str(log), "--json")
         assert monitor.stdout is not None
-        until = time.monotonic() + 20
         # A TCP port hears nobody before it has let them in.
-        while not (log.exists() and getattr(board._end, "_guest", True)):
-            assert time.monotonic() < until
-            time.sleep(0.01)
-        board.report(BatteryVoltage(7500))
+        await_that(lambda: log.exists() and getattr(board._end, "_guest", True))
+        # In one piece: where the frame has been read, the half behind it has been, too.
+        frame = BatteryVoltage(7500).encode()
+        board.send_bytes(frame + frame[:3])
         first = monitor.stdout.readline()
-        board.send_bytes(BatteryVoltage(7500).encode()[:3])
-        time.sleep(0.1)
         board.unplug()
-        rest, told = monitor.communicate(timeout=20)
+        rest, told = monitor.communicate(timeout=PATIENCE)
     assert monitor.returncode == 3
     assert "7500" in first
     assert '"noise": "55 55 04"' in rest
@@ -127,23 +128,24 @@ def test_a_line_that_is_lost_is_told_and_what_was_seen_is_kept(tmp_path: Path, v
     assert totals == "9 bytes: 1 message, 3 bytes of noise"
     assert error.startswith(f"busservo: error: {board.port if via == 'tcp' else '/dev/'}")
     assert error.endswith("see to the cable and the power, then run this again")
-    assert len(log.read_text().splitlines()) == 3
+    # A machine that paused before the line was lost has found it quiet, and says so.
+    assert len([line for line in log.read_text().splitlines() if line != "# quiet"]) == 3
 
 
 def test_send_shows_that_it_waits_for_a_silent_board() -> None:
-    words = ("send", "--port", "loop://", "BatteryVoltageRead", "--timeout", "1.2")
+    words = ("send", "--port", "loop://", "BatteryVoltageRead", "--timeout", "3")
     with OnTerminal(*words) as send:
-        send.wait_for("waiting for BatteryVoltage, 1 s")
+        send.wait_for("waiting for BatteryVoltage, [0-9]+ s")
         assert send.end() == 1
         (told, rest) = send.lines
-        assert told.startswith("no BatteryVoltage came within 1.2")
+        assert told.startswith("no BatteryVoltage came within ")
         assert rest == ""
 
 
 def test_ctrl_c_ends_send_on_a_line_of_its_own() -> None:
-    words = ("send", "--port", "loop://", "BatteryVoltageRead", "--timeout", "60")
+    words = ("send", "--port", "loop://", "BatteryVoltageRead", "--timeout", "3600")
     with OnTerminal(*words) as send:
-        send.wait_for("waiting for BatteryVoltage, 1 s")
+        send.wait_for("waiting for BatteryVoltage, [0-9]+ s")
         send.type(CTRL_C)
         assert send.end() == 130
         assert send.lines == ["", ""]
@@ -154,9 +156,9 @@ def test_ctrl_c_ends_a_replay_and_says_how_far_it_got(
 ) -> None:
     log = tmp_path / "line.hex"
     move = "55 55 08 03 01 E8 03 01 20 03"
-    log.write_text(f"{move}  # 0.0 s, host: a\n{move}  # 60.0 s, host: another\n")
+    log.write_text(f"{move}  # 0.0 s, host: a\n{move}  # 3600.0 s, host: another\n")
     with OnTerminal("replay", str(log), "--port", board.port) as replay:
-        replay.wait_for("1 of 2 sent, the next in 59 s")
+        replay.wait_for("1 of 2 sent, the next in 35[0-9]+ s")
         replay.type(CTRL_C)
         assert replay.end() == 130
         shown, totals, rest = replay.lines
@@ -166,19 +168,19 @@ def test_ctrl_c_ends_a_replay_and_says_how_far_it_got(
             == "1 of 2 frames sent, 10 bytes; came back: 0 bytes: 0 messages, 0 bytes of noise"
         )
         assert rest == ""
-    assert board.accepted == 1
+    await_that(lambda: board.accepted == 1)
     assert board.rejects.total == 0
 
 
 def test_a_replay_tells_of_a_line_that_is_lost(board: VirtualController, tmp_path: Path) -> None:
     log = tmp_path / "line.hex"
-    log.write_text("55 55 02 0F  # 0.0 s, host: a\n55 55 02 0F  # 60.0 s, host: another\n")
+    log.write_text("55 55 02 0F  # 0.0 s, host: a\n55 55 02 0F  # 3600.0 s, host: another\n")
     replay = start("replay", str(log), "--port", board.port)
     assert replay.stdout is not None
     assert replay.stdout.readline().endswith("| BatteryVoltageRead\n")
     assert replay.stdout.readline().endswith("| BatteryVoltage voltage_mv=7500 mV\n")
     board.unplug()
-    _, told = replay.communicate(timeout=20)
+    _, told = replay.communicate(timeout=PATIENCE)
     assert replay.returncode == 3
     totals, error = told.splitlines()
     assert totals.startswith("1 of 2 frames sent, 4 bytes; came back: 6 bytes: 1 message")
@@ -186,7 +188,8 @@ def test_a_replay_tells_of_a_line_that_is_lost(board: VirtualController, tmp_pat
 
 
 def test_ctrl_c_ends_a_measurement_with_what_was_measured(board: VirtualController) -> None:
-    with OnTerminal("bench-line", "--port", board.port, "-n", "1000000") as bench:
+    words = ("bench-line", "--port", board.port, "-n", "1000000", "--timeout", str(PATIENCE))
+    with OnTerminal(*words) as bench:
         bench.wait_for(r"[0-9]+ of 1000000 asked")
         bench.type(CTRL_C)
         assert bench.end() == 130
@@ -194,19 +197,18 @@ def test_ctrl_c_ends_a_measurement_with_what_was_measured(board: VirtualControll
     assert first.startswith(f"BatteryVoltageRead on {board.port}: ")
     assert wire.startswith("  the wire alone  10.42 ms: 4 bytes there and 6 back, at 9600 baud")
     assert trips.startswith("  round trips     min ")
-    assert rate.endswith("it is faster than that rate, so it is no such line")
+    assert rate.startswith("  rate            ")
     assert (errors, rest) == ("  errors          none", "")
 
 
 def test_a_measurement_ends_with_the_line_and_keeps_what_was_measured(
     board: VirtualController,
 ) -> None:
-    bench = start("bench-line", "--port", board.port, "-n", "1000000", "--json")
-    until = time.monotonic() + 20
-    while board.accepted < 3 and time.monotonic() < until:
-        time.sleep(0.01)
+    words = ("bench-line", "--port", board.port, "-n", "1000000", "--timeout", str(PATIENCE))
+    bench = start(*words, "--json")
+    await_that(lambda: board.accepted >= 3)
     board.unplug()
-    shown, told = bench.communicate(timeout=20)
+    shown, told = bench.communicate(timeout=PATIENCE)
     assert bench.returncode == 3
     assert '"question": "BatteryVoltageRead"' in shown
     assert "the line was lost" in told

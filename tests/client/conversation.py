@@ -7,6 +7,7 @@ was given: none may be given twice, and none that was told before the call began
 
 from __future__ import annotations
 
+import asyncio
 import threading
 import time
 from random import Random
@@ -23,6 +24,8 @@ from busservo import (
 )
 from busservo_simulator.mischief import REPLIES
 
+from tests.patience import PATIENCE, await_that
+
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
 
@@ -30,13 +33,15 @@ if TYPE_CHECKING:
         AsyncController,
         BatteryVoltageRead,
         Controller,
+        Message,
         ServoPositionsRead,
     )
     from busservo.device import Report
     from busservo_simulator import VirtualController
 
 ABSENT = ServoPosition.POSITION_ABSENT
-BOUND = 10.0
+# No call may take longer, on however slow a machine.
+BOUND = PATIENCE
 
 
 class Ledger:
@@ -97,6 +102,35 @@ class Ledger:
         """A call was told of all servos."""
         assert sorted(each.servo_id for each in told) == sorted(asked)
         self.given(before, {each.position for each in told} - {ABSENT})
+
+    def over(self, controller: Controller | AsyncController) -> bool:
+        """Whether the board has heard all that was sent: it has then reported all it will."""
+        return self.board.accepted == controller.counters.sent
+
+
+def heard_by(controller: Controller, ledger: Ledger) -> list[Message]:
+    """The reports, once all have come that there are; and any that there should not be."""
+    await_that(lambda: ledger.over(controller))
+    heard: list[Message] = []
+    for report in controller.reports(timeout=PATIENCE if ledger.reported else 0.1):
+        heard.append(report)
+        if len(heard) == len(ledger.reported):
+            break
+    return heard + list(controller.reports(timeout=0.1))
+
+
+async def heard_by_async(controller: AsyncController, ledger: Ledger) -> list[Message]:
+    """The same, for asyncio."""
+    end = time.monotonic() + PATIENCE
+    while not ledger.over(controller):
+        assert time.monotonic() < end
+        await asyncio.sleep(0.001)
+    heard: list[Message] = []
+    async for report in controller.reports(timeout=PATIENCE if ledger.reported else 0.1):
+        heard.append(report)
+        if len(heard) == len(ledger.reported):
+            break
+    return heard + [report async for report in controller.reports(timeout=0.1)]
 
 
 def turns(seed: int, count: int) -> Iterator[list[int] | str]:

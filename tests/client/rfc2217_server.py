@@ -9,6 +9,8 @@ from typing import TYPE_CHECKING
 import serial
 from serial.rfc2217 import PortManager
 
+from tests.patience import PATIENCE
+
 if TYPE_CHECKING:
     from typing_extensions import Self
 
@@ -36,7 +38,9 @@ class Rfc2217Server:
         self._serial = PtyPort(port, timeout=0)
         self._listener = socket.create_server(("127.0.0.1", 0))
         self._listener.settimeout(0.05)
-        self.url = f"rfc2217://127.0.0.1:{self._listener.getsockname()[1]}"
+        # Where pyserial's client is told nothing, it gives up after 3 s.
+        number = self._listener.getsockname()[1]
+        self.url = f"rfc2217://127.0.0.1:{number}?timeout={PATIENCE:.0f}"
         self._guest: socket.socket | None = None
         self._left = False
         self._thread = threading.Thread(target=self._serve, daemon=True)
@@ -47,7 +51,7 @@ class Rfc2217Server:
 
     def __exit__(self, *_error: object) -> None:
         self._left = True
-        self._thread.join(10)
+        self._thread.join(PATIENCE)
         self._listener.close()
         self._serial.close()
 
@@ -85,5 +89,7 @@ class Rfc2217Server:
             except OSError:
                 return
             found = self._serial.read(1024)
-            if found:
+            try:
                 self.write(b"".join(manager.escape(found)))
+            except OSError:
+                return

@@ -38,6 +38,7 @@ from busservo import (
 
 from tests.client.live_line import LiveLine, answered
 from tests.client.virtual_line import VirtualLine
+from tests.patience import PATIENCE, await_that
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -245,7 +246,10 @@ def test_callbacks_may_use_the_client_and_fail_alone(caplog: pytest.LogCaptureFi
 
 def test_eight_threads_share_a_controller() -> None:
     line = LiveLine()
-    with Controller(line, baud=math.inf, margin=5) as controller, ThreadPoolExecutor(8) as pool:
+    with (
+        Controller(line, baud=math.inf, margin=PATIENCE) as controller,
+        ThreadPoolExecutor(8) as pool,
+    ):
 
         def work(number: int) -> None:
             for turn in range(40):
@@ -256,7 +260,8 @@ def test_eight_threads_share_a_controller() -> None:
 
         list(pool.map(work, range(8)))
         said = {(number, turn) for number in range(8) for turn in range(40)}
-        heard = list(controller.reports(timeout=0.2))
+        await_that(lambda: controller.counters.reports >= 320)
+        heard = list(controller.reports(timeout=0.1))
         assert {
             (each.group, each.times) for each in heard if isinstance(each, ActionGroupCompleted)
         } == said
@@ -271,12 +276,12 @@ def test_a_report_reaches_a_callback_while_nobody_asks() -> None:
         heard = threading.Event()
         controller.on_report(lambda _: heard.set())
         line.say(ActionGroupStopped())
-        assert heard.wait(10)
+        assert heard.wait(PATIENCE)
 
 
 def test_unplugged_while_a_question_is_under_way() -> None:
     line = LiveLine(lambda _: [])
-    with Controller(line, margin=30) as controller:
+    with Controller(line, margin=PATIENCE) as controller:
         timer = threading.Timer(0.05, line.unplug)
         timer.start()
         with pytest.raises(DisconnectedError, match="plug it in again"):
@@ -290,10 +295,10 @@ def test_unplugged_while_a_question_is_under_way() -> None:
 
 def test_reconnecting_is_explicit() -> None:
     line = LiveLine()
-    with Controller(line) as controller:
+    with Controller(line, margin=PATIENCE) as controller:
         line.unplug()
         with pytest.raises(DisconnectedError):
-            controller.wait_for(ActionGroupStopped, timeout=10)
+            controller.wait_for(ActionGroupStopped, timeout=PATIENCE)
         controller.reconnect()
         assert controller.read_battery_voltage() == 7500
     with pytest.raises(ClosedError):
@@ -304,19 +309,19 @@ def test_reconnecting_is_explicit() -> None:
 
 def test_close_ends_the_waits_of_other_threads() -> None:
     line = LiveLine(lambda _: [])
-    controller = Controller(line, margin=30)
+    controller = Controller(line, margin=PATIENCE)
     with ThreadPoolExecutor(3) as pool:
         asking = pool.submit(controller.read_battery_voltage)
         listening = pool.submit(lambda: list(controller.reports()))
-        waiting = pool.submit(controller.wait_for, ActionGroupStopped, timeout=30)
+        waiting = pool.submit(controller.wait_for, ActionGroupStopped, timeout=PATIENCE)
         while not line.received:
             threading.Event().wait(0.005)
         controller.close()
         with pytest.raises(ClosedError):
-            asking.result(10)
-        assert listening.result(10) == []
+            asking.result(PATIENCE)
+        assert listening.result(PATIENCE) == []
         with pytest.raises(ClosedError):
-            waiting.result(10)
+            waiting.result(PATIENCE)
 
 
 def test_an_error_of_the_system_from_a_transport_is_one_of_ours() -> None:

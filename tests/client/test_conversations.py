@@ -21,7 +21,13 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from tests import soak
-from tests.client.conversation import Ledger, converse, converse_async
+from tests.client.conversation import (
+    Ledger,
+    converse,
+    converse_async,
+    heard_by,
+    heard_by_async,
+)
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -135,7 +141,7 @@ FAULTS = {
     "cut": Faults(noise=0.2, splits=0.2, unasked=0.3, hang_up=0.08),
 }
 # As if on a slow machine, where an answer takes its time; each lost one costs twice as much.
-LIVE_MARGIN = 0.15
+LIVE_MARGIN = 0.5
 
 
 @contextmanager
@@ -159,7 +165,7 @@ def test_over_a_live_line(way: str, kind: str, tmp_path: Path) -> None:
         with opened(board, way) as controller:
             converse(controller, ledger, seed, 30)
             if kind == "mixed":
-                assert list(controller.reports(timeout=0.3)) == ledger.reported
+                assert heard_by(controller, ledger) == ledger.reported
             assert controller.counters.lost_reports == 0
         assert ledger.right >= 5
 
@@ -178,8 +184,7 @@ def test_over_a_live_line_with_asyncio(way: str, kind: str, tmp_path: Path) -> N
             ) as controller:
                 await converse_async(controller, ledger, seed, 30)
                 if kind == "mixed":
-                    heard = [report async for report in controller.reports(timeout=0.3)]
-                    assert heard == ledger.reported
+                    assert await heard_by_async(controller, ledger) == ledger.reported
                 assert controller.counters.lost_reports == 0
 
         asyncio.run(work())
@@ -191,7 +196,7 @@ def test_eight_threads_share_a_line_with_faults(way: str, tmp_path: Path) -> Non
     with board_at(way, tmp_path, replace(FAULTS["mixed"], seed=3)) as (board, ledger):
         with opened(board, way) as controller, ThreadPoolExecutor(8) as pool:
             list(pool.map(lambda seed: converse(controller, ledger, seed, 6), range(8)))
-            assert list(controller.reports(timeout=0.3)) == ledger.reported
+            assert heard_by(controller, ledger) == ledger.reported
         assert ledger.right >= 10
 
 
@@ -205,10 +210,9 @@ def test_a_hundred_tasks_share_a_line_with_faults(way: str, tmp_path: Path) -> N
                 if way == "memory"
                 else open_async_controller(board.port, margin=LIVE_MARGIN)
             ) as controller:
-                talks = (converse_async(controller, ledger, seed, 1, 30) for seed in range(100))
+                talks = (converse_async(controller, ledger, seed, 1) for seed in range(100))
                 await asyncio.gather(*talks)
-                heard = [report async for report in controller.reports(timeout=0.3)]
-                assert heard == ledger.reported
+                assert await heard_by_async(controller, ledger) == ledger.reported
 
         asyncio.run(work())
         assert ledger.right >= 40

@@ -149,13 +149,28 @@ def test_the_next_question_of_a_kind_waits_for_the_late_reply() -> None:
 def test_the_next_question_of_a_kind_waits_no_longer_than_as_long_again() -> None:
     line = session()
     asked(line, BatteryVoltageRead())
-    line.tick(0.3)
+    deadline = line.tick_at
+    assert deadline is not None
+    line.tick(deadline)
     line.submit(BatteryVoltageRead())
-    at = line.send_at(0.3)
+    at = line.send_at(deadline)
     assert at is not None
     assert at == pytest.approx(4 / 960 + 2 * (0.25 + 6 / 960))
     assert line.outgoing(at - 0.001) == []
     assert line.outgoing(at) == [BatteryVoltageRead().encode()]
+
+
+def test_a_machine_that_pauses_takes_no_late_reply_for_the_next_one() -> None:
+    line = session()
+    asked(line, BatteryVoltageRead())
+    # For two seconds nothing ran here, the other end of a socket on this machine included.
+    line.tick(2.0)
+    second = line.submit(BatteryVoltageRead())
+    assert line.outgoing(2.0) == []
+    line.receive(BatteryVoltage(1).encode(), 2.01)
+    assert line.outgoing(2.01) == [BatteryVoltageRead().encode()]
+    line.receive(BatteryVoltage(2).encode(), 2.03)
+    assert second.reply == BatteryVoltage(2)
 
 
 def test_a_question_of_another_kind_does_not_wait_for_a_late_reply() -> None:

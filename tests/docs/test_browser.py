@@ -13,6 +13,7 @@ import pytest
 from tests.docs.peers import noisy_lines, python_events, vectors_of
 from tests.docs.reference import NODE_MODULES, reference
 from tests.docs.test_hostile_pages import PAYLOADS, hostile
+from tests.patience import PATIENCE
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -33,6 +34,8 @@ ARGUMENTS = [
     "--disable-sync",
     "--no-first-run",
 ]
+# How long a browser may take for anything.
+MILLISECONDS = 1000 * PATIENCE
 SITE = reference("busservo")
 VECTORS = vectors_of(SITE)
 NAMES = [path for path in SITE.pages if "/" not in path]
@@ -55,7 +58,9 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
 @pytest.fixture(scope="module")
 def browser() -> Iterator[Browser]:
     with playwright.sync_playwright() as started:
-        running = started.chromium.launch(executable_path=CHROMIUM, args=ARGUMENTS)
+        running = started.chromium.launch(
+            executable_path=CHROMIUM, args=ARGUMENTS, timeout=MILLISECONDS
+        )
         yield running
         running.close()
 
@@ -68,6 +73,7 @@ class Visit:
         self.troubles: list[str] = []
         self.requests: list[str] = []
         self.tab: Tab = context.new_page()
+        self.tab.set_default_timeout(MILLISECONDS)
         self.tab.on("console", lambda message: self.troubles.append(message.text))
         self.tab.on("pageerror", lambda error: self.troubles.append(str(error)))
         self.tab.on("request", lambda request: self.requests.append(request.url))
@@ -257,6 +263,8 @@ BUTTONS = [("Copy hex", MOVE), ("Copy as Python", f'bytes.fromhex("{MOVE}")')]
 
 def copied(tab: Tab, label: str) -> str:
     """What is on the clipboard once the first button of that label has said so."""
+    # It says so for a moment, which a busy machine might miss: here, until the page is closed.
+    tab.evaluate("() => { window.setTimeout = () => 0; }")
     tab.locator("button.copy", has_text=label).first.click()
     tab.locator("button.copy", has_text="Copied").wait_for()
     return str(tab.evaluate("navigator.clipboard.readText()"))
@@ -338,6 +346,7 @@ def test_the_cheat_sheet_is_one_page_of_a4(visit: Visit) -> None:
 
 def test_everything_is_readable_without_a_script(browser: Browser, folder: Path) -> None:
     context = browser.new_context(java_script_enabled=False)
+    context.set_default_timeout(MILLISECONDS)
     tab = context.new_page()
     tab.goto((folder / "index.html").as_uri())
     assert tab.locator("tbody tr:visible").count() == 12
@@ -394,6 +403,7 @@ def test_nothing_of_a_hostile_spec_runs(context: BrowserContext, tmp_path: Path)
 def test_axe_finds_no_violation(browser: Browser, folder: Path, scheme: Any) -> None:
     # The page's own policy would keep the judge out, too.
     context = browser.new_context(bypass_csp=True, color_scheme=scheme)
+    context.set_default_timeout(MILLISECONDS)
     tab = context.new_page()
     for path in PAGES:
         tab.goto((folder / path).as_uri())

@@ -7,21 +7,29 @@ from typing import TYPE_CHECKING
 
 from busservo import Direction, Message, Noise, StreamDecoder
 
+from tests.patience import PATIENCE
+
 if TYPE_CHECKING:
     from collections.abc import Callable
 
     from busservo.transport import Transport
     from busservo_simulator import VirtualController
 
-# Far more than any answer takes, so that no slow machine fails a test. An answer ends the wait.
-PATIENCE = 5.0
+# How long silence lasts until it is believed, by the clock of a board whose time nobody waits for.
+SILENCE = 5.0
 
 
 class Host:
     """The other end of a board's line."""
 
-    def __init__(self, transport: Transport, now: Callable[[], float] = time.monotonic) -> None:
+    def __init__(
+        self,
+        transport: Transport,
+        now: Callable[[], float] = time.monotonic,
+        patience: float = PATIENCE,
+    ) -> None:
         self.transport = transport
+        self.patience = patience
         self.bytes = b""
         self.heard: list[Message | Noise] = []
         self._now = now
@@ -37,9 +45,9 @@ class Host:
         self.say(message)
         return self.hear()
 
-    def hear(self, patience: float = PATIENCE) -> Message | None:
+    def hear(self, patience: float | None = None) -> Message | None:
         """The next message; None if none comes in time."""
-        end = self._now() + patience
+        end = self._now() + (self.patience if patience is None else patience)
         while True:
             for event in self.heard:
                 if isinstance(event, Message):
@@ -50,9 +58,9 @@ class Host:
                 return None
             self._listen(left)
 
-    def collect(self, count: int, patience: float = PATIENCE) -> bytes:
+    def collect(self, count: int) -> bytes:
         """The next `count` bytes, or as many as come in time."""
-        end = self._now() + patience
+        end = self._now() + self.patience
         data = b""
         while len(data) < count and (left := end - self._now()) > 0:
             data += self.transport.read(left)
@@ -79,4 +87,4 @@ class Host:
 
 def host_of(board: VirtualController) -> Host:
     """A host at the board's own clock, in the same process."""
-    return Host(board.transport, board.clock.now)
+    return Host(board.transport, board.clock.now, SILENCE)

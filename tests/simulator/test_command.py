@@ -15,6 +15,7 @@ from busservo_simulator.cli import main
 from busservo_simulator.faults import CHANCES
 from busservo_simulator.servo_list import parse_servos
 
+from tests.patience import PATIENCE
 from tests.simulator.hosts import Host
 
 if TYPE_CHECKING:
@@ -66,7 +67,7 @@ def test_it_answers_tells_what_happens_and_ends_cleanly(
     )
     host.hang_up()
     process.send_signal(kind)
-    output, errors = process.communicate(timeout=20)
+    output, errors = process.communicate(timeout=PATIENCE)
     assert process.returncode == 0
     assert "LED2      blinks: BatteryVoltageRead()" in output
     assert errors == "2 messages, 0 rejected\n"
@@ -84,7 +85,7 @@ def test_over_tcp_it_can_be_quiet(
     assert host.noise()
     host.hang_up()
     process.send_signal(signal.SIGINT)
-    output, _ = process.communicate(timeout=20)
+    output, _ = process.communicate(timeout=PATIENCE)
     assert (process.returncode, output) == (0, "")
 
 
@@ -131,7 +132,7 @@ def test_a_board_that_the_network_reaches_says_so(
 ) -> None:
     process, _ = start("--tcp", "--host", "0.0.0.0")  # noqa: S104 - it is what is asked for
     process.send_signal(signal.SIGTERM)
-    _, errors = process.communicate(timeout=20)
+    _, errors = process.communicate(timeout=PATIENCE)
     assert errors.startswith("busservo-simulator: the network reaches it at 0.0.0.0\n")
 
 
@@ -145,7 +146,7 @@ def test_it_ends_when_whoever_read_along_has_gone(
     process.stdout = None
     host = Host(open_transport(port))
     host.say(BatteryVoltageRead())
-    _, errors = process.communicate(timeout=20)
+    _, errors = process.communicate(timeout=PATIENCE)
     host.hang_up()
     assert (process.returncode, errors) == (0, "1 messages, 0 rejected\n")
 
@@ -156,7 +157,12 @@ def test_it_ends_at_once_where_nobody_reads_the_name_of_its_port() -> None:
     os.close(ours)
     command = [sys.executable, "-m", "busservo_simulator", "--tcp"]
     done = subprocess.run(
-        command, env=ENVIRONMENT, stdout=theirs, stderr=subprocess.PIPE, timeout=20, check=False
+        command,
+        env=ENVIRONMENT,
+        stdout=theirs,
+        stderr=subprocess.PIPE,
+        timeout=PATIENCE,
+        check=False,
     )
     os.close(theirs)
     assert (done.returncode, done.stderr) == (141, b"")

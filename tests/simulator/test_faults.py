@@ -18,6 +18,7 @@ from busservo.link_errors import DisconnectedError, TransportError
 from busservo_simulator import Faults, VirtualClock, VirtualController
 from busservo_simulator.faults import CHANCES
 
+from tests.patience import await_that
 from tests.simulator.hosts import Host, host_of
 
 if TYPE_CHECKING:
@@ -218,6 +219,7 @@ def test_a_fault_that_loses_nothing_loses_nothing_on_any_port(
 def test_a_dropped_reply_is_silence_on_any_port(connect: Callable[..., tuple[Any, Host]]) -> None:
     board, host = connect(faults=Faults(dropped=1))
     host.say(ASK)
+    await_that(lambda: board.accepted == 1)
     assert host.hear(0.05) is None
     board.faults = Faults()
     assert host.ask(ASK) == VOLTAGE

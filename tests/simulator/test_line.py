@@ -24,6 +24,7 @@ from busservo_simulator.wire import Wire
 from hypothesis import given
 from hypothesis import strategies as st
 
+from tests.patience import PATIENCE
 from tests.simulator.hosts import Host, host_of
 
 HOST = Direction.HOST_TO_CONTROLLER
@@ -99,7 +100,7 @@ def test_a_read_in_another_thread_hears_a_report_at_once() -> None:
         reader = threading.Thread(target=lambda: heard.append(host.hear()))
         reader.start()
         board.report(ActionGroupStopped())
-        reader.join(5)
+        reader.join(PATIENCE)
         assert heard == [ActionGroupStopped()]
 
 
@@ -107,7 +108,7 @@ def test_a_read_without_bytes_ends_in_time() -> None:
     with VirtualController() as board:
         begun = time.monotonic()
         assert board.transport.read(0.02) == b""
-        assert 0.02 <= time.monotonic() - begun < 2
+        assert 0.02 <= time.monotonic() - begun < PATIENCE
 
 
 def test_closing_ends_a_read_in_another_thread() -> None:
@@ -116,14 +117,14 @@ def test_closing_ends_a_read_in_another_thread() -> None:
 
         def read() -> None:
             try:
-                board.transport.read(30)
+                board.transport.read(2 * PATIENCE)
             except ClosedError as error:
                 failed.append(error)
 
         reader = threading.Thread(target=read)
         reader.start()
         board.transport.close()
-        reader.join(5)
+        reader.join(PATIENCE)
         assert not reader.is_alive()
         assert len(failed) == 1
         with pytest.raises(ClosedError):

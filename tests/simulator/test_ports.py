@@ -29,6 +29,7 @@ from busservo_simulator import VirtualClock, VirtualController
 from busservo_simulator.tcp_end import TcpEnd
 from busservo_simulator.waker import Waker
 
+from tests.patience import PATIENCE, await_that
 from tests.simulator.hosts import Host
 
 if TYPE_CHECKING:
@@ -103,9 +104,7 @@ def test_no_byte_comes_before_the_wire_could_carry_it(connect: Connect) -> None:
     begun = time.monotonic()
     for _ in range(5):
         assert isinstance(host.ask(ServoPositionsRead(range(1, 7))), ServoPositions)
-    took = time.monotonic() - begun
-    assert took >= 5 * 34 / 960
-    assert took < 3
+    assert time.monotonic() - begun >= 5 * 34 / 960
 
 
 def test_a_fast_writer_is_slowed_to_the_line(connect: Connect) -> None:
@@ -191,16 +190,16 @@ def test_tcp_listens_on_loopback_alone() -> None:
 def test_tcp_serves_one_host_at_a_time_and_then_the_next() -> None:
     with VirtualController("tcp") as board:
         address = ("127.0.0.1", int(board.port.rpartition(":")[2]))
-        with socket.create_connection(address, timeout=5) as first:
+        with socket.create_connection(address, timeout=PATIENCE) as first:
             first.sendall(ASK.encode())
             assert first.recv(100) == VOLTAGE.encode()
-            with socket.create_connection(address, timeout=5) as second:
+            with socket.create_connection(address, timeout=PATIENCE) as second:
                 assert second.recv(100) == b""
-        deadline = time.monotonic() + 5
+        deadline = time.monotonic() + PATIENCE
         while time.monotonic() < deadline:
-            with socket.create_connection(address, timeout=5) as third:
-                third.sendall(ASK.encode())
+            with socket.create_connection(address, timeout=PATIENCE) as third:
                 try:
+                    third.sendall(ASK.encode())
                     data = third.recv(100)
                 except ConnectionError:
                     data = b""
@@ -216,9 +215,7 @@ def test_over_tcp_whoever_has_called_hears_all_that_is_said_then() -> None:
             board.report(ActionGroupStopped())
             assert host.hear() == ActionGroupStopped()
             host.hang_up()
-            end = time.monotonic() + 5
-            while board._end._guest is not None and time.monotonic() < end:  # type: ignore[attr-defined]
-                time.sleep(0.001)
+            await_that(lambda: board._end._guest is None)  # type: ignore[attr-defined]
 
 
 def test_tcp_comes_back_on_the_same_number() -> None:
@@ -248,7 +245,7 @@ def test_a_host_that_reads_nothing_stops_nobody() -> None:
 def test_a_host_that_crashes_makes_room_for_the_next() -> None:
     with VirtualController("tcp") as board:
         address = ("127.0.0.1", int(board.port.rpartition(":")[2]))
-        host = socket.create_connection(address, timeout=5)
+        host = socket.create_connection(address, timeout=PATIENCE)
         host.sendall(ASK.encode())
         assert host.recv(100) == VOLTAGE.encode()
         crash(host)
@@ -262,14 +259,14 @@ def test_what_is_said_to_a_host_that_has_crashed_is_lost() -> None:
     end.plug_in()
     try:
         address = ("127.0.0.1", int(end.port.rpartition(":")[2]))
-        host = socket.create_connection(address, timeout=5)
-        end.wait(5, listening=True)
+        host = socket.create_connection(address, timeout=PATIENCE)
+        end.wait(PATIENCE, listening=True)
         assert end.receive() == b""
         crash(host)
-        end.wait(5, listening=True)
+        end.wait(PATIENCE, listening=True)
         end.deliver(VOLTAGE.encode())
-        with socket.create_connection(address, timeout=5) as again:
-            end.wait(5, listening=True)
+        with socket.create_connection(address, timeout=PATIENCE) as again:
+            end.wait(PATIENCE, listening=True)
             end.deliver(STOPPED.encode())
             assert again.recv(100) == STOPPED.encode()
     finally:
@@ -300,7 +297,7 @@ def test_a_waker_that_is_not_open_wakes_nobody() -> None:
     assert waker.fileno() == -1
     waker.open()
     waker.wake()
-    assert select.select([waker], [], [], 5)[0] == [waker]
+    assert select.select([waker], [], [], PATIENCE)[0] == [waker]
     waker.clear()
     assert select.select([waker], [], [], 0)[0] == []
     waker.close()

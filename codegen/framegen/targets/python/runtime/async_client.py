@@ -432,6 +432,8 @@ class AsyncClient:
         """Waits until all commands have been sent, and have had their time on the wire."""
         until = time.monotonic() + GRACE
         while self._failure is None:
+            # What is due goes first, even where the machine has paused for longer than the grace.
+            self._advance()
             now, free_at = time.monotonic(), self._session.wire.free_at
             if (self._session.idle and now >= free_at) or now >= max(until, free_at + GRACE):
                 return

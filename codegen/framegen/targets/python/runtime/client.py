@@ -400,6 +400,8 @@ class Client:
         """Sends all commands that wait, and lets the time pass that they take on the wire."""
         until = self._clock() + GRACE
         while self._failure is None:
+            # What is due goes first, even where the machine has paused for longer than the grace.
+            self._send_due()
             now = self._clock()
             free_at = self._session.wire.free_at
             if (self._session.idle and now >= free_at) or now >= max(until, free_at + GRACE):

@@ -1,0 +1,20 @@
+"""How long a test waits for what must come, so that no machine that is slow or pauses fails it."""
+
+from __future__ import annotations
+
+import time
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+# Far more than anything takes. What comes ends the wait, so that only a failure costs as much.
+PATIENCE = 60.0
+
+
+def await_that(true: Callable[[], object]) -> None:
+    """Waits until something is true; fails when it takes too long."""
+    end = time.monotonic() + PATIENCE
+    while not true():
+        assert time.monotonic() < end, "it has not come true"
+        time.sleep(0.001)
