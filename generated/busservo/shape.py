@@ -74,7 +74,10 @@ class Shape:
 
     def listed(self, frame: bytes) -> tuple[int, ...]:
         """All numbers of the list of a legal frame, in its order; one without a list has none."""
-        unpack = self._unpackers.get(len(frame)) or self._unpacker(len(frame))
+        try:
+            unpack = self._unpackers[len(frame)]
+        except KeyError:
+            unpack = self._unpacker(len(frame))
         return unpack(frame)
 
     def frame(self, numbers: tuple[Any, ...], given: Iterable[Any] = ()) -> bytes:

@@ -13,6 +13,9 @@ if TYPE_CHECKING:
 
 _new = object.__new__
 
+# Made once: to make it takes as long as to use it.
+_HEAD = slice(BODY_AT)
+
 _tables: dict[Direction | None, Table] = {}
 
 
@@ -41,7 +44,7 @@ def decode(frame: bytes | bytearray | memoryview, direction: Direction | None) -
         table = table_for(direction)
     # What `read` does with a frame of a kind seen before; the call alone would cost a fifth more.
     if type(frame) is bytes:
-        entry = table.get(frame[:BODY_AT])
+        entry = table.get(frame[_HEAD])
         if entry is not None:
             size, at, until, count, kind = entry
             if len(frame) == size and (not until or frame[at:until] == count):

@@ -94,11 +94,10 @@ class StreamDecoder:
     def feed(self, data: bytes | bytearray | memoryview) -> list[Message | Noise]:
         """Takes in bytes, and returns what can be told now. Empty bytes are no sign of silence."""
         held = self._held + (data if type(data) is bytes else octets(data))
-        size = len(held)
-        if size < self._wake:
+        if len(held) < self._wake:
             self._held = held
             return []
-        if size <= _REMEMBERED and not self._candidate:
+        if len(held) <= _REMEMBERED and not self._candidate:
             wake = self._table.waits.get(held)
             if wake is not None:
                 self._held, self._wake = held, wake
