@@ -280,6 +280,25 @@ def test_a_call_that_is_interrupted_leaves_the_line_usable() -> None:
         assert controller.counters.strays == 1
 
 
+def test_what_waits_is_sent_although_the_machine_pauses_while_closing() -> None:
+    line = VirtualLine()
+    # Each look at the clock may be the one before which the machine pauses.
+    pauses = iter([0.0, 60.0])
+
+    def clock() -> float:
+        line.now += next(pauses, 0.0) if closing else 0.0
+        return line.clock()
+
+    closing = False
+    controller = Controller(line, background=False, clock=clock)
+    controller.move_servos([(servo, 500) for servo in range(60)], 100)
+    controller.send_latest(ServoUnload([7]))
+    assert len(line.received) == 1
+    closing = True
+    controller.close()
+    assert line.received[-1] == ServoUnload([7])
+
+
 @pytest.mark.parametrize("via", ["memory", "tcp"])
 def test_nothing_of_the_last_frame_is_cut_off(via: Literal["memory", "tcp"]) -> None:
     with VirtualController(via, baud=9600) as board:
