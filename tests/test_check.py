@@ -122,6 +122,15 @@ def test_a_spec_that_yaml_readers_disagree_on_is_not_read_further() -> None:
     assert [finding.rule for finding in loaded.findings] == ["yaml-ambiguous"]
 
 
+@pytest.mark.parametrize("slip", ["", "\nnothing: known"], ids=["good", "bad"])
+def test_what_is_loaded_keeps_its_text_and_its_places(slip: str) -> None:
+    source = Source("demo.yaml", GOOD[1].read_text(encoding="utf-8") + slip)
+    loaded = load(source)
+    assert loaded.source is source
+    assert loaded.tree.key_at(("protocol",)).line > 1
+    assert (loaded.spec is None) == bool(slip)
+
+
 def test_aliases_that_multiply_cost_no_time() -> None:
     # Written out, they would take for ever.
     started = time.process_time()

@@ -74,8 +74,6 @@ def load(source: Source) -> Loaded:
         shape = [_finding(tree, problem) for problem in error.errors(include_url=False)]
         shape = [finding for finding in shape if finding.span not in doubtful]
         return Loaded(source, tree, None, [*findings, *shape])
-    except RecursionError:  # pragma: no cover - depth is bounded before this
-        raise Unusable("the file is no spec: it is nested too deeply") from None
     return Loaded(source, tree, None if findings else spec, findings)
 
 
