@@ -21,6 +21,7 @@ from busservo import (
     Noise,
     Reason,
     ServoMove,
+    ServoPositions,
     StreamDecoder,
     UnknownFrame,
     decode,
@@ -655,6 +656,68 @@ def test_the_counters_add_up(line: bytes, direction: Direction | None, data: st.
         assert counters.fed == len(bytes_of(events)) + decoder.pending
 
     assert decoder.counters.fed == len(line)
+
+
+@pytest.mark.parametrize("size", [1, 3, 1000])
+def test_every_event_is_counted(size: int) -> None:
+    line = bytes.fromhex("00 13 55 55 02 07 55 55 02 07 01 55 55 03 01 2A 55 55 02 07")
+    decoder = StreamDecoder(HOST)
+    for turn in (1, 2):
+        for at in range(0, len(line), size):
+            decoder.feed(line[at : at + size])
+        counted = f"fed={20 * turn}, messages={3 * turn}, noise={8 * turn}, unknown_frames={turn}"
+        assert repr(decoder.counters) == f"Counters({counted})"
+
+
+def test_noise_is_told_while_what_begins_behind_it_is_held() -> None:
+    decoder = StreamDecoder(HOST)
+    assert decoder.feed(bytes.fromhex("00 13 55 55")) == [Noise(b"\x00\x13", Reason.BAD_HEADER)]
+    assert decoder.pending == 2
+
+
+def test_what_ends_behind_an_unknown_frame_is_no_part_of_it_as_soon_as_that_is_whole() -> None:
+    decoder = StreamDecoder(HOST)
+    assert decoder.feed(bytes.fromhex("55 55 07 01 55 55 05 06")) == []
+    assert bytes_of(decoder.feed(b"\x08")) == bytes.fromhex("55 55 07 01")
+    assert decoder.pending == 5
+
+
+@pytest.mark.parametrize(
+    ("line", "told"),
+    [
+        ("55 55 00 55 55 00", [("55 55 00", "length"), ("55 55 00", "length")]),
+        # A run of headers, each a byte after the other, is one piece: if it is for one reason.
+        ("55 55 55 03 03 00", [("55 55 55 03 03 00", "length")]),
+        ("55 55 55 0B 03 05 00", [("55", "length"), ("55 55 0B 03 05 00", "count")]),
+    ],
+)
+def test_a_piece_of_noise_is_told_for_each_refused_header(
+    line: str, told: list[tuple[str, str]]
+) -> None:
+    decoder = StreamDecoder(HOST)
+    events = decoder.feed(bytes.fromhex(line)) + decoder.flush()
+    reasons = {"length": Reason.LENGTH_MISMATCH, "count": Reason.COUNT_MISMATCH}
+    assert events == [Noise(bytes.fromhex(data), reasons[why]) for data, why in told]
+
+
+@pytest.mark.parametrize(
+    ("direction", "message"),
+    [
+        (HOST, ServoMove(1000, [(1, 800)])),
+        (CONTROLLER, ActionGroupStarted(8, 1)),
+        # Of this length, a request and a reply share a head.
+        (None, ServoPositions([(3, 800)])),
+    ],
+    ids=["host", "controller", "either"],
+)
+@pytest.mark.parametrize("size", [2, 3, 4, 5, 6])
+@pytest.mark.parametrize("before", range(16))
+def test_noise_of_any_size_costs_no_frame_that_comes_in_two(
+    before: int, size: int, direction: Direction | None, message: Message
+) -> None:
+    decoder, frame = StreamDecoder(direction), message.encode()
+    events = decoder.feed(bytes(before) + frame[:size]) + decoder.feed(frame[size:])
+    assert messages_in(events) == [message]
 
 
 def test_the_counters_show_themselves() -> None:
