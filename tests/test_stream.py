@@ -503,6 +503,8 @@ def test_what_an_unknown_frame_leaves_that_was_none_has_a_piece_for_each_refused
     line: str, events: list[Message | Noise]
 ) -> None:
     assert read(CONTROLLER, [bytes.fromhex(line)]) == events
+    stray = noise("13", Reason.BAD_HEADER)
+    assert read(CONTROLLER, [b"\x13" + bytes.fromhex(line)]) == [stray, *events]
 
 
 @each_case
