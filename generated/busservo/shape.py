@@ -52,7 +52,7 @@ class Shape:
         if self.items is None:
             return 0, 0, b""
         count = self.items.counts[self.lengths.index(length)]
-        before = "".join(number.code for number in self.numbers[: self.items.counter])
+        before = _codes(self.numbers[: self.items.counter])
         at = BODY_AT + struct.calcsize(STRUCT_ORDER + before)
         data = struct.pack(STRUCT_ORDER + self.numbers[self.items.counter].code, count)
         return at, at + len(data), data
@@ -123,19 +123,23 @@ class Shape:
     def _packer(self, count: int) -> tuple[Callable[..., bytes], bytes]:
         """For `count` items: what packs them, and the bytes in front. Made once for each count."""
         length = self.lengths[0]
-        codes = "".join(number.code for number in self.numbers)
+        codes = _codes(self.numbers)
         if self.items is not None:
             length = self.lengths[self.items.counts.index(count)]
-            codes += "".join(field.code for field in self.items.fields) * count
+            codes += _codes(self.items.fields) * count
         made = struct.Struct(f"{STRUCT_ORDER}{BODY_AT}s{codes}").pack, head(self.command, length)
         self._packers[count] = made
         return made
 
     def _unpacker(self, size: int) -> Callable[[bytes], tuple[int, ...]]:
         """What unpacks the list of a frame of this size. Made once for each size."""
-        codes = "".join(number.code for number in self.numbers)
-        at = BODY_AT + struct.calcsize(STRUCT_ORDER + codes)
-        element = "".join(field.code for field in self.items.fields) if self.items else ""
+        at = BODY_AT + struct.calcsize(STRUCT_ORDER + _codes(self.numbers))
+        element = _codes(self.items.fields) if self.items else ""
         count = (size - at) // max(1, struct.calcsize(STRUCT_ORDER + element))
         made = self._unpackers[size] = struct.Struct(f"{STRUCT_ORDER}{at}x{element * count}").unpack
         return made
+
+
+def _codes(fields: Sequence[Number]) -> str:
+    """The letters of these fields in `struct`."""
+    return "".join(field.code for field in fields)

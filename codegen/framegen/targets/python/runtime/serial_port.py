@@ -149,20 +149,20 @@ class SerialPort:
 
     def write(self, data: bytes) -> None:
         """Hands over all of `data`."""
-        from serial import SerialTimeoutException
-
         if self._closed:
             raise self._is_closed()
         try:
             self._port.write(data)
-        except SerialTimeoutException as error:
+        except _GONE as error:
+            from serial import SerialTimeoutException
+
+            if not isinstance(error, SerialTimeoutException):
+                raise self._failed(error) from error
             raise WriteStuckError(
                 self.name,
                 f"it has taken no bytes for {_WRITE_TIMEOUT:g} s",
                 "unplug and replug the adapter, and see that flow control is off",
             ) from error
-        except _GONE as error:
-            raise self._failed(error) from error
 
     def drain(self, timeout: float) -> None:
         """Waits until the last byte has left, as far as the driver can tell."""

@@ -308,17 +308,17 @@ class Session:
                     self._overdue.remove(each)
                 return
 
-    def _give_up(self, request: Request, now: float) -> None:
+    def _give_up(self, request: Request, since: float) -> None:
         """No longer waits for a reply, which may come all the same."""
         self._asked = None
-        self._remember(request, now)
+        self._remember(request, since)
 
-    def _remember(self, request: Request, now: float) -> None:
+    def _remember(self, request: Request, since: float) -> None:
         if request.attempts and request.exchange.reply is not None:
-            self._expect_late(request.exchange.reply, request.attempts, request, now)
+            self._expect_late(request.exchange.reply, request.attempts, request, since)
 
-    def _expect_late(self, kind: type[Message], count: int, request: Request, now: float) -> None:
-        until = max(request.deadline, now) + (request.deadline - request.left_at)
+    def _expect_late(self, kind: type[Message], count: int, request: Request, since: float) -> None:
+        until = since + (request.deadline - request.left_at)
         self._overdue.append(_Overdue(kind, count, until))
 
     def _replace(self, message: Message) -> None:
