@@ -70,6 +70,7 @@ class AsyncClient:
         self._retries = retries
         self._tap = Tap(self._name, trace)
         self._session = Session(baud=baud, margin=margin, report_limit=report_limit, tap=self._tap)
+        self._session.largest_frame = self._transport.largest_frame
         self._loop: asyncio.AbstractEventLoop | None = None
         self._threads: list[threading.Thread] = []
         self._outbox: _Outbox = SimpleQueue()

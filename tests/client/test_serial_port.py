@@ -160,6 +160,7 @@ def test_what_a_socket_holds_is_read_at_once_and_not_byte_by_byte(
     sent = bytes(range(256)) * 8
     with socket.create_server(("127.0.0.1", 0)) as listener:
         transport = open_transport(f"socket://127.0.0.1:{listener.getsockname()[1]}")
+        assert isinstance(transport, SerialPort)
         pieces: list[bytes] = []
         read = transport._port.read
 
@@ -180,6 +181,7 @@ def test_what_a_socket_holds_is_read_at_once_and_not_byte_by_byte(
 
 def test_a_socket_sends_small_frames_at_once(tcp: tuple[str, list[socket.socket]]) -> None:
     transport = open_transport(tcp[0])
+    assert isinstance(transport, SerialPort)
     assert transport._port._socket.getsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY)
     transport.close()
 
@@ -421,9 +423,10 @@ class Driver:
         self.left = max(0, self.left - 1)
         return self.left
 
-    def write(self, _data: bytes) -> None:
+    def write(self, data: bytes) -> int:
         if self.error is not None:
             raise self.error
+        return len(data)
 
     def cancel_read(self) -> None:
         if self.error is not None:

@@ -78,6 +78,7 @@ class Client:
         self._clock = clock
         self._tap = Tap(self._name, trace)
         self._session = Session(baud=baud, margin=margin, report_limit=report_limit, tap=self._tap)
+        self._session.largest_frame = self._transport.largest_frame
         # Held for every touch of the session, never for a read; told whenever anything changed.
         self._changed = threading.Condition(threading.Lock())
         self._reading = False

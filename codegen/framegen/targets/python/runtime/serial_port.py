@@ -1,7 +1,7 @@
 """A serial port as a transport: pyserial, and its failures turned into errors that say what to do.
 
 Whatever pyserial opens is a port: `/dev/ttyUSB0`, `COM7`, `hwgrep://CH340`, `socket://host:port`,
-`rfc2217://host:port`, `loop://`.
+`rfc2217://host:port`, `loop://`. What begins with `hid:` is opened by USB HID instead.
 """
 
 from __future__ import annotations
@@ -21,6 +21,9 @@ if TYPE_CHECKING:
     from collections.abc import Callable
     from typing import Any
 
+    from .hid_port import HidPort
+    from .transport import Transport
+
 # pyserial reconfigures the port whenever its timeout changes, so that stays as it is; longer waits
 # are made of several, and shorter ones are waited for here. It is also how long closing waits for a
 # read that cannot be cancelled.
@@ -36,13 +39,19 @@ _SOCKET = "socket:"
 _GONE = (OSError, TypeError, ValueError, AttributeError)
 
 
-def open_transport(port: str, *, baud: float = BAUD, exclusive: bool = True) -> SerialPort:
-    """Opens a port, by the name or the URL that pyserial knows it by.
+def open_transport(
+    port: str, *, baud: float = BAUD, exclusive: bool = True
+) -> SerialPort | HidPort:
+    """Opens a port, by the name or the URL that pyserial knows it by, or a board by `hid://`.
 
     The rest of the line's parameters are the protocol's. With `exclusive`, no other program that
     asks for the same can have the port meanwhile. Raises TransportError; ValueError for a `baud`
     that no port can be set to.
     """
+    if isinstance(port, str) and port.lower().startswith("hid:"):
+        from .hid_port import open_hid
+
+        return open_hid(port)
     import serial
 
     refused = refused_name(port)
@@ -77,7 +86,7 @@ def open_transport(port: str, *, baud: float = BAUD, exclusive: bool = True) -> 
 class SerialPort:
     """An open port of pyserial, as a transport. `reopen` opens the same one anew."""
 
-    def __init__(self, name: str, port: Any, reopen: Callable[[], SerialPort]) -> None:
+    def __init__(self, name: str, port: Any, reopen: Callable[[], Transport]) -> None:
         self.name = name
         self.reopen = reopen
         self._port = port
