@@ -259,7 +259,7 @@ def test_the_same_board_is_opened_again(library: Library) -> None:
     with open_controller("hid://", margin=PATIENCE) as controller:
         library.devices[0].lost = True
         with pytest.raises(DisconnectedError):
-            controller.read_battery_voltage()
+            controller.stop_action_group()
         controller.reconnect()
         assert controller.read_battery_voltage() == 7500
     assert len(library.devices) == 2
