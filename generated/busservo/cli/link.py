@@ -11,6 +11,7 @@ from contextlib import contextmanager
 
 from ..client import MARGIN, Client
 from ..link_errors import ClosedError, DisconnectedError, TransportError, WriteStuckError
+from ..protocol import BAUD
 from ..serial_port import open_transport
 from .exits import LINE_LOST, TERMINATED
 from .unusable import LineLostError, UnusableError
@@ -78,10 +79,10 @@ def at_least(lowest: int) -> Callable[[str], int]:
     return read
 
 
-def open_line(port: str) -> Transport:
+def open_line(port: str, baud: float = BAUD) -> Transport:
     """Opens a port, and shows that it is at it: an address that is far away may take a while."""
     with shown_waiting(lambda waited: f"opening {port}, {waited:.0f} s"):
-        return open_transport(port)
+        return open_transport(port, baud=baud)
 
 
 def open_client(arguments: argparse.Namespace, *, retries: int = 0) -> Client:
