@@ -185,8 +185,10 @@ def test_where_nobody_can_list_such_boards_it_says_so(
     assert main(["ports"]) == 0
     assert capsys.readouterr().err.splitlines() == [
         "no serial port is plugged in",
-        "boards of USB HID (0483:5750) have no serial port, and are not listed without an extra: "
-        "pip install 'busservo[hid]'",
+        (
+            "boards of USB HID (0483:5750) have no serial port, and are not listed without an "
+            "extra: pip install 'busservo[hid]'"
+        ),
     ]
 
 

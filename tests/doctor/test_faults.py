@@ -2,52 +2,23 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager
 from dataclasses import dataclass, field
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import pytest
-from busservo import ActionGroupStarted, DisconnectedError, PortNotFoundError, TransportError
-from busservo import exchanges
-from busservo.doctor.checks import CHECKS, examine
-from busservo.doctor.diagnosis import Diagnosis
-from busservo.doctor.result import FAILED, PASSED, UNKNOWN, Result
-from busservo.hid_boards import HidBoard
-from busservo.link_errors import PortBusyError, PortPermissionError
-from busservo.serial_port import SerialPortSeen
-from busservo_simulator import Faults, VirtualClock, VirtualController
+from busservo import ActionGroupStarted, exchanges
+from busservo.doctor.checks import CHECKS
+from busservo.doctor.result import FAILED, PASSED, UNKNOWN
+from busservo_simulator import Faults
 from hypothesis import given
 from hypothesis import strategies as st
 
-ADAPTER = SerialPortSeen("virtual board", "1A86:7523", "USB Serial")
-# What the doctor takes at most of the board's time, whatever happens.
-LONGEST = 60.0
+from tests.doctor.patient import LONGEST, board_with, diagnosis_of, examined
 
+if TYPE_CHECKING:
+    from collections.abc import Callable
 
-@contextmanager
-def board_with(faults: Faults, **more: Any) -> Iterator[VirtualController]:
-    made = {"clock": VirtualClock(follow_reads=True), "baud": 9600.0, **more}
-    with VirtualController(faults=faults, **made) as board:
-        yield board
-
-
-def diagnosis_of(board: VirtualController, **more: Any) -> Diagnosis:
-    def opener(_port: str, _baud: float) -> Any:
-        return board.open()
-
-    given = {
-        "port": board.port.name if not isinstance(board.port, str) else board.port,
-        "opener": opener,
-        "ports": lambda: [ADAPTER],
-        "boards": list,
-        "clock": board.clock.now,
-    }
-    return Diagnosis(**(given | more))
-
-
-def examined(diagnosis: Diagnosis) -> dict[str, Result]:
-    return {check.id: result for check, result in examine(diagnosis, CHECKS)}
+    from busservo_simulator import VirtualController
 
 
 @dataclass
@@ -68,10 +39,10 @@ NO_REPLY = {
     "servos": (UNKNOWN, "there is no reply to anything", ""),
 }
 NOTHING = NO_REPLY | {"look-alike": (UNKNOWN, "nothing came", "")}
-LOST = {
-    name: (UNKNOWN, "not looked at: see the check `rate`", "")
-    for name in ("echo", "reply", "round-trip", "servos", "look-alike")
-}
+LOST = dict.fromkeys(
+    ("echo", "reply", "round-trip", "servos", "look-alike"),
+    (UNKNOWN, "not looked at: see the check `rate`", ""),
+)
 
 CASES = {
     "nothing": Case(),
@@ -207,3 +178,41 @@ def check_case(case: Case) -> None:
         assert seen in found[name].seen
         assert advice in found[name].advice
         assert found[name].advice or found[name].state == UNKNOWN
+
+
+CHANCES = st.sampled_from([0.0, 0.0, 0.05, 0.5, 1.0])
+
+
+@given(
+    faults=st.builds(
+        Faults,
+        seed=st.integers(0, 99),
+        noise=CHANCES,
+        bit_flips=st.sampled_from([0.0, 0.02]),
+        lost_bytes=st.sampled_from([0.0, 0.02]),
+        splits=CHANCES,
+        coalesced=CHANCES,
+        delays=CHANCES,
+        late=CHANCES,
+        duplicated=CHANCES,
+        dropped=CHANCES,
+        fewer=CHANCES,
+        absent=CHANCES,
+        wrong_count=CHANCES,
+        unasked=CHANCES,
+        hang_up=st.sampled_from([0.0, 0.0, 0.1]),
+        late_by=st.floats(0, 5),
+    ),
+    local_echo=st.booleans(),
+    baud=st.sampled_from([None, 9600.0]),
+)
+def test_whatever_goes_wrong_each_check_ends_in_time_and_says_what_to_do(
+    faults: Faults, local_echo: bool, baud: float | None
+) -> None:
+    with board_with(faults, local_echo=local_echo, baud=baud) as board:
+        found = examined(diagnosis_of(board))
+        assert board.clock.now() < LONGEST
+    assert [*found] == [check.id for check in CHECKS]
+    for result in found.values():
+        assert result.seen
+        assert result.advice or result.state != FAILED
