@@ -57,7 +57,7 @@ def _about(diagnosis: Diagnosis, board: str) -> list[str]:
     system = f"{platform.system()} {platform.release()} {platform.machine()}"
     return [
         f"doctor of {_PACKAGE} {__version__}, spec {SPEC_VERSION}",
-        f"board: {_blinded(board, diagnosis) or 'not told'}",
+        f"board: {board or 'not told'}",
         f"adapter: {_blinded(diagnosis.adapter, diagnosis) or 'not known'}",
         f"host: {system}, Python {platform.python_version()}, pyserial {pyserial}",
         f"line: {_kind_of(diagnosis.port)}, {diagnosis.baud:g} baud",
@@ -77,7 +77,7 @@ def _blinded(text: str, diagnosis: Diagnosis) -> str:
     hidden = {each.name: _PORT for each in diagnosis.ports}
     hidden |= {each.serial: "SERIAL" for each in diagnosis.ports}
     hidden |= {each.path: _PORT for each in diagnosis.boards or []}
-    hidden |= {diagnosis.port or "": _PORT, str(Path.home()): "~", Path.home().name: "USER"}
+    hidden |= {diagnosis.port or "": _PORT, str(Path.home()): "~"}
     # The longest first, of which others may be parts; a lone slash would be in every path.
     for each in sorted(hidden, key=len, reverse=True):
         if len(each) > 1:
