@@ -211,7 +211,7 @@ class Session:
 
     def tick(self, now: float) -> None:
         """Takes in that it is `now`, and that all which arrived before has been received."""
-        if self._decoder.pending and now - self._heard_at >= GAP:
+        if self._decoder.pending and now >= self._heard_at + GAP:
             # The line has gone quiet: half a frame must not grow together with the next one.
             self._take_in(self._decoder.flush(), self._heard_at)
         if self._echo is not None:
