@@ -115,7 +115,11 @@ def test_a_missing_echo_is_an_error(answer: Callable[[Message], Heard]) -> None:
 
 def test_after_a_missing_echo_the_line_goes_on() -> None:
     answers = [deaf, echoing]
-    with virtual(lambda message: answers[0](message)) as controller:
+
+    def answer(message: Message) -> Heard:
+        return answers[0](message)
+
+    with virtual(answer) as controller:
         with pytest.raises(EchoError):
             controller.stop_action_group()
         del answers[0]

@@ -254,6 +254,16 @@ class Session:
             times += [each.until for each in self._overdue]
         return min(times, default=None)
 
+    def resting_until(self, now: float) -> float:
+        """Until when nothing can be complete, since the rest of a frame takes its time on the wire.
+
+        A reader that sleeps so long misses nothing: a gap is noticed no later for it.
+        """
+        if not self._decoder.pending or self._pace.fast:
+            return now
+        arriving = self.wire.least(self._decoder.missing - 1)
+        return max(now, min(self._heard_at + arriving, self._heard_at + GAP))
+
     def fail(self, error: Exception) -> None:
         """Ends everything that is under way or waiting: the line is gone."""
         waiting = [*([] if self._asked is None else [self._asked]), *self._queue]
