@@ -272,6 +272,50 @@ def test_a_reply_that_is_held_is_no_answer_to_what_was_cancelled() -> None:
     assert line.outgoing(0.1) == []
 
 
+def slow_board(line: Session, latency: float, reads: int) -> float:
+    """Reads of a board that thinks before it answers, in a loop without a pause."""
+    now = 0.0
+    for number in range(reads):
+        request = ask(line, now)
+        now += TRIP + latency
+        say(line, now, BatteryVoltage(number))
+        assert request.reply == BatteryVoltage(number)
+    return now
+
+
+def test_a_foreign_reply_in_the_time_of_the_right_one_makes_one_read_stale_and_no_more() -> None:
+    """A board that thinks for longer than a question takes: all replies of a shift are possible."""
+    line, latency = session(), 0.02
+    now = slow_board(line, latency, 8)
+    request = ask(line, now)
+    right_at = now + TRIP + latency
+    say(line, now + TRIP + 0.002, BatteryVoltage(1))
+    assert request.reply == BatteryVoltage(1)  # nobody can tell
+    request = line.submit(BatteryVoltageRead())
+    assert line.outgoing(now + TRIP + 0.002) == []
+    say(line, right_at, BatteryVoltage(9))
+    assert line.counters.unsolicited == 1
+    assert line.outgoing(right_at) == [request.message.encode()]
+    line.written(request, right_at)
+    say(line, right_at + TRIP + latency, BatteryVoltage(10))
+    assert request.reply == BatteryVoltage(10)
+
+
+def test_a_board_that_is_quick_for_once_costs_a_moment_and_nothing_else() -> None:
+    line, latency = session(), 0.02
+    now = slow_board(line, latency, 8)
+    answered(line, now, 7500, TRIP + 0.002)
+    request = line.submit(BatteryVoltageRead())
+    at = line.send_at(now + TRIP + 0.002)
+    assert at is not None
+    assert at < now + TRIP + latency + 0.01
+    line.outgoing(at)
+    line.written(request, at)
+    say(line, at + TRIP + 0.002, BatteryVoltage(7501))
+    assert request.reply == BatteryVoltage(7501)
+    ask(line, at + TRIP + 0.002)  # it is usual now, and costs nothing more
+
+
 # ---------------------------------------------------------------- what was there before
 
 
