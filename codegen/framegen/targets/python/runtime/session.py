@@ -22,7 +22,7 @@ from typing import TYPE_CHECKING
 
 from .counters import LineCounters
 from .decoder import StreamDecoder
-from .exchanges import EXCHANGES, RECEIVED
+from .exchanges import EXCHANGES, LIMITS, RECEIVED
 from .link_errors import NoReplyError
 from .noise import Noise
 from .reports import ReportLog
@@ -30,6 +30,7 @@ from .request import Request, Sent
 from .wire import Wire
 
 if TYPE_CHECKING:
+    from .limits import Bounds
     from .message import Message
     from .tap import Tap
 
@@ -55,11 +56,18 @@ class _Overdue:
 class Session:
     """One end of a line. Times are seconds on any clock that never goes back.
 
-    `margin` is how long the controller may take for an answer, besides the time on the wire.
+    `margin` is how long the controller may take for an answer, besides the time on the wire, and
+    `limits` what may be sent of that which has limits.
     """
 
     def __init__(
-        self, *, baud: float, margin: float, report_limit: int, tap: Tap | None = None
+        self,
+        *,
+        baud: float,
+        margin: float,
+        report_limit: int,
+        tap: Tap | None = None,
+        limits: Bounds | None = None,
     ) -> None:
         if not margin > 0:
             raise ValueError(f"the margin is {margin!r}, and must be above 0 seconds")
@@ -69,6 +77,7 @@ class Session:
         # Reports for callbacks, to be taken out by whoever drives the session.
         self.news: deque[Message] = deque(maxlen=report_limit)
         self._margin = margin
+        self._limits = limits
         self._tap = tap
         self._decoder = StreamDecoder(RECEIVED)
         self._queue: deque[Request] = deque()
@@ -89,8 +98,9 @@ class Session:
         retries: int = 0,
         latest: bool = False,
     ) -> Request:
-        """Asks for a message to be sent. Raises EncodeError where no reply could answer it.
+        """Asks for a message to be sent.
 
+        Raises EncodeError where no reply could answer it, LimitError where the limits forbid it.
         With `question`, TypeError is raised where it has no reply, or has one against expectation.
         """
         exchange = EXCHANGES.get(type(message))
@@ -101,6 +111,7 @@ class Session:
         if question is True and exchange.reply is None:
             raise TypeError(f"{message!r} is a command: send() sends it, and nothing answers")
         exchange.check(message)
+        LIMITS.check(message, self._limits)
         request = Request(message, exchange, retries=retries, latest=latest)
         if latest:
             self._replace(message)
