@@ -12,6 +12,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
     from typing import Any
 
+    from .fields import Number
     from .limits import Bounds
     from .message import Message
 
@@ -73,6 +74,41 @@ class Pose:
         self.present = present
         self.targets = targets
 
+    @property
+    def noun(self) -> str:
+        """What one of those is called whose positions these are."""
+        return self.item.name.removesuffix("_id").replace("_", " ")
+
+    @property
+    def item(self) -> Number:
+        """The number that says whose a position is."""
+        return self._fields[0]
+
+    @property
+    def place(self) -> Number:
+        """A position that can be commanded."""
+        return self._fields[1]
+
+    @property
+    def duration(self) -> Number:
+        """The milliseconds that a motion may take."""
+        return next(each for each in self.move.SHAPE.numbers if each.name == self.time)
+
+    @property
+    def room(self) -> int:
+        """How many one motion can move."""
+        items = self.move.SHAPE.items
+        return items.counts[-1] if items is not None else 0
+
+    @property
+    def _fields(self) -> tuple[Number, ...]:
+        items = self.move.SHAPE.items
+        return items.fields if items is not None else ()
+
+    def motion(self, targets: Iterable[tuple[int, int]], time_ms: int) -> Message:
+        """The command that moves to these targets. Raises EncodeError."""
+        return self.move(**{self.moved: list(targets), self.time: time_ms})
+
     def there(self, replies: Iterable[Message]) -> list[Any]:
         """The positions that replies tell, without those that are told to be absent."""
         told = [each for reply in replies for each in getattr(reply, self.told)]
@@ -88,11 +124,9 @@ class Pose:
         One that is absent is left out. One that is below zero, which no command can say, is sent to
         the lowest position there is.
         """
-        items = self.move.SHAPE.items
-        if limits is None and items is not None:
-            limits = items.fields[-1].low, items.fields[-1].high
+        bounds = (self.place.low, self.place.high) if limits is None else limits
         return [
-            (each[0], nearest(getattr(each, self.position), limits or (0, 0)))
+            (each[0], nearest(getattr(each, self.position), bounds))
             for each in positions
             if not getattr(each, "absent", False)
         ]

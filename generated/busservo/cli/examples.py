@@ -12,10 +12,12 @@ VERBS = {
     "decode": "Tell what bytes mean: messages, noise, and why noise is noise.",
     "encode": "Make the frame of a message.",
     "monitor": "Show what a line carries, as it comes.",
+    "play": "Move through poses that were recorded.",
     "ports": "List the serial ports that are plugged in.",
     "replay": "Send once more what was recorded of a line.",
     "send": "Send a message to a port, and print the reply.",
     "simulate": "Run a virtual board to talk to.",
+    "teach": "Let go, and record poses by hand.",
 }
 
 EXAMPLES = {
@@ -61,6 +63,14 @@ EXAMPLES = {
         ),
         ("busservo monitor --port COM7 --hide noise --json", "messages, for a program to read"),
     ),
+    "play": (
+        ("busservo play poses.json --dry-run", "what would be sent, and when"),
+        ("busservo play poses.json --port COM7", "from pose to pose, each in a second"),
+        (
+            "busservo play poses.json --port COM7 --time-ms 500 --pause 1 --repeat 3",
+            "faster, and thrice",
+        ),
+    ),
     "ports": (
         ("busservo ports", "the name, VID:PID and description of each"),
         ("busservo ports --json", "a line of JSON for each"),
@@ -97,5 +107,12 @@ EXAMPLES = {
     "simulate": (
         ("busservo simulate", "a board behind a port, whose name is printed first"),
         ("busservo simulate --help", "what else it can do"),
+    ),
+    "teach": (
+        ("busservo teach poses.json --port COM7", "all that are there, at each Enter"),
+        (
+            "busservo teach poses.json --port COM7 --ids 1-3 --append",
+            "three, behind what is recorded",
+        ),
     ),
 }
