@@ -74,10 +74,11 @@ class Limits:
 
     def way_out(self, value: int) -> str:
         """What to do about a value that was refused, in the words of a program."""
+        known = {"what is usual": self.usual, **self.others}
         takers = [
             f"limits={bounds} is for {name}"
-            for name, bounds in self.others.items()
-            if bounds[0] <= value <= bounds[1]
+            for name, bounds in known.items()
+            if bounds is not None and bounds[0] <= value <= bounds[1]
         ]
         if takers:
             return f"{', '.join(takers)}, limits=None for any"

@@ -94,26 +94,35 @@ REFUSED: list[tuple[ServoMove, tuple[int, int], str]] = [
     (
         MOVE_BEYOND,
         (0, 1000),
-        "targets[1].position: 1001 is outside the limits 0..1000; "
-        "limits=(500, 2500) is for PWM servo boards, limits=None for any",
+        (
+            "targets[1].position: 1001 is outside the limits 0..1000; "
+            "limits=(500, 2500) is for PWM servo boards, limits=None for any"
+        ),
     ),
     (
         ServoMove(time_ms=0, targets=[(1, 65535)]),
         (0, 1000),
-        "targets[0].position: 65535 is outside the limits 0..1000; "
-        "targets_of() makes targets of what was read; limits=None sends anything",
+        (
+            "targets[0].position: 65535 is outside the limits 0..1000; "
+            "targets_of() makes targets of what was read; limits=None sends anything"
+        ),
     ),
     (
         ServoMove(time_ms=0, targets=[(1, 499)]),
         (500, 2500),
-        "targets[0].position: 499 is outside the limits 500..2500; "
-        "targets_of() makes targets of what was read; limits=None sends anything",
+        (
+            "targets[0].position: 499 is outside the limits 500..2500; "
+            "limits=(0, 1000) is for what is usual, limits=None for any"
+        ),
     ),
     (
         ServoMove(time_ms=0, targets=[(1, 900)]),
         (100, 800),
-        "targets[0].position: 900 is outside the limits 100..800; "
-        "limits=(500, 2500) is for PWM servo boards, limits=None for any",
+        (
+            "targets[0].position: 900 is outside the limits 100..800; "
+            "limits=(0, 1000) is for what is usual, limits=(500, 2500) is for PWM servo boards, "
+            "limits=None for any"
+        ),
     ),
 ]
 

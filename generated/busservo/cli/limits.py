@@ -45,10 +45,11 @@ def refused(error: LimitError) -> UnusableError:
 
 def outside(place: str, value: object, limits: Bounds) -> UnusableError:
     """That a value is outside the limits, and which others there are."""
+    known = {"what is usual": LIMITS.usual, **LIMITS.others}
     others = [
         f"--limits {_written(each)} is for {name}"
-        for name, each in LIMITS.others.items()
-        if isinstance(value, int) and each[0] <= value <= each[1]
+        for name, each in known.items()
+        if each is not None and isinstance(value, int) and each[0] <= value <= each[1]
     ]
     ways = ", ".join([*others, f"--limits {_ANY} sends anything"])
     return UnusableError(f"{place}: {value} is outside the limits {_written(limits)}; {ways}")
