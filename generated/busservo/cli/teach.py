@@ -104,7 +104,7 @@ class _Lesson:
         """Lets go, and records until the end is asked for."""
         code = DONE
         limp = f"{listed(self._pose, self._ids)} {'is' if len(self._ids) == 1 else 'are'} limp"
-        self._controller.send(self._pose.release(list(self._ids)))
+        self._controller.send(self._pose.letting_go(self._ids))
         try:
             asked = self._record()
             ending = "Hold everything where it is now?"

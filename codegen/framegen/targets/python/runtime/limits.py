@@ -64,10 +64,9 @@ class Limits:
         low, high = bounds
         for path in self.fields.get(type(message), ()):
             values = column(message, path)
-            if values and not low <= min(values) <= max(values) <= high:
-                place = next(at for at, each in enumerate(values) if not low <= each <= high)
-                name, dot, inner = path.partition(".")
-                at = f"{name}[{place}].{inner}" if dot else name
+            place = next((at for at, each in enumerate(values) if not low <= each <= high), None)
+            if place is not None:
+                at = placed(message, path, place)
                 raise LimitError(at, values[place], bounds, self.way_out(values[place]))
 
     def way_out(self, value: int) -> str:
@@ -82,6 +81,14 @@ class Limits:
             return f"{', '.join(takers)}, limits=None for any"
         read = f"{self.targets}() makes targets of what was read; " if self.targets else ""
         return f"{read}limits=None sends anything"
+
+
+def placed(message: Message, path: str, place: int) -> str:
+    """Where a value of a field stands in a message: `targets[1].position`, or just `level`."""
+    name, dot, inner = path.partition(".")
+    items = message.SHAPE.items
+    listed = items is not None and items.name == name
+    return f"{name}[{place}]{dot}{inner}" if listed else name
 
 
 def nearest(value: int, bounds: Bounds) -> int:

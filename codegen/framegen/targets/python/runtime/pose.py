@@ -107,6 +107,10 @@ class Pose:
         """The command that moves to these targets. Raises EncodeError."""
         return self.move(**{self.moved: list(targets), self.time: time_ms})
 
+    def letting_go(self, ids: Iterable[int]) -> Message:
+        """The command that lets go of these. Raises EncodeError."""
+        return self.release(**{self.asked: list(ids)})
+
     def there(self, replies: Iterable[Message]) -> list[Any]:
         """The positions that replies tell, without those that are told to be absent."""
         told = [each for reply in replies for each in getattr(reply, self.told)]
