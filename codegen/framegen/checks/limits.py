@@ -55,7 +55,7 @@ def _bounds(path: KeyPath, range_: Range, field: NumberField) -> Iterator[Proble
         high = wire.high if field.range.high is None else field.range.high
     for end in dict.fromkeys((range_.low, range_.high)):
         if not low <= end <= high:
-            what = f"{end} is outside {low}..{high}, and no frame carries it"
+            what = f"{end} is outside {low}..{high}, which the field allows"
             yield Problem(path, what, "keep the limits inside the range of the field")
 
 

@@ -47,6 +47,9 @@ def _messages(spec: Spec, pose: Pose) -> Iterator[Problem]:
         if name not in sent:
             there = "is no message of a client's" if name in spec.messages else "is no message"
             yield Problem(("pose", key), f"`{name}` {there}", did_you_mean(name, sent))
+    if pose.release == pose.read:
+        what = f"{pose.read} asks for positions, and cannot let go of them as well"
+        yield Problem(("pose", "release"), what, "name the message that lets go")
 
 
 def _lone_list(message: Message) -> str | None:
