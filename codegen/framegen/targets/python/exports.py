@@ -7,6 +7,7 @@ from framegen.targets.python.escape import WIDTH
 # What every library exports besides its messages, and the module that each is in.
 HOMES = {
     "MESSAGES": "messages",
+    "AbsentError": "link_errors",
     "AsyncController": "async_controller",
     "ClosedError": "link_errors",
     "Controller": "controller",
@@ -18,6 +19,7 @@ HOMES = {
     "EchoError": "link_errors",
     "EncodeError": "errors",
     "IncompleteReplyError": "link_errors",
+    "LimitError": "errors",
     "Message": "message",
     "NoReplyError": "link_errors",
     "NoReportError": "link_errors",

@@ -36,7 +36,7 @@ from typing import TYPE_CHECKING
 
 from .careful_decoder import GAP, CarefulDecoder
 from .counters import LineCounters
-from .exchanges import EXCHANGES, RECEIVED
+from .exchanges import EXCHANGES, LIMITS, RECEIVED
 from .link_errors import EchoError, NoReplyError
 from .local_echo import EchoWatch, LocalEcho
 from .noise import Noise
@@ -47,6 +47,7 @@ from .room import check_room
 from .wire import Wire
 
 if TYPE_CHECKING:
+    from .limits import Bounds
     from .message import Message
     from .tap import Tap
 
@@ -67,9 +68,7 @@ class _Overdue:
 
     __slots__ = ("count", "kind", "owed", "until")
 
-    def __init__(
-        self, kind: type[Message], count: int, until: float, *, owed: bool = True
-    ) -> None:
+    def __init__(self, kind: type[Message], count: int, until: float, *, owed: bool = True) -> None:
         self.kind = kind
         self.count = count
         self.until = until
@@ -80,7 +79,8 @@ class _Overdue:
 class Session:
     """One end of a line. Times are seconds on any clock that never goes back.
 
-    `margin` is how long the controller may take for an answer, besides the time on the wire.
+    `margin` is how long the controller may take for an answer, besides the time on the wire, and
+    `limits` what may be sent of that which has limits.
     `local_echo` says that the line gives back what is sent; `settle` is for how many seconds
     nothing is asked on a line that has been opened, None for one reply time where that may matter.
     """
@@ -92,6 +92,7 @@ class Session:
         margin: float,
         report_limit: int,
         tap: Tap | None = None,
+        limits: Bounds | None = None,
         local_echo: bool = False,
         settle: float | None = None,
         name: str = "the line",
@@ -109,6 +110,7 @@ class Session:
         # The longest frame that the line carries; None for any.
         self.largest_frame: int | None = None
         self._margin = margin
+        self._limits = limits
         self._name = name
         self._tap = tap
         self._settle = settle
@@ -143,8 +145,9 @@ class Session:
         retries: int = 0,
         latest: bool = False,
     ) -> Request:
-        """Asks for a message to be sent. Raises EncodeError where no reply could answer it.
+        """Asks for a message to be sent.
 
+        Raises EncodeError where no reply could answer it, LimitError where the limits forbid it.
         With `question`, TypeError is raised where it has no reply, or has one against expectation.
         """
         exchange = EXCHANGES.get(type(message))
@@ -155,6 +158,7 @@ class Session:
         if question is True and exchange.reply is None:
             raise TypeError(f"{message!r} is a command: send() sends it, and nothing answers")
         exchange.check(message)
+        LIMITS.check(message, self._limits)
         check_room(message, self.largest_frame)
         request = Request(message, exchange, retries=retries, latest=latest)
         if self._asks_first is None:

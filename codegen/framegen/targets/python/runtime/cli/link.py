@@ -8,6 +8,7 @@ import sys
 from contextlib import contextmanager
 
 from ..client import MARGIN, Client
+from ..exchanges import LIMITS
 from ..link_errors import ClosedError, DisconnectedError, TransportError, WriteStuckError
 from ..protocol import BAUD
 from ..serial_port import open_transport
@@ -19,6 +20,7 @@ TYPE_CHECKING = False
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
 
+    from ..limits import Bounds
     from ..transport import Transport
 
 ENDS = {
@@ -83,9 +85,12 @@ def open_line(port: str, baud: float = BAUD) -> Transport:
         return open_transport(port, baud=baud)
 
 
-def open_client(arguments: argparse.Namespace, *, retries: int = 0) -> Client:
+def open_client(
+    arguments: argparse.Namespace, *, retries: int = 0, limits: Bounds | None = LIMITS.usual
+) -> Client:
     """As open_line, for a client that waits as long as the arguments say."""
-    return Client(open_line(arguments.port), margin=arguments.timeout, retries=retries)
+    line = open_line(arguments.port)
+    return Client(line, margin=arguments.timeout, retries=retries, limits=limits)
 
 
 @contextmanager
