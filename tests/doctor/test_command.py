@@ -130,7 +130,7 @@ def test_a_report_tells_nothing_of_its_sender(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """No serial number, no name of a port, which may hold one, and no path of a home."""
-    home = "/home/ada.lovelace"
+    home = "/users/ada.lovelace"
     monkeypatch.setattr(Path, "home", lambda: Path(home))
     secret = ADAPTER._replace(name="/dev/cu.usbserial-A50285BI", product="FT232R A50285BI")
     for port in (f"{home}/board", secret.name, None):
