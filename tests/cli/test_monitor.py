@@ -348,8 +348,8 @@ class FullDisk(io.StringIO):
 def test_a_recording_whose_end_does_not_fit_is_told(tmp_path: Path) -> None:
     recorder = Recorder(tmp_path / "line.hex")
     assert recorder._file is not None
-    recorder._file.close()
-    recorder._file = FullDisk()
+    recorder._file._file.close()
+    recorder._file._file = FullDisk()
     with pytest.raises(UnusableError, match=r"line\.hex.*No space left"), recorder:
         pass
     # What went wrong before it is what is told.

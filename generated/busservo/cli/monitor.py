@@ -76,7 +76,8 @@ def add_arguments(parser: ArgumentParser) -> None:
         "--log",
         type=Path,
         metavar="FILE",
-        help="write all of it, shown or not, to a new file for `decode` and `replay`",
+        help="record all of it, shown or not, for `decode` and `replay`; what FILE holds already is "
+        "never overwritten",
     )
     parser.add_argument("-n", type=at_least(1), metavar="N", help="end after so many lines")
     parser.add_argument(

@@ -160,7 +160,7 @@ class Session:
         expired = asked is not None and now >= self._ends_at(asked)
         if self._decoder.pending and now - self._heard_at >= self._margin:
             # The line has gone quiet: half a frame must not grow together with the next reply.
-            self._take_in(self._decoder.flush(), now)
+            self._flush(now)
         elif self._decoder.pending and expired:
             self._look_behind(now)
         self._overdue = [each for each in self._overdue if each.until > now]
@@ -217,9 +217,16 @@ class Session:
 
     def restart(self) -> None:
         """Begins anew on another line: half a frame of the old one is forgotten."""
-        self._take_in(self._decoder.flush(), self._heard_at)
+        self._flush(self._heard_at)
         self._decoder = StreamDecoder(RECEIVED)
         self.wire.free_at = float("-inf")
+
+    def _flush(self, now: float) -> None:
+        """Gives up the frame that has begun, if any has."""
+        if self._decoder.pending:
+            self._take_in(self._decoder.flush(), now)
+            if self._tap is not None:
+                self._tap.quiet()
 
     def _look_behind(self, now: float) -> None:
         """Takes what a false header is holding back; half a frame is left to come in full."""
@@ -228,6 +235,8 @@ class Session:
         if any(not isinstance(event, Noise) for event in events):
             self._decoder = decoder
             self._take_in(events, now)
+            if self._tap is not None:
+                self._tap.quiet()
 
     @staticmethod
     def _ends_at(asked: Request) -> float:
