@@ -39,6 +39,8 @@ ASK = servo_bus_frame(7, 28)
         # A message of ours has command 8, too, and this is one.
         (bytes.fromhex("55 55 05 08 01 02 00"), None),
         (bytes.fromhex("55 55 02 63"), None),
+        # A false header in front of frames of ours says that 85 bytes follow, and a command.
+        (b"\x55" + 30 * bytes.fromhex("55 55 02 0F"), None),
         (bytes.fromhex("55 55 02 07"), None),
         (b"", None),
         (b"\x55", None),

@@ -11,8 +11,8 @@ from contextlib import contextmanager, suppress
 
 from ..exchanges import RECEIVED
 from ..noise import Noise
-from ..recording_file import NOISE, RecordingFile
-from .events import EITHER, bytes_of, names_of, sender_of
+from ..recording_file import EITHER, NOISE, RecordingFile
+from .events import bytes_of, names_of, sender_of
 from .unusable import UnusableError
 
 TYPE_CHECKING = False

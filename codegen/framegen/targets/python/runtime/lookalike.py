@@ -58,10 +58,11 @@ class Lookalike:
     def covered(self, data: bytes) -> int:
         """How many bytes of `data` are frames of this protocol."""
         found = at = 0
-        begun = next((text for place, text in self.constants if place.start == 0), b"")
-        while (at := data.find(begun, at)) >= 0 and at + self.least <= len(data):
+        header = next((text for place, text in self.constants if place.start == 0), b"")
+        while (at := data.find(header, at)) >= 0 and at + self.least <= len(data):
             frame = data[at : at + self._size(data, at)]
-            if self._is_frame(frame):
+            # Without a checksum, a frame with another header in it is nothing to go by.
+            if self._is_frame(frame) and (self.checksums or frame.rfind(header) <= 0):
                 found += len(frame)
                 at += len(frame)
             else:

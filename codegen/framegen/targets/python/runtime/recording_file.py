@@ -1,4 +1,4 @@
-"""The file that a recording is written to: a line of hex for each event, and in a comment what it is.
+"""The file that a recording is written to: a line of hex for each event, and a comment.
 
     # recorded of '/dev/ttyUSB0' from 2026-01-02 09:08:07.250000 +0000 on
     HEX  # 0.000000 s, SENDER: what it says
@@ -24,7 +24,8 @@ if TYPE_CHECKING:
     from os import PathLike
 
 QUIET = "# quiet"
-NOISE = "noise"
+# What stands in the place of the sender: bytes that are no message, and what either end may send.
+NOISE, EITHER = "noise", "either"
 
 
 class RecordingFile:
