@@ -93,6 +93,8 @@ class HexReader:
 
 def _rest(word: str) -> str:
     """Give what stands in a word behind its whole bytes."""
+    if _NO_DIGIT.search(word) is None:
+        return word[len(word) // 2 * 2 :]
     whole = _BYTES.match(word)
     return word[whole.end() :] if whole else word
 

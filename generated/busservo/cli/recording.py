@@ -9,8 +9,8 @@ import time
 from contextlib import contextmanager
 
 from ..recordings import RecordingError, read
+from .progress import PATIENCE, Waiting
 from .unusable import UnusableError
-from .waiting import PATIENCE, Waiting
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:

@@ -49,7 +49,7 @@ def recorded(blocks: Iterable[str], direction: Direction | None) -> Iterator[Ent
                 raise RecordingError(f"line {number}: {error}") from None
             sender, is_noise = _sender(who, number, direction)
             time = float(at)
-            for event in _events(data, sender, what, is_noise=is_noise):
+            for event in _events(data, sender, what.strip(), is_noise=is_noise):
                 yield Entry(event, sender, offset, line=number, time=time, began=began)
                 offset += len(event.encode() if isinstance(event, Message) else event.data)
 

@@ -12,6 +12,7 @@ from __future__ import annotations
 import os
 import re
 from itertools import chain
+from pathlib import Path
 
 from .decoder import StreamDecoder
 from .hextext import HexError, HexReader
@@ -69,7 +70,7 @@ def _read(
     source: str | os.PathLike[str] | Readable, form: str, direction: Direction | None
 ) -> Iterator[Entry]:
     if isinstance(source, (str, os.PathLike)):
-        with open(source, "rb") as stream:  # noqa: PTH123 - pathlib would not take every path
+        with Path(source).open("rb") as stream:
             yield from _read(stream, form, direction)
         return
     chunks = _chunks(source)
