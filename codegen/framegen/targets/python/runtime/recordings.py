@@ -138,11 +138,8 @@ def _hex(text: Iterable[str], decoder: StreamDecoder) -> Iterator[list[Message |
     line = 1
     for block in text:
         timed = _TIME.search(block)
-        if timed:
-            number = line + block.count("\n", 0, timed.start())
-            problem = "it has a time and a sender, and the lines before it have none"
-            raise RecordingError(f"line {number}: {problem}")
-        for is_after_quiet, part in enumerate(_QUIET_LINE.split(block)):
+        end = len(block) if timed is None else block.rfind("\n", 0, timed.start()) + 1
+        for is_after_quiet, part in enumerate(_QUIET_LINE.split(block[:end])):
             if is_after_quiet:
                 yield decoder.flush()
             try:
@@ -151,6 +148,9 @@ def _hex(text: Iterable[str], decoder: StreamDecoder) -> Iterator[list[Message |
                 raise _slip(error, line + part.count("\n", 0, error.at)) from None
             yield decoder.feed(data)
             line += part.count("\n")
+        if timed is not None:
+            problem = "it has a time and a sender, and the lines before it have none"
+            raise RecordingError(f"line {line}: {problem}")
     try:
         data = reader.end()
     except HexError as error:
