@@ -181,7 +181,7 @@ def test_there_is_no_other_form() -> None:
 def test_a_client_s_trace_is_read_back(tmp_path: Path) -> None:
     line, path = VirtualLine(), tmp_path / "line.hex"
     with Controller(
-        line, margin=0.25, trace=path, background=False, clock=line.clock
+        line, margin=0.25, trace=path, background=False, clock=line.clock, settle=0
     ) as controller:
         line.say(b"\x55\x00" + ActionGroupStopped().encode() + b"\x55\x55\x05\x08")
         with pytest.raises(NoReplyError):

@@ -88,7 +88,7 @@ def test_what_is_no_file_will_do(tmp_path: Path) -> None:
 def test_a_recording_says_when_it_began_and_when_the_line_fell_silent(tmp_path: Path) -> None:
     line, path = VirtualLine(lambda _: []), tmp_path / "line.hex"
     with Controller(
-        line, margin=0.25, trace=path, background=False, clock=lambda: line.now
+        line, margin=0.25, trace=path, background=False, clock=line.clock, settle=0
     ) as controller:
         line.say(bytes.fromhex("55 55 05 08"))
         with pytest.raises(NoReplyError):
