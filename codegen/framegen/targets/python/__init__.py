@@ -20,6 +20,8 @@ if TYPE_CHECKING:
     from framegen.source import Source
 
 _HERE = Path(__file__).parent
+# What framegen itself reads hex with, the library reads it with, too.
+_SHARED = ("hextext.py",)
 
 
 def render(source: Source, layout: Layout) -> dict[str, str]:
@@ -45,8 +47,9 @@ def _banner(source: Source, library: LibraryView) -> str:
 def _runtime() -> list[tuple[str, str]]:
     """The files that are the same for every protocol, copied as they are."""
     root = _HERE / "runtime"
-    files = sorted(root.rglob("*.py"))
-    return [(file.relative_to(root).as_posix(), file.read_text(encoding="utf-8")) for file in files]
+    files = {file.relative_to(root).as_posix(): file for file in sorted(root.rglob("*.py"))}
+    files |= {name: _HERE.parents[1] / name for name in _SHARED}
+    return [(name, file.read_text(encoding="utf-8")) for name, file in files.items()]
 
 
 def _from_templates(library: LibraryView) -> list[tuple[str, str]]:
