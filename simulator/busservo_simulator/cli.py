@@ -24,7 +24,8 @@ if TYPE_CHECKING:
     from busservo_simulator.virtual_controller import VirtualController
 
 PROGRAM = "busservo-simulator"
-_MOST_TCP = 65535
+# What a TCP port and a battery's millivolts are sent as.
+_MOST = 65535
 FROM_BOARD = [name for name in CHANCES if name not in TO_BOARD]
 EXAMPLES = f"""\
 examples:
@@ -92,10 +93,12 @@ def _parser(program: str) -> argparse.ArgumentParser:
         help=f"bytes take their time, as at so many baud (without a number: {BAUD})",
     )
     board = parser.add_argument_group("what it is")
-    board.add_argument("--servos", type=parse_servos, default=list(range(1, 7)), metavar="LIST")
-    board.add_argument("--missing", type=parse_servos, default=[], metavar="LIST")
-    board.add_argument("--off", type=parse_servos, default=[], metavar="LIST")
-    board.add_argument("--battery", type=int, default=7500, metavar="MV", help="default: 7500")
+    board.add_argument("--servos", type=_servos, default=list(range(1, 7)), metavar="LIST")
+    board.add_argument("--missing", type=_servos, default=[], metavar="LIST")
+    board.add_argument("--off", type=_servos, default=[], metavar="LIST")
+    board.add_argument(
+        "--battery", type=_millivolts, default=7500, metavar="MV", help="default: 7500"
+    )
     board.add_argument("--no-echo", action="store_true", help="no report that a group starts")
     faults = parser.add_argument_group("what goes wrong")
     faults.add_argument(
@@ -107,11 +110,25 @@ def _parser(program: str) -> argparse.ArgumentParser:
     return parser
 
 
+def _servos(text: str) -> list[int]:
+    try:
+        return parse_servos(text)
+    except ValueError:
+        known = "servos are numbered 0 to 253, as in 1-6,9"
+        raise argparse.ArgumentTypeError(f"{text[:40]!r} names no servos: {known}") from None
+
+
 def _tcp_port(text: str) -> int:
-    if re.fullmatch("[0-9]{1,5}", text) is None or int(text) > _MOST_TCP:
-        raise argparse.ArgumentTypeError(
-            f"{text!r} is no TCP port: write one from 0 to {_MOST_TCP}"
-        )
+    return _number(text, "TCP port")
+
+
+def _millivolts(text: str) -> int:
+    return _number(text, "voltage of a battery in mV")
+
+
+def _number(text: str, what: str) -> int:
+    if re.fullmatch("[0-9]{1,5}", text) is None or int(text) > _MOST:
+        raise argparse.ArgumentTypeError(f"{text[:40]!r} is no {what}: write one from 0 to {_MOST}")
     return int(text)
 
 
@@ -164,11 +181,12 @@ def _opened(arguments: argparse.Namespace) -> Iterator[VirtualController]:
     with ExitStack() as port:
         try:
             port.enter_context(board)
-        except OSError as error:
+        except (OSError, TypeError) as error:  # TypeError: a host with characters that none has
             where = "a pty" if arguments.link is None else f"the link {arguments.link!r}"
             if _is_tcp(arguments):
                 where = f"{arguments.host}, port {arguments.tcp or 0}"
-            raise ValueError(f"{where} cannot be opened: {error.strerror or error}") from None
+            why = getattr(error, "strerror", None) or str(error)
+            raise ValueError(f"{where} cannot be opened: {why}") from None
         yield board
 
 
