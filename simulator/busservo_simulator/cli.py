@@ -99,7 +99,9 @@ def _parser(program: str) -> argparse.ArgumentParser:
     board.add_argument(
         "--battery", type=_millivolts, default=7500, metavar="MV", help="default: 7500"
     )
-    board.add_argument("--no-echo", action="store_true", help="no report that a group starts")
+    board.add_argument(
+        "--no-start-report", action="store_true", help="does not report that an action group starts"
+    )
     faults = parser.add_argument_group("what goes wrong")
     faults.add_argument(
         "--fault", type=_fault, action="append", default=[], metavar="NAME=CHANCE", dest="faults"
@@ -204,7 +206,7 @@ def _board(arguments: argparse.Namespace) -> VirtualController:
         "tcp" if tcp else "pty",
         servos=arguments.servos,
         battery_mv=arguments.battery,
-        echo_run=not arguments.no_echo,
+        start_report=not arguments.no_start_report,
         baud=arguments.baud,
         faults=Faults(seed=arguments.seed, **dict(arguments.faults)),
         link=arguments.link,
