@@ -3,14 +3,15 @@
 from __future__ import annotations
 
 import argparse
-import os
+import re
 import signal
 import sys
 import threading
-from contextlib import contextmanager
+from contextlib import ExitStack, contextmanager
 from typing import TYPE_CHECKING
 
 from busservo import __version__
+from busservo.cli import console
 from busservo.protocol import BAUD
 
 from busservo_simulator.faults import CHANCES, TO_BOARD, Faults
@@ -23,7 +24,8 @@ if TYPE_CHECKING:
     from busservo_simulator.virtual_controller import VirtualController
 
 PROGRAM = "busservo-simulator"
-UNUSABLE, READER_GONE = 2, 141
+# What a TCP port and a battery's millivolts are sent as.
+_MOST = 65535
 FROM_BOARD = [name for name in CHANCES if name not in TO_BOARD]
 EXAMPLES = f"""\
 examples:
@@ -44,30 +46,28 @@ What happens is printed line by line: the seconds since the start, who, and what
 """
 
 
-def main(argv: Sequence[str] | None = None) -> int:
-    """Runs the command line. 0: ended by Ctrl-C; 2: unusable."""
-    try:
-        arguments = _parser().parse_args(argv)
-    except SystemExit as stop:
-        return stop.code if isinstance(stop.code, int) else 0
+def main(argv: Sequence[str] | None = None, *, program: str = PROGRAM) -> int:
+    """Runs the command line. 0: ended by Ctrl-C; 2: unusable; 141: whoever read along has gone.
+
+    `program` is how the command was called: it is a verb of another one, too.
+    """
+    return console.run(program, lambda: _run_or_tell(argv, program))
+
+
+def _run_or_tell(argv: Sequence[str] | None, program: str) -> int:
+    arguments = _parser(program).parse_args(argv)
     try:
         return _run(arguments)
-    except (OSError, ValueError) as error:
-        if isinstance(error, BrokenPipeError):
-            # What is left goes nowhere, so that the interpreter does not fail on it at exit.
-            os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
-            return READER_GONE
-        print(f"{PROGRAM}: error: {error}", file=sys.stderr)
-        return UNUSABLE
+    except ValueError as error:
+        console.complain(program, str(error))
+        return console.UNUSABLE
 
 
-def _parser() -> argparse.ArgumentParser:
-    parser = argparse.ArgumentParser(
-        prog=PROGRAM,
+def _parser(program: str) -> argparse.ArgumentParser:
+    parser = console.Parser(
+        prog=program,
         description="A virtual bus servo controller: talk to it as to a real one.",
-        epilog=EXAMPLES,
-        formatter_class=argparse.RawDescriptionHelpFormatter,
-        allow_abbrev=False,
+        epilog=EXAMPLES.replace(PROGRAM, program),
     )
     where = parser.add_argument_group("where it is")
     where.add_argument("--link", metavar="PATH", help="a name for the pty, a symlink")
@@ -75,7 +75,7 @@ def _parser() -> argparse.ArgumentParser:
         "--tcp",
         nargs="?",
         const=0,
-        type=int,
+        type=_tcp_port,
         metavar="PORT",
         help="a TCP port instead of a pty (default: any free one); always so on Windows",
     )
@@ -93,10 +93,12 @@ def _parser() -> argparse.ArgumentParser:
         help=f"bytes take their time, as at so many baud (without a number: {BAUD})",
     )
     board = parser.add_argument_group("what it is")
-    board.add_argument("--servos", type=parse_servos, default=list(range(1, 7)), metavar="LIST")
-    board.add_argument("--missing", type=parse_servos, default=[], metavar="LIST")
-    board.add_argument("--off", type=parse_servos, default=[], metavar="LIST")
-    board.add_argument("--battery", type=int, default=7500, metavar="MV", help="default: 7500")
+    board.add_argument("--servos", type=_servos, default=list(range(1, 7)), metavar="LIST")
+    board.add_argument("--missing", type=_servos, default=[], metavar="LIST")
+    board.add_argument("--off", type=_servos, default=[], metavar="LIST")
+    board.add_argument(
+        "--battery", type=_millivolts, default=7500, metavar="MV", help="default: 7500"
+    )
     board.add_argument(
         "--no-start-report", action="store_true", help="does not report that an action group starts"
     )
@@ -108,6 +110,28 @@ def _parser() -> argparse.ArgumentParser:
     parser.add_argument("--quiet", action="store_true", help="print the port and nothing else")
     parser.add_argument("--version", action="version", version=f"{PROGRAM} {__version__}")
     return parser
+
+
+def _servos(text: str) -> list[int]:
+    try:
+        return parse_servos(text)
+    except ValueError:
+        known = "servos are numbered 0 to 253, as in 1-6,9"
+        raise argparse.ArgumentTypeError(f"{text[:40]!r} names no servos: {known}") from None
+
+
+def _tcp_port(text: str) -> int:
+    return _number(text, "TCP port")
+
+
+def _millivolts(text: str) -> int:
+    return _number(text, "voltage of a battery in mV")
+
+
+def _number(text: str, what: str) -> int:
+    if re.fullmatch("[0-9]{1,5}", text) is None or int(text) > _MOST:
+        raise argparse.ArgumentTypeError(f"{text[:40]!r} is no {what}: write one from 0 to {_MOST}")
+    return int(text)
 
 
 def _fault(text: str) -> tuple[str, float]:
@@ -122,13 +146,14 @@ def _fault(text: str) -> tuple[str, float]:
 
 def _run(arguments: argparse.Namespace) -> int:
     if arguments.host not in {LOOPBACK, "::1", "localhost"}:
-        print(f"{PROGRAM}: the network reaches it at {arguments.host}", file=sys.stderr)
-    with _ended_by_signals() as ended, _board(arguments) as board:
+        host = console.visible(arguments.host)
+        print(f"{PROGRAM}: the network reaches it at {host}", file=sys.stderr)
+    with _ended_by_signals() as ended, _opened(arguments) as board:
         journal = board.board.journal
         named = threading.Event()
         if not arguments.quiet:
             journal.listener = _printer(named, ended)
-        print(board.port, flush=True)
+        print(console.visible(board.port), flush=True)
         named.set()
         # In slices: on Windows a wait without end cannot be interrupted.
         while not ended.is_set():
@@ -145,16 +170,36 @@ def _printer(named: threading.Event, ended: threading.Event) -> Callable[[str], 
         named.wait()
         try:
             print(line, flush=True)
-        except OSError:  # whoever read along has gone
+        except OSError:  # whoever read along has gone, and console.run tells the shell
             ended.set()
 
     return show
 
 
+@contextmanager
+def _opened(arguments: argparse.Namespace) -> Iterator[VirtualController]:
+    """The board behind its port. Raises ValueError where there cannot be such a port."""
+    board = _board(arguments)
+    with ExitStack() as port:
+        try:
+            port.enter_context(board)
+        except (OSError, TypeError) as error:  # TypeError: a host with characters that none has
+            where = "a pty" if arguments.link is None else f"the link {arguments.link!r}"
+            if _is_tcp(arguments):
+                where = f"{arguments.host}, port {arguments.tcp or 0}"
+            why = getattr(error, "strerror", None) or str(error)
+            raise ValueError(f"{where} cannot be opened: {why}") from None
+        yield board
+
+
+def _is_tcp(arguments: argparse.Namespace) -> bool:
+    return arguments.tcp is not None or sys.platform == "win32"
+
+
 def _board(arguments: argparse.Namespace) -> VirtualController:
     from busservo_simulator.virtual_controller import VirtualController  # noqa: PLC0415 - --help is to be quick
 
-    tcp = arguments.tcp is not None or sys.platform == "win32"
+    tcp = _is_tcp(arguments)
     if tcp and arguments.link is not None:
         raise ValueError("--link names a pty, and there is none with --tcp")
     board = VirtualController(

@@ -104,6 +104,8 @@ def test_help_teaches_by_example(capsys: pytest.CaptureFixture[str]) -> None:
         (["--fault", "noise=2", "--tcp"], "noise is 2.0: a chance is from 0 to 1"),
         (["--off", "9", "--tcp"], "there is no such servo"),
         (["--tcp", "--link", "COM7"], "--link names a pty"),
+        (["--tcp", "99999"], "'99999' is no TCP port: write one from 0 to 65535"),
+        (["--tcp", "0", "--host", "203.0.113.7"], "203.0.113.7, port 0 cannot be opened: "),
         (["--servos", "300"], "--servos"),
         (["--baud", "0", "--tcp"], "baud is 0.0"),
     ],
@@ -148,7 +150,7 @@ def test_it_ends_when_whoever_read_along_has_gone(
     host.say(BatteryVoltageRead())
     _, errors = process.communicate(timeout=PATIENCE)
     host.hang_up()
-    assert (process.returncode, errors) == (0, "1 messages, 0 rejected\n")
+    assert (process.returncode, errors) == (141, "1 messages, 0 rejected\n")
 
 
 @not_windows

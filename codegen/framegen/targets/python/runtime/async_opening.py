@@ -18,14 +18,14 @@ if TYPE_CHECKING:
     from types import TracebackType
     from typing import Any
 
-    from .serial_port import SerialPort
+    from .transport import Transport
 
 
 class Opening:
     """A controller that is about to be opened: by `await`, or better by `async with`."""
 
     def __init__(
-        self, opener: Callable[[], SerialPort], make: Callable[[SerialPort], AsyncController]
+        self, opener: Callable[[], Transport], make: Callable[[Transport], AsyncController]
     ) -> None:
         self._open = opener
         self._make = make
@@ -70,6 +70,8 @@ def open_async_controller(
     retries: int = 0,
     trace: str | PathLike[str] | None = None,
     report_limit: int = REPORT_LIMIT,
+    local_echo: bool = False,
+    settle: float | None = None,
 ) -> Opening:
     """Opens the port of a controller, to be used in an `async with`.
 
@@ -84,5 +86,7 @@ def open_async_controller(
         retries=retries,
         trace=trace,
         report_limit=report_limit,
+        local_echo=local_echo,
+        settle=settle,
     )
     return Opening(opener, make)
