@@ -14,19 +14,24 @@ from busservo import __version__
 from busservo.cli import console
 from busservo.protocol import BAUD
 
-from busservo_simulator.faults import CHANCES, TO_BOARD, Faults
+from busservo_simulator.faults import CHANCES, DURATIONS, Faults
 from busservo_simulator.servo_list import parse_servos
 from busservo_simulator.tcp_end import LOOPBACK
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator, Sequence
+    from collections.abc import Callable, Iterator, Mapping, Sequence
 
     from busservo_simulator.virtual_controller import VirtualController
 
 PROGRAM = "busservo-simulator"
 # What a TCP port and a battery's millivolts are sent as.
 _MOST = 65535
-FROM_BOARD = [name for name in CHANCES if name not in TO_BOARD]
+
+
+def _listed(chances: Mapping[str, str]) -> str:
+    return "\n".join(f"  {name:20}{what}" for name, what in chances.items())
+
+
 EXAMPLES = f"""\
 examples:
   {PROGRAM}                            a board behind a pty, whose name is printed first
@@ -35,12 +40,13 @@ examples:
   {PROGRAM} --baud                     as slow as the real line, {BAUD} baud
   {PROGRAM} --servos 1-6,9 --off 9     seven servos, the last of them off
   {PROGRAM} --fault noise=0.2 --fault dropped=0.1 --seed 7
+  {PROGRAM} --baud --fault late=0.05 --late-by 3 --fault duplicated=0.05
 
-faults, each a chance from 0 to 1, of what the board sends:
-  {", ".join(FROM_BOARD[:6])},
-  {", ".join(FROM_BOARD[6:])}
-and of what it is sent:
-  {", ".join(TO_BOARD)}
+faults, each by its chance from 0 to 1:
+{_listed(CHANCES)}
+
+A host that sets another rate on the pty than the board's reads garbage, and is read as garbage.
+TCP has no rate that could be wrong. Mono's SerialPort opens no pty: have it talk to --tcp.
 
 What happens is printed line by line: the seconds since the start, who, and what. Ctrl-C ends it.
 """
@@ -90,23 +96,71 @@ def _parser(program: str) -> argparse.ArgumentParser:
         const=float(BAUD),
         type=float,
         metavar="BAUD",
-        help=f"bytes take their time, as at so many baud (without a number: {BAUD})",
+        help=f"bytes take their time, as at so many baud (without a number: {BAUD}); "
+        f"without this option they are there at once, and the rate of the board is {BAUD}",
+    )
+    where.add_argument(
+        "--local-echo",
+        action="store_true",
+        help="what a host sends comes back to it, as from many half-duplex adapters",
     )
     board = parser.add_argument_group("what it is")
-    board.add_argument("--servos", type=_servos, default=list(range(1, 7)), metavar="LIST")
-    board.add_argument("--missing", type=_servos, default=[], metavar="LIST")
-    board.add_argument("--off", type=_servos, default=[], metavar="LIST")
     board.add_argument(
-        "--battery", type=_millivolts, default=7500, metavar="MV", help="default: 7500"
+        "--servos",
+        type=_servos,
+        default=list(range(1, 7)),
+        metavar="LIST",
+        help="the servos that it knows, as in 1-6,9 (default: 1-6)",
+    )
+    board.add_argument(
+        "--missing",
+        type=_servos,
+        default=[],
+        metavar="LIST",
+        help="those of them that are not plugged in: replies leave them out",
+    )
+    board.add_argument(
+        "--off",
+        type=_servos,
+        default=[],
+        metavar="LIST",
+        help="those of them that are off: replies give 65535 as their position",
+    )
+    board.add_argument(
+        "--battery",
+        type=_millivolts,
+        default=7500,
+        metavar="MV",
+        help="the voltage of its battery in mV while nothing moves (default: 7500)",
     )
     board.add_argument(
         "--no-start-report", action="store_true", help="does not report that an action group starts"
     )
     faults = parser.add_argument_group("what goes wrong")
     faults.add_argument(
-        "--fault", type=_fault, action="append", default=[], metavar="NAME=CHANCE", dest="faults"
+        "--fault",
+        type=_fault,
+        action="append",
+        default=[],
+        metavar="NAME=CHANCE",
+        dest="faults",
+        help="a fault from the list below, and its chance from 0 to 1; any number of times",
     )
-    faults.add_argument("--seed", type=int, default=0, help="which run of faults (default: 0)")
+    for name, what in DURATIONS.items():
+        default = getattr(Faults(), name)
+        faults.add_argument(
+            f"--{name.replace('_', '-')}",
+            type=float,
+            default=default,
+            metavar="SECONDS",
+            help=f"{what} (default: {default:g})",
+        )
+    faults.add_argument(
+        "--seed",
+        type=int,
+        default=0,
+        help="which run of faults: the same seed and the same traffic repeat it (default: 0)",
+    )
     parser.add_argument("--quiet", action="store_true", help="print the port and nothing else")
     parser.add_argument("--version", action="version", version=f"{PROGRAM} {__version__}")
     return parser
@@ -176,6 +230,11 @@ def _printer(named: threading.Event, ended: threading.Event) -> Callable[[str], 
     return show
 
 
+def _faults(arguments: argparse.Namespace) -> Faults:
+    durations = {name: getattr(arguments, name) for name in DURATIONS}
+    return Faults(seed=arguments.seed, **dict(arguments.faults), **durations)
+
+
 @contextmanager
 def _opened(arguments: argparse.Namespace) -> Iterator[VirtualController]:
     """The board behind its port. Raises ValueError where there cannot be such a port."""
@@ -208,7 +267,8 @@ def _board(arguments: argparse.Namespace) -> VirtualController:
         battery_mv=arguments.battery,
         start_report=not arguments.no_start_report,
         baud=arguments.baud,
-        faults=Faults(seed=arguments.seed, **dict(arguments.faults)),
+        local_echo=arguments.local_echo,
+        faults=_faults(arguments),
         link=arguments.link,
         host=arguments.host,
         tcp_port=arguments.tcp or 0,

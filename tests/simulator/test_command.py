@@ -6,12 +6,14 @@ import os
 import signal
 import subprocess
 import sys
+from dataclasses import fields, replace
 from typing import TYPE_CHECKING
 
 import pytest
 from busservo import BatteryVoltage, BatteryVoltageRead, ServoPositions, ServoPositionsRead
 from busservo.serial_port import open_transport
-from busservo_simulator.cli import main
+from busservo_simulator import Faults
+from busservo_simulator.cli import _board, _faults, _parser, main
 from busservo_simulator.faults import CHANCES
 from busservo_simulator.servo_list import parse_servos
 
@@ -96,12 +98,64 @@ def test_help_teaches_by_example(capsys: pytest.CaptureFixture[str]) -> None:
     assert all(name in shown for name in CHANCES)
 
 
+def test_every_option_has_its_help() -> None:
+    for action in _parser("busservo-simulator")._actions:
+        assert action.help, action.option_strings
+
+
+@pytest.mark.parametrize("name", [each.name for each in fields(Faults)])
+def test_every_field_of_the_faults_is_reached(name: str) -> None:
+    value = 7 if name == "seed" else 0.125
+    option = [f"--{name.replace('_', '-')}", str(value)]
+    words = ["--fault", f"{name}={value}"] if name in CHANCES else option
+    arguments = _parser("busservo-simulator").parse_args(words)
+    assert _faults(arguments) == replace(Faults(), **{name: value})
+
+
+ASK = BatteryVoltageRead().encode()
+REPLY = BatteryVoltage(7500).encode()
+
+
+@pytest.mark.parametrize(
+    ("words", "heard"),
+    [
+        ("--local-echo", ASK + REPLY),
+        ("--fault duplicated=1", REPLY + REPLY),
+        ("--fault late=1 --late-by 0.02", REPLY),
+        ("--fault delays=1 --longest-delay 0.02", REPLY),
+        ("--fault lost_bytes=0.2 --seed 1", bytes.fromhex("55 04 0F 4C 1D")),
+        ("--servos 1-2 --fault wrong_count=1 --seed 1", bytes.fromhex("55 55 09 15 01")),
+    ],
+)
+def test_its_options_are_heard_on_the_wire(words: str, heard: bytes) -> None:
+    arguments = _parser("busservo-simulator").parse_args(["--tcp", *words.split()])
+    with _board(arguments) as board:
+        host = Host(open_transport(board.port))
+        host.transport.write(ServoPositionsRead([1, 2]).encode() if "count" in words else ASK)
+        assert host.collect(len(heard))[: len(heard)] == heard
+        host.hang_up()
+
+
+@not_windows
+def test_it_tells_of_a_host_at_another_rate(
+    start: Callable[..., tuple[subprocess.Popen[str], str]],
+) -> None:
+    process, port = start()
+    host = Host(open_transport(port, baud=115200))
+    host.say(BatteryVoltageRead())
+    assert process.stdout is not None
+    assert "the host is at 115200 baud, the board at 9600\n" in process.stdout.readline()
+    host.hang_up()
+
+
 @pytest.mark.parametrize(
     ("arguments", "words"),
     [
         (["--fault", "gremlins=1"], "no fault is called 'gremlins'"),
         (["--fault", "noise=lots"], "noise=0.1"),
         (["--fault", "noise=2", "--tcp"], "noise is 2.0: a chance is from 0 to 1"),
+        (["--late-by", "-1", "--tcp"], "late_by is -1.0: write seconds, 0 or more"),
+        (["--longest-delay", "nan", "--tcp"], "longest_delay is nan: write seconds, 0 or more"),
         (["--off", "9", "--tcp"], "there is no such servo"),
         (["--tcp", "--link", "COM7"], "--link names a pty"),
         (["--tcp", "99999"], "'99999' is no TCP port: write one from 0 to 65535"),
