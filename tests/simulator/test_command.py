@@ -109,7 +109,7 @@ def test_every_field_of_the_faults_is_reached(name: str) -> None:
     option = [f"--{name.replace('_', '-')}", str(value)]
     words = ["--fault", f"{name}={value}"] if name in CHANCES else option
     arguments = _parser("busservo-simulator").parse_args(words)
-    assert _faults(arguments) == replace(Faults(), **{name: value})
+    assert _faults(arguments) == replace(Faults(), **{name: value})  # type: ignore[arg-type]
 
 
 ASK = BatteryVoltageRead().encode()
