@@ -94,7 +94,7 @@ def _parser(program: str) -> argparse.ArgumentParser:
         "--baud",
         nargs="?",
         const=float(BAUD),
-        type=float,
+        type=_baud,
         metavar="BAUD",
         help=f"bytes take their time, as at so many baud (without a number: {BAUD}); "
         f"without this option they are there at once, and the rate of the board is {BAUD}",
@@ -150,14 +150,14 @@ def _parser(program: str) -> argparse.ArgumentParser:
         default = getattr(Faults(), name)
         faults.add_argument(
             f"--{name.replace('_', '-')}",
-            type=float,
+            type=_seconds,
             default=default,
             metavar="SECONDS",
             help=f"{what} (default: {default:g})",
         )
     faults.add_argument(
         "--seed",
-        type=int,
+        type=_seed,
         default=0,
         help="which run of faults: the same seed and the same traffic repeat it (default: 0)",
     )
@@ -188,14 +188,44 @@ def _number(text: str, what: str) -> int:
     return int(text)
 
 
+def _baud(text: str) -> float:
+    baud = _decimal(text)
+    if baud is None or not baud:
+        raise argparse.ArgumentTypeError(f"{text[:40]!r} is no rate: write one above 0, as {BAUD}")
+    return baud
+
+
+def _seconds(text: str) -> float:
+    seconds = _decimal(text)
+    if seconds is None:
+        raise argparse.ArgumentTypeError(f"{text[:40]!r} is no time: write seconds, as 0.5")
+    return seconds
+
+
+def _seed(text: str) -> int:
+    if re.fullmatch("[0-9]{1,18}", text) is None:
+        raise argparse.ArgumentTypeError(f"{text[:40]!r} is no seed: write a whole number, as 7")
+    return int(text)
+
+
 def _fault(text: str) -> tuple[str, float]:
-    name, _, chance = text.partition("=")
+    name, _, written = text.partition("=")
     if name not in CHANCES:
-        raise argparse.ArgumentTypeError(f"no fault is called {name!r}; {', '.join(CHANCES)} are")
-    try:
-        return name, float(chance)
-    except ValueError:
-        raise argparse.ArgumentTypeError(f"write a chance, such as {name}=0.1") from None
+        raise argparse.ArgumentTypeError(
+            f"no fault is called {name[:40]!r}; {', '.join(CHANCES)} are"
+        )
+    chance = _decimal(written)
+    if chance is None or chance > 1:
+        raise argparse.ArgumentTypeError(
+            f"{written[:40]!r} is no chance: write one from 0 to 1, as {name}=0.1"
+        )
+    return name, chance
+
+
+def _decimal(text: str) -> float | None:
+    """A number of 0 or more, None for whatever else."""
+    written = re.fullmatch(r"[0-9]{1,9}(\.[0-9]{0,9})?|\.[0-9]{1,9}", text)
+    return float(text) if written else None
 
 
 def _run(arguments: argparse.Namespace) -> int:
