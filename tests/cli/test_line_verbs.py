@@ -325,6 +325,6 @@ def test_a_package_that_the_simulator_lacks_is_not_taken_for_the_simulator(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     monkeypatch.delitem(sys.modules, "busservo_simulator.cli", raising=False)
-    monkeypatch.setitem(sys.modules, "argparse", None)
-    with pytest.raises(ModuleNotFoundError, match="argparse"):
+    monkeypatch.setitem(sys.modules, "signal", None)
+    with pytest.raises(ModuleNotFoundError, match="signal"):
         simulate.hand_over([])
