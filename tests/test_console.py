@@ -80,17 +80,17 @@ def run(tmp_path_factory: pytest.TempPathFactory) -> Callable[..., tuple[int, st
     folder = tmp_path_factory.mktemp("bytecode")
 
     def run_in_each(
-        command: Command, closed: tuple[int, ...] = (), **streams: int
+        command: Command, closed: tuple[int, ...] = (), stdout: int = subprocess.DEVNULL
     ) -> tuple[int, str]:
-        options = {"stdin": subprocess.PIPE, "stdout": subprocess.DEVNULL} | streams
         started = [
             subprocess.Popen(
                 [sys.executable, *command.words],
                 env=environment,
+                stdin=subprocess.PIPE,
+                stdout=stdout,
                 stderr=subprocess.PIPE,
                 text=True,
                 preexec_fn=partial(close_all, closed) if closed else None,  # noqa: PLW1509
-                **options,
             )
             for environment in environments(folder)
         ]
@@ -336,7 +336,7 @@ def test_a_screen_shows_what_is_hidden_and_keeps_the_lines(text: str) -> None:
 
 def test_a_screen_of_few_characters_shows_the_others_as_escapes() -> None:
     behind = io.TextIOWrapper(io.BytesIO(), encoding="ascii", errors="strict")
-    print("25 °C → 298 K", file=Screen(behind), flush=True)  # type: ignore[arg-type]
+    print("25 °C → 298 K", file=Screen(behind), flush=True)
     assert behind.buffer.getvalue() == rb"25 \xb0C \u2192 298 K" + os.linesep.encode()
 
 
@@ -355,7 +355,7 @@ def test_what_fails_once_fails_ever_after() -> None:
 
 def test_a_colour_of_our_own_is_one() -> None:
     behind = io.StringIO()
-    console.write_as_it_is(Screen(behind), "\x1b[31mred\x1b[0m")  # type: ignore[arg-type]
+    console.write_as_it_is(Screen(behind), "\x1b[31mred\x1b[0m")
     console.write_as_it_is(behind, "\r")
     assert behind.getvalue() == "\x1b[31mred\x1b[0m\r"
 
