@@ -67,9 +67,7 @@ class _Overdue:
 
     __slots__ = ("count", "kind", "owed", "until")
 
-    def __init__(
-        self, kind: type[Message], count: int, until: float, *, owed: bool = True
-    ) -> None:
+    def __init__(self, kind: type[Message], count: int, until: float, *, owed: bool = True) -> None:
         self.kind = kind
         self.count = count
         self.until = until
