@@ -11,16 +11,17 @@ import time
 import warnings
 import weakref
 from queue import SimpleQueue
-from typing import TYPE_CHECKING, TypeVar
+from typing import TYPE_CHECKING, TypeVar, overload
 
 from .client import GRACE, MARGIN, NEVER_CLOSED, REPORT_LIMIT, SLICE, repeat
 from .guarded import Guarded
 from .link_errors import ClosedError, IncompleteReplyError, NoReportError, TransportError
-from .outcome import lacking, parts_of, report_wanted
+from .outcome import lacking, parts_of
 from .protocol import BAUD
 from .request import Request
 from .session import Session
 from .tap import Tap
+from .wanted import Wanted
 
 if TYPE_CHECKING:
     from collections.abc import AsyncIterator, Callable, Iterable
@@ -34,12 +35,15 @@ if TYPE_CHECKING:
     from .message import Message
     from .request import Sent
     from .transport import Transport
+    from .wanted import Kinds
 
     # Frames to write, who is to hear that those before are written, and None for the end.
     _Outbox: TypeAlias = SimpleQueue[bytes | Request | asyncio.Future[None] | None]
 
 logger = logging.getLogger(__package__)
 _Reply = TypeVar("_Reply", bound="Message")
+_Second = TypeVar("_Second", bound="Message")
+_Third = TypeVar("_Third", bound="Message")
 
 
 class AsyncClient:
@@ -188,27 +192,56 @@ class AsyncClient:
 
         return stop
 
-    async def wait_for(self, kind: type[_Reply], *, timeout: float, **fields: int) -> _Reply:
+    @overload
+    async def wait_for(self, kind: type[_Reply], *, timeout: float, **fields: int) -> _Reply: ...
+
+    @overload
+    async def wait_for(
+        self, kind: tuple[type[_Reply]], *, timeout: float, **fields: int
+    ) -> _Reply: ...
+
+    @overload
+    async def wait_for(
+        self, kind: tuple[type[_Reply], type[_Second]], *, timeout: float, **fields: int
+    ) -> _Reply | _Second: ...
+
+    @overload
+    async def wait_for(
+        self,
+        kind: tuple[type[_Reply], type[_Second], type[_Third]],
+        *,
+        timeout: float,
+        **fields: int,
+    ) -> _Reply | _Second | _Third: ...
+
+    @overload
+    async def wait_for(self, kind: Kinds, *, timeout: float, **fields: int) -> Message: ...
+
+    async def wait_for(self, kind: Kinds, *, timeout: float, **fields: int) -> Message:
         """Waits for a report of a class, with these fields, and returns it.
 
-        One that has already come counts, if it came after the latest command that causes such
-        reports (for that group, say) and no earlier wait was satisfied by it. The report is still
-        there for reports(). Raises NoReportError after `timeout` seconds, and TransportError.
+        `kind` may be a tuple of classes: the first report of any of them is returned, and a field
+        is not asked of a class that lacks it.
+
+        A report that has already come counts, if it came after the latest command that causes such
+        reports (for that group, say) and no earlier wait was satisfied by it. It is still there for
+        reports(). Raises NoReportError after `timeout` seconds, which says what came instead, and
+        TransportError.
         """
         self._start()
-        wanted = report_wanted(kind, fields)
+        wanted = Wanted(kind, fields)
         began = time.monotonic()
         log = self._session.reports
         asked_at = log.next_number
-        since = log.since(kind, fields)
+        since = log.since(wanted)
         while True:
-            found = log.find(kind, fields, since=since, asked_at=asked_at)
-            if isinstance(found, kind):
+            found = log.find(wanted, since=since, asked_at=asked_at)
+            if found is not None:
                 return found
             self._check()
             waited = time.monotonic() - began
             if waited >= timeout:
-                raise NoReportError(wanted, waited)
+                raise NoReportError(str(wanted), waited, log.instead_of(wanted, since=since))
             await self._change(began + timeout)
 
     async def close(self) -> None:

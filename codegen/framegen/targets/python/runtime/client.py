@@ -7,7 +7,7 @@ import threading
 import time
 import warnings
 import weakref
-from typing import TYPE_CHECKING, TypeVar
+from typing import TYPE_CHECKING, TypeVar, overload
 
 from .guarded import Guarded
 from .link_errors import (
@@ -16,10 +16,11 @@ from .link_errors import (
     NoReportError,
     TransportError,
 )
-from .outcome import lacking, parts_of, report_wanted
+from .outcome import lacking, parts_of
 from .protocol import BAUD
 from .session import Session
 from .tap import Tap
+from .wanted import Wanted
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Iterator
@@ -33,6 +34,7 @@ if TYPE_CHECKING:
     from .message import Message
     from .request import Request, Sent
     from .transport import Transport
+    from .wanted import Kinds
 
 MARGIN = 0.25
 REPORT_LIMIT = 1024
@@ -43,6 +45,8 @@ GRACE = 1.0
 NEVER_CLOSED = "use the controller in a `with`, or call close()"
 logger = logging.getLogger(__package__)
 _Reply = TypeVar("_Reply", bound="Message")
+_Second = TypeVar("_Second", bound="Message")
+_Third = TypeVar("_Third", bound="Message")
 
 
 class Client:
@@ -199,31 +203,59 @@ class Client:
 
         return stop
 
-    def wait_for(self, kind: type[_Reply], *, timeout: float, **fields: int) -> _Reply:
+    @overload
+    def wait_for(self, kind: type[_Reply], *, timeout: float, **fields: int) -> _Reply: ...
+
+    @overload
+    def wait_for(self, kind: tuple[type[_Reply]], *, timeout: float, **fields: int) -> _Reply: ...
+
+    @overload
+    def wait_for(
+        self, kind: tuple[type[_Reply], type[_Second]], *, timeout: float, **fields: int
+    ) -> _Reply | _Second: ...
+
+    @overload
+    def wait_for(
+        self,
+        kind: tuple[type[_Reply], type[_Second], type[_Third]],
+        *,
+        timeout: float,
+        **fields: int,
+    ) -> _Reply | _Second | _Third: ...
+
+    @overload
+    def wait_for(self, kind: Kinds, *, timeout: float, **fields: int) -> Message: ...
+
+    def wait_for(self, kind: Kinds, *, timeout: float, **fields: int) -> Message:
         """Waits for a report of a class, with these fields, and returns it.
 
-        One that has already come counts, if it came after the latest command that causes such
-        reports (for that group, say) and no earlier wait was satisfied by it. The report is still
-        there for reports(). Raises NoReportError after `timeout` seconds, and TransportError.
+        `kind` may be a tuple of classes: the first report of any of them is returned, and a field
+        is not asked of a class that lacks it.
+
+        A report that has already come counts, if it came after the latest command that causes such
+        reports (for that group, say) and no earlier wait was satisfied by it. It is still there for
+        reports(). Raises NoReportError after `timeout` seconds, which says what came instead, and
+        TransportError.
         """
-        wanted = report_wanted(kind, fields)
+        wanted = Wanted(kind, fields)
         began = self._clock()
         with self._changed:
             log = self._session.reports
             asked_at = log.next_number
-            since = log.since(kind, fields)
+            since = log.since(wanted)
             last = False
             while True:
-                found = log.find(kind, fields, since=since, asked_at=asked_at)
+                found = log.find(wanted, since=since, asked_at=asked_at)
                 if found is not None or last:
                     break
                 self._check()
                 # One more look after the time is up: what has arrived by then has come in time.
                 last = self._clock() >= began + timeout
                 self._wait(self._clock() if last else began + timeout)
+            instead = log.instead_of(wanted, since=since)
         self._tell()
-        if not isinstance(found, kind):
-            raise NoReportError(wanted, self._clock() - began)
+        if found is None:
+            raise NoReportError(str(wanted), self._clock() - began, instead)
         return found
 
     def close(self) -> None:
