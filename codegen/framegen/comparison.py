@@ -37,6 +37,8 @@ KINDS: dict[str, Breaks] = {
     "method-renamed": "programs",
     "method-arguments": "programs",
     "method-result": "programs",
+    "result-tells-more": "nothing",
+    "result-tells-less": "programs",
     "field-added": "wire",
     "field-removed": "wire",
     "field-renamed": "programs",
@@ -143,6 +145,10 @@ def _method(path: str, old: MessageLayout, new: MessageLayout) -> Iterator[Diffe
     arguments = ", ".join(was.arguments), ", ".join(now.arguments)
     yield from _changed("method-arguments", path, *(f"({each})" for each in arguments))
     yield from _changed("method-result", path, was.result or None, now.result or None)
+    for key in ("acknowledged", "lasts"):
+        before, after = getattr(old.message, key), getattr(new.message, key)
+        kind = "result-tells-less" if before is not None else "result-tells-more"
+        yield from _changed(kind, f"{path.removesuffix('.method')}.{key}", before, after)
 
 
 def _fields(

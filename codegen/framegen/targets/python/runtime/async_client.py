@@ -14,9 +14,11 @@ from typing import TYPE_CHECKING, TypeVar, overload
 from .client import GRACE, MARGIN, NEVER_CLOSED, REPORT_LIMIT, SLICE, repeat
 from .guarded import Guarded
 from .link_errors import ClosedError, IncompleteReplyError, NoReportError, TransportError
+from .motion import AsyncMotion
 from .outcome import lacking, parts_of
 from .protocol import BAUD
 from .request import Request
+from .run import Run
 from .session import Session
 from .tap import Tap
 from .wanted import Wanted
@@ -128,12 +130,13 @@ class AsyncClient:
         """Sends a command, as soon as the frames before it have left: no lag builds up unseen.
 
         Returns when it has been handed over; `delay` of the result is when it will be on the wire.
-        Raises TransportError.
+        The result is an AsyncMotion for a command that lasts, and a Run for one that is
+        acknowledged. Raises TransportError.
         """
-        sent = (await self._done(message, None)).sent
-        if sent is None:
+        request = await self._done(message, None)
+        if request.sent is None:
             raise AssertionError(f"{message!r} ended without an error, and was not sent")
-        return sent
+        return request.sent if request.exchange.lasts is None else self._motion(request)
 
     def send_latest(self, message: Message) -> None:
         """Sends a command when the line is free, unless a newer one overtakes it; does not wait.
@@ -141,9 +144,7 @@ class AsyncClient:
         It takes the place of what waits here of the same class for the same servos, or for fewer.
         So a stream of motions faster than the line is thinned out instead of falling behind.
         """
-        self._start()
-        self._session.submit(message, question=False, latest=True)
-        self._advance()
+        self._submit_latest(message)
 
     async def request(self, message: Message, *, retries: int | None = None) -> Message:
         """Sends a question and returns the reply, which may tell less than was asked.
@@ -287,6 +288,35 @@ class AsyncClient:
             self._loop = None
             self._start()
 
+    async def _move(self, message: Message, *, latest: bool) -> AsyncMotion:
+        """Sends a command that lasts."""
+        if latest:
+            return self._motion(self._submit_latest(message))
+        return self._motion(await self._done(message, None))
+
+    def _motion(self, request: Request) -> AsyncMotion:
+        return AsyncMotion(request, self._session.wire, time.monotonic, self._live)
+
+    async def _run(self, message: Message) -> Run:
+        """Sends a command that is acknowledged."""
+        sent = await self.send(message)
+        if not isinstance(sent, Run):
+            raise TypeError(f"{message!r} is acknowledged by nothing")
+        return sent
+
+    async def _live(self, until: float | None) -> None:
+        """Lets time pass, until then at the latest. Raises TransportError."""
+        self._check()
+        await self._change(until)
+
+    def _submit_latest(self, message: Message) -> Request:
+        self._start()
+        request = self._session.submit(message, question=False, latest=True)
+        # Whoever waits for it must hear that it has been sent or replaced.
+        request.notify = self._wake
+        self._advance()
+        return request
+
     async def _ask(self, message: Message, kind: type[_Reply]) -> _Reply:
         """The reply to a question, whole. Raises IncompleteReplyError."""
         reply = await self._reply(message, kind)
@@ -340,6 +370,9 @@ class AsyncClient:
             raise error.again() if isinstance(error, TransportError) else error
         if request.sent is not None:
             await self._handed_over()
+            if self._session.acknowledgements.unwritten:
+                self._session.acknowledgements.written(time.monotonic(), request.sent)
+                self._advance()
         return request
 
     async def _handed_over(self) -> None:

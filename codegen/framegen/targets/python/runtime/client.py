@@ -16,8 +16,10 @@ from .link_errors import (
     NoReportError,
     TransportError,
 )
+from .motion import Motion
 from .outcome import lacking, parts_of
 from .protocol import BAUD
+from .run import Run
 from .session import Session
 from .tap import Tap
 from .wanted import Wanted
@@ -135,12 +137,13 @@ class Client:
         """Sends a command, as soon as the frames before it have left: no lag builds up unseen.
 
         Returns when it has been handed over; `delay` of the result is when it will be on the wire.
+        The result is a Motion for a command that lasts, and a Run for one that is acknowledged.
         Raises TransportError.
         """
-        sent = self._done(message, None).sent
-        if sent is None:
+        request = self._done(message, None)
+        if request.sent is None:
             raise AssertionError(f"{message!r} ended without an error, and was not sent")
-        return sent
+        return request.sent if request.exchange.lasts is None else self._motion(request)
 
     def send_latest(self, message: Message) -> None:
         """Sends a command when the line is free, unless a newer one overtakes it; does not wait.
@@ -148,11 +151,7 @@ class Client:
         It takes the place of what waits here of the same class for the same servos, or for fewer.
         So a stream of motions faster than the line is thinned out instead of falling behind.
         """
-        with self._changed:
-            self._check()
-            self._session.submit(message, question=False, latest=True)
-            self._send_due()
-            self._changed.notify_all()
+        self._submit_latest(message)
 
     def request(self, message: Message, *, retries: int | None = None) -> Message:
         """Sends a question and returns the reply, which may tell less than was asked.
@@ -319,6 +318,35 @@ class Client:
                 self._failure = None
             self._listen()
 
+    def _move(self, message: Message, *, latest: bool) -> Motion:
+        """Sends a command that lasts."""
+        return self._motion(self._submit_latest(message) if latest else self._done(message, None))
+
+    def _motion(self, request: Request) -> Motion:
+        return Motion(request, self._session.wire, self._clock, self._live)
+
+    def _run(self, message: Message) -> Run:
+        """Sends a command that is acknowledged."""
+        sent = self.send(message)
+        if not isinstance(sent, Run):
+            raise TypeError(f"{message!r} is acknowledged by nothing")
+        return sent
+
+    def _live(self, until: float | None) -> None:
+        """Lets time pass, until then or for a moment less. Raises TransportError."""
+        with self._changed:
+            self._check()
+            self._wait(until)
+        self._tell()
+
+    def _submit_latest(self, message: Message) -> Request:
+        with self._changed:
+            self._check()
+            request = self._session.submit(message, question=False, latest=True)
+            self._send_due()
+            self._changed.notify_all()
+        return request
+
     def _ask(self, message: Message, kind: type[_Reply]) -> _Reply:
         """The reply to a question, whole. Raises IncompleteReplyError."""
         reply = self._reply(message, kind)
@@ -427,6 +455,8 @@ class Client:
         asked = self._session.unwritten
         if asked is not None:
             self._session.written(asked, self._clock())
+        if self._session.acknowledgements.unwritten:
+            self._session.acknowledgements.written(self._clock())
 
     def _drain(self) -> None:
         """Sends all commands that wait, and lets the time pass that they take on the wire."""

@@ -25,7 +25,8 @@ class Sent:
         self.duration = duration
 
     def __repr__(self) -> str:
-        return f"Sent({self.message!r}, delay={self.delay:.4f}, duration={self.duration:.4f})"
+        name, when = type(self).__name__, f"delay={self.delay:.4f}, duration={self.duration:.4f}"
+        return f"{name}({self.message!r}, {when})"
 
 
 class Request:
@@ -76,9 +77,10 @@ class Request:
         error: Exception | None = None,
     ) -> None:
         """Says what has become of it."""
-        self.done = True
         self.sent = sent
         self.reply = reply
         self.error = error
+        # Last, for those who look from other threads.
+        self.done = True
         if self.notify is not None:
             self.notify()

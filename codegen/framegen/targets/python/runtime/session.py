@@ -20,6 +20,7 @@ from collections import deque
 from copy import copy
 from typing import TYPE_CHECKING
 
+from .acknowledgements import Acknowledgements
 from .counters import LineCounters
 from .decoder import StreamDecoder
 from .exchanges import EXCHANGES, RECEIVED
@@ -66,6 +67,7 @@ class Session:
         self.wire = Wire(baud)
         self.counters = LineCounters()
         self.reports = ReportLog(report_limit)
+        self.acknowledgements = Acknowledgements(self.wire, margin)
         # Reports for callbacks, to be taken out by whoever drives the session.
         self.news: deque[Message] = deque(maxlen=report_limit)
         self._margin = margin
@@ -152,6 +154,7 @@ class Session:
         """Takes in bytes that have arrived."""
         if data:
             self._heard_at = now
+            self.acknowledgements.delay(len(data))
             self._take_in(self._decoder.feed(data), now)
 
     def tick(self, now: float) -> None:
@@ -163,6 +166,8 @@ class Session:
             self._take_in(self._decoder.flush(), now)
         elif self._decoder.pending and expired:
             self._look_behind(now)
+        if not self._decoder.pending:
+            self.acknowledgements.tick(now)
         self._overdue = [each for each in self._overdue if each.until > now]
         if asked is None or not expired or asked.done:
             return
@@ -192,8 +197,11 @@ class Session:
     def tick_at(self) -> float | None:
         """When to call `tick` again, at the latest."""
         times = [] if self._asked is None else [self._ends_at(self._asked)]
+        acknowledged_by = self.acknowledgements.tick_at
         if self._decoder.pending:
             times.append(self._heard_at + self._margin)
+        elif acknowledged_by is not None:
+            times.append(acknowledged_by)
         if self._queue:
             times += [each.until for each in self._overdue]
         return min(times, default=None)
@@ -219,6 +227,7 @@ class Session:
         """Begins anew on another line: half a frame of the old one is forgotten."""
         self._take_in(self._decoder.flush(), self._heard_at)
         self._decoder = StreamDecoder(RECEIVED)
+        self.acknowledgements.restart()
         self.wire.free_at = float("-inf")
 
     def _look_behind(self, now: float) -> None:
@@ -260,8 +269,11 @@ class Session:
         if request.exchange.reports:
             self.reports.caused(request.message, request.exchange.reports)
         if request.exchange.reply is None:
-            delay = starts - now
-            request.finish(sent=Sent(request.message, delay, self.wire.seconds(len(frame))))
+            delay, duration = starts - now, self.wire.seconds(len(frame))
+            if request.exchange.acknowledged is None:
+                request.finish(sent=Sent(request.message, delay, duration))
+            else:
+                request.finish(sent=self.acknowledgements.expect(request, delay, duration))
             return frame
         if request.attempts == 1:
             request.sent_at = now
@@ -283,6 +295,7 @@ class Session:
             else:
                 self.counters.reports += 1
                 self.reports.add(event)
+                self.acknowledgements.add(event)
                 self.counters.lost_reports = self.reports.lost
                 self.news.append(event)
 
