@@ -29,6 +29,7 @@ if TYPE_CHECKING:
     from .link_errors import (
         ClosedError,
         DisconnectedError,
+        EchoError,
         IncompleteReplyError,
         NoReplyError,
         NoReportError,
@@ -85,6 +86,7 @@ else:
         "Device": "device",
         "Direction": "direction",
         "DisconnectedError": "link_errors",
+        "EchoError": "link_errors",
         "EncodeError": "errors",
         "IncompleteReplyError": "link_errors",
         "LineCounters": "counters",
@@ -152,6 +154,7 @@ __all__ = [
     "Device",
     "Direction",
     "DisconnectedError",
+    "EchoError",
     "EncodeError",
     "IncompleteReplyError",
     "LineCounters",

@@ -145,10 +145,8 @@ class MethodView:
         wait = self.flavour.wait
         latest = [] if self.exchange.lasts is None else ["latest=latest"]
         if reply is None:
-            message = Bracketed(f"{name}(", given, ")")
-            return Bracketed(f"return {wait}self.{self._sender}(", [message, *latest], ")").fitted(
-                8
-            )
+            sent = [Bracketed(f"{name}(", given, ")"), *latest]
+            return Bracketed(f"return {wait}self.{self._sender}(", sent, ")").fitted(8)
         if self.exchange.split is not None:
             asked = [name, reply.name, self.exchange.split.name]
             replies = Bracketed(f"replies = {wait}self._ask_in_parts(", asked, ")").fitted(8)

@@ -36,7 +36,7 @@ class Exchange:
         "result",
     )
 
-    def __init__(  # noqa: PLR0913 - an argument for each thing that a spec says of a request
+    def __init__(
         self,
         method: str,
         arguments: tuple[str, ...],
