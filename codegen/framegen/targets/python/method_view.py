@@ -145,7 +145,7 @@ class MethodView:
         wait = self.flavour.wait
         latest = [] if self.exchange.lasts is None else ["latest=latest"]
         if reply is None:
-            sent = [Bracketed(f"{name}(", given, ")"), *latest]
+            sent: list[str | Bracketed] = [Bracketed(f"{name}(", given, ")"), *latest]
             return Bracketed(f"return {wait}self.{self._sender}(", sent, ")").fitted(8)
         if self.exchange.split is not None:
             asked = [name, reply.name, self.exchange.split.name]
