@@ -56,12 +56,12 @@ PYTHON_CLASSES = _words(
 LIBRARY_NAMES = _words(
     """
     AsyncClient AsyncController AsyncMotion Client ClosedError Column Controller Counters decode
-    DecodeError Device Direction DisconnectedError Element EncodeError Exchange EXCHANGES HEADER
-    IncompleteReplyError Items LineCounters LineError Message MESSAGES Motion Noise NoReplyError
-    NoReportError Number open_async_controller open_controller open_transport PortAddressError
-    PortBusyError PortNotFoundError PortPermissionError ProtocolError Reason RECEIVED Rejects
-    Report Run SearchStrategy Sent Shape StreamDecoder Table Timed Transport TransportError UNFIT
-    UnknownFrame WriteStuckError
+    DecodeError Device Direction DisconnectedError EchoError Element EncodeError Exchange EXCHANGES
+    HEADER IncompleteReplyError Items LineCounters LineError Message MESSAGES Motion Noise
+    NoReplyError NoReportError Number open_async_controller open_controller open_transport
+    PortAddressError PortBusyError PortNotFoundError PortPermissionError ProtocolError Reason
+    RECEIVED Rejects Report Run SearchStrategy Sent Shape StreamDecoder Table Timed Transport
+    TransportError UNFIT UnknownFrame WriteStuckError
     """
 )
 
