@@ -114,6 +114,9 @@ class Client:
         # Held while the line is opened again: the port is one, whoever wants it back.
         self._reopening = threading.Lock()
         self._closing = False
+        # Which thread closes it, and whether that has been done.
+        self._closer: threading.Thread | None = None
+        self._closed_now = threading.Event()
         self._listen()
 
     def __enter__(self) -> Self:
@@ -279,30 +282,22 @@ class Client:
     def close(self) -> None:
         """Sends what is still to be sent, waits until the last byte is out, and closes the line.
 
-        Questions of other threads end with ClosedError. May be called again.
+        Questions of other threads end with ClosedError. May be called again, and by several threads
+        at once: each of them returns once the line is closed.
         """
         with self._changed:
-            if self._closing:
-                return
-            self._closing = True
+            closer, self._closing = self._closer, True
+            if closer is None:
+                self._closer = threading.current_thread()
+        if closer is not None:
+            # Whoever closes waits for the listener, and for itself nobody can wait.
+            if threading.current_thread() not in (closer, self._listener):
+                self._closed_now.wait()
+            return
         try:
-            with self._changed:
-                self._session.refuse_questions(self._closed())
-                self._changed.notify_all()
-                self._drain()
-                left = max(0.0, self._session.wire.free_at - self._clock())
-            if self._failure is None:
-                self._transport.drain(min(left, GRACE) + GRACE)
-        except TransportError as error:
-            logger.debug("%s could not be drained: %s", self._name, error)
+            self._end()
         finally:
-            # Whatever interrupts the wait, the port is given back.
-            self._transport.close()
-            self._stop_listening()
-            with self._changed:
-                self._session.fail(self._closed())
-                self._changed.notify_all()
-            self._tap.close()
+            self._closed_now.set()
 
     def reconnect(self) -> None:
         """Opens the same port again, after the line was lost; what was under way has failed.
@@ -477,6 +472,26 @@ class Client:
             self._session.written(asked, self._clock())
         if self._session.acknowledgements.unwritten:
             self._session.acknowledgements.written(self._clock())
+
+    def _end(self) -> None:
+        try:
+            with self._changed:
+                self._session.refuse_questions(self._closed())
+                self._changed.notify_all()
+                self._drain()
+                left = max(0.0, self._session.wire.free_at - self._clock())
+            if self._failure is None:
+                self._transport.drain(min(left, GRACE) + GRACE)
+        except TransportError as error:
+            logger.debug("%s could not be drained: %s", self._name, error)
+        finally:
+            # Whatever interrupts the wait, the port is given back.
+            self._transport.close()
+            self._stop_listening()
+            with self._changed:
+                self._session.fail(self._closed())
+                self._changed.notify_all()
+            self._tap.close()
 
     def _drain(self) -> None:
         """Sends all commands that wait, and lets the time pass that they take on the wire."""
