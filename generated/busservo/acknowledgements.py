@@ -68,13 +68,15 @@ class Acknowledgements:
         """Whether the port is yet to take one of the commands."""
         return any(each.until is None for each in self._pending)
 
-    def written(self, now: float, run: Sent | None = None) -> None:
-        """Takes in that the port has a command only `now`, or all of them so far."""
+    def written(self, now: float, last: Sent | None = None) -> None:
+        """Takes in that the port has the commands up to `last` only `now`, or all so far."""
         for each in self._pending:
-            if each.until is None and run in (None, each.run):
+            if each.until is None:
                 left_at = max(self._wire.free_at, now + each.run.duration)
                 size = each.kind.LENGTHS[-1] + UNCOUNTED
                 each.until = left_at + self._wire.seconds(size) + self._margin
+            if each.run is last:
+                return
 
     def delay(self, size: int) -> None:
         """Takes in that `size` bytes have come, which kept the line from carrying a report."""

@@ -147,6 +147,21 @@ def test_its_time_begins_when_the_port_has_it() -> None:
     assert request.sent.started is False
 
 
+def test_what_the_port_has_not_yet_has_no_time_yet() -> None:
+    line = seen_one()
+    first, second, third = (line.submit(ActionGroupRun(group, 1)) for group in (1, 2, 3))
+    for now in (0.0, 0.1, 0.2):
+        line.outgoing(now)
+    line.acknowledgements.written(0.2, second.sent)
+    line.tick(1.0)
+    assert [getattr(each.sent, "started", ...) for each in (first, second, third)] == [
+        False,
+        False,
+        None,
+    ]
+    assert line.acknowledgements.unwritten
+
+
 def test_on_another_line_nothing_is_known_of_what_the_old_one_carried() -> None:
     line = seen_one()
     run = ran(line)
