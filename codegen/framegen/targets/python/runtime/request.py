@@ -75,7 +75,7 @@ class Request:
         # Whether a reply came that is impossible; whether the reply to an earlier one, which never
         # came, may come yet; and what had been counted when it was sent.
         self.doubted = self.after_lost = False
-        self.counted = (0, 0, 0)
+        self.counted: tuple[int, int, int] = (0, 0, 0)
         # What to call once it is done.
         self.notify: Callable[[], None] | None = None
 
