@@ -53,7 +53,7 @@ class Heard(NamedTuple):
 
 
 class Said(NamedTuple):
-    """Bytes that the board has sent, and when the wire has carried the last of them."""
+    """Bytes that the board has sent, and when the last of them is with the host."""
 
     at: float
     data: bytes
@@ -86,6 +86,8 @@ class Board:
         self.said: deque[Said] = deque(maxlen=KEPT)
         self.reported: list[bytes] = []
         self.refused: list[bytes] = []
+        # When a reply was due that a fault happened to, and when each piece of it is with the host.
+        self.troubles: list[float] = []
         self.accepted = 0
         self._seconds_per_byte = BITS_PER_BYTE / baud
         self._thinks = thinks
@@ -142,10 +144,10 @@ class Board:
         """Sends a report that nobody asked for: STARTED, STOPPED or COMPLETED."""
         self.send([Piece(0.0, report(command, group, times), is_report=True)], at)
 
-    def send(self, pieces: list[Piece], due: float) -> None:
+    def send(self, pieces: list[Piece], due: float, *, in_trouble: bool = False) -> None:
         """Sends bytes as they are, each piece when it is due."""
         for piece in pieces:
-            self._at(due + piece.after, partial(self._put, piece))
+            self._at(due + piece.after, partial(self._put, piece, in_trouble=in_trouble))
 
     # ---------------------------------------------------------------- how it lives
 
@@ -165,24 +167,27 @@ class Board:
             else:
                 self._hear(*self._arriving.popleft())
 
-    def _put(self, piece: Piece, at: float) -> None:
+    def _put(self, piece: Piece, at: float, *, in_trouble: bool = False) -> None:
         """Puts bytes on the wire, behind those that it carries."""
         if piece.is_report:
             self.reported.append(piece.data)
-        if not self._seconds_per_byte:
-            self._leave(at, piece.data)
-            self.said.append(Said(at, piece.data))
-            return
-        for byte in piece.data:
-            self._leaves_from = max(at, self._leaves_from) + self._seconds_per_byte
-            self._leave(self._leaves_from, bytes([byte]))
-        self.said.append(Said(self._leaves_from, piece.data))
+        if self._seconds_per_byte:
+            for byte in piece.data:
+                self._leaves_from = max(at, self._leaves_from) + self._seconds_per_byte
+                there = self._leave(self._leaves_from, bytes([byte]))
+        else:
+            there = self._leave(at, piece.data)
+        self.said.append(Said(there, piece.data))
+        if in_trouble:
+            self.troubles.append(there)
 
-    def _leave(self, at: float, data: bytes) -> None:
+    def _leave(self, at: float, data: bytes) -> float:
+        """Gives when these bytes are with the host."""
         if self._latency:
             at = math.ceil(at / self._latency) * self._latency
         self._count += 1
         heapq.heappush(self._leaving, (at, self._count, data))
+        return at
 
     def _hear(self, at: float, byte: int) -> None:
         if self._echo:
@@ -214,8 +219,11 @@ class Board:
         return (self.asked - 1) % NUMBERS + 1
 
     def _reply(self, reply: bytes, at: float) -> None:
-        script = (self.faults and self.faults(self.asked)) or whole
-        self.send(script(reply), at + self._thinks)
+        script = self.faults(self.asked) if self.faults else None
+        due = at + self._thinks
+        if script is not None:
+            self.troubles.append(due)
+        self.send((script or whole)(reply), due, in_trouble=script is not None)
 
     def _run(self, group: int, times: int, at: float) -> None:
         self._running = run = object()
