@@ -28,6 +28,7 @@ if TYPE_CHECKING:
     from .link_errors import (
         ClosedError,
         DisconnectedError,
+        EchoError,
         IncompleteReplyError,
         NoReplyError,
         NoReportError,
@@ -81,6 +82,7 @@ else:
         "Device": "device",
         "Direction": "direction",
         "DisconnectedError": "link_errors",
+        "EchoError": "link_errors",
         "EncodeError": "errors",
         "IncompleteReplyError": "link_errors",
         "Message": "message",
@@ -144,6 +146,7 @@ __all__ = [
     "Device",
     "Direction",
     "DisconnectedError",
+    "EchoError",
     "EncodeError",
     "IncompleteReplyError",
     "Message",

@@ -64,12 +64,23 @@ class AsyncClient:
         retries: int = 0,
         trace: str | PathLike[str] | None = None,
         report_limit: int = REPORT_LIMIT,
+        local_echo: bool = False,
+        settle: float | None = None,
     ) -> None:
         self._transport = Guarded(transport)
         self._name = self._transport.name
         self._retries = retries
         self._tap = Tap(self._name, trace)
-        self._session = Session(baud=baud, margin=margin, report_limit=report_limit, tap=self._tap)
+        self._session = Session(
+            baud=baud,
+            margin=margin,
+            report_limit=report_limit,
+            tap=self._tap,
+            local_echo=local_echo,
+            settle=settle,
+            name=self._name,
+            now=time.monotonic(),
+        )
         self._loop: asyncio.AbstractEventLoop | None = None
         self._threads: list[threading.Thread] = []
         self._outbox: _Outbox = SimpleQueue()
@@ -251,7 +262,7 @@ class AsyncClient:
                 await loop.run_in_executor(None, transport.close)
                 raise self._closed()
             self._transport = transport
-            self._session.restart()
+            self._session.restart(time.monotonic())
             self._failure = None
             self._loop = None
             self._start()
@@ -369,10 +380,10 @@ class AsyncClient:
             for callback in list(self._callbacks):
                 _call(callback, report)
 
-    def _arrived(self, line: _Line, data: bytes, began: float) -> None:
+    def _arrived(self, line: _Line, data: bytes, began: float, arrived: float) -> None:
         if line.transport is self._transport and self._failure is None:
             reports = self._session.counters.reports
-            self._session.receive(data, time.monotonic())
+            self._session.receive(data, arrived)
             # What had arrived before counts before any deadline does.
             self._session.tick(began)
             self._advance()
@@ -470,10 +481,11 @@ class AsyncClient:
         began = time.monotonic()
         try:
             data = line.transport.read(SLICE)
+            arrived = time.monotonic()
         except TransportError as error:
             _post(loop, self._lost, line, error)
             return False
-        return not (data or self._ticking) or _post(loop, self._arrived, line, data, began)
+        return not (data or self._ticking) or _post(loop, self._arrived, line, data, began, arrived)
 
 
 class _Line:

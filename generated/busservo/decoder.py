@@ -88,6 +88,16 @@ class StreamDecoder:
         return len(self._held)
 
     @property
+    def held(self) -> bytes:
+        """The bytes that are held back."""
+        return self._held
+
+    @property
+    def missing(self) -> int:
+        """How many bytes must come at the least before anything is told."""
+        return max(1, self._wake - len(self._held))
+
+    @property
     def counters(self) -> Counters:
         """What has been seen so far."""
         fed = self._told + len(self._held)

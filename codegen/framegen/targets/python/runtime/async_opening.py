@@ -70,6 +70,8 @@ def open_async_controller(
     retries: int = 0,
     trace: str | PathLike[str] | None = None,
     report_limit: int = REPORT_LIMIT,
+    local_echo: bool = False,
+    settle: float | None = None,
 ) -> Opening:
     """Opens the port of a controller, to be used in an `async with`.
 
@@ -84,5 +86,7 @@ def open_async_controller(
         retries=retries,
         trace=trace,
         report_limit=report_limit,
+        local_echo=local_echo,
+        settle=settle,
     )
     return Opening(opener, make)

@@ -58,6 +58,12 @@ class Client:
     `trace` a file that every frame is written to, for `decode` to read, `report_limit` how many
     reports are kept. With `background`, a thread listens while nobody waits; without, only calls
     read the line, and `clock` may be of any kind.
+
+    `local_echo` says that the line gives back what is sent, as half-duplex adapters do: it is then
+    expected, compared and dropped, and EchoError raised where it does not come. `settle` is for how
+    many seconds after opening nothing is asked, so that no reply to a program before this one is
+    taken for ours: None for one reply time, where the first request is a question or something was
+    heard before it; 0 for not at all.
     """
 
     def __init__(
@@ -71,13 +77,24 @@ class Client:
         report_limit: int = REPORT_LIMIT,
         background: bool = True,
         clock: Callable[[], float] = time.monotonic,
+        local_echo: bool = False,
+        settle: float | None = None,
     ) -> None:
         self._transport = Guarded(transport)
         self._name = self._transport.name
         self._retries = retries
         self._clock = clock
         self._tap = Tap(self._name, trace)
-        self._session = Session(baud=baud, margin=margin, report_limit=report_limit, tap=self._tap)
+        self._session = Session(
+            baud=baud,
+            margin=margin,
+            report_limit=report_limit,
+            tap=self._tap,
+            local_echo=local_echo,
+            settle=settle,
+            name=self._name,
+            now=clock(),
+        )
         # Held for every touch of the session, never for a read; told whenever anything changed.
         self._changed = threading.Condition(threading.Lock())
         self._reading = False
@@ -283,7 +300,7 @@ class Client:
                     transport.close()
                     raise self._closed()
                 self._transport = transport
-                self._session.restart()
+                self._session.restart(self._clock())
                 self._failure = None
             self._listen()
 
@@ -365,11 +382,12 @@ class Client:
         """Reads once, for everyone. What had arrived before counts before any deadline does."""
         transport, began = self._transport, self._clock()
         failure: TransportError | None = None
-        data = b""
+        data, arrived = b"", began
         self._reading = True
         self._changed.release()
         try:
             data = transport.read(timeout)
+            arrived = self._clock()
         except TransportError as error:
             failure = error
         finally:
@@ -382,7 +400,7 @@ class Client:
         if failure is not None:
             self._fail(failure)
             return
-        self._session.receive(data, self._clock())
+        self._session.receive(data, arrived)
         self._session.tick(began)
 
     def _send_due(self) -> None:

@@ -22,6 +22,8 @@ def open_controller(
     retries: int = 0,
     trace: str | PathLike[str] | None = None,
     report_limit: int = REPORT_LIMIT,
+    local_echo: bool = False,
+    settle: float | None = None,
 ) -> Controller:
     """Opens the port of a controller, to be used in a `with`.
 
@@ -39,6 +41,8 @@ def open_controller(
             retries=retries,
             trace=trace,
             report_limit=report_limit,
+            local_echo=local_echo,
+            settle=settle,
         )
     except BaseException:
         transport.close()

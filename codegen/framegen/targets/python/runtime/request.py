@@ -33,12 +33,15 @@ class Request:
 
     __slots__ = (
         "attempts",
+        "counted",
         "deadline",
         "done",
+        "doubted",
         "error",
         "exchange",
         "latest",
         "left_at",
+        "left_soonest",
         "message",
         "notify",
         "reply",
@@ -65,6 +68,11 @@ class Request:
         self.error: Exception | None = None
         # When it was handed over first, when the last byte of it has left, and when to give up.
         self.sent_at = self.left_at = self.deadline = 0.0
+        # When the last byte of the first attempt can have left at the soonest.
+        self.left_soonest = 0.0
+        # Whether a reply came that is impossible; and what had been counted when it was sent.
+        self.doubted = False
+        self.counted = (0, 0, 0)
         # What to call once it is done.
         self.notify: Callable[[], None] | None = None
 
