@@ -30,7 +30,7 @@ def conversation(
     port = VirtualPort(board)
     talk = Conversation(board, port.clock)
     with Controller(
-        port, background=False, clock=port.clock, margin=MARGIN, baud=baud
+        port, background=False, clock=port.clock, margin=MARGIN, baud=baud, settle=0
     ) as controller:
         for _ in range(reads):
             talk.ask(controller, None)
@@ -62,15 +62,42 @@ def test_a_line_that_is_said_to_be_faster_is_believed() -> None:
 
 
 @pytest.mark.parametrize("baud", [BAUD, math.inf])
-@pytest.mark.parametrize("after", [0.0, 0.001, 0.1])
-def test_a_fast_line_that_gives_one_reply_too_many_is_right_again(
-    after: float, baud: float
-) -> None:
-    board = Board(thinks=0.002, faults={6: faults.duplicated(after)}.get)
+def test_a_fast_line_that_gives_a_reply_twice_at_once_is_right(baud: float) -> None:
+    board = Board(thinks=0.002, faults={6: faults.duplicated()}.get)
     talk, controller, _ = conversation(board, 20, baud=baud)
-    talk.check(math.inf, bound=3 * MARGIN)
-    assert len(talk.stale) <= 1
+    assert (talk.stale, talk.failed) == ([], [])
     assert controller.counters.unsolicited == 1
+
+
+# Where a foreign reply comes while a question is under way, and no time tells it from the answer:
+# the pace of the line, what the host believes of it, and how long the board thinks. Longer than
+# question and reply take, in the first case; at all, in the others.
+SLIPS = {
+    "the board thinks for longer than the wire takes": (BAUD, BAUD, 0.020, 0.011),
+    "the line is fast, and said to be": (math.inf, math.inf, 0.002, 0.001),
+    "the line is fast, as has been learnt": (math.inf, BAUD, 0.002, 0.001),
+}
+
+
+@pytest.mark.parametrize("name", SLIPS)
+def test_where_time_cannot_tell_a_slip_ends_with_the_first_pause(name: str) -> None:
+    """Asked without a pause, each read gets the answer to the one before: nobody can know."""
+    pace, baud, thinks, after = SLIPS[name]
+    board = Board(baud=pace, thinks=thinks, faults={6: faults.duplicated(after)}.get)
+    port = VirtualPort(board)
+    talk = Conversation(board, port.clock)
+    with Controller(
+        port, background=False, clock=port.clock, margin=MARGIN, baud=baud, settle=0
+    ) as controller:
+        for _ in range(12):
+            talk.ask(controller, None)
+        assert [talk.calls.index(each) for each in talk.stale] == [6, 7, 8, 9, 10, 11]
+        assert list(controller.reports(timeout=0.1)) == []
+        assert controller.counters.unsolicited == 1
+        for _ in range(8):
+            talk.ask(controller, None)
+        assert len(talk.stale) == 6
+        assert talk.failed == []
 
 
 @pytest.mark.parametrize("faster", [1.005, 1.02, 1.04])
@@ -123,20 +150,18 @@ def test_an_echo_that_is_said_to_be_there_is_dropped() -> None:
         controller.stop_action_group()
         controller.run_action_group(9, times=1)
         assert list(controller.reports(timeout=0.3)) == []
-        controller.run_action_group(8, times=1)
         assert [controller.read_battery_voltage() for _ in range(3)] == [1, 2, 3]
         assert {position for _, position in controller.read_servo_positions(SIX)} == {4}
         controller.move_servos([(1, 500)], time_ms=1000)
+        controller.run_action_group(8, times=1)
         assert list(controller.reports(timeout=0.3)) == [
             ActionGroupStarted(8, 1),
             ActionGroupCompleted(8, 1),
         ]
         controller.run_action_group(8, times=0)
+        assert list(controller.reports(timeout=0.3)) == [ActionGroupStarted(8, 0)]
         controller.stop_action_group()
-        assert list(controller.reports(timeout=0.3)) == [
-            ActionGroupStarted(8, 0),
-            ActionGroupStopped(),
-        ]
+        assert list(controller.reports(timeout=0.3)) == [ActionGroupStopped()]
         assert controller.counters.noise == 0
     assert board.refused == []
 
