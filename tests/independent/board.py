@@ -87,6 +87,7 @@ class Board:
         self.reported: list[bytes] = []
         self.refused: list[bytes] = []
         # When a reply was due that a fault happened to, and when each piece of it is with the host.
+        self.faulty: list[float] = []
         self.troubles: list[float] = []
         self.accepted = 0
         self._seconds_per_byte = BITS_PER_BYTE / baud
@@ -171,6 +172,7 @@ class Board:
         """Puts bytes on the wire, behind those that it carries."""
         if piece.is_report:
             self.reported.append(piece.data)
+        there = at
         if self._seconds_per_byte:
             for byte in piece.data:
                 self._leaves_from = max(at, self._leaves_from) + self._seconds_per_byte
@@ -222,6 +224,7 @@ class Board:
         script = self.faults(self.asked) if self.faults else None
         due = at + self._thinks
         if script is not None:
+            self.faulty.append(due)
             self.troubles.append(due)
         self.send((script or whole)(reply), due, in_trouble=script is not None)
 

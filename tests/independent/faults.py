@@ -43,7 +43,10 @@ def dropped(_reply: bytes) -> list[Piece]:
 
 
 def cut(size: int, *behind: Piece) -> Script:
-    """Only the first bytes come, then what is `behind`: a report, say, after a silence."""
+    """Only the first bytes come, then what is `behind`: a report, say, after a silence.
+
+    Of a `size` below 0, so many bytes are missing.
+    """
     return lambda reply: [Piece(0.0, reply[:size]), *behind]
 
 

@@ -172,6 +172,13 @@ def test_what_is_cut_off_is_not_made_whole_by_a_report(gap: float) -> None:
     assert run.talk.calls[FAULTY - 1].number is None
 
 
+@pytest.mark.xfail(reason="a report that fills the hole to the byte is dropped with the reply")
+@pytest.mark.parametrize("report", [STOPPED, REPORT])
+def test_a_report_that_fills_what_is_missing_is_no_part_of_the_reply(report: bytes) -> None:
+    run = Run(SIX, faults.cut(-len(report), later(0.0, report)), Bench())
+    run.check(SIX)
+
+
 BYTE = BITS_PER_BYTE / BAUD
 # A question of 4 bytes, a reply of 6, and a board that then thinks for 7.7. How long after its own
 # reply a duplicate is due, and whether the next read is stale: it is where the duplicate is whole
