@@ -19,8 +19,9 @@ A late reply. After a request has timed out, or was cancelled, or the line was l
 still come, and would look like the reply to the next request of the same kind. So the next waits,
 unsent, until that reply has come and gone, or until it is overdue by as long again as the request
 was given. That time begins when the request is given up, which may be long after its deadline where
-the whole machine has paused, and the reply with it. For the same reason a line that has just been
-opened is left to settle: a program that was killed may have asked before us.
+the whole machine has paused, and the reply with it. If it has not come by then, it may come yet, so
+the reply to the next is held, too. For the same reason a line that has just been opened is left to
+settle: a program that was killed may have asked before us.
 
 A gap. Bytes of one frame follow each other at once. Where the line is found quiet for longer than
 GAP in the middle of a frame, the rest of that frame is lost; see CarefulDecoder.
@@ -113,6 +114,8 @@ class Session:
         # The reply to what is asked that has come last, and when, until it is believed or not.
         self._held: tuple[Message, float] | None = None
         self._overdue: list[_Overdue] = []
+        # The kinds of replies of which one was overdue, and has not come at all.
+        self._never_came: set[type[Message]] = set()
         self._heard_at = float("-inf")
         # When this line was opened, and whether the first request on it was a question.
         self._opened_at = now
@@ -166,6 +169,7 @@ class Session:
 
     def outgoing(self, now: float) -> list[bytes]:
         """The frames to write now, in order. Those of requests are then under way."""
+        self._forget_overdue(now)
         frames: list[bytes] = []
         while now >= self.wire.free_at - _AHEAD:
             request = self._next(now)
@@ -217,7 +221,7 @@ class Session:
             self._take_in(self._decoder.feed(held), self._heard_at)
             for request in lost:
                 self._echo_lost(request)
-        self._overdue = [each for each in self._overdue if each.until > now]
+        self._forget_overdue(now)
         asked = self._asked
         if asked is not None and self._held is not None and now >= self._held_until(asked):
             self._decide(asked, now)
@@ -382,6 +386,8 @@ class Session:
             # A further attempt takes its own late reply gladly.
             request.left_soonest = self.wire.free_soonest
             request.counted = self.counters.snapshot()
+            request.after_lost = request.exchange.reply in self._never_came
+            self._never_came -= {request.exchange.reply}
         answer = self.wire.seconds(request.exchange.reply_size(request.message))
         request.deadline = request.left_at + answer + self._margin
         self._asked = request
@@ -399,6 +405,7 @@ class Session:
             elif self._asked is not None and self._answers(self._asked, event, now):
                 if self._held is not None:
                     self._unsolicited(self._held[0])
+                    self._asked.after_lost = False
                 self._held = event, now
             elif type(event) in _REPLIES:
                 self._unsolicited(event)
@@ -417,23 +424,30 @@ class Session:
 
     def _weigh(self, asked: Request, reply: Message, at: float) -> None:
         """Takes the reply that is held for the answer, if the wire can have carried it by then."""
-        possible = at >= asked.left_soonest + self.wire.least(len(reply.encode()))
-        if possible or self._pace.fast:
+        possible = self._possible(asked, reply, at)
+        if (possible or self._pace.fast) and not asked.after_lost:
             if possible:
                 self._pace.answered_in_time()
             self._answered(asked, reply, at)
-            return
-        if not asked.doubted:
+        elif not possible and not asked.doubted:
             asked.doubted = True
             self.counters.impossible += 1
             logger.debug("%s: %r came sooner than the wire allows", self._name, reply)
+
+    def _possible(self, asked: Request, reply: Message, at: float) -> bool:
+        """Whether the wire can have carried the question and the reply by then."""
+        return at >= asked.left_soonest + self.wire.least(len(reply.encode()))
 
     def _decide(self, asked: Request, now: float) -> None:
         """Believes the reply that is held, or not, since no other has come."""
         if self._held is None:
             return
-        reply, _ = self._held
+        reply, at = self._held
         paced = self._pace.paced
+        if self._possible(asked, reply, at):
+            self._pace.answered_in_time()
+            self._answered(asked, reply, now)
+            return
         self._pace.answered_too_soon()
         if paced and not self._pace.fast:
             self._held = None
@@ -514,6 +528,11 @@ class Session:
     def _expect_late(self, kind: type[Message], count: int, request: Request, since: float) -> None:
         until = since + (request.deadline - request.left_at)
         self._overdue.append(_Overdue(kind, count, until))
+
+    def _forget_overdue(self, now: float) -> None:
+        """No longer waits for replies that have not come for too long, though they may yet."""
+        self._never_came.update(each.kind for each in self._overdue if each.until <= now)
+        self._overdue = [each for each in self._overdue if each.until > now]
 
     def _replace(self, message: Message) -> None:
         """Takes out what waits and would be undone by `message`: the same, for no other servos."""

@@ -282,6 +282,7 @@ def test_half_a_frame_does_not_grow_together_with_the_next_reply() -> None:
     line.tick(0.6)
     request = asked(line, BatteryVoltageRead(), 0.6)
     line.receive(BatteryVoltage(7400).encode(), 0.63)
+    line.tick(0.9)
     assert request.reply == BatteryVoltage(7400)
 
 
