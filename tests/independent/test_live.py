@@ -23,6 +23,7 @@ from tests.independent.ports import Port, PtyPort, TcpPort
 from tests.patience import PATIENCE, await_that
 
 if TYPE_CHECKING:
+    from tests.independent.conversation import Asked
     from tests.independent.faults import Script
 
 PORTS = [TcpPort] if sys.platform == "win32" else [PtyPort, TcpPort]
@@ -69,11 +70,11 @@ def check(
     assert board.refused == []
 
 
-def turns(seed: int, count: int) -> list[tuple[int, ...] | None]:
+def turns(seed: int, count: int) -> list[Asked]:
+    """What is asked; twice in a row, so that a reply to the one could be taken for the other's."""
     random = Random(seed)  # noqa: S311 - to be repeated
-    kinds = [random.choice([None, None, (3,), (1, 2), SIX]) for _ in range(count)]
-    # Each twice, so that a reply to the one could be taken for a reply to the other.
-    return sorted(kinds[: count // 2] * 2, key=repr) if count > 1 else kinds
+    kinds: list[Asked] = [None, None, (3,), (1, 2), SIX]
+    return [asked for _ in range((count + 1) // 2) for asked in [random.choice(kinds)] * 2][:count]
 
 
 def ask_all(talk: Conversation, controller: Controller, seed: int, count: int) -> None:

@@ -55,10 +55,8 @@ scripts: st.SearchStrategy[Script] = st.one_of(
     st.builds(faults.late, st.sampled_from([0.01, 0.1, 0.2, 0.3, 0.5, 0.7, 1.0])),
     st.just(faults.dropped),
     st.builds(faults.cut, st.integers(0, 22)),
-    # A report as long as what is missing is another matter: see test_one_fault.
-    st.tuples(st.integers(1, 22), reports)
-    .filter(lambda each: each[0] != len(each[1].data))
-    .map(lambda each: faults.cut(-each[0], each[1])),
+    # Where more is missing, a whole report may hide in what seems a reply: see test_one_fault.
+    st.builds(faults.cut, st.integers(-3, -1), reports),
     st.builds(faults.lost, st.integers(0, 8), st.integers(1, 3)),
     st.builds(faults.lost, st.integers(0, 8), st.integers(1, 3), reports),
     st.builds(faults.preceded, noise),
