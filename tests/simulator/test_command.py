@@ -13,8 +13,9 @@ import pytest
 from busservo import BatteryVoltage, BatteryVoltageRead, ServoPositions, ServoPositionsRead
 from busservo.serial_port import open_transport
 from busservo_simulator import Faults
-from busservo_simulator.cli import _board, _faults, _parser, main
+from busservo_simulator.cli import _board, main
 from busservo_simulator.faults import CHANCES
+from busservo_simulator.options import PROGRAM, faults_of, parser_of
 from busservo_simulator.servo_list import parse_servos
 
 from tests.patience import PATIENCE
@@ -99,7 +100,7 @@ def test_help_teaches_by_example(capsys: pytest.CaptureFixture[str]) -> None:
 
 
 def test_every_option_has_its_help() -> None:
-    for action in _parser("busservo-simulator")._actions:
+    for action in parser_of(PROGRAM)._actions:
         assert action.help, action.option_strings
 
 
@@ -108,8 +109,8 @@ def test_every_field_of_the_faults_is_reached(name: str) -> None:
     value = 7 if name == "seed" else 0.125
     option = [f"--{name.replace('_', '-')}", str(value)]
     words = ["--fault", f"{name}={value}"] if name in CHANCES else option
-    arguments = _parser("busservo-simulator").parse_args(words)
-    assert _faults(arguments) == replace(Faults(), **{name: value})  # type: ignore[arg-type]
+    arguments = parser_of(PROGRAM).parse_args(words)
+    assert faults_of(arguments) == replace(Faults(), **{name: value})  # type: ignore[arg-type]
 
 
 ASK = BatteryVoltageRead().encode()
@@ -128,7 +129,7 @@ REPLY = BatteryVoltage(7500).encode()
     ],
 )
 def test_its_options_are_heard_on_the_wire(words: str, heard: bytes) -> None:
-    arguments = _parser("busservo-simulator").parse_args(["--tcp", *words.split()])
+    arguments = parser_of(PROGRAM).parse_args(["--tcp", *words.split()])
     with _board(arguments) as board:
         host = Host(open_transport(board.port))
         host.transport.write(ServoPositionsRead([1, 2]).encode() if "count" in words else ASK)

@@ -10,8 +10,9 @@ from typing import TYPE_CHECKING
 
 import busservo
 import pytest
-from busservo_simulator.cli import _board, _parser
+from busservo_simulator.cli import _board
 from busservo_simulator.faults import CHANCES, TO_BOARD
+from busservo_simulator.options import PROGRAM, parser_of
 
 from tests.patience import PATIENCE
 
@@ -42,7 +43,7 @@ SHOWN = [pytest.param(block, marks=list(marks(block))) for block in BLOCKS]
 
 @pytest.mark.parametrize("words", COMMANDS)
 def test_a_command_puts_a_board_behind_a_port(words: str) -> None:
-    with _board(_parser("busservo-simulator").parse_args(words.split())) as board:
+    with _board(parser_of(PROGRAM).parse_args(words.split())) as board:
         assert board.port
 
 
