@@ -30,6 +30,11 @@ class TcpEnd:
         host = f"[{self._host}]" if ":" in self._host else self._host
         return f"socket://{host}:{self._number}"
 
+    @property
+    def host_baud(self) -> None:
+        """There is no rate to set of a connection."""
+        return None
+
     def plug_in(self) -> None:
         """Listens, on the same number as before if there was one."""
         self._waker.open()

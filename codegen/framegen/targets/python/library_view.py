@@ -11,7 +11,7 @@ from framegen.targets.python.command_lines import (
     encode_examples,
     line_examples,
 )
-from framegen.targets.python.escape import literal
+from framegen.targets.python.escape import Bracketed, literal
 from framegen.targets.python.exports import HOMES, export_order, relative_import
 from framegen.targets.python.message_view import MessageView
 from framegen.targets.python.words import direction_member, struct_order
@@ -185,6 +185,16 @@ class LibraryView:
     @property
     def link(self) -> Link:
         return self.layout.spec.link
+
+    @property
+    def hid_boards(self) -> str:
+        """An assignment: vendor, product and the bytes of a report, of each."""
+        boards = [
+            f"(0x{board.vendor:04X}, 0x{board.product:04X}, {board.report_size})"
+            for board in self.link.usb_hid
+        ]
+        before = "HID_BOARDS: tuple[tuple[int, int, int], ...] = ("
+        return Bracketed(before, boards, ")", lone=",").fitted(0)
 
     @property
     def byte_order(self) -> str:

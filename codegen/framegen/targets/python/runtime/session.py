@@ -41,6 +41,7 @@ from .noise import Noise
 from .pace import Pace
 from .reports import ReportLog
 from .request import Request, Sent
+from .room import check_room
 from .wire import Wire
 
 if TYPE_CHECKING:
@@ -99,6 +100,8 @@ class Session:
         self.reports = ReportLog(report_limit)
         # Reports for callbacks, to be taken out by whoever drives the session.
         self.news: deque[Message] = deque(maxlen=report_limit)
+        # The longest frame that the line carries; None for any.
+        self.largest_frame: int | None = None
         self._margin = margin
         self._name = name
         self._tap = tap
@@ -146,6 +149,7 @@ class Session:
         if question is True and exchange.reply is None:
             raise TypeError(f"{message!r} is a command: send() sends it, and nothing answers")
         exchange.check(message)
+        check_room(message, self.largest_frame)
         request = Request(message, exchange, retries=retries, latest=latest)
         if self._asks_first is None:
             self._asks_first = exchange.reply is not None

@@ -13,6 +13,7 @@ from ..outcome import lacking
 from ..protocol import BAUD
 from ..wire import Wire
 from . import link
+from .console import visible
 from .exits import DONE, INTERRUPTED, NOT_ALL
 from .link import add_port, add_timeout, at_least, failures_told, open_client
 from .questions import exchange_named
@@ -153,7 +154,9 @@ class Trips:
         """The result, for people."""
         found = self.as_record()
         name = " ".join(filter(None, [found["question"], fields_as_text(self._question)]))
-        lines = [f"{name} on {self._port}: {self._asked} asked, {len(self._taken)} answered"]
+        lines = [
+            f"{name} on {visible(self._port)}: {self._asked} asked, {len(self._taken)} answered"
+        ]
         if self._taken:
             there, size = len(self._question.encode()), round(median(self._sizes))
             times = [f"{found[each] * 1000:.2f} ms" for each in ("wire", "min", "median", "max")]

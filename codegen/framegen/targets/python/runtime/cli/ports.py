@@ -7,6 +7,8 @@ import sys
 
 from serial.tools import list_ports
 
+from .console import visible
+
 TYPE_CHECKING = False
 if TYPE_CHECKING:
     from argparse import ArgumentParser, Namespace
@@ -26,7 +28,7 @@ def run(arguments: Namespace) -> int:
         if arguments.json:
             print(json.dumps({"port": port.device, "usb": usb or None, "description": about}))
         else:
-            print(f"{port.device:16}  {usb or '-':9}  {about}".rstrip())
+            print(visible(f"{port.device:16}  {usb or '-':9}  {about}".rstrip()))
     if not found:
         print("no serial port is plugged in", file=sys.stderr)
     return 0
