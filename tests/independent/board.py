@@ -150,6 +150,20 @@ class Board:
         for piece in pieces:
             self._at(due + piece.after, partial(self._put, piece, in_trouble=in_trouble))
 
+    # ---------------------------------------------------------------- what a test looks at
+
+    def arrivals(self, data: bytes) -> list[float]:
+        """When bytes that were sent as they are here were with the host."""
+        return [said.at for said in self.said if said.data == data]
+
+    def troubled(self, since: float, until: float) -> bool:
+        """Whether a fault happened then, or a piece of such a reply was with the host."""
+        return any(since <= at <= until for at in self.troubles)
+
+    def faulted(self, since: float, until: float) -> bool:
+        """Whether a reply was due then that a fault happened to."""
+        return any(since <= at <= until for at in self.faulty)
+
     # ---------------------------------------------------------------- how it lives
 
     def _at(self, moment: float, action: Callable[[float], None]) -> None:

@@ -8,7 +8,7 @@ than question and reply can have fitted on the wire, and never twice in a row fo
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, NamedTuple, Protocol
 
 from busservo import IncompleteReplyError, NoReplyError
 
@@ -25,14 +25,30 @@ if TYPE_CHECKING:
 
     from busservo import AsyncController, Controller
 
-    from tests.independent.board import Board
-
     # The battery, or these servos.
     Asked = Sequence[int] | None
 
 SIX = (1, 2, 3, 4, 5, 6)
 # A line may run this much faster than it should, and no host can know.
 FAST = 0.95
+
+
+class NumberingBoard(Protocol):
+    """A board that answers each question with the number of it."""
+
+    asked: int
+
+    def arrivals(self, data: bytes) -> list[float]:
+        """When these bytes were with the host."""
+        ...
+
+    def troubled(self, since: float, until: float) -> bool:
+        """Whether something then excuses a wrong value."""
+        ...
+
+    def faulted(self, since: float, until: float) -> bool:
+        """Whether a fault began then."""
+        ...
 
 
 class Call(NamedTuple):
@@ -48,7 +64,7 @@ class Call(NamedTuple):
 class Conversation:
     """The calls of one asker, in order."""
 
-    def __init__(self, board: Board, now: Callable[[], float]) -> None:
+    def __init__(self, board: NumberingBoard, now: Callable[[], float]) -> None:
         self.board = board
         self.calls: list[Call] = []
         self._now = now
@@ -97,10 +113,9 @@ class Conversation:
             assert call.ended - call.began <= bound, f"it took too long: {told}"
             stale = call.number is not None and not self._fresh(call)
             if call.number is None or stale:
-                excuses = [at for at in self.board.troubles if since <= at <= call.ended]
-                assert excuses, f"nothing excuses it: {told}"
+                assert self.board.troubled(since, call.ended), f"nothing excuses it: {told}"
             if stale:
-                another = any(since <= at <= call.ended for at in self.board.faulty)
+                another = self.board.faulted(since, call.ended)
                 assert another or not before_was_stale, f"two in a row are stale: {told}"
                 possible_at = call.began + FAST * wire_time(call.asked, baud)
                 arrived = self._arrived(call)
@@ -113,9 +128,8 @@ class Conversation:
 
     def _arrived(self, call: Call) -> list[float]:
         """When replies with this number were complete, until the call ended."""
-        number = call.number or 0
-        reply = reply_to(call.asked, number)
-        return [said.at for said in self.board.said if said.data == reply and said.at <= call.ended]
+        reply = reply_to(call.asked, call.number or 0)
+        return [at for at in self.board.arrivals(reply) if at <= call.ended]
 
 
 def only(positions: Sequence[tuple[int, int]], asked: Sequence[int]) -> int:
