@@ -93,6 +93,11 @@ class StreamDecoder:
         return self._held
 
     @property
+    def scanned(self) -> int:
+        """How many of those begin no message, whatever comes behind them."""
+        return self._scanned
+
+    @property
     def missing(self) -> int:
         """How many bytes must come at the least before anything is told."""
         return max(1, self._wake - len(self._held))

@@ -13,7 +13,9 @@ A reply must be possible. It cannot be complete before the question and itself h
 wire. One that is was meant for somebody else, as where the reply before came twice, or much too
 late; or the line is no wire of the stated rate. It is held for one reply time. If a second one
 comes, that is the answer, and the first is unsolicited. If none comes, what is known of the line
-decides: see Pace. Of several replies that are read at once, the last is the answer.
+decides: see Pace. Of several replies that are read at once, the last is the answer. And after one
+that is possible, but sooner than is usual on this line, the next question of its kind waits a
+moment, so that the right one, if there is another, is not taken for the reply to that.
 
 A late reply. After a request has timed out, or was cancelled, or the line was lost, its reply may
 still come, and would look like the reply to the next request of the same kind. So the next waits,
@@ -65,12 +67,16 @@ _REPLIES = frozenset(each.reply for each in EXCHANGES.values() if each.reply is 
 class _Overdue:
     """Replies of one kind that may still come although nobody waits for them any more."""
 
-    __slots__ = ("count", "kind", "until")
+    __slots__ = ("count", "kind", "owed", "until")
 
-    def __init__(self, kind: type[Message], count: int, until: float) -> None:
+    def __init__(
+        self, kind: type[Message], count: int, until: float, *, owed: bool = True
+    ) -> None:
         self.kind = kind
         self.count = count
         self.until = until
+        # Whether the board owes them, or there is only a doubt whether there are any.
+        self.owed = owed
 
 
 class Session:
@@ -217,7 +223,7 @@ class Session:
 
     def tick(self, now: float) -> None:
         """Takes in that it is `now`, and that all which arrived before has been received."""
-        if self._decoder.pending and now - self._heard_at >= GAP:
+        if self._decoder.pending and now >= self._heard_at + GAP:
             # The line has gone quiet: half a frame must not grow together with the next one.
             self._take_in(self._decoder.flush(), self._heard_at)
         if self._echo is not None:
@@ -259,6 +265,16 @@ class Session:
         if self._queue:
             times += [each.until for each in self._overdue]
         return min(times, default=None)
+
+    def resting_until(self, now: float) -> float:
+        """Until when nothing can be complete, since the rest of a frame takes its time on the wire.
+
+        A reader that sleeps so long misses nothing: a gap is noticed no later for it.
+        """
+        if not self._decoder.pending or self._pace.fast:
+            return now
+        arriving = self.wire.least(self._decoder.missing - 1)
+        return max(now, min(self._heard_at + arriving, self._heard_at + GAP))
 
     def fail(self, error: Exception) -> None:
         """Ends everything that is under way or waiting: the line is gone."""
@@ -428,19 +444,27 @@ class Session:
 
     def _weigh(self, asked: Request, reply: Message, at: float) -> None:
         """Takes the reply that is held for the answer, if the wire can have carried it by then."""
-        possible = self._possible(asked, reply, at)
+        possible = self._delay(asked, reply, at) >= 0
         if (possible or self._pace.fast) and not asked.after_lost:
             if possible:
-                self._pace.answered_in_time()
+                self._came_in_time(asked, reply, at)
             self._answered(asked, reply, at)
         elif not possible and not asked.doubted:
             asked.doubted = True
             self.counters.impossible += 1
             logger.debug("%s: %r came sooner than the wire allows", self._name, reply)
 
-    def _possible(self, asked: Request, reply: Message, at: float) -> bool:
-        """Whether the wire can have carried the question and the reply by then."""
-        return at >= asked.left_soonest + self.wire.least(len(reply.encode()))
+    def _delay(self, asked: Request, reply: Message, at: float) -> float:
+        """How much later the reply came than the wire can have carried both; below 0: sooner."""
+        return at - asked.left_soonest - self.wire.least(len(reply.encode()))
+
+    def _came_in_time(self, asked: Request, reply: Message, at: float) -> None:
+        """Learns from a reply; where it is suspiciously early, a right one has time to come yet."""
+        step = self.wire.seconds(len(asked.message.encode())) / 2
+        later = self._pace.answered_in_time(type(reply), self._delay(asked, reply, at), step)
+        if later > 0 and step > 0:
+            until = at + later + self.wire.seconds(len(reply.encode()))
+            self._overdue.append(_Overdue(type(reply), 1, until, owed=False))
 
     def _decide(self, asked: Request, now: float) -> None:
         """Believes the reply that is held, or not, since no other has come."""
@@ -448,8 +472,8 @@ class Session:
             return
         reply, at = self._held
         paced = self._pace.paced
-        if self._possible(asked, reply, at):
-            self._pace.answered_in_time()
+        if self._delay(asked, reply, at) >= 0:
+            self._came_in_time(asked, reply, at)
             self._answered(asked, reply, now)
             return
         self._pace.answered_too_soon()
@@ -535,7 +559,8 @@ class Session:
 
     def _forget_overdue(self, now: float) -> None:
         """No longer waits for replies that have not come for too long, though they may yet."""
-        self._never_came.update(each.kind for each in self._overdue if each.until <= now)
+        gone = [each for each in self._overdue if each.until <= now]
+        self._never_came.update(each.kind for each in gone if each.owed)
         self._overdue = [each for each in self._overdue if each.until > now]
 
     def _replace(self, message: Message) -> None:

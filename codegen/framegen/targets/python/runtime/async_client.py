@@ -85,6 +85,8 @@ class AsyncClient:
         self._outbox: _Outbox = SimpleQueue()
         # Whether the reading thread should say that time passes, besides that bytes arrive.
         self._ticking = False
+        # Until when nothing can be complete that is arriving.
+        self._resting_until = float("-inf")
         self._timer: asyncio.TimerHandle | None = None
         self._watchers: set[asyncio.Future[None]] = set()
         # What waits until the frames before it have been handed over.
@@ -368,6 +370,7 @@ class AsyncClient:
         if frames and asked is not None:
             self._outbox.put(asked)
         self._ticking = self._session.tick_at is not None
+        self._resting_until = self._session.resting_until(now)
         if self._timer is not None:
             self._timer.cancel()
             self._timer = None
@@ -477,6 +480,10 @@ class AsyncClient:
 
     def _read_once(self, loop: asyncio.AbstractEventLoop, line: _Line) -> bool:
         """Carries bytes from the transport to the loop; False once one of them has ended."""
+        # Bytes that come one by one are not worth waking up for, each by itself.
+        rest = self._resting_until - time.monotonic()
+        if rest > 0:
+            time.sleep(min(rest, SLICE))
         began = time.monotonic()
         try:
             data = line.transport.read(SLICE)

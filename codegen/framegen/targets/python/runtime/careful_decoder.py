@@ -32,17 +32,18 @@ class CarefulDecoder:
     It has no clock either: whoever has one calls `flush` when the line has been quiet.
     """
 
-    __slots__ = ("_decoder", "_direction", "_doubted", "_later", "_rival", "_rival_at")
+    __slots__ = ("_decoder", "_direction", "_doubted", "_later", "_rival", "_rival_at", "_told")
 
     def __init__(self, direction: Direction | None) -> None:
         self._direction = direction
         self._decoder = StreamDecoder(direction)
-        # The message that is held, the decoder of what may begin inside it, and at which byte; and
-        # the bytes that have come since.
+        # The message that is held, and the bytes that have come since.
         self._doubted: Message | None = None
+        self._later = b""
+        # The decoder of what may begin inside it, at which of its bytes, and what that has told.
         self._rival = self._decoder
         self._rival_at = 0
-        self._later = b""
+        self._told: list[Message | Noise] = []
 
     @property
     def pending(self) -> int:
@@ -58,16 +59,16 @@ class CarefulDecoder:
 
     def feed(self, data: bytes) -> list[Message | Noise]:
         """Takes in bytes, and returns what can be told now."""
-        if self._doubted is None:
+        doubted = self._doubted
+        if doubted is None:
             return self._sifted(self._decoder.feed(data))
         self._later += data
-        events = self._rival.feed(data)
-        if not events:
-            return []
-        doubted, later = self._doubted, self._later
-        if not isinstance(events[0], Noise):
-            return self._refuted(doubted, events)
+        self._told += self._rival.feed(data)
+        if self._next_begins() < len(doubted.encode()):
+            whole = any(not isinstance(event, Noise) for event in self._told)
+            return self._refuted(doubted) if whole else []
         # What follows goes on with no frame: the one that is held was whole.
+        later = self._later
         self._doubted, self._later = None, b""
         self._decoder = StreamDecoder(self._direction)
         return [doubted, *self.feed(later)]
@@ -82,7 +83,8 @@ class CarefulDecoder:
         if doubted is None:
             return self._decoder.flush()
         if self._later:
-            return self._refuted(doubted, self._rival.flush())
+            self._told += self._rival.flush()
+            return self._refuted(doubted)
         self._doubted = None
         self._decoder = StreamDecoder(self._direction)
         return [doubted]
@@ -91,7 +93,7 @@ class CarefulDecoder:
         other = CarefulDecoder(self._direction)
         other._decoder, other._rival = copy(self._decoder), copy(self._rival)
         other._doubted, other._rival_at = self._doubted, self._rival_at
-        other._later = self._later
+        other._later, other._told = self._later, [*self._told]
         return other
 
     def _sifted(self, events: list[Message | Noise]) -> list[Message | Noise]:
@@ -111,19 +113,32 @@ class CarefulDecoder:
         """Holds a message back if a frame may begin in its last bytes."""
         frame = message.encode()
         for at in _beginnings(frame):
-            rival = StreamDecoder(self._direction)
-            if not rival.feed(frame[at:]):
-                self._doubted, self._rival, self._rival_at = message, rival, at
-                self._later = b""
+            self._rival, self._rival_at = StreamDecoder(self._direction), at
+            self._told = self._rival.feed(frame[at:])
+            whole = any(not isinstance(event, Noise) for event in self._told)
+            if not whole and self._next_begins() < len(frame):
+                self._doubted, self._later = message, b""
                 return True
         return False
 
-    def _refuted(self, doubted: Message, events: list[Message | Noise]) -> list[Message | Noise]:
+    def _next_begins(self) -> int:
+        """At which byte, from the first of the message that is doubted, the next frame begins.
+
+        It may yet turn out to begin further behind, as long as its own decoder has not told it.
+        """
+        at = self._rival_at
+        for event in self._told:
+            if not isinstance(event, Noise):
+                return at
+            at += len(event.data)
+        return at + self._rival.scanned
+
+    def _refuted(self, doubted: Message) -> list[Message | Noise]:
         """Takes a message for what it was: the start of one frame, and then another."""
         self._doubted, self._later = None, b""
         self._decoder = self._rival
         torn = Noise(doubted.encode()[: self._rival_at], Reason.TOO_SHORT)
-        return [torn, *self._sifted(events)]
+        return [torn, *self._sifted(self._told)]
 
 
 def _beginnings(frame: bytes) -> Iterator[int]:

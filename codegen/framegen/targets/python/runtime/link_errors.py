@@ -96,7 +96,10 @@ class NoReplyError(ProtocolError, TimeoutError):
     def _what_came(self) -> str:
         came: list[str] = []
         if self.noise:
-            came.append(f"{_counted(self.noise, 'byte')} came that are no frame: wrong baud rate?")
+            verb = "is" if self.noise == 1 else "are"
+            came.append(
+                f"{_counted(self.noise, 'byte')} came that {verb} no frame: wrong baud rate?"
+            )
         if self.unsolicited:
             replies = _counted(self.unsolicited, "reply", "replies")
             came.append(f"{replies} came that cannot be the answer: late, or sent twice")
