@@ -200,3 +200,15 @@ def test_one_read_at_most_is_stale_where_time_cannot_tell(name: str) -> None:
     assert [run.talk.calls.index(each) for each in run.talk.stale] == [FAULTY] * stale
     assert run.counters.unsolicited == 1
     assert run.talk.failed == []
+
+
+@pytest.mark.parametrize("after", [10.1, 14, 18])
+def test_one_read_at_most_is_stale_where_a_board_thinks_for_longer_than_the_wire_takes(
+    after: float,
+) -> None:
+    """The right reply then comes when that to the next question could: it is waited for."""
+    run = Run(None, faults.duplicated(after * BYTE), Bench(thinks=0.020), reads=20)
+    run.check(None)
+    assert [run.talk.calls.index(each) for each in run.talk.stale] == [FAULTY]
+    assert run.counters.unsolicited == 1
+    assert run.talk.failed == []
