@@ -38,8 +38,9 @@ if TYPE_CHECKING:
     from tests.independent.faults import Script
 
 BITS_PER_BYTE = 10
-# Numbers go round below those that stand for something else: 65535 is a servo that is off.
-NUMBERS = 60_000
+# Numbers go round below those that no board has to tell. From 0x5500 on, a frame might begin in
+# the last byte of a reply: tests that want that say from which number they begin.
+NUMBERS = 20_000
 # So many of each are remembered.
 KEPT = 10_000
 
@@ -63,9 +64,10 @@ class Board:
     """A board at the end of its line.
 
     `baud` is the pace of the line, both ways, and `thinks` the time until a reply is due. `faults`
-    gives the script for the reply to a question by its number. Bytes come to the host every
-    `latency` seconds, as those of a USB adapter do. With `echo`, the host hears what it sends, as
-    at a half-duplex adapter. Groups run for `group_seconds` each time; `unknown_groups` never run.
+    gives the script for the reply to a question by its number, and the first question has number
+    `first`. Bytes come to the host every `latency` seconds, as those of a USB adapter do. With
+    `echo`, the host hears what it sends, as at a half-duplex adapter. Groups run for
+    `group_seconds` each time; `unknown_groups` never run.
     """
 
     def __init__(
@@ -79,9 +81,10 @@ class Board:
         group_seconds: float = 0.05,
         unknown_groups: Collection[int] = (),
         servos: Collection[int] = range(256),
+        first: int = 1,
     ) -> None:
         self.faults = faults
-        self.asked = 0
+        self.asked = first - 1
         self.heard: deque[Heard] = deque(maxlen=KEPT)
         self.said: deque[Said] = deque(maxlen=KEPT)
         self.reported: list[bytes] = []
@@ -90,6 +93,7 @@ class Board:
         self.faulty: list[float] = []
         self.troubles: list[float] = []
         self.accepted = 0
+        self._first = first
         self._seconds_per_byte = BITS_PER_BYTE / baud
         self._thinks = thinks
         self._latency = latency
@@ -232,7 +236,7 @@ class Board:
 
     @property
     def _number(self) -> int:
-        return (self.asked - 1) % NUMBERS + 1
+        return (self.asked - self._first) % NUMBERS + self._first
 
     def _reply(self, reply: bytes, at: float) -> None:
         script = self.faults(self.asked) if self.faults else None

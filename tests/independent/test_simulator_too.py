@@ -133,7 +133,7 @@ holed = st.builds(
 )
 
 
-@given(st.one_of(whole, holed), st.lists(st.sampled_from([None, SIX, (1, 2)]), max_size=12))
+@given(st.one_of(whole, holed), st.lists(st.sampled_from([None, SIX, (1, 2)]), max_size=8))
 def test_whatever_the_simulator_does(faults: Faults, asked: list[tuple[int, ...] | None]) -> None:
     clock = VirtualClock(follow_reads=True)
     with VirtualController(clock=clock, baud=BAUD) as board:
@@ -152,26 +152,25 @@ def test_whatever_the_simulator_does(faults: Faults, asked: list[tuple[int, ...]
             heard = [each.encode() for each in controller.reports(timeout=QUIET)]
             simulated.calm_at = clock.now()
             for _ in range(3):
-                talk.ask(controller, SIX)
+                talk.ask(controller, None)
             talk.check(BAUD, BOUND)
             assert heard == simulated.reported
 
 
 def test_reads_come_no_faster_than_the_line_allows() -> None:
-    """Some replies come up to a second late: in 6 of 6 seeds, most reads after them came early."""
-    for seed in range(6):
+    """Some replies come up to a second late: with each seed, most reads after them came early."""
+    for seed in range(4):
         clock = VirtualClock(follow_reads=True)
-        faults = Faults(seed=seed, delays=0.02, longest_delay=1.0)
+        faults = Faults(seed=seed, delays=0.04, longest_delay=1.0)
         with VirtualController(clock=clock, baud=BAUD, faults=faults) as board:
             simulated = Simulated(board, clock)
             talk = Conversation(simulated, clock.now)
             with Controller(
                 simulated, background=False, clock=clock.now, margin=MARGIN, settle=0
             ) as controller:
-                for _ in range(150):
-                    talk.ask(controller, SIX)
-            early = [
-                call for call in talk.calls if call.ended - call.began < 0.95 * wire_time(SIX, BAUD)
-            ]
+                for _ in range(100):
+                    talk.ask(controller, None)
+            least = 0.95 * wire_time(None, BAUD)
+            early = [call for call in talk.calls if call.ended - call.began < least]
             assert early == []
             talk.check(BAUD, BOUND)
