@@ -76,12 +76,11 @@ def _opened(arguments: argparse.Namespace) -> Iterator[VirtualController]:
     with ExitStack() as port:
         try:
             port.enter_context(board)
-        except (OSError, TypeError) as error:  # TypeError: a host with characters that none has
+        except OSError as error:
             where = "a pty" if arguments.link is None else f"the link {arguments.link!r}"
             if _is_tcp(arguments):
                 where = f"{arguments.host}, port {arguments.tcp or 0}"
-            why = getattr(error, "strerror", None) or str(error)
-            raise ValueError(f"{where} cannot be opened: {why}") from None
+            raise ValueError(f"{where} cannot be opened: {error.strerror or error}") from None
         yield board
 
 

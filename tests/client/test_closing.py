@@ -271,7 +271,7 @@ def test_a_call_that_is_interrupted_leaves_the_line_usable() -> None:
             return super().read(timeout)
 
     line = Once(lambda message: [(0.1, each) for each in answered(message)])
-    with Controller(line, background=False, clock=line.clock) as controller:
+    with Controller(line, background=False, clock=line.clock, settle=0) as controller:
         with pytest.raises(KeyboardInterrupt):
             controller.read_battery_voltage()
         assert controller.read_servo_positions([1]) == ((1, 10),)

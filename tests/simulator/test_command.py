@@ -120,7 +120,7 @@ REPLY = BatteryVoltage(7500).encode()
 @pytest.mark.parametrize(
     ("words", "heard"),
     [
-        ("--local-echo", ASK + REPLY),
+        ("--local-echo --baud 96000", ASK + REPLY),
         ("--fault duplicated=1", REPLY + REPLY),
         ("--fault late=1 --late-by 0.02", REPLY),
         ("--fault delays=1 --longest-delay 0.02", REPLY),

@@ -6,7 +6,8 @@ from typing import TYPE_CHECKING, Any
 
 import pytest
 from busservo import ActionGroupStop, BatteryVoltage, BatteryVoltageRead, ServoMove
-from busservo_simulator import Faults, VirtualClock, VirtualController
+from busservo_simulator import Board, Faults, VirtualClock, VirtualController
+from busservo_simulator.line import Line
 
 from tests.simulator.hosts import Host, host_of
 
@@ -68,3 +69,13 @@ def test_none_comes_back_unless_asked_for(connect: Callable[..., tuple[Any, Host
     host.transport.write(MOVE)
     host.transport.write(ASK)
     assert host.collect(len(REPLY)) == REPLY
+
+
+@pytest.mark.garbage
+def test_an_adapter_gives_back_what_was_sent_at_whatever_rate() -> None:
+    line = Line(Board(), baud=9600, local_echo=True)
+    line.host_baud = 115200
+    line.write(MOVE, 0.0)
+    assert b"".join(line.read(10.01 / 11520)) == MOVE
+    line.read(1.0)
+    assert line.board.heard == 0

@@ -27,11 +27,16 @@ from hypothesis import strategies as st
 from tests.patience import await_that
 from tests.simulator.hosts import Host
 
+if sys.platform != "win32":
+    from busservo_simulator.pty_rate import read_rate, set_rate
+
 if TYPE_CHECKING:
     from collections.abc import Iterator
     from pathlib import Path
 
 needs_pty = pytest.mark.skipif(sys.platform == "win32", reason="Windows has no pty")
+# Elsewhere pyserial sets such a rate in a way that no pty takes.
+on_linux = pytest.mark.skipif(sys.platform != "linux", reason="an odd rate, on a pty")
 ASK = BatteryVoltageRead()
 VOLTAGE = BatteryVoltage(7500)
 STOPPED = ActionGroupStopped()
@@ -96,6 +101,7 @@ def carried(host_baud: float, seed: int = 0, baud: float | None = 9600) -> tuple
     line = Line(Board(), baud=baud)
     line.faults = type(line.faults)(seed=seed)
     line.host_baud = host_baud
+    assert line.host_baud == host_baud
     line.send(SIX.encode(), 0.0)
     data, end = b"", 0.0
     while (event := line.next_event) is not None:
@@ -122,7 +128,7 @@ def test_the_seed_says_which_garbage() -> None:
 # -------------------------------------------------------------------- the pty
 
 
-@pytest.fixture(params=[None, 9600, 96000])
+@pytest.fixture(params=[None, 9600, 57600, pytest.param(96000, marks=on_linux)])
 def board(request: pytest.FixtureRequest) -> Iterator[VirtualController]:
     with VirtualController("pty", baud=request.param) as board:
         yield board
@@ -137,7 +143,7 @@ def right(board: VirtualController) -> float:
 
 
 @needs_pty
-@pytest.mark.parametrize("baud", [1200, 19200, 115200, 12345])
+@pytest.mark.parametrize("baud", [1200, 19200, 115200, pytest.param(12345, marks=on_linux)])
 @pytest.mark.garbage
 def test_a_host_at_another_rate_hears_garbage_and_is_heard_as_garbage(
     board: VirtualController, baud: int
@@ -187,6 +193,32 @@ def test_a_cable_that_is_put_back_is_at_the_right_rate(tmp_path: Path) -> None:
         with open(board.port, "r+b", buffering=0) as port:  # noqa: PTH123 - a device
             port.write(ASK.encode())
             assert b"".join(port.read(1) for _ in range(6)) == VOLTAGE.encode()
+
+
+@on_linux
+def test_a_rate_that_the_system_does_not_tell_is_taken_for_the_right_one(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    def refuse(*_: object) -> None:
+        raise OSError("no such call")
+
+    with VirtualController("pty", baud=96000) as board:
+        monkeypatch.setattr("busservo_simulator.pty_rate.fcntl.ioctl", refuse)
+        assert board._end.host_baud is None
+        set_rate(board._end._host_end, 12345)  # type: ignore[attr-defined]
+        monkeypatch.undo()
+        assert read_rate(board._end._host_end) == 96000  # type: ignore[attr-defined]
+
+
+@needs_pty
+def test_a_system_that_keeps_any_rate_as_a_number_tells_it(monkeypatch: pytest.MonkeyPatch) -> None:
+    kept: list[Any] = [0, 0, 0, 0, 12345, 12345, []]
+    monkeypatch.setattr("busservo_simulator.pty_rate.sys.platform", "darwin")
+    monkeypatch.setattr("busservo_simulator.pty_rate.termios.tcgetattr", lambda _end: kept)
+    monkeypatch.setattr("busservo_simulator.pty_rate.termios.tcsetattr", lambda *_: None)
+    assert read_rate(0) == 12345
+    set_rate(0, 54321)
+    assert read_rate(0) == 54321
 
 
 @pytest.mark.parametrize("via", ["memory", "tcp"])

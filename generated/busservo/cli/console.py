@@ -13,7 +13,6 @@ from __future__ import annotations
 
 import argparse
 import errno
-import io
 import os
 import re
 import sys
@@ -221,31 +220,42 @@ class _Bytes:
         self._screen.flush()
 
 
-def write_as_it_is(screen: TextIO, text: str) -> None:
+def write_as_it_is(screen: TextIO | Screen, text: str) -> None:
     """Write text of our own that commands the terminal, on a Screen or any other stream."""
     getattr(screen, "write_as_it_is", screen.write)(text)
 
 
-class _Closed(io.TextIOBase):
-    """A standard stream that was closed when the command began."""
+class _Closed:
+    """A standard stream that was closed when the command began: using it raises OSError."""
 
     def __init__(self, name: str) -> None:
         self._name = name
 
     @property
-    def buffer(self) -> Any:
+    def buffer(self) -> _Closed:
         """For bytes as for text."""
         return self
 
-    def read(self, _size: int | None = -1, /) -> str:
+    def isatty(self) -> bool:
+        """Nobody looks at it."""
+        return False
+
+    def flush(self) -> None:
+        """Write nothing, as there is nothing to write."""
+
+    def fileno(self) -> int:
         """Raise OSError."""
         raise self._error()
 
-    def readline(self, _size: int = -1, /) -> str:
+    def read(self, _size: int = -1) -> Any:
         """Raise OSError."""
         raise self._error()
 
-    def write(self, _text: str, /) -> int:
+    def readline(self, _size: int = -1) -> Any:
+        """Raise OSError."""
+        raise self._error()
+
+    def write(self, _text: Any) -> int:
         """Raise OSError."""
         raise self._error()
 

@@ -10,9 +10,10 @@ SUMMARY = "Send, read and replay frames of: Hiwonder bus servo controller."
 VERBS = {
     "bench-line": "Measure how long questions take on a line, against what it allows.",
     "decode": "Tell what bytes mean: messages, noise, and why noise is noise.",
+    "doctor": "Find out what is wrong with a port, a line or a board.",
     "encode": "Make the frame of a message.",
     "monitor": "Show what a line carries, as it comes.",
-    "ports": "List the serial ports that are plugged in.",
+    "ports": "List what is plugged in: serial ports, and boards that have none.",
     "replay": "Send once more what was recorded of a line.",
     "send": "Send a message to a port, and print the reply.",
     "simulate": "Run a virtual board to talk to.",
@@ -49,6 +50,16 @@ EXAMPLES = {
             "busservo bench-line --port COM7 ServoPositionsRead servo_ids=1,2,3,4,5,6 -n 20",
             "how long ServoPositions takes to come",
         ),
+    ),
+    "doctor": (
+        ("busservo doctor", "the port that is plugged in, and the board behind it"),
+        ("busservo doctor --port COM7", "this port"),
+        ("busservo doctor --port COM7 --move 1", "also whether servo 1 moves; asks first"),
+        (
+            'busservo doctor --port COM7 --board "LSC-32, V1.3" --report line.hex',
+            "a report to be sent in",
+        ),
+        ("busservo doctor --port COM7 --json", "for a program to read"),
     ),
     "monitor": (
         ("busservo monitor --port COM7", "every frame and all noise"),

@@ -67,9 +67,7 @@ class _Overdue:
 
     __slots__ = ("count", "kind", "owed", "until")
 
-    def __init__(
-        self, kind: type[Message], count: int, until: float, *, owed: bool = True
-    ) -> None:
+    def __init__(self, kind: type[Message], count: int, until: float, *, owed: bool = True) -> None:
         self.kind = kind
         self.count = count
         self.until = until
@@ -541,11 +539,16 @@ class Session:
 
     def _give_up(self, request: Request, since: float) -> None:
         """No longer waits for a reply, which may come all the same."""
-        self._asked = None
-        if self._held is not None:
-            reply, self._held = self._held[0], None
-            self._drop(reply, "what it may answer was given up")
-        self._remember(request, since)
+        if self._held is None:
+            self._asked = None
+            self._remember(request, since)
+            return
+        # The reply that is held may be its own; if not, that has as long to come as is held for.
+        until = self._held_until(request)
+        reply, _ = self._held
+        self._asked = self._held = None
+        self._drop(reply, "what it may answer was given up")
+        self._overdue.append(_Overdue(type(reply), request.attempts, until, owed=False))
 
     def _remember(self, request: Request, since: float) -> None:
         if request.attempts and request.exchange.reply is not None:

@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from typing import Any
 
 _WIDTH = 100
-_SHELLS = ("bash", "zsh", "tcsh")
+_SHELLS = ("bash", "zsh", "tcsh", "fish")
 
 
 def main(argv: Sequence[str] | None = None) -> int:
