@@ -92,7 +92,7 @@ class Watch:
         print(
             f"{self._name}: {requests} requests in {taken:.0f} s; {self._ledger.right} answered "
             f"rightly, {self._ledger.refused} ended in a declared error, {counters.reports} "
-            f"reports heard and {counters.lost_reports} lost; {counters.strays} strays, "
+            f"reports heard and {counters.lost_reports} lost; {counters.unsolicited} unsolicited, "
             f"{counters.noise} bytes of noise; memory grew by {grown} blocks, threads from "
             f"{self._threads[0]} to {self._threads[-1]}",
             flush=True,

@@ -56,8 +56,8 @@ PYTHON_CLASSES = _words(
 LIBRARY_NAMES = _words(
     """
     AbsentError AsyncClient AsyncController Client ClosedError Column Controller Counters decode
-    DecodeError Device Direction DisconnectedError Element EncodeError Exchange EXCHANGES HEADER
-    IncompleteReplyError Items LimitError Limits LIMITS LineError Message MESSAGES Noise
+    DecodeError Device Direction DisconnectedError EchoError Element EncodeError Exchange EXCHANGES
+    HEADER IncompleteReplyError Items LimitError Limits LIMITS LineError Message MESSAGES Noise
     NoReplyError NoReportError Number open_async_controller open_controller open_transport
     PortAddressError PortBusyError PortNotFoundError PortPermissionError Pose POSE ProtocolError
     Reason RECEIVED Rejects Report SearchStrategy Sent Shape StreamDecoder Table Transport

@@ -67,6 +67,8 @@ class AsyncClient:
         trace: str | PathLike[str] | None = None,
         report_limit: int = REPORT_LIMIT,
         limits: Bounds | None = LIMITS.usual,
+        local_echo: bool = False,
+        settle: float | None = None,
     ) -> None:
         self._limits = LIMITS.chosen(limits)
         self._transport = Guarded(transport)
@@ -74,13 +76,23 @@ class AsyncClient:
         self._retries = retries
         self._tap = Tap(self._name, trace)
         self._session = Session(
-            baud=baud, margin=margin, report_limit=report_limit, tap=self._tap, limits=self._limits
+            baud=baud,
+            margin=margin,
+            report_limit=report_limit,
+            tap=self._tap,
+            limits=self._limits,
+            local_echo=local_echo,
+            settle=settle,
+            name=self._name,
+            now=time.monotonic(),
         )
         self._loop: asyncio.AbstractEventLoop | None = None
         self._threads: list[threading.Thread] = []
         self._outbox: _Outbox = SimpleQueue()
         # Whether the reading thread should say that time passes, besides that bytes arrive.
         self._ticking = False
+        # Until when nothing can be complete that is arriving.
+        self._resting_until = float("-inf")
         self._timer: asyncio.TimerHandle | None = None
         self._watchers: set[asyncio.Future[None]] = set()
         # What waits until the frames before it have been handed over.
@@ -258,7 +270,7 @@ class AsyncClient:
                 await loop.run_in_executor(None, transport.close)
                 raise self._closed()
             self._transport = transport
-            self._session.restart()
+            self._session.restart(time.monotonic())
             self._failure = None
             self._loop = None
             self._start()
@@ -371,6 +383,7 @@ class AsyncClient:
         if frames and asked is not None:
             self._outbox.put(asked)
         self._ticking = self._session.tick_at is not None
+        self._resting_until = self._session.resting_until(now)
         if self._timer is not None:
             self._timer.cancel()
             self._timer = None
@@ -382,10 +395,10 @@ class AsyncClient:
             for callback in list(self._callbacks):
                 _call(callback, report)
 
-    def _arrived(self, line: _Line, data: bytes, began: float) -> None:
+    def _arrived(self, line: _Line, data: bytes, began: float, arrived: float) -> None:
         if line.transport is self._transport and self._failure is None:
             reports = self._session.counters.reports
-            self._session.receive(data, time.monotonic())
+            self._session.receive(data, arrived)
             # What had arrived before counts before any deadline does.
             self._session.tick(began)
             self._advance()
@@ -480,13 +493,18 @@ class AsyncClient:
 
     def _read_once(self, loop: asyncio.AbstractEventLoop, line: _Line) -> bool:
         """Carries bytes from the transport to the loop; False once one of them has ended."""
+        # Bytes that come one by one are not worth waking up for, each by itself.
+        rest = self._resting_until - time.monotonic()
+        if rest > 0:
+            time.sleep(min(rest, SLICE))
         began = time.monotonic()
         try:
             data = line.transport.read(SLICE)
+            arrived = time.monotonic()
         except TransportError as error:
             _post(loop, self._lost, line, error)
             return False
-        return not (data or self._ticking) or _post(loop, self._arrived, line, data, began)
+        return not (data or self._ticking) or _post(loop, self._arrived, line, data, began, arrived)
 
 
 class _Line:

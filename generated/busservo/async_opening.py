@@ -75,6 +75,8 @@ def open_async_controller(
     trace: str | PathLike[str] | None = None,
     report_limit: int = REPORT_LIMIT,
     limits: Bounds | None = LIMITS.usual,
+    local_echo: bool = False,
+    settle: float | None = None,
 ) -> Opening:
     """Opens the port of a controller, to be used in an `async with`.
 
@@ -90,5 +92,7 @@ def open_async_controller(
         trace=trace,
         report_limit=report_limit,
         limits=limits,
+        local_echo=local_echo,
+        settle=settle,
     )
     return Opening(opener, make)

@@ -9,6 +9,7 @@ import threading
 import time
 import warnings
 import weakref
+from contextlib import contextmanager
 from typing import TYPE_CHECKING, TypeVar
 
 from .exchanges import LIMITS
@@ -42,6 +43,9 @@ MARGIN = 0.25
 REPORT_LIMIT = 1024
 # How long one read may take, so that whoever waits for something else is not forgotten.
 SLICE = 0.02
+# How long to wait for another thread's word, though it always tells: so that a mistake costs no
+# more than this.
+_LONGEST_WAIT = 0.25
 # How long a line may take to be drained, beyond what its bytes take by calculation.
 GRACE = 1.0
 NEVER_CLOSED = "use the controller in a `with`, or call close()"
@@ -63,6 +67,12 @@ class Client:
     reports are kept, `limits` the lowest and the highest position (or whatever has limits) that is
     sent, None for any. With `background`, a thread listens while nobody waits; without, only calls
     read the line, and `clock` may be of any kind.
+
+    `local_echo` says that the line gives back what is sent, as half-duplex adapters do: it is then
+    expected, compared and dropped, and EchoError raised where it does not come. `settle` is for how
+    many seconds after opening nothing is asked, so that no reply to a program before this one is
+    taken for ours: None for one reply time, where the first request is a question or something was
+    heard before it; 0 for not at all.
     """
 
     def __init__(
@@ -77,15 +87,27 @@ class Client:
         limits: Bounds | None = LIMITS.usual,
         background: bool = True,
         clock: Callable[[], float] = time.monotonic,
+        local_echo: bool = False,
+        settle: float | None = None,
     ) -> None:
         self._limits = LIMITS.chosen(limits)
         self._transport = Guarded(transport)
         self._name = self._transport.name
         self._retries = retries
         self._clock = clock
+        # Whether the clock goes on while a thread sleeps.
+        self._real_time = clock is time.monotonic
         self._tap = Tap(self._name, trace)
         self._session = Session(
-            baud=baud, margin=margin, report_limit=report_limit, tap=self._tap, limits=self._limits
+            baud=baud,
+            margin=margin,
+            report_limit=report_limit,
+            tap=self._tap,
+            limits=self._limits,
+            local_echo=local_echo,
+            settle=settle,
+            name=self._name,
+            now=clock(),
         )
         # Held for every touch of the session, never for a read; told whenever anything changed.
         self._changed = threading.Condition(threading.Lock())
@@ -179,7 +201,7 @@ class Client:
         """
         while True:
             until = None if timeout is None else self._clock() + timeout
-            with self._changed:
+            with self._changed, self._waiting():
                 report = self._session.reports.take()
                 while report is None and not self._closing:
                     self._check()
@@ -218,7 +240,7 @@ class Client:
         """
         wanted = report_wanted(kind, fields)
         began = self._clock()
-        with self._changed:
+        with self._changed, self._waiting():
             log = self._session.reports
             asked_at = log.next_number
             since = log.since(kind, fields)
@@ -293,7 +315,7 @@ class Client:
                     transport.close()
                     raise self._closed()
                 self._transport = transport
-                self._session.restart()
+                self._session.restart(self._clock())
                 self._failure = None
             self._listen()
 
@@ -336,11 +358,12 @@ class Client:
 
     def _done(self, message: Message, retries: int | None) -> Request:
         """Submits a message, a command where `retries` is None, and waits until it is done."""
-        with self._changed:
+        with self._changed, self._waiting():
             self._check()
             request = self._session.submit(
                 message, question=retries is not None, retries=retries or 0
             )
+            request.notify = self._changed.notify_all
             try:
                 while not request.done:
                     self._wait(None)
@@ -356,18 +379,25 @@ class Client:
             raise error.again() if isinstance(error, TransportError) else error
         return request
 
+    @contextmanager
+    def _waiting(self) -> Iterator[None]:
+        """Around whatever calls `_wait`: in the end somebody else must read. With the lock held."""
+        try:
+            yield
+        finally:
+            if not self._reading:
+                self._changed.notify()
+
     def _wait(self, until: float | None) -> None:
         """Lets something happen: sends what is due, then reads or lets another thread read.
 
         Comes back soon, whether or not anything did. The lock is held, and let go meanwhile.
         """
-        sent = self._session.counters.sent
-        self._send_due()
-        if self._session.counters.sent != sent:
-            self._changed.notify_all()
+        if self._send_due():
             return
         now = self._clock()
-        times = [now + SLICE, self._session.send_at(now), until]
+        longest = _LONGEST_WAIT if self._reading else SLICE
+        times = [now + longest, self._session.send_at(now), until]
         pause = max(0.0, min(time for time in times if time is not None) - now)
         if self._reading:
             self._changed.wait(pause)
@@ -381,36 +411,49 @@ class Client:
         """Reads once, for everyone. What had arrived before counts before any deadline does."""
         transport, began = self._transport, self._clock()
         failure: TransportError | None = None
-        data = b""
+        data, arrived = b"", began
+        # Bytes that come one by one are not worth waking up for, each by itself.
+        rest = self._session.resting_until(began) - began if self._real_time else 0.0
         self._reading = True
         self._changed.release()
         try:
+            if rest > 0:
+                time.sleep(min(rest, timeout))
+                began = self._clock()
+                timeout = max(0.0, timeout - rest)
             data = transport.read(timeout)
+            arrived = self._clock()
         except TransportError as error:
             failure = error
         finally:
             self._changed.acquire()
             self._reading = False
-            # Whoever waits must know that nobody reads now, even if this thread was interrupted.
-            self._changed.notify_all()
         if transport is not self._transport:
             return
         if failure is not None:
             self._fail(failure)
             return
-        self._session.receive(data, self._clock())
+        reports = self._session.counters.reports
+        self._session.receive(data, arrived)
         self._session.tick(began)
+        if self._session.counters.reports != reports:
+            self._changed.notify_all()
+        # Whoever asks next need not be waited for.
+        self._send_due()
 
-    def _send_due(self) -> None:
-        for frame in self._session.outgoing(self._clock()):
+    def _send_due(self) -> bool:
+        """Writes what is due; whether there was anything."""
+        frames = self._session.outgoing(self._clock())
+        for frame in frames:
             try:
                 self._transport.write(frame)
             except TransportError as error:
                 self._fail(error)
-                return
+                return True
         asked = self._session.unwritten
         if asked is not None:
             self._session.written(asked, self._clock())
+        return bool(frames)
 
     def _drain(self) -> None:
         """Sends all commands that wait, and lets the time pass that they take on the wire."""
@@ -464,7 +507,7 @@ class Client:
 
     def _listen_once(self) -> bool:
         """Reads if nobody else does, so that reports are heard and late commands sent."""
-        with self._changed:
+        with self._changed, self._waiting():
             if self._closing or self._failure is not None:
                 return False
             if self._listener is not threading.current_thread():

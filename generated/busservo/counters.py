@@ -8,12 +8,16 @@ from __future__ import annotations
 class LineCounters:
     """Counts since the client was made; they go on over a reconnection.
 
-    `sent` frames; `replies` that answered something and `strays` that answered nothing (late ones
-    above all); `reports`, of which `lost_reports` went untaken; `noise` bytes; `timeouts` of
-    requests, and `retries` made after them; commands `replaced` by newer ones before they left.
+    `sent` frames; `replies` that answered something, and `unsolicited` ones that answered nothing
+    (late ones, and those that came twice); questions with an `impossible` reply, which came sooner
+    than the wire allows; `echoes` of what was sent; `reports`, of which `lost_reports` went
+    untaken; `noise` bytes; `timeouts` of requests, and `retries` made after them; commands
+    `replaced` by newer ones before they left.
     """
 
     __slots__ = (
+        "echoes",
+        "impossible",
         "lost_reports",
         "noise",
         "replaced",
@@ -21,20 +25,26 @@ class LineCounters:
         "reports",
         "retries",
         "sent",
-        "strays",
         "timeouts",
+        "unsolicited",
     )
 
     def __init__(self) -> None:
         self.sent = 0
         self.replies = 0
-        self.strays = 0
+        self.unsolicited = 0
+        self.impossible = 0
+        self.echoes = 0
         self.reports = 0
         self.lost_reports = 0
         self.noise = 0
         self.timeouts = 0
         self.retries = 0
         self.replaced = 0
+
+    def snapshot(self) -> tuple[int, int, int]:
+        """What has come so far that is no reply: bytes of noise, reports, unsolicited replies."""
+        return self.noise, self.reports, self.unsolicited
 
     def __repr__(self) -> str:
         counts = ", ".join(f"{name}={getattr(self, name)}" for name in self.__slots__)

@@ -88,6 +88,21 @@ class StreamDecoder:
         return len(self._held)
 
     @property
+    def held(self) -> bytes:
+        """The bytes that are held back."""
+        return self._held
+
+    @property
+    def scanned(self) -> int:
+        """How many of those begin no message, whatever comes behind them."""
+        return self._scanned
+
+    @property
+    def missing(self) -> int:
+        """How many bytes must come at the least before anything is told."""
+        return max(1, self._wake - len(self._held))
+
+    @property
     def counters(self) -> Counters:
         """What has been seen so far."""
         fed = self._told + len(self._held)

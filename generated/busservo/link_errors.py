@@ -60,21 +60,55 @@ class ClosedError(TransportError):
     """The line has been closed at this end."""
 
 
-class NoReplyError(ProtocolError, TimeoutError):
-    """No reply came in time. `request` is what was asked, `waited` the seconds spent on it."""
+class EchoError(TransportError):
+    """What was sent has not come back, on a line that was said to give it back."""
 
-    def __init__(self, request: Message, reply: str, waited: float, attempts: int = 1) -> None:
-        super().__init__(request, reply, waited, attempts)
+
+class NoReplyError(ProtocolError, TimeoutError):
+    """No reply came in time. `request` is what was asked, `waited` the seconds spent on it.
+
+    What came instead meanwhile: `noise` bytes that are no frame, `reports`, and `unsolicited`
+    replies, which cannot be the answer.
+    """
+
+    def __init__(
+        self,
+        request: Message,
+        reply: str,
+        waited: float,
+        attempts: int = 1,
+        noise: int = 0,
+        reports: int = 0,
+        unsolicited: int = 0,
+    ) -> None:
+        super().__init__(request, reply, waited, attempts, noise, reports, unsolicited)
         self.request = request
         self.reply = reply
         self.waited = waited
         self.attempts = attempts
+        self.noise = noise
+        self.reports = reports
+        self.unsolicited = unsolicited
 
     def __str__(self) -> str:
         tries = f" to {self.attempts} requests" if self.attempts > 1 else ""
-        return (
-            f"no {self.reply} came within {self.waited:.3f} s{tries} of {self.request!r}; "
-            "is the board switched on, and is this its port?"
+        asked = f"no {self.reply} came within {self.waited:.3f} s{tries} of {self.request!r}"
+        return f"{asked}; {self._what_came()}"
+
+    def _what_came(self) -> str:
+        came: list[str] = []
+        if self.noise:
+            verb = "is" if self.noise == 1 else "are"
+            came.append(
+                f"{_counted(self.noise, 'byte')} came that {verb} no frame: wrong baud rate?"
+            )
+        if self.unsolicited:
+            replies = _counted(self.unsolicited, "reply", "replies")
+            came.append(f"{replies} came that cannot be the answer: late, or sent twice")
+        if self.reports:
+            came.append(f"{_counted(self.reports, 'report')} came, so the board can be heard")
+        return "; ".join(came) or (
+            "nothing came at all: is the board switched on, and is this its port?"
         )
 
 
@@ -127,3 +161,7 @@ class NoReportError(ProtocolError, TimeoutError):
 
     def __str__(self) -> str:
         return f"no {self.report} came within {self.waited:.3f} s"
+
+
+def _counted(number: int, noun: str, plural: str = "") -> str:
+    return f"{number} {noun if number == 1 else plural or noun + 's'}"

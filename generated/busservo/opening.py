@@ -28,6 +28,8 @@ def open_controller(
     trace: str | PathLike[str] | None = None,
     report_limit: int = REPORT_LIMIT,
     limits: Bounds | None = LIMITS.usual,
+    local_echo: bool = False,
+    settle: float | None = None,
 ) -> Controller:
     """Opens the port of a controller, to be used in a `with`.
 
@@ -46,6 +48,8 @@ def open_controller(
             trace=trace,
             report_limit=report_limit,
             limits=limits,
+            local_echo=local_echo,
+            settle=settle,
         )
     except BaseException:
         transport.close()

@@ -9,6 +9,7 @@ Whatever pyserial opens is a port: `/dev/ttyUSB0`, `COM7`, `hwgrep://CH340`, `so
 from __future__ import annotations
 
 import errno
+import math
 import select
 import socket
 import sys
@@ -58,7 +59,8 @@ _GONE = (OSError, TypeError, ValueError, AttributeError)
 def open_transport(port: str, *, baud: float = BAUD, exclusive: bool = True) -> SerialPort:
     """Opens a port, by the name or the URL that pyserial knows it by.
 
-    The rest of the line's parameters are the protocol's. With `exclusive`, no other program that
+    The rest of the line's parameters are the protocol's; a `baud` of math.inf says that the line
+    takes no time, and sets the port to the protocol's rate. With `exclusive`, no other program that
     asks for the same can have the port meanwhile. Raises TransportError; ValueError for a `baud`
     that no port can be set to.
     """
@@ -66,12 +68,13 @@ def open_transport(port: str, *, baud: float = BAUD, exclusive: bool = True) -> 
 
     if not isinstance(port, str):
         raise PortAddressError(repr(port), "a port is named by text", _NAMED)
-    if not 1 <= baud < _FASTER:
-        raise ValueError(f"baud is {baud!r}, and must be from 1 to {_FASTER - 1} for a port")
+    rate = BAUD if baud == math.inf else baud
+    if not 1 <= rate < _FASTER:
+        raise ValueError(f"baud is {baud!r}, and must be from 1 to {_FASTER - 1}, or math.inf")
     try:
         opened = serial.serial_for_url(
             port,
-            baudrate=int(baud),
+            baudrate=int(rate),
             bytesize=DATA_BITS,
             parity=PARITY[0].upper(),
             stopbits=STOP_BITS,

@@ -7,26 +7,42 @@ question is under way at a time; commands, which nothing answers, do not wait fo
 
 How a reply is known. It has the class that answers the request, and tells of nothing that was not
 asked. A message of such a class that is no reply to what is under way answers nothing: it is
-counted as a stray and dropped, and never taken for anything else. Everything else is a report.
+counted as unsolicited and dropped, and never taken for anything else. Everything else is a report.
+
+A reply must be possible. It cannot be complete before the question and itself have fitted on the
+wire. One that is was meant for somebody else, as where the reply before came twice, or much too
+late; or the line is no wire of the stated rate. It is held for one reply time. If a second one
+comes, that is the answer, and the first is unsolicited. If none comes, what is known of the line
+decides: see Pace. Of several replies that are read at once, the last is the answer. And after one
+that is possible, but sooner than is usual on this line, the next question of its kind waits a
+moment, so that the right one, if there is another, is not taken for the reply to that.
 
 A late reply. After a request has timed out, or was cancelled, or the line was lost, its reply may
 still come, and would look like the reply to the next request of the same kind. So the next waits,
 unsent, until that reply has come and gone, or until it is overdue by as long again as the request
 was given. That time begins when the request is given up, which may be long after its deadline where
-the whole machine has paused, and the reply with it.
+the whole machine has paused, and the reply with it. If it has not come by then, it may come yet, so
+the reply to the next is held, too. For the same reason a line that has just been opened is left to
+settle: a program that was killed may have asked before us.
+
+A gap. Bytes of one frame follow each other at once. Where the line is found quiet for longer than
+GAP in the middle of a frame, the rest of that frame is lost; see CarefulDecoder.
 """
 
 from __future__ import annotations
 
+import logging
 from collections import deque
 from copy import copy
 from typing import TYPE_CHECKING
 
+from .careful_decoder import GAP, CarefulDecoder
 from .counters import LineCounters
-from .decoder import StreamDecoder
 from .exchanges import EXCHANGES, LIMITS, RECEIVED
-from .link_errors import NoReplyError
+from .link_errors import EchoError, NoReplyError
+from .local_echo import EchoWatch, LocalEcho
 from .noise import Noise
+from .pace import Pace
 from .reports import ReportLog
 from .request import Request, Sent
 from .wire import Wire
@@ -36,9 +52,13 @@ if TYPE_CHECKING:
     from .message import Message
     from .tap import Tap
 
+logger = logging.getLogger(__package__)
 # How long before the line is free the next frame is handed over, so that it is never idle. More
 # would be lag that nobody sees.
 _AHEAD = 0.004
+# A board that answers at all has begun to do so by then: how long a doubtful reply is held, and how
+# long a line settles, for whoever grants it a longer margin than this.
+_LATENCY = 0.25
 # How long a port may take to accept a frame: longer than it takes until it is said to be stuck.
 _WRITING = 1.5
 _REPLIES = frozenset(each.reply for each in EXCHANGES.values() if each.reply is not None)
@@ -47,19 +67,23 @@ _REPLIES = frozenset(each.reply for each in EXCHANGES.values() if each.reply is 
 class _Overdue:
     """Replies of one kind that may still come although nobody waits for them any more."""
 
-    __slots__ = ("count", "kind", "until")
+    __slots__ = ("count", "kind", "owed", "until")
 
-    def __init__(self, kind: type[Message], count: int, until: float) -> None:
+    def __init__(self, kind: type[Message], count: int, until: float, *, owed: bool = True) -> None:
         self.kind = kind
         self.count = count
         self.until = until
+        # Whether the board owes them, or there is only a doubt whether there are any.
+        self.owed = owed
 
 
 class Session:
     """One end of a line. Times are seconds on any clock that never goes back.
 
     `margin` is how long the controller may take for an answer, besides the time on the wire, and
-    `limits` what may be sent of that which has limits.
+    `limits` what may be sent of that which has limits. `local_echo` says that the line gives back
+    what is sent; `settle` is for how many seconds nothing is asked on a line that has been opened,
+    None for one reply time where that may matter.
     """
 
     def __init__(
@@ -70,9 +94,15 @@ class Session:
         report_limit: int,
         tap: Tap | None = None,
         limits: Bounds | None = None,
+        local_echo: bool = False,
+        settle: float | None = None,
+        name: str = "the line",
+        now: float = float("-inf"),
     ) -> None:
         if not margin > 0:
             raise ValueError(f"the margin is {margin!r}, and must be above 0 seconds")
+        if settle is not None and not settle >= 0:
+            raise ValueError(f"settle is {settle!r}, and must be 0 seconds or more, or None")
         self.wire = Wire(baud)
         self.counters = LineCounters()
         self.reports = ReportLog(report_limit)
@@ -80,17 +110,31 @@ class Session:
         self.news: deque[Message] = deque(maxlen=report_limit)
         self._margin = margin
         self._limits = limits
+        self._name = name
         self._tap = tap
-        self._decoder = StreamDecoder(RECEIVED)
+        self._settle = settle
+        self._pace = Pace()
+        self._echo = LocalEcho() if local_echo else None
+        self._echo_watch = EchoWatch()
+        self._decoder = CarefulDecoder(RECEIVED)
         self._queue: deque[Request] = deque()
         self._asked: Request | None = None
+        # The reply to what is asked that has come last, and when, until it is believed or not.
+        self._held: tuple[Message, float] | None = None
         self._overdue: list[_Overdue] = []
+        # The kinds of replies of which one was overdue, and has not come at all.
+        self._never_came: set[type[Message]] = set()
         self._heard_at = float("-inf")
+        # When this line was opened, and whether the first request on it was a question.
+        self._opened_at = now
+        self._asks_first: bool | None = None
+        self._settled = False
 
     @property
     def idle(self) -> bool:
         """Whether there is nothing left to send, and no reply to wait for."""
-        return not self._queue and self._asked is None
+        echoing = self._echo is not None and self._echo.due is not None
+        return not self._queue and self._asked is None and not echoing
 
     def submit(
         self,
@@ -115,6 +159,8 @@ class Session:
         exchange.check(message)
         LIMITS.check(message, self._limits)
         request = Request(message, exchange, retries=retries, latest=latest)
+        if self._asks_first is None:
+            self._asks_first = exchange.reply is not None
         if latest:
             self._replace(message)
         self._queue.append(request)
@@ -126,13 +172,14 @@ class Session:
             return
         if request is self._asked:
             self._give_up(request, request.deadline)
-        else:
+        elif request in self._queue:
             self._queue.remove(request)
             self._remember(request, request.deadline)
         request.done = True
 
     def outgoing(self, now: float) -> list[bytes]:
         """The frames to write now, in order. Those of requests are then under way."""
+        self._forget_overdue(now)
         frames: list[bytes] = []
         while now >= self.wire.free_at - _AHEAD:
             request = self._next(now)
@@ -162,33 +209,34 @@ class Session:
         request.left_at = left_at
 
     def receive(self, data: bytes, now: float) -> None:
-        """Takes in bytes that have arrived."""
-        if data:
-            self._heard_at = now
-            self._take_in(self._decoder.feed(data), now)
+        """Takes in bytes that had arrived by `now`."""
+        if not data:
+            return
+        self._heard_at = max(self._heard_at, now)
+        if self._echo is not None:
+            data, came, lost = self._echo.take_out(data)
+            for request in lost:
+                self._echo_lost(request)
+            for request in came:
+                self._echo_came(request)
+        self._take_in(self._decoder.feed(data), now)
 
     def tick(self, now: float) -> None:
         """Takes in that it is `now`, and that all which arrived before has been received."""
+        if self._decoder.pending and now >= self._heard_at + GAP:
+            # The line has gone quiet: half a frame must not grow together with the next one.
+            self._take_in(self._decoder.flush(), self._heard_at)
+        if self._echo is not None:
+            held, lost = self._echo.expire(now)
+            self._take_in(self._decoder.feed(held), self._heard_at)
+            for request in lost:
+                self._echo_lost(request)
+        self._forget_overdue(now)
         asked = self._asked
-        expired = asked is not None and now >= self._ends_at(asked)
-        if self._decoder.pending and now - self._heard_at >= self._margin:
-            # The line has gone quiet: half a frame must not grow together with the next reply.
-            self._take_in(self._decoder.flush(), now)
-        elif self._decoder.pending and expired:
-            self._look_behind(now)
-        self._overdue = [each for each in self._overdue if each.until > now]
-        if asked is None or not expired or asked.done:
-            return
-        self.counters.timeouts += 1
-        if asked.attempts <= asked.retries:
-            self.counters.retries += 1
-            self._asked = None
-            self._queue.appendleft(asked)
-            return
-        self._give_up(asked, now)
-        waited = now - asked.sent_at
-        kind = "" if asked.exchange.reply is None else asked.exchange.reply.__name__
-        asked.finish(error=NoReplyError(asked.message, kind, waited, asked.attempts))
+        if asked is not None and self._held is not None and now >= self._held_until(asked):
+            self._decide(asked, now)
+        if self._asked is not None and now >= self._ends_at(self._asked):
+            self._expire(self._asked, now)
 
     def send_at(self, now: float) -> float | None:
         """When to call `outgoing` again; None while there is nothing to send."""
@@ -198,24 +246,43 @@ class Session:
         if self._next(now) is not None:
             return free
         settled = [each.until for each in self._overdue if each.until > now]
+        settled += [at for request in self._queue if (at := self._settled_at(request)) > now]
         # A question waits for the one before it, whose end brings the driver back here anyway.
         return max(free, min(settled)) if settled and self._asked is None else None
 
     @property
     def tick_at(self) -> float | None:
         """When to call `tick` again, at the latest."""
-        times = [] if self._asked is None else [self._ends_at(self._asked)]
+        times: list[float] = []
+        if self._asked is not None:
+            times.append(self._ends_at(self._asked))
+            if self._held is not None:
+                times.append(self._held_until(self._asked))
         if self._decoder.pending:
-            times.append(self._heard_at + self._margin)
+            times.append(self._heard_at + GAP)
+        if self._echo is not None and self._echo.due is not None:
+            times.append(self._echo.due)
         if self._queue:
             times += [each.until for each in self._overdue]
         return min(times, default=None)
 
+    def resting_until(self, now: float) -> float:
+        """Until when nothing can be complete, since the rest of a frame takes its time on the wire.
+
+        A reader that sleeps so long misses nothing: a gap is noticed no later for it.
+        """
+        if not self._decoder.pending or self._pace.fast:
+            return now
+        arriving = self.wire.least(self._decoder.missing - 1)
+        return max(now, min(self._heard_at + arriving, self._heard_at + GAP))
+
     def fail(self, error: Exception) -> None:
         """Ends everything that is under way or waiting: the line is gone."""
         waiting = [*([] if self._asked is None else [self._asked]), *self._queue]
+        if self._echo is not None:
+            waiting += [each for each in self._echo.clear() if each is not self._asked]
         self._queue.clear()
-        self._asked = None
+        self._asked = self._held = None
         for request in waiting:
             # The board may answer yet, on the line that is opened next.
             self._remember(request, request.deadline)
@@ -228,24 +295,74 @@ class Session:
             self.cancel(request)
             request.finish(error=error)
 
-    def restart(self) -> None:
+    def restart(self, now: float) -> None:
         """Begins anew on another line: half a frame of the old one is forgotten."""
         self._take_in(self._decoder.flush(), self._heard_at)
-        self._decoder = StreamDecoder(RECEIVED)
-        self.wire.free_at = float("-inf")
+        self._decoder = CarefulDecoder(RECEIVED)
+        self._pace = Pace()
+        self.wire.clear()
+        self._opened_at = now
+        self._asks_first = None
+        self._settled = False
+        self._heard_at = float("-inf")
 
-    def _look_behind(self, now: float) -> None:
+    def _expire(self, asked: Request, now: float) -> None:
+        """Ends a question whose time is over: by a further attempt, or by an error."""
+        if self._decoder.pending:
+            self._look_behind()
+            if self._asked is not asked or self._held is not None:
+                return
+        self.counters.timeouts += 1
+        if not asked.doubted:
+            self._pace.not_answered()
+        if asked.attempts <= asked.retries:
+            self.counters.retries += 1
+            self._asked = None
+            self._queue.appendleft(asked)
+            return
+        self._give_up(asked, now)
+        waited = now - asked.sent_at
+        kind = "" if asked.exchange.reply is None else asked.exchange.reply.__name__
+        noise, reports, unsolicited = (
+            count - before
+            for count, before in zip(self.counters.snapshot(), asked.counted, strict=True)
+        )
+        noise += self._decoder.pending
+        error = NoReplyError(
+            asked.message, kind, waited, asked.attempts, noise, reports, unsolicited
+        )
+        asked.finish(error=error)
+
+    def _look_behind(self) -> None:
         """Takes what a false header is holding back; half a frame is left to come in full."""
         decoder = copy(self._decoder)
         events = decoder.flush()
         if any(not isinstance(event, Noise) for event in events):
             self._decoder = decoder
-            self._take_in(events, now)
+            self._take_in(events, self._heard_at)
 
-    @staticmethod
-    def _ends_at(asked: Request) -> float:
+    def _ends_at(self, asked: Request) -> float:
         """When a question is given up: its time has not even begun before the port has it."""
-        return asked.deadline + (0.0 if asked.written else _WRITING)
+        return self._unless_arriving(asked.deadline + (0.0 if asked.written else _WRITING))
+
+    def _held_until(self, asked: Request) -> float:
+        """Until when another reply may take the place of the one that is held."""
+        reply = self.wire.seconds(asked.exchange.reply_size(asked.message))
+        return self._unless_arriving(asked.left_at + reply + min(self._margin, _LATENCY))
+
+    def _unless_arriving(self, until: float) -> float:
+        """A time that is up; a little later where a frame is just arriving."""
+        return max(until, min(self._heard_at, until) + GAP) if self._decoder.pending else until
+
+    def _settled_at(self, request: Request) -> float:
+        """Until when a question is not asked, because replies to others may come first."""
+        quiet = self._asks_first is False and self._heard_at == float("-inf")
+        if self._settled or quiet or request.exchange.reply is None:
+            return float("-inf")
+        if self._settle is not None:
+            return self._opened_at + self._settle
+        size = len(request.message.encode()) + request.exchange.reply_size(request.message)
+        return self._opened_at + self.wire.seconds(size) + min(self._margin, _LATENCY)
 
     def _next(self, now: float) -> Request | None:
         """The first in the queue that may go now."""
@@ -257,7 +374,7 @@ class Session:
             unsettled = not request.attempts and any(
                 each.kind is reply and each.until > now for each in self._overdue
             )
-            if self._asked is None and not unsettled:
+            if self._asked is None and not unsettled and now >= self._settled_at(request):
                 return request
         return None
 
@@ -272,15 +389,29 @@ class Session:
             self._tap.sent(request.message, now)
         if request.exchange.reports:
             self.reports.caused(request.message, request.exchange.reports)
+        if self._echo is not None:
+            until = request.left_at + min(self._margin, _LATENCY)
+            self._echo.sent(request, frame, until)
+        else:
+            self._echo_watch.sent(frame)
         if request.exchange.reply is None:
-            delay = starts - now
-            request.finish(sent=Sent(request.message, delay, self.wire.seconds(len(frame))))
+            sent = Sent(request.message, starts - now, self.wire.seconds(len(frame)))
+            if self._echo is None:
+                request.finish(sent=sent)
+            else:
+                request.sent = sent  # done once its echo has come
             return frame
         if request.attempts == 1:
             request.sent_at = now
+            # A further attempt takes its own late reply gladly.
+            request.left_soonest = self.wire.free_soonest
+            request.counted = self.counters.snapshot()
+            request.after_lost = request.exchange.reply in self._never_came
+            self._never_came -= {request.exchange.reply}
         answer = self.wire.seconds(request.exchange.reply_size(request.message))
         request.deadline = request.left_at + answer + self._margin
         self._asked = request
+        self._settled = True
         return frame
 
     def _take_in(self, events: list[Message | Noise], now: float) -> None:
@@ -289,31 +420,86 @@ class Session:
                 self._tap.received(event, now)
             if isinstance(event, Noise):
                 self.counters.noise += len(event.data)
-            elif self._asked is not None and self._answers(self._asked, event):
-                self._answered(self._asked, event, now)
+                if self._echo is None and self._echo_watch.comes_back(event.data):
+                    self._echo_seen()
+            elif self._asked is not None and self._answers(self._asked, event, now):
+                if self._held is not None:
+                    self._unsolicited(self._held[0])
+                    self._asked.after_lost = False
+                self._held = event, now
             elif type(event) in _REPLIES:
-                self._stray(event)
+                self._unsolicited(event)
             else:
                 self.counters.reports += 1
                 self.reports.add(event)
                 self.counters.lost_reports = self.reports.lost
                 self.news.append(event)
+        # Only now, since of several replies the last is the answer.
+        if self._asked is not None and self._held is not None:
+            self._weigh(self._asked, *self._held)
 
-    def _answers(self, asked: Request, message: Message) -> bool:
-        return asked.exchange.answers(asked.message, message)
+    def _answers(self, asked: Request, message: Message, now: float) -> bool:
+        """Whether it can be the reply: what had come before the question was sent cannot."""
+        return now >= asked.sent_at and asked.exchange.answers(asked.message, message)
+
+    def _weigh(self, asked: Request, reply: Message, at: float) -> None:
+        """Takes the reply that is held for the answer, if the wire can have carried it by then."""
+        possible = self._delay(asked, reply, at) >= 0
+        if (possible or self._pace.fast) and not asked.after_lost:
+            if possible:
+                self._came_in_time(asked, reply, at)
+            self._answered(asked, reply, at)
+        elif not possible and not asked.doubted:
+            asked.doubted = True
+            self.counters.impossible += 1
+            logger.debug("%s: %r came sooner than the wire allows", self._name, reply)
+
+    def _delay(self, asked: Request, reply: Message, at: float) -> float:
+        """How much later the reply came than the wire can have carried both; below 0: sooner."""
+        return at - asked.left_soonest - self.wire.least(len(reply.encode()))
+
+    def _came_in_time(self, asked: Request, reply: Message, at: float) -> None:
+        """Learns from a reply; where it is suspiciously early, a right one has time to come yet."""
+        step = self.wire.seconds(len(asked.message.encode())) / 2
+        later = self._pace.answered_in_time(type(reply), self._delay(asked, reply, at), step)
+        if later > 0 and step > 0:
+            until = at + later + self.wire.seconds(len(reply.encode()))
+            self._overdue.append(_Overdue(type(reply), 1, until, owed=False))
+
+    def _decide(self, asked: Request, now: float) -> None:
+        """Believes the reply that is held, or not, since no other has come."""
+        if self._held is None:
+            return
+        reply, at = self._held
+        paced = self._pace.paced
+        if self._delay(asked, reply, at) >= 0:
+            self._came_in_time(asked, reply, at)
+            self._answered(asked, reply, now)
+            return
+        self._pace.answered_too_soon()
+        if paced and not self._pace.fast:
+            self._held = None
+            self._drop(reply, "it came sooner than the wire allows, on a line that keeps its rate")
+        else:
+            self._answered(asked, reply, now)
 
     def _answered(self, asked: Request, reply: Message, now: float) -> None:
         self.counters.replies += 1
-        self._asked = None
+        self._asked = self._held = None
         if self.wire.free_at == asked.left_at:
             self.wire.seen_idle(now)
         if asked.attempts > 1:
             # Which of the attempts it answers, nobody knows: the others may be answered yet.
             self._expect_late(type(reply), asked.attempts - 1, asked, asked.deadline)
-        asked.finish(reply=reply)
+        if self._echo is not None and self._echo.expects(asked):
+            asked.finish(error=self._no_echo(asked, "a reply came, and not what it answers"))
+        else:
+            asked.finish(reply=reply)
 
-    def _stray(self, message: Message) -> None:
-        self.counters.strays += 1
+    def _unsolicited(self, message: Message) -> None:
+        """Drops a reply that answers nothing."""
+        self._pace.surplus()
+        self._drop(message, "it answers nothing that is asked")
         for each in self._overdue:
             if each.kind is type(message):
                 each.count -= 1
@@ -321,9 +507,46 @@ class Session:
                     self._overdue.remove(each)
                 return
 
+    def _drop(self, message: Message, why: str) -> None:
+        self.counters.unsolicited += 1
+        logger.info("%s: dropped %r: %s", self._name, message, why)
+
+    def _echo_came(self, request: Request) -> None:
+        self.counters.echoes += 1
+        if not request.done and request is not self._asked:
+            request.finish(sent=request.sent)
+
+    def _echo_lost(self, request: Request) -> None:
+        """Ends a request whose echo has not come."""
+        error = self._no_echo(request, "what was sent has not come back")
+        if request is self._asked:
+            self._give_up(request, request.deadline)
+        elif request.latest:
+            logger.warning("%s (%r)", error, request.message)  # nobody waits for it
+        if not request.done:
+            request.finish(error=error)
+
+    def _no_echo(self, request: Request, happened: str) -> EchoError:
+        told = f"{happened} ({request.message!r})"
+        advice = "see whether the adapter gives back what is sent; if not, leave out local_echo"
+        return EchoError(self._name, told, advice)
+
+    def _echo_seen(self) -> None:
+        """What is sent comes back, although nobody has said that it would: said once."""
+        self.counters.echoes += 1
+        if self.counters.echoes == 1:
+            logger.warning(
+                "%s gives back what is sent: open it with local_echo=True, or else commands that "
+                "come back look like reports",
+                self._name,
+            )
+
     def _give_up(self, request: Request, since: float) -> None:
         """No longer waits for a reply, which may come all the same."""
         self._asked = None
+        if self._held is not None:
+            reply, self._held = self._held[0], None
+            self._drop(reply, "what it may answer was given up")
         self._remember(request, since)
 
     def _remember(self, request: Request, since: float) -> None:
@@ -333,6 +556,12 @@ class Session:
     def _expect_late(self, kind: type[Message], count: int, request: Request, since: float) -> None:
         until = since + (request.deadline - request.left_at)
         self._overdue.append(_Overdue(kind, count, until))
+
+    def _forget_overdue(self, now: float) -> None:
+        """No longer waits for replies that have not come for too long, though they may yet."""
+        gone = [each for each in self._overdue if each.until <= now]
+        self._never_came.update(each.kind for each in gone if each.owed)
+        self._overdue = [each for each in self._overdue if each.until > now]
 
     def _replace(self, message: Message) -> None:
         """Takes out what waits and would be undone by `message`: the same, for no other servos."""

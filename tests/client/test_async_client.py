@@ -104,7 +104,7 @@ def test_a_hundred_tasks_share_a_controller() -> None:
                 await asyncio.sleep(0.001)
             heard = [report async for report in controller.reports(timeout=0.1)]
             assert len(heard) == 300
-            assert controller.counters.strays == 0
+            assert controller.counters.unsolicited == 0
 
     run(work())
 
@@ -133,7 +133,7 @@ def test_a_cancelled_question_leaves_the_line_usable() -> None:
             for report in answered(asked[0]):
                 line.say(report)  # the late reply of the first
             assert await controller.read_battery_voltage() == 7500
-            assert controller.counters.strays == 1
+            assert controller.counters.unsolicited == 1
 
     run(work())
 
@@ -407,7 +407,7 @@ def test_a_reply_that_comes_as_its_question_is_cancelled_hurts_nobody() -> None:
     line = Counting(silent)
 
     async def work() -> None:
-        async with AsyncController(line, margin=PATIENCE) as controller:
+        async with AsyncController(line, margin=PATIENCE, baud=math.inf) as controller:
             task = asyncio.ensure_future(controller.read_battery_voltage())
             while not line.received:
                 await asyncio.sleep(0)

@@ -266,7 +266,7 @@ def test_eight_threads_share_a_controller() -> None:
             (each.group, each.times) for each in heard if isinstance(each, ActionGroupCompleted)
         } == said
         assert len(heard) == 320
-    assert controller.counters.strays == 0
+    assert controller.counters.unsolicited == 0
     assert line.drained == len(line.received) == 640
 
 
@@ -428,6 +428,6 @@ def test_what_is_shown_of_a_line_tells_its_numbers() -> None:
     assert repr(sent) == "Sent(ActionGroupStop(), delay=0.0000, duration=0.0042)"
     controller.read_battery_voltage()
     assert repr(controller.counters) == (
-        "LineCounters(lost_reports=0, noise=0, replaced=0, replies=1, reports=0, retries=0, "
-        "sent=2, strays=0, timeouts=0)"
+        "LineCounters(echoes=0, impossible=1, lost_reports=0, noise=0, replaced=0, replies=1, "
+        "reports=0, retries=0, sent=2, timeouts=0, unsolicited=0)"
     )

@@ -277,7 +277,7 @@ def test_a_call_that_is_interrupted_leaves_the_line_usable() -> None:
         assert controller.read_servo_positions([1]) == ((1, 10),)
         assert controller.read_battery_voltage() == 7500
         # The reply to the first came late, and was not taken for another's.
-        assert controller.counters.strays == 1
+        assert controller.counters.unsolicited == 1
 
 
 def test_what_waits_is_sent_although_the_machine_pauses_while_closing() -> None:

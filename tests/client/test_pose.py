@@ -201,7 +201,7 @@ def test_who_is_there_is_found_without_an_error() -> None:
 
 def test_all_servos_are_asked_for_in_as_many_requests_as_replies_have_room() -> None:
     board, client = virtual(servos=range(1, 254), baud=9600)
-    with board, client() as controller:
+    with board, client(settle=0) as controller:
         began = board.clock.now()
         assert controller.present_servos() == (*range(1, 254),)
         # 84, 84, 84 and 1 of them: the bytes of four questions and their replies, and no more.

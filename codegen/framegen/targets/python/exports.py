@@ -16,6 +16,7 @@ HOMES = {
     "Device": "device",
     "Direction": "direction",
     "DisconnectedError": "link_errors",
+    "EchoError": "link_errors",
     "EncodeError": "errors",
     "IncompleteReplyError": "link_errors",
     "LimitError": "errors",

@@ -32,13 +32,17 @@ class Request:
     """What a session was asked to send. Once `done`, it has `sent`, a `reply` or an `error`."""
 
     __slots__ = (
+        "after_lost",
         "attempts",
+        "counted",
         "deadline",
         "done",
+        "doubted",
         "error",
         "exchange",
         "latest",
         "left_at",
+        "left_soonest",
         "message",
         "notify",
         "reply",
@@ -65,6 +69,12 @@ class Request:
         self.error: Exception | None = None
         # When it was handed over first, when the last byte of it has left, and when to give up.
         self.sent_at = self.left_at = self.deadline = 0.0
+        # When the last byte of the first attempt can have left at the soonest.
+        self.left_soonest = 0.0
+        # Whether a reply came that is impossible; whether the reply to an earlier one, which never
+        # came, may come yet; and what had been counted when it was sent.
+        self.doubted = self.after_lost = False
+        self.counted = (0, 0, 0)
         # What to call once it is done.
         self.notify: Callable[[], None] | None = None
 

@@ -1,0 +1,155 @@
+"""A frame whose last bytes may begin another is doubted, and no other."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import pytest
+from busservo import (
+    ActionGroupCompleted,
+    ActionGroupStarted,
+    ActionGroupStopped,
+    BatteryVoltage,
+    Direction,
+    Message,
+    Noise,
+    ServoPositions,
+    StreamDecoder,
+)
+from busservo.careful_decoder import CarefulDecoder
+from hypothesis import given
+from hypothesis import strategies as st
+
+from tests.lines import joined
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable
+
+RECEIVED = Direction.CONTROLLER_TO_HOST
+REPORT = ActionGroupCompleted(8, 1)
+MESSAGES = [
+    BatteryVoltage(7500),
+    BatteryVoltage(0x5555),
+    BatteryVoltage(0x5504),
+    ServoPositions([(1, 500), (2, 0x5555)]),
+    ServoPositions([(85, 85), (85, 0x0155)]),
+    ActionGroupStarted(8, 1),
+    ActionGroupStopped(),
+    ActionGroupCompleted(85, 0x5555),
+    REPORT,
+]
+
+
+def careful(*pieces: bytes, flushed: bool = False) -> list[Message | Noise]:
+    decoder = CarefulDecoder(RECEIVED)
+    events = [event for piece in pieces for event in decoder.feed(piece)]
+    while flushed and decoder.pending:
+        events += decoder.flush()
+    return events
+
+
+def messages(events: Iterable[Message | Noise]) -> list[Message]:
+    return [event for event in events if not isinstance(event, Noise)]
+
+
+def bytes_of(events: Iterable[Message | Noise]) -> bytes:
+    return b"".join(each.data if isinstance(each, Noise) else each.encode() for each in events)
+
+
+@pytest.mark.parametrize("lost", range(1, 3))
+@pytest.mark.parametrize("cut", range(8))
+def test_a_battery_with_a_hole_is_no_battery(lost: int, cut: int) -> None:
+    """55 55 04 0F, two bytes lost, and a report: 21845 mV, if it were taken for whole."""
+    torn = BatteryVoltage(0x1D4C).encode()[: -lost or None]
+    line = torn + REPORT.encode()
+    assert messages(careful(line[:cut], line[cut:])) == [REPORT]
+
+
+def test_all_holes_in_all_replies_lose_that_reply_alone() -> None:
+    """Whatever is lost at the end of a frame: what follows is found, and nothing is invented."""
+    for torn in MESSAGES[:4]:
+        for follows in MESSAGES[4:]:
+            frame = torn.encode()
+            for lost in range(1, min(len(frame) - 4, len(follows.encode()) - 2) + 1):
+                line = frame[:-lost] + follows.encode()
+                assert messages(careful(line, flushed=True)) == [follows], (torn, follows, lost)
+
+
+@pytest.mark.parametrize("message", MESSAGES, ids=repr)
+def test_a_message_alone_is_told_at_once_or_when_the_line_is_quiet(message: Message) -> None:
+    assert careful(message.encode(), flushed=True) == [message]
+    doubtful = message.encode()[-1] == 0x55 or message == BatteryVoltage(0x5504)
+    if message.encode().find(b"\x55", 2) < 0:
+        assert careful(message.encode()) == [message]
+    elif doubtful and message.encode().endswith(b"\x55"):
+        assert careful(message.encode()) == []
+
+
+@pytest.mark.parametrize("first", MESSAGES, ids=repr)
+@pytest.mark.parametrize("second", MESSAGES, ids=repr)
+def test_whole_messages_are_told_whatever_they_end_in(first: Message, second: Message) -> None:
+    assert careful(first.encode() + second.encode(), flushed=True) == [first, second]
+
+
+def test_what_follows_refutes_a_doubt_as_soon_as_it_can() -> None:
+    decoder = CarefulDecoder(RECEIVED)
+    doubtful = BatteryVoltage(0x5555)
+    assert decoder.feed(doubtful.encode()) == []
+    assert decoder.pending == 6
+    assert decoder.feed(b"\x55") == []  # 55 55 55 may begin a frame of length 85
+    assert decoder.feed(b"\x55") == []  # though none of command 85: a byte later it still may
+    assert decoder.feed(b"\x02") == [doubtful]  # but none of command 2
+    assert decoder.feed(b"\x07") == [ActionGroupStopped()]
+
+
+def test_a_doubt_that_stays_is_no_message() -> None:
+    """A second hole: whether the reply was whole cannot be told any more."""
+    decoder = CarefulDecoder(RECEIVED)
+    assert decoder.feed(bytes.fromhex("55 55 04 0F 55 55 05 08")) == []
+    events = decoder.flush()
+    assert messages(events) == []
+    assert bytes_of(events) == bytes.fromhex("55 55 04 0F 55 55 05 08")
+    assert decoder.pending == 0
+
+
+pieces = st.lists(
+    st.one_of(
+        st.sampled_from(MESSAGES).map(Message.encode),
+        st.tuples(st.sampled_from(MESSAGES), st.integers(0, 8)).map(
+            lambda drawn: drawn[0].encode()[: drawn[1]]
+        ),
+        st.binary(max_size=4),
+        st.sampled_from([b"\x55", b"\x55\x55", b"\x55\x55\x04\x0f"]),
+    ),
+    max_size=8,
+)
+
+
+@given(pieces)
+def test_no_byte_is_lost(line: list[bytes]) -> None:
+    assert bytes_of(careful(*line, flushed=True)) == b"".join(line)
+
+
+@given(pieces, st.data())
+def test_how_the_line_is_cut_makes_no_difference(line: list[bytes], data: st.DataObject) -> None:
+    whole = b"".join(line)
+    cuts = sorted(data.draw(st.lists(st.integers(0, len(whole)), max_size=6)))
+    cut = [whole[a:b] for a, b in zip([0, *cuts], [*cuts, len(whole)], strict=True)]
+    assert joined(careful(*cut, flushed=True)) == joined(careful(whole, flushed=True))
+
+
+@given(st.lists(st.sampled_from(MESSAGES), max_size=8))
+def test_a_line_of_whole_frames_is_told_as_it_is(line: list[Message]) -> None:
+    assert careful(*(each.encode() for each in line), flushed=True) == line
+
+
+@given(pieces)
+def test_where_nothing_is_doubted_it_tells_what_the_stream_decoder_does(line: list[bytes]) -> None:
+    plain, doubting = StreamDecoder(RECEIVED), CarefulDecoder(RECEIVED)
+    whole = b"".join(line).replace(b"\x55\x55\x55", b"\x55\x55\x04")
+    expected = [*plain.feed(whole), *plain.flush()]
+    found = doubting.feed(whole)
+    while doubting.pending:
+        found += doubting.flush()
+    if not any(b"\x55" in each.encode()[2:] for each in messages(expected)):
+        assert joined(found) == joined(expected)
