@@ -553,8 +553,8 @@ class Session:
         self.counters.echoes += 1
         if self.counters.echoes == 1:
             logger.warning(
-                "%s gives back what is sent: open it with local_echo=True, or else commands that "
-                "come back look like reports",
+                "%s gives back what is sent: say so (local_echo=True, or --local-echo), or else "
+                "commands that come back look like reports",
                 self._name,
             )
 

@@ -36,7 +36,7 @@ class LookalikeView:
         sizes = {name: part_size(part) for name, part in self.frame.items()}
         uncounted = sum(size for name, size in sizes.items() if name not in counted)
         commands = [str(code) for code in sorted(self.lookalike.commands)]
-        described = [
+        described: list[str | Bracketed] = [
             Bracketed("constants=(", self._constants(places), ")", lone=","),
             f"length={_slice(places[self._only(LengthPart)])}",
             f"uncounted={uncounted}",
@@ -45,7 +45,7 @@ class LookalikeView:
             Bracketed("commands=(", commands, ")", lone=","),
             Bracketed("checksums=(", self._checksums(places), ")", lone=","),
         ]
-        items: list[str | Bracketed] = [literal(self.lookalike.title), *described]
+        items = [literal(self.lookalike.title), *described]
         return Bracketed("Lookalike(", items, ")").fitted(4, last=",") + ","
 
     def _only(self, kind: type[FramePart]) -> str:
