@@ -85,6 +85,32 @@ CASES: list[tuple[Data, Data, list[str]]] = [
         ["wire link.parity: link: even became none"],
     ),
     (
+        HOUSE,
+        with_(HOUSE, "link", "usb_hid", [{"vendor": 0x16C0, "product": 0x486}]),
+        [
+            "nothing link.usb_hid: hid-added: 16c0:0486 is new",
+            "nothing link: words: is said otherwise",
+        ],
+    ),
+    (
+        SERVO,
+        with_(SERVO, "link", "usb_hid", GONE),
+        [
+            "programs link.usb_hid: hid-removed: 0483:5750 is gone",
+            "nothing link: words: is said otherwise",
+        ],
+    ),
+    (
+        SERVO,
+        with_(SERVO, "link", "usb_hid", 0, "report_size", 32),
+        ["wire link.usb_hid.report_size: hid-report: 64 became 32"],
+    ),
+    (
+        SERVO,
+        with_(SERVO, "link", "usb_hid", 0, "about", "Boards of 2016."),
+        ["nothing link: words: is said otherwise"],
+    ),
+    (
         SERVO,
         with_(SERVO, "byte_order", "big"),
         ["wire byte_order: byte-order: little became big"],
@@ -203,6 +229,58 @@ CASES: list[tuple[Data, Data, list[str]]] = [
         HOUSE,
         with_(HOUSE, "messages", "StationRead", "method", "station_read() -> readings"),
         ["programs messages.StationRead.method: method-result: readings is new"],
+    ),
+    (
+        HOUSE,
+        with_(HOUSE, *VENTS, "lasts", "ramp_s"),
+        ["nothing messages.VentsOpen.lasts: result-tells-more: ramp_s is new"],
+    ),
+    (
+        with_(HOUSE, *VENTS, "lasts", "ramp_s"),
+        HOUSE,
+        ["programs messages.VentsOpen.lasts: result-tells-less: ramp_s is gone"],
+    ),
+    (
+        with_(HOUSE, *VENTS, "lasts", "ramp_s"),
+        renamed(with_(HOUSE, *VENTS, "lasts", "ramp_s"), "ramp_s", "time_s"),
+        [
+            "programs messages.VentsOpen.fields.time_s: field-renamed: ramp_s became time_s",
+            (
+                "programs messages.VentsOpen.method: method-arguments: "
+                "(vents, ramp_s) became (vents, time_s)"
+            ),
+        ],
+    ),
+    (
+        SERVO,
+        with_(SERVO, "messages", "ActionGroupRun", "acknowledged", GONE),
+        [
+            (
+                "programs messages.ActionGroupRun.acknowledged: result-tells-less: "
+                "ActionGroupStarted is gone"
+            )
+        ],
+    ),
+    (
+        SERVO,
+        with_(SERVO, "messages", "ActionGroupRun", "acknowledged", "ActionGroupCompleted"),
+        [
+            (
+                "programs messages.ActionGroupRun.acknowledged: result-tells-less: "
+                "ActionGroupStarted became ActionGroupCompleted"
+            )
+        ],
+    ),
+    (
+        SERVO,
+        renamed(SERVO, "ActionGroupStarted", "GroupStarted"),
+        [
+            "nothing messages.ActionGroupRun: words: is said otherwise",
+            (
+                "programs messages.GroupStarted: message-renamed: "
+                "ActionGroupStarted became GroupStarted"
+            ),
+        ],
     ),
     # ------------------------------------------------------------------ fields
     (

@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator, Mapping
 
     from framegen.layout import Layout, MessageLayout, Repeat, WireField
-    from framegen.spec import FramePart, Limits, Message, Pose
+    from framegen.spec import FramePart, Limits, Link, Message, Pose
 
 Breaks: TypeAlias = Literal["wire", "programs", "nothing"]
 
@@ -24,6 +24,9 @@ KINDS: dict[str, Breaks] = {
     "byte-order": "wire",
     "frame": "wire",
     "link": "wire",
+    "hid-added": "nothing",
+    "hid-removed": "programs",
+    "hid-report": "wire",
     "version": "nothing",
     "library-renamed": "programs",
     "endpoint-renamed": "programs",
@@ -37,6 +40,8 @@ KINDS: dict[str, Breaks] = {
     "method-renamed": "programs",
     "method-arguments": "programs",
     "method-result": "programs",
+    "result-tells-more": "nothing",
+    "result-tells-less": "programs",
     "field-added": "wire",
     "field-removed": "wire",
     "field-renamed": "programs",
@@ -112,8 +117,22 @@ def _line(old: Layout, new: Layout) -> Iterator[Difference]:
     for name in ("baud", "data_bits", "parity", "stop_bits"):
         settings = getattr(was.link, name), getattr(now.link, name)
         yield from _changed("link", f"link.{name}", *settings)
+    yield from _hid(was.link, now.link)
     yield from _changed("byte-order", "byte_order", was.byte_order, now.byte_order)
     yield from _changed("frame", "frame", _envelope(was.frame), _envelope(now.frame))
+
+
+def _hid(old: Link, new: Link) -> Iterator[Difference]:
+    """Boards without a serial port are the same by vendor and product."""
+    path = "link.usb_hid"
+    was, now = ({board.ids: board for board in link.usb_hid} for link in (old, new))
+    for ids, board in now.items():
+        if ids in was:
+            sizes = was[ids].report_size, board.report_size
+            yield from _changed("hid-report", f"{path}.report_size", *sizes)
+        else:
+            yield Difference("hid-added", path, None, ids)
+    yield from (Difference("hid-removed", path, ids) for ids in was if ids not in now)
 
 
 def _messages(old: Layout, new: Layout) -> Iterator[Difference]:
@@ -140,6 +159,7 @@ def _messages(old: Layout, new: Layout) -> Iterator[Difference]:
         yield from _list(f"{path}.fields", was.repeat, message.repeat)
         if was.direction == sent_by_client(old.spec) and _is_sent(new, message):
             yield from _method(f"{path}.method", was, message)
+            yield from _result(path, was, message, names)
         yield from _told(path, was.message, message.message)
     for name, message in before.items():
         if name not in new.messages:
@@ -158,6 +178,18 @@ def _method(path: str, old: MessageLayout, new: MessageLayout) -> Iterator[Diffe
     yield from _changed("method-result", path, was.result or None, now.result or None)
 
 
+def _result(
+    path: str, old: MessageLayout, new: MessageLayout, names: Mapping[str, str]
+) -> Iterator[Difference]:
+    """What the result of a command tells besides that it was sent."""
+    fields = _renamed_fields(old.numbers, new.numbers)
+    for key, renamed in (("acknowledged", names), ("lasts", fields)):
+        was, now = getattr(old.message, key), getattr(new.message, key)
+        was = renamed.get(was, was)
+        kind = "result-tells-more" if was is None else "result-tells-less"
+        yield from _changed(kind, f"{path}.{key}", was, now)
+
+
 def _fields(
     path: str,
     old: tuple[WireField, ...],
@@ -165,10 +197,7 @@ def _fields(
     message: MessageLayout | None = None,
 ) -> Iterator[Difference]:
     """Numbers, one behind the other: those of a message, or of an element of its list."""
-    names = _renamed(
-        {field.name: (at, field.wire) for at, field in enumerate(old)},
-        {field.name: (at, field.wire) for at, field in enumerate(new)},
-    )
+    names = _renamed_fields(old, new)
     before = {names.get(field.name, field.name): field for field in old}
     for field in new:
         here = f"{path}.{field.name}"
@@ -327,7 +356,10 @@ def _said_of_all(old: Layout, new: Layout) -> Iterator[Difference]:
         {
             "protocol": each.protocol.model_copy(update={"name": "", "version": ""}),
             "endpoints": list(each.endpoints.values()),
-            "link": each.link.cite,
+            "link": (
+                each.link.cite,
+                {board.ids: (board.about, board.cite) for board in each.link.usb_hid},
+            ),
             "frame": [part.about for part in each.frame.values()],
             **{name: getattr(each, name) for name in _SECTIONS},
         }
@@ -352,6 +384,13 @@ def _renamed(old: Mapping[str, object], new: Mapping[str, object]) -> dict[str, 
         if same:
             found[name] = same[0]
     return found
+
+
+def _renamed_fields(old: tuple[WireField, ...], new: tuple[WireField, ...]) -> dict[str, str]:
+    places = (
+        {field.name: (at, field.wire) for at, field in enumerate(each)} for each in (old, new)
+    )
+    return _renamed(*places)
 
 
 def _renamed_ends(old: Layout, new: Layout) -> dict[str, str]:

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 from framegen.checks import (
     absent,
+    acknowledged,
     count_bounds,
     counted_by,
     direction,
@@ -19,9 +20,11 @@ from framegen.checks import (
     example_origin,
     frame_parts,
     frame_too_long,
+    hid_board,
     history,
     id_range,
     identifier,
+    lasts,
     length_rule,
     limited_example,
     limits,
@@ -74,11 +77,14 @@ STRUCTURE_RULES: tuple[StructureRule, ...] = (
     absent.RULE,
     reply.RULE,
     echoed.RULE,
+    acknowledged.RULE,
+    lasts.RULE,
     method.RULE,
     pose.RULE,
     example_origin.RULE,
     unknown_source.RULE,
     history.RULE,
+    hid_board.RULE,
     lookalike_frame.RULE,
 )
 LAYOUT_RULES: tuple[LayoutRule, ...] = (

@@ -20,14 +20,14 @@ if TYPE_CHECKING:
     from typing import Any
 
     from .limits import Bounds
-    from .serial_port import SerialPort
+    from .transport import Transport
 
 
 class Opening:
     """A controller that is about to be opened: by `await`, or better by `async with`."""
 
     def __init__(
-        self, opener: Callable[[], SerialPort], make: Callable[[SerialPort], AsyncController]
+        self, opener: Callable[[], Transport], make: Callable[[Transport], AsyncController]
     ) -> None:
         self._open = opener
         self._make = make
@@ -38,6 +38,13 @@ class Opening:
 
     async def __aenter__(self) -> AsyncController:
         return await self._opened()
+
+    if not TYPE_CHECKING:
+
+        def __getattr__(self, name: str) -> object:
+            problem = f"the controller is not open yet, and has no {name!r}"
+            how = "enter open_async_controller() with `async with`, or await it"
+            raise AttributeError(f"{problem}: {how}", name=name, obj=self)
 
     async def __aexit__(
         self,

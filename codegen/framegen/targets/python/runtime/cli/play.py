@@ -15,7 +15,8 @@ from . import link
 from .events import counted
 from .exits import DONE, INTERRUPTED
 from .limits import add_limits, limits_of
-from .link import add_port, add_timeout, at_least, failures_told, open_client
+from .link import add_port, add_timeout, failures_told, open_client
+from .numerals import at_least
 from .posefile import LONGEST_PAUSE, check_limits, read_poses
 from .positions import UNREAD, hold, in_options, listed, the_pose
 from .unusable import UnusableError
