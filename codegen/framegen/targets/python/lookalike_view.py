@@ -45,7 +45,7 @@ class LookalikeView:
             Bracketed("commands=(", commands, ")", lone=","),
             Bracketed("checksums=(", self._checksums(places), ")", lone=","),
         ]
-        items = [literal(self.lookalike.title), *described]
+        items: list[str | Bracketed] = [literal(self.lookalike.title), *described]
         return Bracketed("Lookalike(", items, ")").fitted(4, last=",") + ","
 
     def _only(self, kind: type[FramePart]) -> str:
