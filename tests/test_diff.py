@@ -81,6 +81,32 @@ CASES: list[tuple[Data, Data, list[str]]] = [
         ["wire link.parity: link: even became none"],
     ),
     (
+        HOUSE,
+        with_(HOUSE, "link", "usb_hid", [{"vendor": 0x16C0, "product": 0x486}]),
+        [
+            "nothing link.usb_hid: hid-added: 16c0:0486 is new",
+            "nothing link: words: is said otherwise",
+        ],
+    ),
+    (
+        SERVO,
+        with_(SERVO, "link", "usb_hid", GONE),
+        [
+            "programs link.usb_hid: hid-removed: 0483:5750 is gone",
+            "nothing link: words: is said otherwise",
+        ],
+    ),
+    (
+        SERVO,
+        with_(SERVO, "link", "usb_hid", 0, "report_size", 32),
+        ["wire link.usb_hid.report_size: hid-report: 64 became 32"],
+    ),
+    (
+        SERVO,
+        with_(SERVO, "link", "usb_hid", 0, "about", "Boards of 2016."),
+        ["nothing link: words: is said otherwise"],
+    ),
+    (
         SERVO,
         with_(SERVO, "byte_order", "big"),
         ["wire byte_order: byte-order: little became big"],

@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator, Mapping
 
     from framegen.layout import Layout, MessageLayout, Repeat, WireField
-    from framegen.spec import FramePart, Message
+    from framegen.spec import FramePart, Link, Message
 
 Breaks: TypeAlias = Literal["wire", "programs", "nothing"]
 
@@ -24,6 +24,9 @@ KINDS: dict[str, Breaks] = {
     "byte-order": "wire",
     "frame": "wire",
     "link": "wire",
+    "hid-added": "nothing",
+    "hid-removed": "programs",
+    "hid-report": "wire",
     "version": "nothing",
     "library-renamed": "programs",
     "endpoint-renamed": "programs",
@@ -101,8 +104,22 @@ def _line(old: Layout, new: Layout) -> Iterator[Difference]:
     for name in ("baud", "data_bits", "parity", "stop_bits"):
         settings = getattr(was.link, name), getattr(now.link, name)
         yield from _changed("link", f"link.{name}", *settings)
+    yield from _hid(was.link, now.link)
     yield from _changed("byte-order", "byte_order", was.byte_order, now.byte_order)
     yield from _changed("frame", "frame", _envelope(was.frame), _envelope(now.frame))
+
+
+def _hid(old: Link, new: Link) -> Iterator[Difference]:
+    """Boards without a serial port are the same by vendor and product."""
+    path = "link.usb_hid"
+    was, now = ({board.ids: board for board in link.usb_hid} for link in (old, new))
+    for ids, board in now.items():
+        if ids in was:
+            sizes = was[ids].report_size, board.report_size
+            yield from _changed("hid-report", f"{path}.report_size", *sizes)
+        else:
+            yield Difference("hid-added", path, None, ids)
+    yield from (Difference("hid-removed", path, ids) for ids in was if ids not in now)
 
 
 def _messages(old: Layout, new: Layout) -> Iterator[Difference]:
@@ -278,7 +295,10 @@ def _said_of_all(old: Layout, new: Layout) -> Iterator[Difference]:
         {
             "protocol": each.protocol.model_copy(update={"name": "", "version": ""}),
             "endpoints": list(each.endpoints.values()),
-            "link": each.link.cite,
+            "link": (
+                each.link.cite,
+                {board.ids: (board.about, board.cite) for board in each.link.usb_hid},
+            ),
             "frame": [part.about for part in each.frame.values()],
             **{name: getattr(each, name) for name in _SECTIONS},
         }

@@ -63,6 +63,25 @@ class SourceDocument(Part):
     about: str = Key("", description="What it holds and how far it goes.")
 
 
+class HidBoard(Part):
+    """A kind of board that is reached by USB HID, without any serial port."""
+
+    vendor: Annotated[StrictInt, Key(ge=0, le=0xFFFF)] = Key(
+        description="The USB vendor id, such as 0x0483."
+    )
+    product: Annotated[StrictInt, Key(ge=0, le=0xFFFF)] = Key(description="The USB product id.")
+    report_size: Annotated[StrictInt, Key(gt=0, le=1024)] = Key(
+        64, description="Bytes of a report, each of which carries one frame and is padded."
+    )
+    about: str = Key("", description="Which boards these are.")
+    cite: Cite | None = Key(None, description="Where this is known from.")
+
+    @property
+    def ids(self) -> str:
+        """Vendor and product, as people write them: `0483:5750`."""
+        return f"{self.vendor:04x}:{self.product:04x}"
+
+
 class Link(Part):
     """The serial line."""
 
@@ -70,6 +89,9 @@ class Link(Part):
     data_bits: Literal[5, 6, 7, 8] = Key(8, description="Data bits of a character.")
     parity: Literal["none", "even", "odd"] = Key("none", description="Parity bit of a character.")
     stop_bits: Literal[1, 2] = Key(1, description="Stop bits of a character.")
+    usb_hid: list[HidBoard] = Key(
+        [], description="Boards that show as a USB HID device instead of a serial port."
+    )
     cite: Cite | None = Key(None, description="Where this is known from.")
 
     @property

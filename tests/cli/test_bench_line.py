@@ -47,6 +47,19 @@ def test_json_has_the_same_in_seconds(capsys: pytest.CaptureFixture[str]) -> Non
     assert 0 < found["min"] <= found["median"] <= found["max"]
 
 
+def test_a_line_that_takes_no_time_allows_any_rate(capsys: pytest.CaptureFixture[str]) -> None:
+    words = ["-n", "3", "--baud", "inf", *PATIENT]
+    with VirtualController("tcp") as board:
+        assert main(["bench-line", "--port", board.port, *words]) == 0
+        assert main(["bench-line", "--port", board.port, *words, "--json"]) == 0
+    _, wire, _, rate, _, record = capsys.readouterr().out.splitlines()
+    size = "4 bytes there and 6 back"
+    assert wire == f"  the wire alone  0.00 ms: {size}, on a line that takes no time"
+    assert re.fullmatch("  rate +[0-9.]+ a second", rate)
+    found = json.loads(record)
+    assert (found["baud"], found["wire"], found["share"]) == (None, 0.0, None)
+
+
 def test_a_line_that_is_faster_than_its_rate_is_none(
     capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -106,7 +119,10 @@ def test_silence_alone_gives_no_times(capsys: pytest.CaptureFixture[str]) -> Non
             "servo_ids: 85 items are asked for at once, and a reply has room for 84",
         ),
         (["-n", "0"], "argument -n: 0 is below 1"),
-        (["--timeout", "4000"], "argument --timeout: 4000 is not above 0 and up to 3600 seconds"),
+        (
+            ["--timeout", "4000"],
+            "argument --timeout: 4000 is no number of seconds above 0 and up to 3600",
+        ),
     ],
 )
 def test_what_cannot_be_measured_is_refused(

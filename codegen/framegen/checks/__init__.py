@@ -19,6 +19,7 @@ from framegen.checks import (
     example_origin,
     frame_parts,
     frame_too_long,
+    hid_board,
     history,
     id_range,
     identifier,
@@ -74,6 +75,7 @@ STRUCTURE_RULES: tuple[StructureRule, ...] = (
     example_origin.RULE,
     unknown_source.RULE,
     history.RULE,
+    hid_board.RULE,
     lookalike_frame.RULE,
 )
 LAYOUT_RULES: tuple[LayoutRule, ...] = (

@@ -6,7 +6,7 @@ from functools import cache
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from framegen import __version__
+from framegen import __version__, console
 from framegen.targets.python.client_view import ClientView
 from framegen.targets.python.device_view import DeviceView
 from framegen.targets.python.escape import comment, docstring, literal
@@ -20,6 +20,8 @@ if TYPE_CHECKING:
     from framegen.source import Source
 
 _HERE = Path(__file__).parent
+# What the command of the generator and that of a library have in common is written once.
+_SHARED = {"cli/console.py": Path(console.__file__)}
 
 
 def render(source: Source, layout: Layout) -> dict[str, str]:
@@ -45,8 +47,8 @@ def _banner(source: Source, library: LibraryView) -> str:
 def _runtime() -> list[tuple[str, str]]:
     """The files that are the same for every protocol, copied as they are."""
     root = _HERE / "runtime"
-    files = sorted(root.rglob("*.py"))
-    return [(file.relative_to(root).as_posix(), file.read_text(encoding="utf-8")) for file in files]
+    files = {file.relative_to(root).as_posix(): file for file in sorted(root.rglob("*.py"))}
+    return [(name, file.read_text(encoding="utf-8")) for name, file in (files | _SHARED).items()]
 
 
 def _from_templates(library: LibraryView) -> list[tuple[str, str]]:

@@ -11,8 +11,9 @@ from framegen.targets.python.command_lines import (
     encode_examples,
     line_examples,
 )
-from framegen.targets.python.escape import literal
+from framegen.targets.python.escape import Bracketed, literal
 from framegen.targets.python.exports import HOMES, export_order, relative_import
+from framegen.targets.python.lookalike_view import LookalikeView
 from framegen.targets.python.message_view import MessageView
 from framegen.targets.python.words import direction_member, struct_order
 
@@ -183,8 +184,26 @@ class LibraryView:
         return [VerbView(name, lines) for name, lines in line_examples(self.layout).items()]
 
     @property
+    def lookalikes(self) -> list[str]:
+        """The entries of a tuple: each protocol that is easily taken for this one."""
+        spec = self.layout.spec
+        # With neither a frame nor commands of its own, there is nothing to tell it by.
+        told = [each for each in spec.lookalikes.values() if each.frame or each.commands]
+        return [LookalikeView(lookalike, spec).entry for lookalike in told]
+
+    @property
     def link(self) -> Link:
         return self.layout.spec.link
+
+    @property
+    def hid_boards(self) -> str:
+        """An assignment: vendor, product and the bytes of a report, of each."""
+        boards = [
+            f"(0x{board.vendor:04X}, 0x{board.product:04X}, {board.report_size})"
+            for board in self.link.usb_hid
+        ]
+        before = "HID_BOARDS: tuple[tuple[int, int, int], ...] = ("
+        return Bracketed(before, boards, ")", lone=",").fitted(0)
 
     @property
     def byte_order(self) -> str:

@@ -30,6 +30,7 @@ _KEYWORDS = (
     "pattern",
     "minimum",
     "exclusiveMinimum",
+    "maximum",
     "default",
     "examples",
     "items",

@@ -85,6 +85,7 @@ class AsyncClient:
             name=self._name,
             now=time.monotonic(),
         )
+        self._session.largest_frame = self._transport.largest_frame
         self._loop: asyncio.AbstractEventLoop | None = None
         self._threads: list[threading.Thread] = []
         self._outbox: _Outbox = SimpleQueue()

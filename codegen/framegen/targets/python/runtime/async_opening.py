@@ -18,14 +18,14 @@ if TYPE_CHECKING:
     from types import TracebackType
     from typing import Any
 
-    from .serial_port import SerialPort
+    from .transport import Transport
 
 
 class Opening:
     """A controller that is about to be opened: by `await`, or better by `async with`."""
 
     def __init__(
-        self, opener: Callable[[], SerialPort], make: Callable[[SerialPort], AsyncController]
+        self, opener: Callable[[], Transport], make: Callable[[Transport], AsyncController]
     ) -> None:
         self._open = opener
         self._make = make

@@ -107,6 +107,7 @@ class Client:
             name=self._name,
             now=clock(),
         )
+        self._session.largest_frame = self._transport.largest_frame
         # Held for every touch of the session, never for a read; told whenever anything changed.
         self._changed = threading.Condition(threading.Lock())
         self._reading = False

@@ -28,7 +28,8 @@ def open_controller(
     """Opens the port of a controller, to be used in a `with`.
 
     `port` is a name or a URL that pyserial knows: `/dev/ttyUSB0`, `COM7`, `hwgrep://CH340`,
-    `socket://host:port`, `rfc2217://host:port`, `loop://`. With `exclusive`, nobody else can have
+    `socket://host:port`, `rfc2217://host:port`, `loop://`; `hid://` is a board of USB HID, which
+    needs the extra `hid`, and was not seen on hardware yet. With `exclusive`, nobody else can have
     it meanwhile. The rest is explained at Controller. Raises TransportError, which names the port,
     what happened and what to do.
     """

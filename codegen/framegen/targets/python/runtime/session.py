@@ -44,6 +44,7 @@ from .noise import Noise
 from .pace import Pace
 from .reports import ReportLog
 from .request import Request, Sent
+from .room import check_room
 from .wire import Wire
 
 if TYPE_CHECKING:
@@ -105,6 +106,8 @@ class Session:
         self.acknowledgements = Acknowledgements(self.wire, margin)
         # Reports for callbacks, to be taken out by whoever drives the session.
         self.news: deque[Message] = deque(maxlen=report_limit)
+        # The longest frame that the line carries; None for any.
+        self.largest_frame: int | None = None
         self._margin = margin
         self._name = name
         self._tap = tap
@@ -152,6 +155,7 @@ class Session:
         if question is True and exchange.reply is None:
             raise TypeError(f"{message!r} is a command: send() sends it, and nothing answers")
         exchange.check(message)
+        check_room(message, self.largest_frame)
         request = Request(message, exchange, retries=retries, latest=latest)
         if self._asks_first is None:
             self._asks_first = exchange.reply is not None
@@ -548,11 +552,16 @@ class Session:
 
     def _give_up(self, request: Request, since: float) -> None:
         """No longer waits for a reply, which may come all the same."""
-        self._asked = None
-        if self._held is not None:
-            reply, self._held = self._held[0], None
-            self._drop(reply, "what it may answer was given up")
-        self._remember(request, since)
+        if self._held is None:
+            self._asked = None
+            self._remember(request, since)
+            return
+        # The reply that is held may be its own; if not, that has as long to come as is held for.
+        until = self._held_until(request)
+        reply, _ = self._held
+        self._asked = self._held = None
+        self._drop(reply, "what it may answer was given up")
+        self._overdue.append(_Overdue(type(reply), request.attempts, until, owed=False))
 
     def _remember(self, request: Request, since: float) -> None:
         if request.attempts and request.exchange.reply is not None:

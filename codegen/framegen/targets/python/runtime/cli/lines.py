@@ -8,6 +8,7 @@ import time
 from ..noise import Noise
 from ..octets import spaced
 from .colour import painted, takes_colour
+from .console import visible, write_as_it_is
 from .events import (
     EITHER,
     NOISE,
@@ -64,14 +65,15 @@ class Lines:
             text = self._as_json(event, direction, at)
         else:
             text = self._as_text(event, direction, at)
-        print(text, file=self._screen, flush=True)
+        write_as_it_is(self._screen, f"{text}\n")
+        self._screen.flush()
 
     def _as_text(self, event: Message | Noise, direction: Direction | None, at: float) -> str:
         who, data, what = sender_of(event, direction), bytes_of(event), in_words(event, direction)
         when = time_of_day(at) if self._times == "absolute" else f"{at:12.6f}"
         size = f" ({counted(len(data), 'byte')})" if isinstance(event, Noise) else ""
         shown = painted(f"{who:10}", _COLOURS[who]) if self._colour else f"{who:10}"
-        return f"{when:>12}  {shown}  {spaced(data)} | {what}{size}"
+        return f"{when:>12}  {shown}  {spaced(data)} | {visible(what)}{size}"
 
     def _as_json(self, event: Message | Noise, direction: Direction | None, at: float) -> str:
         record: dict[str, Any] = {"time": round(at, 6), "from": sender_of(event, direction)}

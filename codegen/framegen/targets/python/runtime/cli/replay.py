@@ -2,26 +2,27 @@
 
 from __future__ import annotations
 
-import argparse
 import sys
 from contextlib import closing
 from pathlib import Path
 
 from ..exchanges import EXCHANGES
 from ..noise import Noise
-from ..protocol import BAUD
 from ..wire import Wire
 from . import link
 from .events import EITHER, NOISE, SENDERS, bytes_of, counted, in_words
 from .exits import DONE, INTERRUPTED
 from .lines import Lines
 from .link import add_port, failures_told, open_line
+from .numerals import above_zero
 from .playback import Playback
 from .recording import read_recording
 from .unusable import UnusableError
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
+    import argparse
+
     from .recording import Heard
 
 ENDS = link.ENDS
@@ -38,10 +39,10 @@ The board does at once what it is told: give the arm room, and look at --dry-run
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declares the arguments of the verb."""
     parser.add_argument("file", type=Path, metavar="FILE", help="a recording; - is standard input")
-    add_port(parser, required=False)
+    add_port(parser, required=False, client=False)
     parser.add_argument(
         "--speed",
-        type=_speed,
+        type=above_zero("number"),
         default=1.0,
         metavar="X",
         help="so many times as fast as it was recorded; inf: as fast as the line can (default: 1)",
@@ -77,17 +78,17 @@ def run(arguments: argparse.Namespace) -> int:
     if not port and not arguments.dry_run:
         raise UnusableError("replay needs --port PORT, or --dry-run to see what it would send")
     chosen = _chosen(arguments)
-    times = _times(chosen, arguments.speed)
+    times = _times(chosen, arguments.speed, arguments.baud)
     if arguments.dry_run:
         lines = Lines(sys.stdout)
         for heard, at in zip(chosen, times, strict=True):
             lines.show(heard.event, SENDERS.get(heard.sender), at)
         sizes = [len(bytes_of(heard.event)) for heard in chosen]
-        taken = times[-1] + Wire(BAUD).seconds(sizes[-1])
+        taken = times[-1] + Wire(arguments.baud).seconds(sizes[-1])
         told = f"{counted(len(chosen), 'frame')}, {counted(sum(sizes), 'byte')} in {taken:.3f} s"
         print(f"{told}: nothing was sent", file=sys.stderr)
         return DONE
-    with failures_told(), closing(open_line(port)) as line:
+    with failures_told(), closing(open_line(port, arguments.baud)) as line:
         try:
             Playback(sys.stdout).play(line, chosen, times)
         except KeyboardInterrupt:
@@ -143,22 +144,12 @@ def _kinds(recorded: list[Heard]) -> str:
     return ", ".join(told) or "nothing at all"
 
 
-def _times(chosen: list[Heard], speed: float) -> list[float]:
+def _times(chosen: list[Heard], speed: float, baud: float) -> list[float]:
     """When each is sent, in seconds from the first on: as recorded, one after the other."""
-    wire = Wire(BAUD)
+    wire = Wire(baud)
     first = chosen[0].at or 0.0
     times = [first if heard.at is None else heard.at for heard in chosen]
     return [
         wire.take(len(bytes_of(heard.event)), (at - first) / speed)
         for heard, at in zip(chosen, times, strict=True)
     ]
-
-
-def _speed(text: str) -> float:
-    try:
-        given = float(text)
-    except ValueError:
-        raise argparse.ArgumentTypeError(f"{text!r} is no number") from None
-    if not given > 0:
-        raise argparse.ArgumentTypeError(f"{text} is not above 0; inf is as fast as the line can")
-    return given

@@ -11,7 +11,8 @@ from ..outcome import lacking
 from . import link
 from .decode import event_as_json, event_as_text
 from .exits import DONE, NOT_ALL
-from .link import add_port, add_timeout, at_least, failures_told, open_client
+from .link import add_port, add_timeout, failures_told, open_client
+from .numerals import at_least
 from .questions import in_parts
 from .unusable import UnusableError
 from .waiting import shown_waiting
