@@ -5,18 +5,17 @@ from __future__ import annotations
 import json
 import sys
 
-from ..client import MARGIN
 from ..doctor.checks import CHECKS, examine
 from ..doctor.diagnosis import Diagnosis
 from ..doctor.move import STEP, move_check
 from ..doctor.report import Report
 from ..doctor.result import FAILED, PASSED, STATES, UNKNOWN
 from ..octets import spaced
-from ..protocol import BAUD
 from . import link
 from .colour import painted, takes_colour
 from .exits import DONE, LINE_LOST, NOT_ALL
-from .link import add_port, at_least, failures_told, open_line, seconds
+from .link import add_port, add_timeout, failures_told, open_line
+from .numerals import at_least
 from .unusable import UnusableError
 from .waiting import shown_waiting
 
@@ -41,19 +40,7 @@ _COLOURS = {PASSED: "green", FAILED: "red", UNKNOWN: "yellow"}
 def add_arguments(parser: ArgumentParser) -> None:
     """Declares the arguments of the verb."""
     add_port(parser, required=False)
-    parser.add_argument(
-        "--baud", type=at_least(1), default=BAUD, metavar="N", help=f"the rate (default: {BAUD})"
-    )
-    parser.add_argument(
-        "--timeout",
-        type=seconds,
-        default=MARGIN,
-        metavar="S",
-        help=f"seconds after which a reply is called late, besides the wire (default: {MARGIN})",
-    )
-    parser.add_argument(
-        "--local-echo", action="store_true", help="what is sent comes back, as you know"
-    )
+    add_timeout(parser)
     parser.add_argument(
         "--move",
         type=at_least(0),

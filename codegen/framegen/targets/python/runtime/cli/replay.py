@@ -33,7 +33,8 @@ the line can carry it; raw bytes and plain hex have no times, and go as fast as 
 sent is left out. What is no frame, or may be of either end, is refused before anything is sent,
 unless an option says what to do with it. What is sent is printed, and so is what comes back.
 
-The board does at once what it is told: give the arm room, and look at --dry-run first."""
+The board does at once what it is told, within the limits of `send` or beyond them: give the arm
+room, and look at --dry-run first."""
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
