@@ -29,6 +29,11 @@ def head(command: int, length: int) -> bytes:
     return HEADER + length.to_bytes(1, "little") + command.to_bytes(1, "little")
 
 
+def read_number(data: bytes) -> int:
+    """The number that bytes of a frame stand for."""
+    return int.from_bytes(data, "little")
+
+
 def read_length(frame: bytes) -> int:
     """The length that the head of a frame carries."""
     return int.from_bytes(frame[LENGTH_AT:LENGTH_END], "little")

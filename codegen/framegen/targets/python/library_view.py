@@ -13,6 +13,7 @@ from framegen.targets.python.command_lines import (
 )
 from framegen.targets.python.escape import Bracketed, literal
 from framegen.targets.python.exports import HOMES, export_order, relative_import
+from framegen.targets.python.lookalike_view import LookalikeView
 from framegen.targets.python.message_view import MessageView
 from framegen.targets.python.words import direction_member, struct_order
 
@@ -181,6 +182,16 @@ class LibraryView:
     def line_verbs(self) -> list[VerbView]:
         """The verbs that have to do with a port."""
         return [VerbView(name, lines) for name, lines in line_examples(self.layout).items()]
+
+    @property
+    def lookalikes(self) -> str:
+        """The tuple of the protocols that are easily taken for this one."""
+        spec = self.layout.spec
+        # With neither a frame nor commands of its own, there is nothing to tell it by.
+        told = [each for each in spec.lookalikes.values() if each.frame or each.commands]
+        entries = [LookalikeView(lookalike, spec).entry for lookalike in told]
+        before = "LOOKALIKES: tuple[Lookalike, ...] = ("
+        return Bracketed(before, entries, ")", lone=",").fitted(0)
 
     @property
     def link(self) -> Link:
