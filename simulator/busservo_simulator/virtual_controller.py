@@ -46,7 +46,7 @@ class VirtualController:
     With a VirtualClock, time stands still until `advance`.
     """
 
-    def __init__(  # noqa: PLR0913 - a board has many properties, each with a default
+    def __init__(
         self,
         via: Literal["memory", "pty", "tcp"] = "memory",
         *,

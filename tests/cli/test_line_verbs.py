@@ -17,6 +17,7 @@ from busservo.cli import link, main, send, simulate
 from busservo.cli.examples import EXAMPLES, VERBS
 from busservo.cli.questions import in_parts
 from busservo.client import Client
+from busservo.hid_boards import HidBoard
 from busservo.link_errors import PortNotFoundError
 from busservo_simulator import Faults, VirtualController
 from serial.tools.list_ports_common import ListPortInfo
@@ -215,7 +216,43 @@ def test_what_cannot_be_done_is_said_in_a_line(
 def test_ports_lists_or_says_that_there_are_none(capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["ports"]) == 0
     output, errors = capsys.readouterr()
-    assert output or errors == "no serial port is plugged in\n"
+    assert output or errors.startswith("no serial port is plugged in\n")
+
+
+def test_boards_without_a_serial_port_are_listed(
+    capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("serial.tools.list_ports.comports", list)
+    one = HidBoard(0x0483, 0x5750, "/dev/hidraw1", "LOBOT")
+    monkeypatch.setattr("busservo.cli.ports.hid_boards_at_hand", lambda: [one])
+    assert main(["ports"]) == 0
+    output, errors = capsys.readouterr()
+    about = "USB HID, no serial port (not seen on hardware yet)"
+    assert output == f"hid://0483:5750   0483:5750  LOBOT, {about}\n"
+    assert errors == "no serial port is plugged in\n"
+    # Of two of a kind, each has an address of its own.
+    other = one._replace(path="/dev/hidraw2", product="")
+    monkeypatch.setattr("busservo.cli.ports.hid_boards_at_hand", lambda: [one, other])
+    assert main(["ports", "--json"]) == 0
+    assert [json.loads(line) for line in capsys.readouterr().out.splitlines()] == [
+        {"port": "hid:///dev/hidraw1", "usb": "0483:5750", "description": f"LOBOT, {about}"},
+        {"port": "hid:///dev/hidraw2", "usb": "0483:5750", "description": about},
+    ]
+
+
+def test_where_nobody_can_list_such_boards_it_says_so(
+    capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("serial.tools.list_ports.comports", list)
+    monkeypatch.setattr("busservo.cli.ports.hid_boards_at_hand", lambda: None)
+    assert main(["ports"]) == 0
+    assert capsys.readouterr().err.splitlines() == [
+        "no serial port is plugged in",
+        (
+            "boards of USB HID (0483:5750) have no serial port, and are not listed without an "
+            "extra: pip install 'busservo[hid]'"
+        ),
+    ]
 
 
 def test_ports_are_told_with_what_usb_knows_of_them(
@@ -292,6 +329,8 @@ def test_without_a_port_there_is_no_serial_and_no_thread(words: list[str]) -> No
         ["send", "--help"],
         ["bench-line", "--help"],
         ["replay", "--help"],
+        ["doctor", "--help"],
+        ["ports", "--help"],
         ["replay", FILE, "--dry-run", "--skip-noise", "--either", "send"],
         ["send", "--port", "COM7", "ServoMov"],
     ],
@@ -349,6 +388,7 @@ def test_no_port_is_said_where_nothing_is_plugged_in(
     capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr("serial.tools.list_ports.comports", list)
+    monkeypatch.setattr("busservo.cli.ports.hid_boards_at_hand", list)
     assert main(["ports"]) == 0
     assert capsys.readouterr() == ("", "no serial port is plugged in\n")
 
@@ -388,6 +428,6 @@ def test_a_package_that_the_simulator_lacks_is_not_taken_for_the_simulator(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     monkeypatch.delitem(sys.modules, "busservo_simulator.cli", raising=False)
-    monkeypatch.setitem(sys.modules, "argparse", None)
-    with pytest.raises(ModuleNotFoundError, match="argparse"):
+    monkeypatch.setitem(sys.modules, "signal", None)
+    with pytest.raises(ModuleNotFoundError, match="signal"):
         simulate.hand_over([])

@@ -267,7 +267,7 @@ def test_the_same_board_is_opened_again(library: Library) -> None:
 
 def test_silence_is_no_reply(library: Library) -> None:
     device = Device()
-    device.write = len  # type: ignore[method-assign]
+    device.write = len  # type: ignore[assignment, method-assign]
     controller = Controller(port_on(device), margin=0.01)
     with controller, pytest.raises(NoReplyError):
         controller.read_battery_voltage()

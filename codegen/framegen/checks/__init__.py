@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from framegen.checks import (
+    acknowledged,
     count_bounds,
     counted_by,
     direction,
@@ -22,6 +23,7 @@ from framegen.checks import (
     history,
     id_range,
     identifier,
+    lasts,
     length_rule,
     list_last,
     lookalike_example,
@@ -67,6 +69,8 @@ STRUCTURE_RULES: tuple[StructureRule, ...] = (
     named_value.RULE,
     reply.RULE,
     echoed.RULE,
+    acknowledged.RULE,
+    lasts.RULE,
     method.RULE,
     example_origin.RULE,
     unknown_source.RULE,

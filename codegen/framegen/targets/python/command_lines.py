@@ -50,6 +50,13 @@ def line_examples(layout: Layout) -> dict[str, list[str]]:
             (f"{words} -n 20" if at else words, f"how long {reply} takes to come")
             for at, (words, _, reply) in enumerate(questions)
         ],
+        "doctor": [
+            ("", "the port that is plugged in, and the board behind it"),
+            ("--port COM7", "this port"),
+            ("--port COM7 --move 1", "also whether servo 1 moves; asks first"),
+            ('--port COM7 --board "LSC-32, V1.3" --report line.hex', "a report to be sent in"),
+            ("--port COM7 --json", "for a program to read"),
+        ],
         "monitor": [
             ("--port COM7", "every frame and all noise"),
             ("--port COM7 -t delta -n 5", "five, and their distances"),

@@ -12,7 +12,7 @@ import socket
 import threading
 import time
 from functools import partial
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 from .link_errors import ClosedError, DisconnectedError, TransportError, WriteStuckError
 from .port_errors import not_opened, refused_name
@@ -38,6 +38,35 @@ _FASTER = 2**31
 _SOCKET = "socket:"
 # What pyserial raises besides OSError once its descriptor is gone in mid-call.
 _GONE = (OSError, TypeError, ValueError, AttributeError)
+
+
+class SerialPortSeen(NamedTuple):
+    """A serial port of this machine. `usb` is VID:PID, empty for what is not on USB."""
+
+    name: str
+    usb: str
+    product: str
+    # Only known so that it can be left out of what is sent to others.
+    serial: str = ""
+
+    def __str__(self) -> str:
+        about = " ".join(filter(None, [self.usb, self.product]))
+        return f"{self.name} ({about})" if about else self.name
+
+
+def serial_ports() -> list[SerialPortSeen]:
+    """The serial ports that are plugged in."""
+    from serial.tools import list_ports
+
+    return sorted(
+        SerialPortSeen(
+            str(each.device),
+            "" if each.vid is None else f"{each.vid:04X}:{each.pid or 0:04X}",
+            "" if each.description in (None, "n/a") else str(each.description),
+            str(each.serial_number or ""),
+        )
+        for each in list_ports.comports()
+    )
 
 
 def open_transport(
@@ -237,7 +266,5 @@ def _handle_of(port: Any) -> int | None:
 
 
 def _listed() -> str:
-    from serial.tools import list_ports
-
-    found = sorted(each.device for each in list_ports.comports())
-    return f"these exist: {', '.join(found)}" if found else "no serial port is plugged in"
+    found = ", ".join(each.name for each in serial_ports())
+    return f"these exist: {found}" if found else "no serial port is plugged in"
