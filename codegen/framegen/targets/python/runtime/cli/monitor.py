@@ -9,9 +9,11 @@ from pathlib import Path
 
 from ..decoder import StreamDecoder
 from ..exchanges import RECEIVED
+from ..recording_entry import SENDERS
+from ..recording_file import EITHER, NOISE
 from . import link
 from .encode import message_named
-from .events import EITHER, KINDS, NOISE, SENDERS, UNKNOWN, counted, names_of, sender_of, totals
+from .events import KINDS, UNKNOWN, counted, names_of, sender_of, totals
 from .exits import DONE, INTERRUPTED
 from .lines import TIMES, Lines
 from .link import add_port, failures_told, open_line
@@ -75,7 +77,8 @@ def add_arguments(parser: ArgumentParser) -> None:
         "--log",
         type=Path,
         metavar="FILE",
-        help="write all of it, shown or not, to a new file for `decode` and `replay`",
+        help="record all of it, shown or not, for `decode` and `replay`; a FILE that holds "
+        "anything is never overwritten",
     )
     parser.add_argument("-n", type=at_least(1), metavar="N", help="end after so many lines")
     parser.add_argument(
