@@ -230,6 +230,58 @@ CASES: list[tuple[Data, Data, list[str]]] = [
         with_(HOUSE, "messages", "StationRead", "method", "station_read() -> readings"),
         ["programs messages.StationRead.method: method-result: readings is new"],
     ),
+    (
+        HOUSE,
+        with_(HOUSE, *VENTS, "lasts", "ramp_s"),
+        ["nothing messages.VentsOpen.lasts: result-tells-more: ramp_s is new"],
+    ),
+    (
+        with_(HOUSE, *VENTS, "lasts", "ramp_s"),
+        HOUSE,
+        ["programs messages.VentsOpen.lasts: result-tells-less: ramp_s is gone"],
+    ),
+    (
+        with_(HOUSE, *VENTS, "lasts", "ramp_s"),
+        renamed(with_(HOUSE, *VENTS, "lasts", "ramp_s"), "ramp_s", "time_s"),
+        [
+            "programs messages.VentsOpen.fields.time_s: field-renamed: ramp_s became time_s",
+            (
+                "programs messages.VentsOpen.method: method-arguments: "
+                "(vents, ramp_s) became (vents, time_s)"
+            ),
+        ],
+    ),
+    (
+        SERVO,
+        with_(SERVO, "messages", "ActionGroupRun", "acknowledged", GONE),
+        [
+            (
+                "programs messages.ActionGroupRun.acknowledged: result-tells-less: "
+                "ActionGroupStarted is gone"
+            )
+        ],
+    ),
+    (
+        SERVO,
+        with_(SERVO, "messages", "ActionGroupRun", "acknowledged", "ActionGroupCompleted"),
+        [
+            (
+                "programs messages.ActionGroupRun.acknowledged: result-tells-less: "
+                "ActionGroupStarted became ActionGroupCompleted"
+            )
+        ],
+    ),
+    (
+        SERVO,
+        renamed(SERVO, "ActionGroupStarted", "GroupStarted"),
+        [
+            "nothing messages.ActionGroupRun: words: is said otherwise",
+            (
+                "programs messages.GroupStarted: message-renamed: "
+                "ActionGroupStarted became GroupStarted"
+            ),
+        ],
+    ),
     # ------------------------------------------------------------------ fields
     (
         HOUSE,

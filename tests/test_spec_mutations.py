@@ -291,6 +291,17 @@ def poses() -> Iterator[Mutation]:
     yield ("messages", "ServoPositionsRead", "echoed"), GONE
 
 
+def results() -> Iterator[Mutation]:
+    """What the result of a command tells: of what comes, and in a unit of time."""
+    yield ("messages", "ActionGroupRun", "acknowledged"), "ActionGroupStopped"
+    yield ("messages", "ActionGroupRun", "acknowledged"), "Nothing"
+    yield ("messages", "ActionGroupRun", "reports", 0), GONE
+    for other in ("servo_count", "targets", "position", "group"):
+        yield ("messages", "ServoMove", "lasts"), other
+    for unit in ("", "mm", "min"):
+        yield ("messages", "ServoMove", "fields", "time_ms", "unit"), unit
+
+
 def errata() -> Iterator[Mutation]:
     for index, erratum in enumerate(TREE["errata"]):
         yield ("errata", index, "document"), erratum["bytes"]
@@ -335,6 +346,7 @@ KINDS: list[Callable[[], Iterator[Mutation]]] = [
     limits,
     signed_and_absent,
     poses,
+    results,
     errata,
     rest,
 ]
@@ -368,9 +380,11 @@ BLIND: list[tuple[Steps, Any, str]] = [
     (("lookalikes", "lx16a", "frame", "command", "type"), "u16", SWALLOWED),
     (("lookalikes", "lx16a", "frame", "command", "type"), "u32", SWALLOWED),
     (messages("ActionGroupStop"), GONE, NOT_MISSED),
-    (messages("ActionGroupRun", "reports", 0), GONE, NOT_MISSED),
     (messages("ActionGroupRun", "reports", 1), GONE, NOT_MISSED),
     (messages("ActionGroupStop", "reports", 0), GONE, NOT_MISSED),
+    (messages("ActionGroupRun", "acknowledged"), GONE, NOT_MISSED),
+    (messages("ActionGroupRun", "acknowledged"), "ActionGroupCompleted", SAME_BYTES),
+    (messages("ServoMove", "lasts"), GONE, NOT_MISSED),
     (("reserved", 0), GONE, NOT_MISSED),
     (("errata", 0), GONE, NOT_MISSED),
     (("errata", 0, "document"), 7, "the document is not at hand: only that it differs is held"),
@@ -384,7 +398,6 @@ BLIND: list[tuple[Steps, Any, str]] = [
     (messages("ServoPositionsRead", "fields", "servo_ids", "count"), "1..251", SAME_BYTES),
     (messages("ServoPositions", "fields", "positions", "count"), "1..", SAME_BYTES),
     (messages("ServoPositions", "fields", "positions", "count"), "0..83", SAME_BYTES),
-    (messages("ServoMove", "fields", "time_ms", "type"), "i16", SMALL_NUMBERS),
     (
         messages("ServoMove", "fields", "targets", "fields", "servo_id", "type"),
         "i8",

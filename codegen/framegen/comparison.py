@@ -40,6 +40,8 @@ KINDS: dict[str, Breaks] = {
     "method-renamed": "programs",
     "method-arguments": "programs",
     "method-result": "programs",
+    "result-tells-more": "nothing",
+    "result-tells-less": "programs",
     "field-added": "wire",
     "field-removed": "wire",
     "field-renamed": "programs",
@@ -157,6 +159,7 @@ def _messages(old: Layout, new: Layout) -> Iterator[Difference]:
         yield from _list(f"{path}.fields", was.repeat, message.repeat)
         if was.direction == sent_by_client(old.spec) and _is_sent(new, message):
             yield from _method(f"{path}.method", was, message)
+            yield from _result(path, was, message, names)
         yield from _told(path, was.message, message.message)
     for name, message in before.items():
         if name not in new.messages:
@@ -175,6 +178,18 @@ def _method(path: str, old: MessageLayout, new: MessageLayout) -> Iterator[Diffe
     yield from _changed("method-result", path, was.result or None, now.result or None)
 
 
+def _result(
+    path: str, old: MessageLayout, new: MessageLayout, names: Mapping[str, str]
+) -> Iterator[Difference]:
+    """What the result of a command tells besides that it was sent."""
+    fields = _renamed_fields(old.numbers, new.numbers)
+    for key, renamed in (("acknowledged", names), ("lasts", fields)):
+        was, now = getattr(old.message, key), getattr(new.message, key)
+        was = renamed.get(was, was)
+        kind = "result-tells-more" if was is None else "result-tells-less"
+        yield from _changed(kind, f"{path}.{key}", was, now)
+
+
 def _fields(
     path: str,
     old: tuple[WireField, ...],
@@ -182,10 +197,7 @@ def _fields(
     message: MessageLayout | None = None,
 ) -> Iterator[Difference]:
     """Numbers, one behind the other: those of a message, or of an element of its list."""
-    names = _renamed(
-        {field.name: (at, field.wire) for at, field in enumerate(old)},
-        {field.name: (at, field.wire) for at, field in enumerate(new)},
-    )
+    names = _renamed_fields(old, new)
     before = {names.get(field.name, field.name): field for field in old}
     for field in new:
         here = f"{path}.{field.name}"
@@ -372,6 +384,13 @@ def _renamed(old: Mapping[str, object], new: Mapping[str, object]) -> dict[str, 
         if same:
             found[name] = same[0]
     return found
+
+
+def _renamed_fields(old: tuple[WireField, ...], new: tuple[WireField, ...]) -> dict[str, str]:
+    places = (
+        {field.name: (at, field.wire) for at, field in enumerate(each)} for each in (old, new)
+    )
+    return _renamed(*places)
 
 
 def _renamed_ends(old: Layout, new: Layout) -> dict[str, str]:

@@ -273,6 +273,16 @@ class Message(Part):
         "`servo_ids: positions.servo_id`: what tells the reply to this message from others.",
     )
     reports: list[str] = Key([], description="Messages that may follow it, sooner or later.")
+    acknowledged: str | None = Key(
+        None,
+        description="The one of its `reports` that says that it was taken, with the same values in "
+        "fields of the same name: a client tells whether it came in time.",
+    )
+    lasts: str | None = Key(
+        None,
+        description="The field that says how long what it starts goes on, in ms or s: a client "
+        "can wait until it is over.",
+    )
     method: Call | None = Key(
         None,
         description="What sends it in a client: name, order of the arguments, and the field of the "

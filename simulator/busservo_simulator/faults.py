@@ -33,8 +33,8 @@ class Faults:
     lost_bytes: float = _chance("a byte of a frame is lost; the chance is that of each byte")
     splits: float = _chance("a frame comes in two pieces, with a pause between them")
     coalesced: float = _chance("a frame waits for the next one, and both come at once")
-    delays: float = _chance("a frame comes later, by up to LONGEST_DELAY, and so do all behind it")
-    late: float = _chance("a reply comes later by LATE_BY, and what is sent meanwhile passes it")
+    delays: float = _chance("a frame comes later, by up to longest_delay, and so do all behind it")
+    late: float = _chance("a reply comes later by late_by, and what is sent meanwhile passes it")
     duplicated: float = _chance("a reply is sent twice")
     dropped: float = _chance("a reply is never sent")
     fewer: float = _chance("a servo is left out of a reply; the chance is that of each servo")
@@ -42,9 +42,13 @@ class Faults:
     wrong_count: float = _chance("a reply counts one servo more, or fewer, than its length holds")
     unasked: float = _chance("a report that nobody asked for comes in front of a frame")
     hang_up: float = _chance("the line is cut in the middle of a frame")
-    noise_to_board: float = _chance("bytes that hold no header come in front of what is written")
-    bit_flips_to_board: float = _chance("a bit is turned over; the chance is that of each byte")
-    splits_to_board: float = _chance("what is written arrives in two pieces, with a pause between")
+    noise_to_board: float = _chance("bytes that hold no header come in front of what a host writes")
+    bit_flips_to_board: float = _chance(
+        "a bit of what a host writes is turned over; the chance is that of each byte"
+    )
+    splits_to_board: float = _chance(
+        "what a host writes arrives in two pieces, with a pause between them"
+    )
     longest_delay: float = _seconds(0.3, "how late a frame of the fault `delays` is at most")
     late_by: float = _seconds(1.0, "how late a reply of the fault `late` is")
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import contextlib
+import errno
 import select
 import socket
 
@@ -44,8 +45,10 @@ class TcpEnd:
         try:
             listener.bind((self._host, self._number))
             listener.listen()
-        except OSError:
+        except (OSError, TypeError) as error:
             listener.close()
+            if isinstance(error, TypeError):  # as Python refuses it, before the system sees it
+                raise OSError(errno.EINVAL, "no host has such a name") from None
             raise
         listener.setblocking(False)
         self._number = listener.getsockname()[1]

@@ -13,11 +13,12 @@ from importlib import import_module
 
 import pytest
 from busservo import ServoPositions, ServoPositionsRead
-from busservo.cli import main, send, simulate
+from busservo.cli import link, main, send, simulate
 from busservo.cli.examples import EXAMPLES, VERBS
 from busservo.cli.questions import in_parts
 from busservo.client import Client
 from busservo.hid_boards import HidBoard
+from busservo.link_errors import PortNotFoundError
 from busservo_simulator import Faults, VirtualController
 from serial.tools.list_ports_common import ListPortInfo
 
@@ -101,6 +102,52 @@ def test_retries_ask_again(capsys: pytest.CaptureFixture[str]) -> None:
     assert "to 3 requests of BatteryVoltageRead()" in capsys.readouterr().err
 
 
+@pytest.mark.parametrize("name", VERBS)
+def test_a_verb_that_takes_a_port_takes_its_rate(name: str) -> None:
+    verb = import_module(f"busservo.cli.{name.replace('-', '_')}")
+    parser = argparse.ArgumentParser()
+    if hasattr(verb, "add_arguments"):
+        verb.add_arguments(parser)
+    options = parser.format_help()
+    assert ("--port" in options) == ("--baud" in options)
+
+
+@pytest.mark.parametrize("baud", ["19200", "inf"])
+@pytest.mark.parametrize(
+    "words",
+    [
+        ["send", "BatteryVoltageRead"],
+        ["bench-line"],
+        ["monitor"],
+        ["replay", str(ROOT / "tests" / "captures" / "noisy_line.bin"), "--raw"],
+    ],
+)
+def test_the_rate_is_that_of_the_port(
+    monkeypatch: pytest.MonkeyPatch, words: list[str], baud: str
+) -> None:
+    opened: list[tuple[str, float]] = []
+
+    def refuse(port: str, *, baud: float) -> object:
+        opened.append((port, baud))
+        raise PortNotFoundError(port, "it is a test", "look elsewhere")
+
+    monkeypatch.setattr(link, "open_transport", refuse)
+    assert main([*words, "--port", "COM7", "--baud", baud]) == 2
+    assert opened == [("COM7", float(baud))]
+
+
+@pytest.mark.parametrize("echoes", [True, False])
+def test_a_local_echo_is_expected_where_it_was_said(
+    capsys: pytest.CaptureFixture[str], *, echoes: bool
+) -> None:
+    words = ["BatteryVoltageRead", "--baud", "inf", "--local-echo"]
+    with VirtualController("tcp", local_echo=echoes) as board:
+        status = main(["send", "--port", board.port, *words, *PATIENT])
+    output, errors = capsys.readouterr()
+    assert (status, "7500 mV" in output) == ((0, True) if echoes else (2, False))
+    assert ("leave out local_echo" in errors) == (not echoes)
+
+
 def test_silence_is_told_from_success(capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["send", "--port", "loop://", "BatteryVoltageRead"]) == 1
     assert "no BatteryVoltage came" in capsys.readouterr().err
@@ -125,19 +172,35 @@ def test_silence_is_told_from_success(capsys: pytest.CaptureFixture[str]) -> Non
         ),
         (
             ["send", "--port", "loop://", "BatteryVoltageRead", "--timeout", "0"],
-            "argument --timeout: 0 is not above 0 and up to 3600 seconds",
+            "argument --timeout: 0 is no number of seconds above 0 and up to 3600",
         ),
         (
             ["send", "--port", "loop://", "BatteryVoltageRead", "--timeout", "inf"],
-            "argument --timeout: inf is not above 0 and up to 3600 seconds",
+            "argument --timeout: inf is no number of seconds above 0 and up to 3600",
         ),
         (
             ["send", "--port", "loop://", "BatteryVoltageRead", "--timeout", "nan"],
-            "argument --timeout: nan is not above 0 and up to 3600 seconds",
+            "argument --timeout: 'nan' is no number of seconds: write it like 12 or 0.5",
         ),
         (
             ["send", "--port", "loop://", "BatteryVoltageRead", "--timeout", "soon"],
             "argument --timeout: 'soon' is no number of seconds",
+        ),
+        (
+            ["send", "--port", "loop://", "BatteryVoltageRead", "--timeout", "1_0"],
+            "argument --timeout: '1_0' is no number of seconds",
+        ),
+        (
+            ["send", "--port", "loop://", "BatteryVoltageRead", "--retries", "٣"],
+            "argument --retries: '٣' is no whole number",
+        ),
+        (
+            ["send", "--port", "loop://", "BatteryVoltageRead", "--baud", "0"],
+            "argument --baud: 0 is below 1",
+        ),
+        (
+            ["send", "--port", "loop://", "BatteryVoltageRead", "--baud", str(2**31)],
+            "baud is 2147483648, and must be from 1 to 2147483647",
         ),
     ],
 )
@@ -224,7 +287,10 @@ def test_a_line_that_is_lost_in_the_middle_of_a_reply_has_a_status_of_its_own(
 
 def test_simulate_hands_over(capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["simulate", "--help"]) == 0
-    assert "busservo-simulator --tcp 4000" in capsys.readouterr().out
+    shown = capsys.readouterr().out
+    assert shown.startswith("usage: busservo simulate ")
+    assert "busservo simulate --tcp 4000" in shown
+    assert "busservo-simulator" not in shown
 
 
 def test_simulate_says_what_is_missing(
@@ -362,6 +428,6 @@ def test_a_package_that_the_simulator_lacks_is_not_taken_for_the_simulator(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     monkeypatch.delitem(sys.modules, "busservo_simulator.cli", raising=False)
-    monkeypatch.setitem(sys.modules, "argparse", None)
-    with pytest.raises(ModuleNotFoundError, match="argparse"):
+    monkeypatch.setitem(sys.modules, "signal", None)
+    with pytest.raises(ModuleNotFoundError, match="signal"):
         simulate.hand_over([])

@@ -221,6 +221,7 @@ REFUSED_NAMES = {
     "": "^'': this is no name; name a port",
     " ": "^' ': this is no name; name a port",
     "hwgrep://CH340(": r"'CH340\(' is no regular expression .*; such as hwgrep://CH340$",
+    "spy://loop://?file=all.log": "would write to any file .*; name the port alone, and record it",
     "socket://": "it names no host; write socket://HOST:PORT",
     "socket://:4000": "it names no host; write socket://HOST:PORT",
     "socket://board": "it names no TCP port; write socket://HOST:PORT",

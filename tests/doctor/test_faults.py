@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
@@ -126,6 +127,7 @@ CASES = {
         board={"baud": None},
         told={"round-trip": (UNKNOWN, "this is no line of that rate", "baud=math.inf")},
     ),
+    "as fast as can be, and said to be": Case(board={"baud": None}, given={"baud": math.inf}),
     "babble": Case(
         before=lambda board: board.babble(b"\x00\xf8", 20, deaf=False),
         told={

@@ -129,6 +129,21 @@ def test_late_replies_come_in_order_and_whole() -> None:
         assert host.noise() == []
 
 
+def test_a_late_reply_finds_the_host_that_is_there_by_then() -> None:
+    with faulty(late=1, late_by=1.0) as board:
+        host = host_of(board)
+        host.say(ASK)
+        board.unplug()
+        board.advance(0.5)
+        board.plug_in()
+        assert Host(board.open(), board.clock.now, 2).hear() == VOLTAGE
+        host.say(ASK)
+        board.unplug()
+        board.advance(1.5)
+        board.plug_in()
+        assert Host(board.open(), board.clock.now, 2).hear() is None
+
+
 def test_a_board_that_restarts_forgets_its_late_replies() -> None:
     with faulty(late=1, coalesced=1) as board:
         host = host_of(board)

@@ -201,12 +201,20 @@ CHUNKS = st.lists(
 )
 
 
-@given(CHUNKS, FAULTS, st.sampled_from([None, 9600]))
+RATES = st.sampled_from([None, 300, 9601, 921600])
+
+
+@given(CHUNKS, FAULTS, st.sampled_from([None, 9600]), RATES, st.booleans())
 @pytest.mark.garbage
 def test_nothing_that_arrives_can_make_the_board_fail(
-    chunks: list[tuple[bytes, float]], faults: Faults, baud: float | None
+    chunks: list[tuple[bytes, float]],
+    faults: Faults,
+    baud: float | None,
+    host_baud: float | None,
+    local_echo: bool,
 ) -> None:
-    line = Line(Board(range(256)), baud=baud, faults=faults)
+    line = Line(Board(range(256)), baud=baud, local_echo=local_echo, faults=faults)
+    line.host_baud = host_baud
     moment = 0.0
     for data, pause in chunks:
         line.write(data, moment)
@@ -216,13 +224,14 @@ def test_nothing_that_arrives_can_make_the_board_fail(
     assert line.unheard == 0
 
 
-@given(CHUNKS, FAULTS)
+@given(CHUNKS, FAULTS, RATES)
 @pytest.mark.garbage
 def test_the_same_seed_and_the_same_traffic_give_the_same_bytes(
-    chunks: list[tuple[bytes, float]], faults: Faults
+    chunks: list[tuple[bytes, float]], faults: Faults, host_baud: float | None
 ) -> None:
     def run() -> list[bytes]:
         line, moment = Line(Board(), faults=faults), 0.0
+        line.host_baud = host_baud
         heard: list[bytes] = []
         for data, pause in chunks:
             line.write(data, moment)

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 from framegen.checks import (
     absent,
+    acknowledged,
     count_bounds,
     counted_by,
     direction,
@@ -23,6 +24,7 @@ from framegen.checks import (
     history,
     id_range,
     identifier,
+    lasts,
     length_rule,
     limited_example,
     limits,
@@ -75,6 +77,8 @@ STRUCTURE_RULES: tuple[StructureRule, ...] = (
     absent.RULE,
     reply.RULE,
     echoed.RULE,
+    acknowledged.RULE,
+    lasts.RULE,
     method.RULE,
     pose.RULE,
     example_origin.RULE,

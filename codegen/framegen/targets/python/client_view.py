@@ -8,7 +8,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, ClassVar
 
-from framegen.exchanges import exchanges, sent_by_client
+from framegen.exchanges import STEPS_PER_SECOND, exchanges, sent_by_client
 from framegen.targets.python.escape import Bracketed, literal
 from framegen.targets.python.exports import relative_import
 from framegen.targets.python.method_view import Flavour, MethodView
@@ -25,6 +25,9 @@ _SHARED = (
     "and closing."
 )
 
+# What a command returns, by module.
+_RESULTS = {"motion": ["AsyncMotion", "Motion"], "request": ["Sent"], "run": ["Run"]}
+
 
 @dataclass(frozen=True, slots=True)
 class ClientView:
@@ -33,8 +36,8 @@ class ClientView:
     layout: Layout
 
     FLAVOURS: ClassVar = {
-        "Controller": Flavour("def ", ""),
-        "AsyncController": Flavour("async def ", "await "),
+        "Controller": Flavour("def ", "", "Motion"),
+        "AsyncController": Flavour("async def ", "await ", "AsyncMotion"),
     }
 
     @property
@@ -157,9 +160,23 @@ class ClientView:
         )
 
     @property
-    def commands(self) -> bool:
-        """Whether a method only sends."""
-        return any(method.returns == "Sent" for method in self.methods)
+    def import_results(self) -> list[str]:
+        """The classes of what commands of the client for threads return."""
+        return _results(self.methods)
+
+    @property
+    def async_import_results(self) -> list[str]:
+        """The classes of what commands of the client for asyncio return."""
+        return _results(self.async_methods)
+
+
+def _results(methods: list[MethodView]) -> list[str]:
+    returned = {method.returns for method in methods}
+    return [
+        relative_import(module, names, 4)
+        for module, of_it in _RESULTS.items()
+        if (names := [name for name in of_it if name in returned])
+    ]
 
 
 def _bounds(range_: Range) -> str:
@@ -179,6 +196,11 @@ def _entry(each: Exchange) -> str:
         items.append(f"result={literal(each.method.result)}")
     if each.reports:
         items.append(Bracketed("reports=(", list(each.reports), ")", lone=","))
+    if each.acknowledged is not None:
+        items.append(f"acknowledged={each.acknowledged}")
+    if each.lasts is not None:
+        steps = STEPS_PER_SECOND[each.lasts.field.unit]
+        items.append(f"lasts=({literal(each.lasts.name)}, {steps})")
     if each.echoed:
         pairs = [f"({literal(one)}, {literal(other)})" for one, other in each.echoed]
         items.append(Bracketed("echoed=(", pairs, ")", lone=","))

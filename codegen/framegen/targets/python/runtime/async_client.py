@@ -9,17 +9,20 @@ import time
 import warnings
 import weakref
 from queue import SimpleQueue
-from typing import TYPE_CHECKING, TypeVar
+from typing import TYPE_CHECKING, TypeVar, overload
 
 from .client import GRACE, MARGIN, NEVER_CLOSED, REPORT_LIMIT, SLICE, repeat
 from .exchanges import LIMITS
 from .guarded import Guarded
 from .link_errors import ClosedError, IncompleteReplyError, NoReportError, TransportError
-from .outcome import lacking, parts_of, report_wanted
+from .motion import AsyncMotion
+from .outcome import lacking, parts_of
 from .protocol import BAUD
 from .request import Request
+from .run import Run
 from .session import Session
 from .tap import Tap
+from .wanted import Wanted
 
 if TYPE_CHECKING:
     from collections.abc import AsyncIterator, Callable, Iterable
@@ -34,12 +37,15 @@ if TYPE_CHECKING:
     from .message import Message
     from .request import Sent
     from .transport import Transport
+    from .wanted import Kinds
 
     # Frames to write, who is to hear that those before are written, and None for the end.
     _Outbox: TypeAlias = SimpleQueue[bytes | Request | asyncio.Future[None] | None]
 
 logger = logging.getLogger(__package__)
 _Reply = TypeVar("_Reply", bound="Message")
+_Second = TypeVar("_Second", bound="Message")
+_Third = TypeVar("_Third", bound="Message")
 
 
 class AsyncClient:
@@ -143,12 +149,13 @@ class AsyncClient:
         """Sends a command, as soon as the frames before it have left: no lag builds up unseen.
 
         Returns when it has been handed over; `delay` of the result is when it will be on the wire.
-        Raises LimitError for what is outside the limits, and TransportError.
+        The result is an AsyncMotion for a command that lasts, and a Run for one that is
+        acknowledged. Raises LimitError for what is outside the limits, and TransportError.
         """
-        sent = (await self._done(message, None)).sent
-        if sent is None:
+        request = await self._done(message, None)
+        if request.sent is None:
             raise AssertionError(f"{message!r} ended without an error, and was not sent")
-        return sent
+        return request.sent if request.exchange.lasts is None else self._motion(request)
 
     def send_latest(self, message: Message) -> None:
         """Sends a command when the line is free, unless a newer one overtakes it; does not wait.
@@ -157,9 +164,7 @@ class AsyncClient:
         So a stream of motions faster than the line is thinned out instead of falling behind.
         Raises LimitError for what is outside the limits.
         """
-        self._start()
-        self._session.submit(message, question=False, latest=True)
-        self._advance()
+        self._submit_latest(message)
 
     async def request(self, message: Message, *, retries: int | None = None) -> Message:
         """Sends a question and returns the reply, which may tell less than was asked.
@@ -206,27 +211,56 @@ class AsyncClient:
 
         return stop
 
-    async def wait_for(self, kind: type[_Reply], *, timeout: float, **fields: int) -> _Reply:
+    @overload
+    async def wait_for(self, kind: type[_Reply], *, timeout: float, **fields: int) -> _Reply: ...
+
+    @overload
+    async def wait_for(
+        self, kind: tuple[type[_Reply]], *, timeout: float, **fields: int
+    ) -> _Reply: ...
+
+    @overload
+    async def wait_for(
+        self, kind: tuple[type[_Reply], type[_Second]], *, timeout: float, **fields: int
+    ) -> _Reply | _Second: ...
+
+    @overload
+    async def wait_for(
+        self,
+        kind: tuple[type[_Reply], type[_Second], type[_Third]],
+        *,
+        timeout: float,
+        **fields: int,
+    ) -> _Reply | _Second | _Third: ...
+
+    @overload
+    async def wait_for(self, kind: Kinds, *, timeout: float, **fields: int) -> Message: ...
+
+    async def wait_for(self, kind: Kinds, *, timeout: float, **fields: int) -> Message:
         """Waits for a report of a class, with these fields, and returns it.
 
-        One that has already come counts, if it came after the latest command that causes such
-        reports (for that group, say) and no earlier wait was satisfied by it. The report is still
-        there for reports(). Raises NoReportError after `timeout` seconds, and TransportError.
+        `kind` may be a tuple of classes: the first report of any of them is returned, and a field
+        is not asked of a class that lacks it.
+
+        A report that has already come counts, if it came after the latest command that causes such
+        reports (for that group, say) and no earlier wait was satisfied by it. It is still there for
+        reports(). Raises NoReportError after `timeout` seconds, which says what came instead, and
+        TransportError.
         """
         self._start()
-        wanted = report_wanted(kind, fields)
+        wanted = Wanted(kind, fields)
         began = time.monotonic()
         log = self._session.reports
         asked_at = log.next_number
-        since = log.since(kind, fields)
+        since = log.since(wanted)
         while True:
-            found = log.find(kind, fields, since=since, asked_at=asked_at)
-            if isinstance(found, kind):
+            found = log.find(wanted, since=since, asked_at=asked_at)
+            if found is not None:
                 return found
             self._check()
             waited = time.monotonic() - began
             if waited >= timeout:
-                raise NoReportError(wanted, waited)
+                raise NoReportError(str(wanted), waited, log.instead_of(wanted, since=since))
             await self._change(began + timeout)
 
     async def close(self) -> None:
@@ -273,6 +307,35 @@ class AsyncClient:
             self._failure = None
             self._loop = None
             self._start()
+
+    async def _move(self, message: Message, *, latest: bool) -> AsyncMotion:
+        """Sends a command that lasts."""
+        if latest:
+            return self._motion(self._submit_latest(message))
+        return self._motion(await self._done(message, None))
+
+    def _motion(self, request: Request) -> AsyncMotion:
+        return AsyncMotion(request, self._session.wire, time.monotonic, self._live)
+
+    async def _run(self, message: Message) -> Run:
+        """Sends a command that is acknowledged."""
+        sent = await self.send(message)
+        if not isinstance(sent, Run):
+            raise TypeError(f"{message!r} is acknowledged by nothing")
+        return sent
+
+    async def _live(self, until: float | None) -> None:
+        """Lets time pass, until then at the latest. Raises TransportError."""
+        self._check()
+        await self._change(until)
+
+    def _submit_latest(self, message: Message) -> Request:
+        self._start()
+        request = self._session.submit(message, question=False, latest=True)
+        # Whoever waits for it must hear that it has been sent or replaced.
+        request.notify = self._wake
+        self._advance()
+        return request
 
     async def _ask(self, message: Message, kind: type[_Reply]) -> _Reply:
         """The reply to a question, whole. Raises IncompleteReplyError."""
@@ -333,6 +396,9 @@ class AsyncClient:
             raise error.again() if isinstance(error, TransportError) else error
         if request.sent is not None:
             await self._handed_over()
+            if self._session.acknowledgements.unwritten:
+                self._session.acknowledgements.written(time.monotonic(), request.sent)
+                self._advance()
         return request
 
     async def _handed_over(self) -> None:

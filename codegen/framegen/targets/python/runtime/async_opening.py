@@ -39,6 +39,13 @@ class Opening:
     async def __aenter__(self) -> AsyncController:
         return await self._opened()
 
+    if not TYPE_CHECKING:
+
+        def __getattr__(self, name: str) -> object:
+            problem = f"the controller is not open yet, and has no {name!r}"
+            how = "enter open_async_controller() with `async with`, or await it"
+            raise AttributeError(f"{problem}: {how}", name=name, obj=self)
+
     async def __aexit__(
         self,
         kind: type[BaseException] | None,

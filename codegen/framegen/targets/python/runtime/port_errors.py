@@ -44,6 +44,9 @@ def refused_name(port: object) -> TransportError | None:
     if not port.strip():
         return PortAddressError(repr(port), "this is no name", NAMED)
     scheme, separator, _ = port.partition("://")
+    if separator and scheme.lower() == "spy":
+        happened = "pyserial would write to any file that such an address names"
+        return PortAddressError(port, happened, "name the port alone, and record it by `trace`")
     if separator and scheme.lower() in _NETWORK:
         return _refused_address(port, scheme)
     if separator and scheme.lower() == "hwgrep":

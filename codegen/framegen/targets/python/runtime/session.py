@@ -34,6 +34,7 @@ from collections import deque
 from copy import copy
 from typing import TYPE_CHECKING
 
+from .acknowledgements import Acknowledgements
 from .careful_decoder import GAP, CarefulDecoder
 from .counters import LineCounters
 from .exchanges import EXCHANGES, LIMITS, RECEIVED
@@ -80,9 +81,9 @@ class Session:
     """One end of a line. Times are seconds on any clock that never goes back.
 
     `margin` is how long the controller may take for an answer, besides the time on the wire, and
-    `limits` what may be sent of that which has limits.
-    `local_echo` says that the line gives back what is sent; `settle` is for how many seconds
-    nothing is asked on a line that has been opened, None for one reply time where that may matter.
+    `limits` what may be sent of that which has limits. `local_echo` says that the line gives back
+    what is sent; `settle` is for how many seconds nothing is asked on a line that has been opened,
+    None for one reply time where that may matter.
     """
 
     def __init__(
@@ -105,6 +106,7 @@ class Session:
         self.wire = Wire(baud)
         self.counters = LineCounters()
         self.reports = ReportLog(report_limit)
+        self.acknowledgements = Acknowledgements(self.wire, margin)
         # Reports for callbacks, to be taken out by whoever drives the session.
         self.news: deque[Message] = deque(maxlen=report_limit)
         # The longest frame that the line carries; None for any.
@@ -215,6 +217,7 @@ class Session:
         if not data:
             return
         self._heard_at = max(self._heard_at, now)
+        self.acknowledgements.delay(len(data))
         if self._echo is not None:
             data, came, lost = self._echo.take_out(data)
             for request in lost:
@@ -239,6 +242,8 @@ class Session:
             self._decide(asked, now)
         if self._asked is not None and now >= self._ends_at(self._asked):
             self._expire(self._asked, now)
+        if not self._decoder.pending:
+            self.acknowledgements.tick(now)
 
     def send_at(self, now: float) -> float | None:
         """When to call `outgoing` again; None while there is nothing to send."""
@@ -260,8 +265,11 @@ class Session:
             times.append(self._ends_at(self._asked))
             if self._held is not None:
                 times.append(self._held_until(self._asked))
+        acknowledged_by = self.acknowledgements.tick_at
         if self._decoder.pending:
             times.append(self._heard_at + GAP)
+        elif acknowledged_by is not None:
+            times.append(acknowledged_by)
         if self._echo is not None and self._echo.due is not None:
             times.append(self._echo.due)
         if self._queue:
@@ -302,6 +310,7 @@ class Session:
         self._flush()
         self._decoder = CarefulDecoder(RECEIVED)
         self._pace = Pace()
+        self.acknowledgements.restart()
         self.wire.clear()
         self._opened_at = now
         self._asks_first = None
@@ -406,7 +415,10 @@ class Session:
         else:
             self._echo_watch.sent(frame)
         if request.exchange.reply is None:
-            sent = Sent(request.message, starts - now, self.wire.seconds(len(frame)))
+            delay, duration = starts - now, self.wire.seconds(len(frame))
+            sent = Sent(request.message, delay, duration)
+            if request.exchange.acknowledged is not None:
+                sent = self.acknowledgements.expect(request, delay, duration)
             if self._echo is None:
                 request.finish(sent=sent)
             else:
@@ -443,6 +455,7 @@ class Session:
             else:
                 self.counters.reports += 1
                 self.reports.add(event)
+                self.acknowledgements.add(event)
                 self.counters.lost_reports = self.reports.lost
                 self.news.append(event)
         # Only now, since of several replies the last is the answer.
@@ -547,18 +560,23 @@ class Session:
         self.counters.echoes += 1
         if self.counters.echoes == 1:
             logger.warning(
-                "%s gives back what is sent: open it with local_echo=True, or else commands that "
-                "come back look like reports",
+                "%s gives back what is sent: say so (local_echo=True, or --local-echo), or else "
+                "commands that come back look like reports",
                 self._name,
             )
 
     def _give_up(self, request: Request, since: float) -> None:
         """No longer waits for a reply, which may come all the same."""
-        self._asked = None
-        if self._held is not None:
-            reply, self._held = self._held[0], None
-            self._drop(reply, "what it may answer was given up")
-        self._remember(request, since)
+        if self._held is None:
+            self._asked = None
+            self._remember(request, since)
+            return
+        # The reply that is held may be its own; if not, that has as long to come as is held for.
+        until = self._held_until(request)
+        reply, _ = self._held
+        self._asked = self._held = None
+        self._drop(reply, "what it may answer was given up")
+        self._overdue.append(_Overdue(type(reply), request.attempts, until, owed=False))
 
     def _remember(self, request: Request, since: float) -> None:
         if request.attempts and request.exchange.reply is not None:

@@ -5,7 +5,6 @@ from __future__ import annotations
 import json
 import sys
 
-from ..client import MARGIN
 from ..doctor.checks import CHECKS, examine
 from ..doctor.diagnosis import Diagnosis
 from ..doctor.move import STEP, move_check
@@ -13,11 +12,12 @@ from ..doctor.report import Report
 from ..doctor.result import FAILED, PASSED, STATES, UNKNOWN
 from ..exchanges import POSE
 from ..octets import spaced
-from ..protocol import BAUD
 from . import link
 from .colour import painted, takes_colour
+from .console import visible, write_as_it_is
 from .exits import DONE, LINE_LOST, NOT_ALL
-from .link import add_port, at_least, failures_told, open_line, seconds
+from .link import add_port, add_timeout, failures_told, open_line
+from .numerals import at_least
 from .unusable import UnusableError
 from .waiting import shown_waiting
 
@@ -44,19 +44,7 @@ _COLOURS = {PASSED: "green", FAILED: "red", UNKNOWN: "yellow"}
 def add_arguments(parser: ArgumentParser) -> None:
     """Declares the arguments of the verb."""
     add_port(parser, required=False)
-    parser.add_argument(
-        "--baud", type=at_least(1), default=BAUD, metavar="N", help=f"the rate (default: {BAUD})"
-    )
-    parser.add_argument(
-        "--timeout",
-        type=seconds,
-        default=MARGIN,
-        metavar="S",
-        help=f"seconds after which a reply is called late, besides the wire (default: {MARGIN})",
-    )
-    parser.add_argument(
-        "--local-echo", action="store_true", help="what is sent comes back, as you know"
-    )
+    add_timeout(parser)
     if POSE is not None:
         told = f"also move this {POSE.noun} by {STEP} steps and back; asks first"
         parser.add_argument("--move", type=at_least(0), metavar="ID", help=told)
@@ -91,7 +79,8 @@ def run(arguments: Namespace) -> int:
             while (finding := _next(found)) is not None:
                 findings.append(finding)
                 shown = _as_json(*finding) if arguments.json else _as_text(*finding)
-                print(shown, flush=True)
+                write_as_it_is(sys.stdout, f"{shown}\n")
+                sys.stdout.flush()
         finally:
             if report is not None:
                 _finish(report, arguments, diagnosis, findings)
@@ -159,8 +148,8 @@ def _as_text(check: Check, result: Result) -> str:
     state = f"{result.state:8}"
     if takes_colour(sys.stdout):
         state = painted(state, _COLOURS[result.state])
-    lines = [f"{state} {check.id:12} {result.seen}"]
+    lines = [f"{state} {check.id:12} {visible(result.seen)}"]
     lines += [f"{'':8} {'bytes':>12} {spaced(each)}" for each in result.evidence if each]
     if result.advice:
-        lines.append(f"{'':8} {'next':>12} {result.advice}")
+        lines.append(f"{'':8} {'next':>12} {visible(result.advice)}")
     return "\n".join(lines)

@@ -16,7 +16,8 @@ from .encode import message_named
 from .events import KINDS, UNKNOWN, counted, names_of, sender_of, totals
 from .exits import DONE, INTERRUPTED
 from .lines import TIMES, Lines
-from .link import add_port, at_least, failures_told, open_line
+from .link import add_port, failures_told, open_line
+from .numerals import at_least
 from .recorder import Recorder
 from .unusable import UnusableError
 from .waiting import PATIENCE, Waiting
@@ -42,7 +43,7 @@ _QUIET = 0.25
 
 def add_arguments(parser: ArgumentParser) -> None:
     """Declares the arguments of the verb."""
-    add_port(parser)
+    add_port(parser, client=False)
     usual = "any" if RECEIVED is None else RECEIVED.sender
     parser.add_argument(
         "--direction",
@@ -93,7 +94,7 @@ def run(arguments: Namespace) -> int:
     monitor = Monitor(arguments, sys.stdout)
     with (
         failures_told(),
-        closing(open_line(arguments.port)) as line,
+        closing(open_line(arguments.port, arguments.baud)) as line,
         Recorder(arguments.log) as recorder,
     ):
         recorder.begin(arguments.port, time.monotonic())

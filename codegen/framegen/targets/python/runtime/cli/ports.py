@@ -8,6 +8,7 @@ import sys
 from ..hid_boards import UNSEEN, hid_boards_at_hand
 from ..protocol import HID_BOARDS
 from ..serial_port import serial_ports
+from .console import visible
 from .examples import PROGRAM
 
 TYPE_CHECKING = False
@@ -34,7 +35,7 @@ def run(arguments: Namespace) -> int:
         if arguments.json:
             print(json.dumps({"port": name, "usb": usb or None, "description": about}))
         else:
-            print(f"{name:16}  {usb or '-':9}  {about}".rstrip())
+            print(visible(f"{name:16}  {usb or '-':9}  {about}".rstrip()))
     if not serial:
         print("no serial port is plugged in", file=sys.stderr)
     if boards is None and HID_BOARDS and not any(usb for _, usb, _ in serial):

@@ -13,7 +13,8 @@ from . import link
 from .entries import EntryLines
 from .exits import DONE, NOT_ALL
 from .limits import add_limits, limits_of, refused
-from .link import add_port, add_timeout, at_least, failures_told, open_client
+from .link import add_port, add_timeout, failures_told, open_client
+from .numerals import at_least
 from .questions import in_parts
 from .unusable import UnusableError
 from .waiting import shown_waiting
