@@ -49,16 +49,16 @@ CASES = {
     "nothing": Case(),
     "noise": Case(
         Faults(noise=1.0),
-        told={"reply": (FAILED, "11 of 11 was answered with noise around it", "grounds")},
+        told={"reply": (FAILED, "of 11 questions 11 answered with noise around it", "grounds")},
     ),
     "some bits": Case(
         Faults(bit_flips=0.03, seed=3),
-        told={"reply": (FAILED, "by bytes that are no reply", "loose plugs")},
+        told={"reply": (FAILED, "answered by bytes that are no reply", "loose plugs")},
     ),
     "lost bytes": Case(
         Faults(lost_bytes=0.02, seed=1),
         told={
-            "reply": (FAILED, "by bytes that are no reply", "loose plugs"),
+            "reply": (FAILED, "answered by bytes that are no reply", "loose plugs"),
         },
     ),
     "pieces": Case(Faults(splits=1.0)),
@@ -66,7 +66,7 @@ CASES = {
     "a little late": Case(Faults(late=1.0, late_by=0.2)),
     "late": Case(
         Faults(late=1.0, late_by=0.6),
-        told={"reply": (FAILED, "11 of 11 was answered too late", "--timeout 2")},
+        told={"reply": (FAILED, "of 11 questions 11 answered too late", "--timeout 2")},
     ),
     "far too late": Case(
         Faults(late=1.0, late_by=100.0),
@@ -74,7 +74,7 @@ CASES = {
     ),
     "twice": Case(
         Faults(duplicated=1.0),
-        told={"reply": (FAILED, "11 of 11 was answered more than once", "no other program")},
+        told={"reply": (FAILED, "of 11 questions 11 answered more than once", "no other program")},
     ),
     "never": Case(
         Faults(dropped=1.0),
@@ -82,7 +82,7 @@ CASES = {
     ),
     "sometimes": Case(
         Faults(dropped=0.3, seed=6),
-        told={"reply": (FAILED, "was not answered", "retries=2 asks again")},
+        told={"reply": (FAILED, "not answered", "retries=2 asks again")},
     ),
     "reports": Case(Faults(unasked=1.0)),
     "hung up": Case(
@@ -127,12 +127,25 @@ CASES = {
         board={"baud": None},
         told={"round-trip": (UNKNOWN, "this is no line of that rate", "baud=math.inf")},
     ),
+    "as fast as can be, but for a pause": Case(
+        Faults(delays=0.5, longest_delay=0.1),
+        board={"baud": None},
+        told={"round-trip": (UNKNOWN, "this is no line of that rate", "baud=math.inf")},
+    ),
+    "as fast as can be, and late": Case(
+        Faults(late=0.3, late_by=1.5, seed=3),
+        board={"baud": None},
+        told={
+            "reply": (FAILED, "1 answered more than once, 1 answered too late", "--timeout 2"),
+            "round-trip": (FAILED, "before the line could have carried", "an earlier question"),
+        },
+    ),
     "as fast as can be, and said to be": Case(board={"baud": None}, given={"baud": math.inf}),
     "babble": Case(
         before=lambda board: board.babble(b"\x00\xf8", 20, deaf=False),
         told={
             "silence": (FAILED, "bytes that are no frame came unasked", "see that the rate"),
-            "reply": (FAILED, "was answered with noise around it", "grounds"),
+            "reply": (FAILED, "answered with noise around it", "grounds"),
         },
     ),
     "babble and nothing else": Case(

@@ -17,7 +17,6 @@ if TYPE_CHECKING:
 
 
 def _look(diagnosis: Diagnosis) -> Result:
-    single = [trip for trip in diagnosis.trips if len(trip.replies) == 1]
     answered = [trip for trip in diagnosis.trips if trip.replies]
     if not answered:
         return unknown("there was no reply to measure: see the check `rate`")
@@ -38,7 +37,8 @@ def _look(diagnosis: Diagnosis) -> Result:
     )
     if not early:
         return passed(told)
-    if len(early) == len(answered) == len(single):
+    # Where a reply to an earlier question was taken for another's, that one's own is left over.
+    if all(len(trip.replies) == 1 for trip in answered):
         return unknown(
             f"{told}: this is no line of that rate, but one such as TCP, a pseudo terminal or USB",
             "say so: baud=math.inf in Python; then replies need not be watched for coming too soon",

@@ -149,7 +149,7 @@ def _as_text(check: Check, result: Result) -> str:
     if takes_colour(sys.stdout):
         state = painted(state, _COLOURS[result.state])
     lines = [f"{state} {check.id:12} {visible(result.seen)}"]
-    lines += [f"{'':8} {'bytes':>12} {spaced(each)}" for each in result.evidence if each]
+    lines += [f"{'':8} {'bytes':>12} {spaced(each)}" for each in result.evidence]
     if result.advice:
         lines.append(f"{'':8} {'next':>12} {visible(result.advice)}")
     return "\n".join(lines)
