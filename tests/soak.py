@@ -2,10 +2,11 @@
 
     python -m tests.soak [--requests N] [--rounds N] [--seed S]
 
-In virtual time; by eight threads over TCP; and by a hundred tasks of asyncio over TCP. Every value
-that comes back must be the right one, or an error that is declared, in bounded time; every report
-must be heard, in order; and in the end no more memory, threads and waiting messages may be there
-than after the first fifth. It is no part of `make test`, which only tries that it runs.
+In virtual time; by eight threads over TCP; and by a hundred tasks of asyncio over TCP. Then the
+independent board, as often: see tests/independent/long_run.py. Every value that comes back must be
+the right one, or an error that is declared, in bounded time; every report must be heard, in order;
+and in the end no more memory, threads and waiting messages may be there than after the first fifth.
+It is no part of `make test`, which only tries that it runs.
 """
 
 from __future__ import annotations
@@ -30,6 +31,7 @@ from tests.client.conversation import (
     heard_by,
     heard_by_async,
 )
+from tests.independent import long_run
 from tests.patience import PATIENCE, await_that
 
 if TYPE_CHECKING:
@@ -156,7 +158,7 @@ async def with_tasks(requests: int, rounds: int, seed: int) -> None:
 
 
 def main(words: Sequence[str] | None = None) -> None:
-    """Soaks all three ways. Raises AssertionError at the first thing that is wrong."""
+    """Soaks all five ways. Raises AssertionError at the first thing that is wrong."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--requests", type=int, default=100_000, help="for each (default: 100000)")
     parser.add_argument("--rounds", type=int, default=50, help="after each, all is looked at")
@@ -166,6 +168,8 @@ def main(words: Sequence[str] | None = None) -> None:
     in_virtual_time(*asked)
     with_threads(*asked)
     asyncio.run(with_tasks(*asked))
+    long_run.at_a_paced_line(*asked)
+    long_run.with_threads(*asked)
 
 
 if __name__ == "__main__":

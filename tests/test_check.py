@@ -277,6 +277,28 @@ def test_a_finding_in_two_places_is_shown_with_both() -> None:
 
 
 @pytest.mark.parametrize(
+    ("found", "rule"),
+    [
+        ("type: u16", "unknown-type"),
+        ("authority: vendor", "unknown-source"),
+        ("element: ServoTarget", "identifier"),
+        ("is: id", "wrong-value"),
+    ],
+)
+@pytest.mark.parametrize("value", ["x" * 200_000, "x " * 100_000, "9" * 4000])
+def test_a_finding_repeats_no_more_of_a_value_than_can_be_read(
+    found: str, rule: str, value: str
+) -> None:
+    key, _, _ = found.partition(" ")
+    text = BUSSERVO.read_text(encoding="utf-8")
+    assert found in text
+    source = Source("long.yaml", text.replace(found, f'{key} "{value}"', 1))
+    findings = check(load(source))
+    assert rule in {finding.rule for finding in findings}
+    assert max(len(finding.render(source)) for finding in findings) < 2000
+
+
+@pytest.mark.parametrize(
     ("line", "column", "length", "shown", "carets"),
     [
         ("a: u17", 4, 3, "a: u17", "   ^^^"),

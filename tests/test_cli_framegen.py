@@ -12,7 +12,8 @@ from typing import TYPE_CHECKING, TypeAlias
 import pytest
 from framegen import __version__
 from framegen.checks import LAYOUT_RULES, READING_RULES, STRUCTURE_RULES
-from framegen.cli import INTERRUPTED, READER_GONE, VERBS, main
+from framegen.cli import VERBS, main
+from framegen.console import INTERRUPTED, READER_GONE
 from framegen.project import default_spec, project_root
 from framegen.yamltree import Unusable
 from hypothesis import given, settings
@@ -396,7 +397,9 @@ def test_a_full_disk_is_told() -> None:
             check=False,
         )
     assert result.returncode == 2
-    assert result.stderr == b"framegen: error: No space left on device\n"
+    assert (
+        result.stderr == b"framegen: error: the output cannot be written: No space left on device\n"
+    )
 
 
 def test_characters_that_the_terminal_lacks_are_escaped() -> None:

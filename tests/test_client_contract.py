@@ -1,7 +1,7 @@
 """What a client does with each request, typed in by hand; and every fact behind it is guarded.
 
-Each key of the spec that faces a client (`method`, `echoed`, `reply`, `reports`) is changed in each
-way that there is. Then `framegen check` must speak up, or this table.
+Each key of the spec that faces a client (`method`, `echoed`, `reply`, `reports`, `acknowledged`,
+`lasts`) is changed in each way that there is. Then `framegen check` must speak up, or this table.
 """
 
 from __future__ import annotations
@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 import pytest
 from busservo.exchanges import EXCHANGES
 from framegen.checks import check
-from framegen.exchanges import exchanges
+from framegen.exchanges import STEPS_PER_SECOND, exchanges
 from framegen.layout import derive
 from framegen.load import load
 from framegen.source import Source
@@ -28,6 +28,11 @@ Row: TypeAlias = (
 )
 STARTED, COMPLETED = "ActionGroupStarted", "ActionGroupCompleted"
 ECHO = (("servo_ids", "positions.servo_id"),)
+# The report that says that it was taken; how long it lasts, and how many steps of it make a second.
+RESULTS: dict[str, tuple[str | None, tuple[str, int] | None]] = {
+    "ServoMove": (None, ("time_ms", 1000)),
+    "ActionGroupRun": (STARTED, None),
+}
 CONTRACT: dict[str, Row] = {
     "ServoMove": ("move_servos", ("targets", "time_ms"), None, "", (), ()),
     "ActionGroupRun": (
@@ -79,8 +84,23 @@ def said_by(data: Data) -> dict[str, Row] | None:
     }
 
 
+def results_of(data: Data) -> dict[str, Any]:
+    """What a spec says of the results of its commands."""
+    return {
+        each.request.name: (
+            each.acknowledged,
+            None
+            if each.lasts is None
+            else (each.lasts.name, STEPS_PER_SECOND[each.lasts.field.unit]),
+        )
+        for each in exchanges(layout_of(data))
+        if each.acknowledged is not None or each.lasts is not None
+    }
+
+
 def test_the_spec_says_what_the_table_says() -> None:
     assert said_by(TREE) == CONTRACT
+    assert results_of(TREE) == RESULTS
 
 
 def test_the_library_does_what_the_table_says() -> None:
@@ -95,6 +115,11 @@ def test_the_library_does_what_the_table_says() -> None:
         )
         for kind, each in EXCHANGES.items()
     } == CONTRACT
+    assert {
+        kind.__name__: (each.acknowledged and each.acknowledged.__name__, each.lasts)
+        for kind, each in EXCHANGES.items()
+        if each.acknowledged is not None or each.lasts is not None
+    } == RESULTS
 
 
 def test_what_a_reply_has_room_for() -> None:
@@ -159,7 +184,19 @@ def answers() -> Iterator[tuple[str, str, Any]]:
                 yield name, "reports", [*reports, other]
 
 
-CHANGES = [*methods(), *echoes(), *answers()]
+def results() -> Iterator[tuple[str, str, Any]]:
+    for name in CONTRACT:
+        acknowledged, lasts = RESULTS.get(name, (None, None))
+        for report in (STARTED, COMPLETED, "ActionGroupStopped", None):
+            if report != acknowledged:
+                yield name, "acknowledged", report
+        fields = [*TREE["messages"][name].get("fields", {}), "nothing", None]
+        for field in fields:
+            if field != (lasts and lasts[0]):
+                yield name, "lasts", field
+
+
+CHANGES = [*methods(), *echoes(), *answers(), *results()]
 
 
 @pytest.mark.parametrize(
@@ -173,4 +210,4 @@ def test_a_changed_fact_is_seen(name: str, key: str, value: Any) -> None:
         del message[key]
     else:
         message[key] = value
-    assert said_by(data) != CONTRACT
+    assert said_by(data) != CONTRACT or results_of(data) != RESULTS

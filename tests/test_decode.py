@@ -53,11 +53,20 @@ def test_a_frame_is_decoded_without_a_direction(case: Case) -> None:
     assert busservo.decode(case.frame, EITHER) == (hosts or [case.message])[0]
 
 
+class Derived(bytes):
+    """Bytes with an idea of their own of what they are."""
+
+    def __bytes__(self) -> bytes:
+        return b"other bytes"
+
+
 @each_case
-@pytest.mark.parametrize("convert", [bytes, bytearray, memoryview])
+@pytest.mark.parametrize("convert", [bytes, bytearray, memoryview, Derived])
 def test_a_frame_is_any_kind_of_bytes(case: Case, convert: Any) -> None:
-    assert busservo.decode(convert(case.frame), case.direction) == case.message
+    message = busservo.decode(convert(case.frame), case.direction)
+    assert message == case.message
     assert type(case.message).decode(convert(case.frame)) == case.message
+    assert type(message.encode()) is bytes
 
 
 def test_a_message_does_not_change_with_the_buffer_that_it_was_read_from() -> None:

@@ -48,6 +48,10 @@ SERVO, HOUSE = SPECS["busservo"], SPECS["greenhouse"]
 MOVE = ("messages", "ServoMove")
 VENTS = ("messages", "VentsOpen")
 ANGLE = (*VENTS, "fields", "vents", "fields", "angle")
+POSITION = (*MOVE, "fields", "targets", "fields", "position")
+PLACE = ("messages", "ServoPositions", "fields", "positions", "fields", "position")
+TARGET = ".".join(POSITION)
+TOLD = ".".join(PLACE[:-1])
 
 
 def reordered(data: Data, path: Steps, order: list[str]) -> Data:
@@ -79,6 +83,32 @@ CASES: list[tuple[Data, Data, list[str]]] = [
         HOUSE,
         with_(HOUSE, "link", "parity", GONE),
         ["wire link.parity: link: even became none"],
+    ),
+    (
+        HOUSE,
+        with_(HOUSE, "link", "usb_hid", [{"vendor": 0x16C0, "product": 0x486}]),
+        [
+            "nothing link.usb_hid: hid-added: 16c0:0486 is new",
+            "nothing link: words: is said otherwise",
+        ],
+    ),
+    (
+        SERVO,
+        with_(SERVO, "link", "usb_hid", GONE),
+        [
+            "programs link.usb_hid: hid-removed: 0483:5750 is gone",
+            "nothing link: words: is said otherwise",
+        ],
+    ),
+    (
+        SERVO,
+        with_(SERVO, "link", "usb_hid", 0, "report_size", 32),
+        ["wire link.usb_hid.report_size: hid-report: 64 became 32"],
+    ),
+    (
+        SERVO,
+        with_(SERVO, "link", "usb_hid", 0, "about", "Boards of 2016."),
+        ["nothing link: words: is said otherwise"],
     ),
     (
         SERVO,
@@ -199,6 +229,58 @@ CASES: list[tuple[Data, Data, list[str]]] = [
         HOUSE,
         with_(HOUSE, "messages", "StationRead", "method", "station_read() -> readings"),
         ["programs messages.StationRead.method: method-result: readings is new"],
+    ),
+    (
+        HOUSE,
+        with_(HOUSE, *VENTS, "lasts", "ramp_s"),
+        ["nothing messages.VentsOpen.lasts: result-tells-more: ramp_s is new"],
+    ),
+    (
+        with_(HOUSE, *VENTS, "lasts", "ramp_s"),
+        HOUSE,
+        ["programs messages.VentsOpen.lasts: result-tells-less: ramp_s is gone"],
+    ),
+    (
+        with_(HOUSE, *VENTS, "lasts", "ramp_s"),
+        renamed(with_(HOUSE, *VENTS, "lasts", "ramp_s"), "ramp_s", "time_s"),
+        [
+            "programs messages.VentsOpen.fields.time_s: field-renamed: ramp_s became time_s",
+            (
+                "programs messages.VentsOpen.method: method-arguments: "
+                "(vents, ramp_s) became (vents, time_s)"
+            ),
+        ],
+    ),
+    (
+        SERVO,
+        with_(SERVO, "messages", "ActionGroupRun", "acknowledged", GONE),
+        [
+            (
+                "programs messages.ActionGroupRun.acknowledged: result-tells-less: "
+                "ActionGroupStarted is gone"
+            )
+        ],
+    ),
+    (
+        SERVO,
+        with_(SERVO, "messages", "ActionGroupRun", "acknowledged", "ActionGroupCompleted"),
+        [
+            (
+                "programs messages.ActionGroupRun.acknowledged: result-tells-less: "
+                "ActionGroupStarted became ActionGroupCompleted"
+            )
+        ],
+    ),
+    (
+        SERVO,
+        renamed(SERVO, "ActionGroupStarted", "GroupStarted"),
+        [
+            "nothing messages.ActionGroupRun: words: is said otherwise",
+            (
+                "programs messages.GroupStarted: message-renamed: "
+                "ActionGroupStarted became GroupStarted"
+            ),
+        ],
     ),
     # ------------------------------------------------------------------ fields
     (
@@ -367,6 +449,81 @@ CASES: list[tuple[Data, Data, list[str]]] = [
         HOUSE,
         with_(HOUSE, *ANGLE, "about", "How far it opens."),
         ["nothing messages.VentsOpen: words: is said otherwise"],
+    ),
+    # ------------------------------------------------------------------ limits, properties, poses
+    (
+        SERVO,
+        with_(SERVO, *POSITION, "limits", "usual", "100..900"),
+        [f"programs {TARGET}.limits: limits-narrowed: 0..1000 became 100..900"],
+    ),
+    (
+        SERVO,
+        with_(SERVO, *POSITION, "limits", "usual", "100..1100"),
+        [f"programs {TARGET}.limits: limits-narrowed: 0..1000 became 100..1100"],
+    ),
+    (
+        SERVO,
+        with_(SERVO, *POSITION, "limits", "usual", "0..1100"),
+        [f"nothing {TARGET}.limits: limits-widened: 0..1000 became 0..1100"],
+    ),
+    (
+        SERVO,
+        with_(SERVO, *POSITION, "limits", GONE),
+        [
+            f"nothing {TARGET}.limits: limits-widened: 0..1000 is gone",
+            "nothing messages.ServoMove: words: is said otherwise",
+        ],
+    ),
+    (
+        with_(SERVO, *POSITION, "limits", GONE),
+        SERVO,
+        [
+            f"programs {TARGET}.limits: limits-narrowed: 0..1000 is new",
+            "nothing messages.ServoMove: words: is said otherwise",
+        ],
+    ),
+    (
+        SERVO,
+        with_(SERVO, *POSITION, "limits", "others", {}),
+        ["nothing messages.ServoMove: words: is said otherwise"],
+    ),
+    (
+        SERVO,
+        with_(SERVO, *PLACE, "signed_as", GONE),
+        [f"programs {TOLD}.signed_position: property-removed: i16 is gone"],
+    ),
+    (
+        with_(SERVO, *PLACE, "signed_as", GONE),
+        SERVO,
+        [f"nothing {TOLD}.signed_position: property-added: i16 is new"],
+    ),
+    (
+        SERVO,
+        with_(SERVO, *PLACE, "values", "absent", "absent", GONE),
+        [f"programs {TOLD}.absent: property-removed: 65535 is gone"],
+    ),
+    (
+        with_(SERVO, *PLACE, "signed_as", "i32"),
+        SERVO,
+        [f"programs {TOLD}.signed_position: property-changed: i32 became i16"],
+    ),
+    (
+        SERVO,
+        with_(SERVO, "pose", GONE),
+        ["programs pose: pose-removed: hold_servos, present_servos is gone"],
+    ),
+    (
+        with_(SERVO, "pose", GONE),
+        SERVO,
+        ["nothing pose: pose-added: hold_servos, present_servos is new"],
+    ),
+    (
+        SERVO,
+        with_(SERVO, "pose", {**SERVO["pose"], "hold": "stop_servos", "ids": "1..20"}),
+        [
+            "programs pose.ids: pose-changed: 1..253 became 1..20",
+            "programs pose.hold: pose-changed: hold_servos became stop_servos",
+        ],
     ),
     (HOUSE, with_(HOUSE, "reserved", []), ["nothing reserved: words: is said otherwise"]),
 ]

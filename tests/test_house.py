@@ -193,6 +193,18 @@ def test_every_supported_python_is_tested() -> None:
     assert f'requires-python = ">={declared[0]}"' in TEXTS["pyproject.toml"]
 
 
+def test_a_whole_run_depends_on_no_variable_and_no_file_of_a_machine() -> None:
+    started = re.search(r"exec env -i ((?:.|\n)*?) bash \.ci/run$", CI, flags=re.MULTILINE)
+    reaching = re.search(r'^REACHING="([^"]*)"$', CI, flags=re.MULTILINE)
+    assert started is not None
+    assert reaching is not None
+    assert re.findall(r"(\w+)=", started[1]) == ["HOME", "PATH", "LANG", "CI", "BEGUN_ANEW"]
+    ways = re.compile(
+        "PIP_|SSL_|REQUESTS_|NODE_EXTRA_|HTTPS?_PROXY|NO_PROXY|npm_config_", re.IGNORECASE
+    )
+    assert all(ways.match(name) for name in reaching[1].split())
+
+
 def test_actions_are_pinned_by_their_major_version() -> None:
     assert all(
         re.fullmatch(r"actions/[a-z-]+@v\d+", action)

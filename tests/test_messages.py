@@ -27,6 +27,7 @@ from busservo import (
     Direction,
     EncodeError,
     Message,
+    Noise,
     ProtocolError,
     Reason,
     ServoMove,
@@ -35,6 +36,7 @@ from busservo import (
     ServoPositionsRead,
     ServoTarget,
     ServoUnload,
+    UnknownFrame,
 )
 from hypothesis import given
 from hypothesis import strategies as st
@@ -269,7 +271,7 @@ def test_a_message_cannot_be_changed(case: Case) -> None:
     [copy.copy, copy.deepcopy]
     + [
         lambda message, protocol=protocol: pickle.loads(pickle.dumps(message, protocol))  # noqa: S301
-        for protocol in range(2, pickle.HIGHEST_PROTOCOL + 1)
+        for protocol in range(pickle.HIGHEST_PROTOCOL + 1)
     ],
 )
 def test_a_message_can_be_copied_and_pickled(
@@ -279,6 +281,22 @@ def test_a_message_can_be_copied_and_pickled(
 
     assert twin == case.message
     assert type(twin) is type(case.message)
+
+
+def test_a_pickle_of_no_legal_frame_is_no_message() -> None:
+    frame = ActionGroupStop().encode()
+    pickled = pickle.dumps(ActionGroupStop())
+    assert frame in pickled
+    with pytest.raises(DecodeError, match="bad header"):
+        pickle.loads(pickled.replace(frame, b"\xaa" + frame[1:]))  # noqa: S301
+
+
+def test_noise_can_be_copied_and_pickled() -> None:
+    for noise in (Noise(b"\xff", Reason.BAD_HEADER), UnknownFrame(b"UU\x02c", Reason.BAD_HEADER)):
+        for protocol in range(pickle.HIGHEST_PROTOCOL + 1):
+            twin = pickle.loads(pickle.dumps(noise, protocol))  # noqa: S301
+            assert (twin, type(twin)) == (noise, type(noise))
+        assert copy.deepcopy(noise) == noise
 
 
 @pytest.mark.parametrize(
@@ -346,7 +364,10 @@ def test_an_element_can_be_copied_and_pickled(kind: Callable[..., Any]) -> None:
     for twin in (
         copy.copy(element),
         copy.deepcopy(element),
-        pickle.loads(pickle.dumps(element)),  # noqa: S301
+        *(
+            pickle.loads(pickle.dumps(element, protocol))  # noqa: S301
+            for protocol in range(pickle.HIGHEST_PROTOCOL + 1)
+        ),
     ):
         assert twin == element
         assert type(twin) is kind

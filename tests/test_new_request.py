@@ -19,8 +19,10 @@ NEW = """
     direction: host -> controller
     summary: Switch lamps.
     cite: vendor, section 1.1
-    length: 2 * lamp_count + 3
+    lasts: fade_s
+    length: 2 * lamp_count + 4
     fields:
+      fade_s: {type: u8, unit: s, about: How long it takes.}
       lamp_count: {type: u8, about: How many lamps.}
       lamps:
         element: Lamp
@@ -31,9 +33,40 @@ NEW = """
           lamp_id: {type: u8, about: The lamp.}
           level: {type: u8, about: How bright.}
     examples:
-      - title: Lamp 7 at level 9
-        hex: 55 55 05 63 01 07 09
-        values: {lamps: [{lamp_id: 7, level: 9}]}
+      - title: Lamp 7 at level 9 at once
+        hex: 55 55 06 63 00 01 07 09
+        values: {fade_s: 0, lamps: [{lamp_id: 7, level: 9}]}
+        constructed: For this test.
+
+  LampBlink:
+    id: 101
+    direction: host -> controller
+    reports: [LampBlinking]
+    acknowledged: LampBlinking
+    summary: Have a lamp blink.
+    cite: vendor, section 1.1
+    length: 4
+    fields:
+      lamp_id: {type: u8, about: The lamp.}
+      times: {type: u8, about: How often.}
+    examples:
+      - title: Lamp 7 once
+        hex: 55 55 04 65 07 01
+        values: {lamp_id: 7, times: 1}
+        constructed: For this test.
+
+  LampBlinking:
+    id: 101
+    direction: controller -> host
+    summary: A lamp begins to blink.
+    cite: vendor, section 1.1
+    length: 3
+    fields:
+      lamp_id: {type: u8, about: The lamp.}
+    examples:
+      - title: Lamp 7
+        hex: 55 55 03 65 07
+        values: {lamp_id: 7}
         constructed: For this test.
 
   LampsRead:
@@ -80,7 +113,7 @@ NEW = """
 BOARD = """
 import asyncio, socket, threading
 import busservo
-from busservo import LampsState
+from busservo import LampBlinking, LampsState
 from busservo.device import Device
 
 class Board(Device):
@@ -88,6 +121,9 @@ class Board(Device):
 
     def on_lamp_set(self, message):
         self.levels = self.levels | {lamp.lamp_id: lamp.level for lamp in message.lamps}
+
+    def on_lamp_blink(self, message):
+        self.send(LampBlinking(message.lamp_id))
 
     def on_lamps_read(self, message):
         asked = [number for number in message.lamp_ids if number in self.levels]
@@ -107,7 +143,11 @@ port = f"socket://127.0.0.1:{listener.getsockname()[1]}"
 
 METHODS = """
 with busservo.open_controller(port, margin=60) as controller:
-    controller.lamp_set([(7, 9), (1, 3)])
+    set_ = controller.lamp_set([(7, 9), (1, 3)], 0)
+    print(set_.lasts, set_.wait())
+    print(controller.lamp_set([(7, 9)], fade_s=2, latest=True).lasts)
+    blink = controller.lamp_blink(7, times=3)
+    print(controller.wait_for(LampBlinking, lamp_id=7, timeout=60), blink.started)
     print(controller.read_lamps([7, 1]))
     print(len(controller.read_lamps([1, 2, 7] * 20)))
     try:
@@ -117,7 +157,7 @@ with busservo.open_controller(port, margin=60) as controller:
 
 async def work():
     async with busservo.open_async_controller(port, margin=60) as controller:
-        await controller.lamp_set([(2, 200)])
+        await (await controller.lamp_set([(2, 200)], 0)).wait()
         print(await controller.read_lamps([2]))
 
 asyncio.run(work())
@@ -126,9 +166,9 @@ print(board.rejects)
 
 VERB = """
 from busservo.cli import main
-assert main(["send", "--port", port, "LampSet", "lamps=7:9"]) == 0
+assert main(["send", "--port", port, "LampSet", "fade_s=0", "lamps=7:9"]) == 0
 assert main(["send", "--port", port, "LampsRead", "lamp_ids=7"]) == 0
-assert main(["encode", "LampSet", "lamps=7:9"]) == 0
+assert main(["encode", "LampSet", "fade_s=0", "lamps=7:9"]) == 0
 """
 
 
@@ -166,6 +206,9 @@ def script(project: Path, text: str) -> str:
 
 def test_it_is_a_method_of_both_clients_and_a_handler_of_the_device(project: Path) -> None:
     assert script(project, BOARD + METHODS).splitlines() == [
+        "0.0 True",
+        "2.0",
+        "LampBlinking(lamp_id=7) True",
         "(LampLevel(lamp_id=7, level=9), LampLevel(lamp_id=1, level=3))",
         "60",
         "nothing was told of lamp_ids 5; what did arrive (1) is kept in `arrived`",
@@ -178,7 +221,7 @@ def test_it_can_be_sent_from_the_command_line(project: Path) -> None:
     shown = script(project, BOARD + VERB)
     assert "LampsState" in shown
     assert "7:9" in shown
-    assert "55 55 05 63 01 07 09" in shown
+    assert "55 55 06 63 00 01 07 09" in shown
 
 
 def test_it_is_in_the_reference_and_in_the_vectors(project: Path) -> None:

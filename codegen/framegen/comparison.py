@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator, Mapping
 
     from framegen.layout import Layout, MessageLayout, Repeat, WireField
-    from framegen.spec import FramePart, Message
+    from framegen.spec import FramePart, Limits, Link, Message, Pose
 
 Breaks: TypeAlias = Literal["wire", "programs", "nothing"]
 
@@ -24,6 +24,9 @@ KINDS: dict[str, Breaks] = {
     "byte-order": "wire",
     "frame": "wire",
     "link": "wire",
+    "hid-added": "nothing",
+    "hid-removed": "programs",
+    "hid-report": "wire",
     "version": "nothing",
     "library-renamed": "programs",
     "endpoint-renamed": "programs",
@@ -37,6 +40,8 @@ KINDS: dict[str, Breaks] = {
     "method-renamed": "programs",
     "method-arguments": "programs",
     "method-result": "programs",
+    "result-tells-more": "nothing",
+    "result-tells-less": "programs",
     "field-added": "wire",
     "field-removed": "wire",
     "field-renamed": "programs",
@@ -47,6 +52,14 @@ KINDS: dict[str, Breaks] = {
     "element": "programs",
     "range-narrowed": "wire",
     "range-widened": "nothing",
+    "limits-narrowed": "programs",
+    "limits-widened": "nothing",
+    "property-added": "nothing",
+    "property-changed": "programs",
+    "property-removed": "programs",
+    "pose-added": "nothing",
+    "pose-changed": "programs",
+    "pose-removed": "programs",
     "value-added": "nothing",
     "value-removed": "programs",
     "value-renamed": "programs",
@@ -85,7 +98,12 @@ class Difference:
 
 def differences(old: Layout, new: Layout) -> list[Difference]:
     """All that changed from one edition to the next, in the order of the new spec."""
-    return [*_line(old, new), *_messages(old, new), *_said_of_all(old, new)]
+    return [
+        *_line(old, new),
+        *_messages(old, new),
+        *_pose(old.spec.pose, new.spec.pose),
+        *_said_of_all(old, new),
+    ]
 
 
 def _line(old: Layout, new: Layout) -> Iterator[Difference]:
@@ -99,8 +117,22 @@ def _line(old: Layout, new: Layout) -> Iterator[Difference]:
     for name in ("baud", "data_bits", "parity", "stop_bits"):
         settings = getattr(was.link, name), getattr(now.link, name)
         yield from _changed("link", f"link.{name}", *settings)
+    yield from _hid(was.link, now.link)
     yield from _changed("byte-order", "byte_order", was.byte_order, now.byte_order)
     yield from _changed("frame", "frame", _envelope(was.frame), _envelope(now.frame))
+
+
+def _hid(old: Link, new: Link) -> Iterator[Difference]:
+    """Boards without a serial port are the same by vendor and product."""
+    path = "link.usb_hid"
+    was, now = ({board.ids: board for board in link.usb_hid} for link in (old, new))
+    for ids, board in now.items():
+        if ids in was:
+            sizes = was[ids].report_size, board.report_size
+            yield from _changed("hid-report", f"{path}.report_size", *sizes)
+        else:
+            yield Difference("hid-added", path, None, ids)
+    yield from (Difference("hid-removed", path, ids) for ids in was if ids not in now)
 
 
 def _messages(old: Layout, new: Layout) -> Iterator[Difference]:
@@ -127,6 +159,7 @@ def _messages(old: Layout, new: Layout) -> Iterator[Difference]:
         yield from _list(f"{path}.fields", was.repeat, message.repeat)
         if was.direction == sent_by_client(old.spec) and _is_sent(new, message):
             yield from _method(f"{path}.method", was, message)
+            yield from _result(path, was, message, names)
         yield from _told(path, was.message, message.message)
     for name, message in before.items():
         if name not in new.messages:
@@ -145,6 +178,18 @@ def _method(path: str, old: MessageLayout, new: MessageLayout) -> Iterator[Diffe
     yield from _changed("method-result", path, was.result or None, now.result or None)
 
 
+def _result(
+    path: str, old: MessageLayout, new: MessageLayout, names: Mapping[str, str]
+) -> Iterator[Difference]:
+    """What the result of a command tells besides that it was sent."""
+    fields = _renamed_fields(old.numbers, new.numbers)
+    for key, renamed in (("acknowledged", names), ("lasts", fields)):
+        was, now = getattr(old.message, key), getattr(new.message, key)
+        was = renamed.get(was, was)
+        kind = "result-tells-more" if was is None else "result-tells-less"
+        yield from _changed(kind, f"{path}.{key}", was, now)
+
+
 def _fields(
     path: str,
     old: tuple[WireField, ...],
@@ -152,10 +197,7 @@ def _fields(
     message: MessageLayout | None = None,
 ) -> Iterator[Difference]:
     """Numbers, one behind the other: those of a message, or of an element of its list."""
-    names = _renamed(
-        {field.name: (at, field.wire) for at, field in enumerate(old)},
-        {field.name: (at, field.wire) for at, field in enumerate(new)},
-    )
+    names = _renamed_fields(old, new)
     before = {names.get(field.name, field.name): field for field in old}
     for field in new:
         here = f"{path}.{field.name}"
@@ -174,6 +216,52 @@ def _fields(
     kept = [name for name in before if name in after]
     order = [name for name in after if name in before]
     yield from _changed("field-order", path, ", ".join(kept), ", ".join(order))
+    yield from _properties(path, [*before.values()], [*new])
+
+
+def _properties(path: str, old: list[WireField], new: list[WireField]) -> Iterator[Difference]:
+    """What follows from the numbers of a message, or of an element, as a property of its own."""
+    was, now = _told_besides(old), _told_besides(new)
+    for name in dict.fromkeys([*was, *now]):
+        here = f"{path}.{name}"
+        if name not in was:
+            yield Difference("property-added", here, None, now[name])
+        elif name not in now:
+            yield Difference("property-removed", here, was[name])
+        else:
+            yield from _changed("property-changed", here, was[name], now[name])
+
+
+def _told_besides(fields: Iterable[WireField]) -> dict[str, str]:
+    """Each such property by its name, and what it is made of."""
+    found: dict[str, str] = {}
+    for each in fields:
+        if each.field.signed_as is not None:
+            found[f"signed_{each.name}"] = each.field.signed_as
+        values = [str(named.value) for named in each.field.values.values() if named.absent]
+        if values:
+            found["absent"] = " or ".join(values)
+    return found
+
+
+def _limits(path: str, old: Limits | None, new: Limits | None) -> Iterator[Difference]:
+    was, now = (None if each is None else each.usual for each in (old, new))
+    if was != now:
+        wider = now is None or (was is not None and now.holds(was))
+        kind = "limits-widened" if wider else "limits-narrowed"
+        yield from _changed(kind, path, was, now)
+
+
+def _pose(old: Pose | None, new: Pose | None) -> Iterator[Difference]:
+    """The methods and the verbs that there are because positions are read and commanded."""
+    if old is None or new is None:
+        if new is not None:
+            yield Difference("pose-added", "pose", None, f"{new.hold}, {new.present}")
+        if old is not None:
+            yield Difference("pose-removed", "pose", f"{old.hold}, {old.present}")
+        return
+    for name in type(new).model_fields:
+        yield from _changed("pose-changed", f"pose.{name}", getattr(old, name), getattr(new, name))
 
 
 def _number(path: str, old: WireField, new: WireField) -> Iterator[Difference]:
@@ -184,6 +272,7 @@ def _number(path: str, old: WireField, new: WireField) -> Iterator[Difference]:
     for name in ("unit", "scale"):
         was, now = getattr(old.field, name), getattr(new.field, name)
         yield from _changed("field-unit", f"{path}.{name}", was or None, now or None)
+    yield from _limits(f"{path}.limits", old.field.limits, new.field.limits)
     yield from _values(f"{path}.values", old, new)
 
 
@@ -254,7 +343,8 @@ def _prose(message: Message) -> dict[object, object]:
         said[name] = (field.about, field.notes, field.cite)
         inner = field.fields if isinstance(field, GroupField) else {"": field}
         for key, number in inner.items():
-            said[name, key] = (number.about, number.notes, number.cite)
+            others = None if number.limits is None else number.limits.others
+            said[name, key] = (number.about, number.notes, number.cite, others)
             for word, value in number.values.items():
                 said[name, key, word] = (value.about, value.cite)
     return said
@@ -266,7 +356,10 @@ def _said_of_all(old: Layout, new: Layout) -> Iterator[Difference]:
         {
             "protocol": each.protocol.model_copy(update={"name": "", "version": ""}),
             "endpoints": list(each.endpoints.values()),
-            "link": each.link.cite,
+            "link": (
+                each.link.cite,
+                {board.ids: (board.about, board.cite) for board in each.link.usb_hid},
+            ),
             "frame": [part.about for part in each.frame.values()],
             **{name: getattr(each, name) for name in _SECTIONS},
         }
@@ -291,6 +384,13 @@ def _renamed(old: Mapping[str, object], new: Mapping[str, object]) -> dict[str, 
         if same:
             found[name] = same[0]
     return found
+
+
+def _renamed_fields(old: tuple[WireField, ...], new: tuple[WireField, ...]) -> dict[str, str]:
+    places = (
+        {field.name: (at, field.wire) for at, field in enumerate(each)} for each in (old, new)
+    )
+    return _renamed(*places)
 
 
 def _renamed_ends(old: Layout, new: Layout) -> dict[str, str]:

@@ -14,9 +14,12 @@ from framegen.spec import GroupField
 from framegen.values import Method
 
 if TYPE_CHECKING:
-    from framegen.layout import Layout, MessageLayout, Repeat
+    from framegen.layout import Layout, MessageLayout, Repeat, WireField
     from framegen.spec import Message, Spec
     from framegen.values import Direction
+
+# How many of each unit of time make a second.
+STEPS_PER_SECOND = {"s": 1, "ms": 1000}
 
 
 @dataclass(frozen=True)
@@ -24,7 +27,8 @@ class Exchange:
     """One message of the client, and what comes back.
 
     `echoed` pairs a field of the request with where the reply has it, such as `servo_ids` with
-    `positions.servo_id`.
+    `positions.servo_id`. `acknowledged` is the report that says that the request was taken, and
+    `lasts` the field of the request that says how long what it starts goes on.
     """
 
     request: MessageLayout
@@ -32,6 +36,8 @@ class Exchange:
     reply: MessageLayout | None
     reports: tuple[str, ...]
     echoed: tuple[tuple[str, str], ...]
+    acknowledged: str | None
+    lasts: WireField | None
 
     @property
     def split(self) -> Repeat | None:
@@ -115,4 +121,6 @@ def _exchange(layout: Layout, request: MessageLayout) -> Exchange:
         None if message.reply is None else layout.messages[message.reply],
         tuple(message.reports),
         tuple(message.echoed.items()),
+        message.acknowledged,
+        next((field for field in request.numbers if field.name == message.lasts), None),
     )

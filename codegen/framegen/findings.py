@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from dataclasses import dataclass
 from difflib import get_close_matches
 from typing import TYPE_CHECKING
@@ -25,6 +26,7 @@ class Finding:
     """One thing wrong with a spec.
 
     `rule` is the stable id; `path` the dotted path of the value (`messages.ServoMove.id`).
+    What `message` and `hint` repeat of the spec is cut short where nobody would read all of it.
     """
 
     rule: str
@@ -33,6 +35,10 @@ class Finding:
     message: str
     hint: str = ""
     related: tuple[Related, ...] = ()
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "message", _shortened(self.message))
+        object.__setattr__(self, "hint", _shortened(self.hint))
 
     def render(self, source: Source) -> str:
         """Show the finding as a person reads it: place, rule, source line, caret, hint."""
@@ -66,6 +72,14 @@ def did_you_mean(word: str, known: Iterable[str], *, otherwise: str = "") -> str
     if otherwise or not choices:
         return otherwise
     return "choose one of " + ", ".join(f"`{choice}`" for choice in choices)
+
+
+# A word or a quotation of more characters than any name, type or formula has.
+_TOO_LONG = re.compile(r"[^\s`]{121,}|(?<=`)[^`]{241,}(?=`)")
+
+
+def _shortened(text: str) -> str:
+    return _TOO_LONG.sub(lambda found: f"{found[0][:40]}...", text)
 
 
 # Enough of a long line to show the place; the rest of a 10 000-column line helps nobody.

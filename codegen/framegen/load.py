@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any, get_args
 
 from pydantic import BaseModel, ValidationError
 
+from framegen.console import visible
 from framegen.findings import Finding, did_you_mean
 from framegen.source import Source
 from framegen.spec import Spec
@@ -32,7 +33,7 @@ class Loaded:
 
 def read_source(file: Path) -> Source:
     """Read a spec file, with LF line ends. Raises Unusable where it is no text of sane size."""
-    name = file.as_posix()
+    name = visible(file.as_posix())
     try:
         status = file.stat()
         if not stat.S_ISREG(status.st_mode):

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from typing import Annotated, Any, Literal, TypeAlias
 
-from pydantic import BaseModel, ConfigDict, Discriminator, StrictInt, Tag
+from pydantic import BaseModel, ConfigDict, Discriminator, StrictBool, StrictInt, Tag
 from pydantic import Field as Key
 
 from framegen.formula import Formula, parse_formula
@@ -63,6 +63,25 @@ class SourceDocument(Part):
     about: str = Key("", description="What it holds and how far it goes.")
 
 
+class HidBoard(Part):
+    """A kind of board that is reached by USB HID, without any serial port."""
+
+    vendor: Annotated[StrictInt, Key(ge=0, le=0xFFFF)] = Key(
+        description="The USB vendor id, such as 0x0483."
+    )
+    product: Annotated[StrictInt, Key(ge=0, le=0xFFFF)] = Key(description="The USB product id.")
+    report_size: Annotated[StrictInt, Key(gt=0, le=1024)] = Key(
+        64, description="Bytes of a report, each of which carries one frame and is padded."
+    )
+    about: str = Key("", description="Which boards these are.")
+    cite: Cite | None = Key(None, description="Where this is known from.")
+
+    @property
+    def ids(self) -> str:
+        """Vendor and product, as people write them: `0483:5750`."""
+        return f"{self.vendor:04x}:{self.product:04x}"
+
+
 class Link(Part):
     """The serial line."""
 
@@ -70,6 +89,9 @@ class Link(Part):
     data_bits: Literal[5, 6, 7, 8] = Key(8, description="Data bits of a character.")
     parity: Literal["none", "even", "odd"] = Key("none", description="Parity bit of a character.")
     stop_bits: Literal[1, 2] = Key(1, description="Stop bits of a character.")
+    usb_hid: list[HidBoard] = Key(
+        [], description="Boards that show as a USB HID device instead of a serial port."
+    )
     cite: Cite | None = Key(None, description="Where this is known from.")
 
     @property
@@ -146,7 +168,21 @@ class NamedValue(Part):
 
     value: StrictInt = Key(description="The number.")
     about: str = Key(description="What it means.")
+    absent: StrictBool = Key(
+        False,
+        description="Whether it says that there is nothing to tell of: users of the library then "
+        "ask for `absent`, and it is never sent as if it were a value.",
+    )
     cite: Cite | None = Key(None, description="Where it is known from.")
+
+
+class Limits(Part):
+    """What a client sends unless told otherwise, though a frame could carry more."""
+
+    usual: Bounds = Key(description="The values that are sent unless told otherwise, `0..1000`.")
+    others: dict[str, Bounds] = Key(
+        {}, description="Values that other devices take, each by whose they are."
+    )
 
 
 class NumberField(Part):
@@ -158,6 +194,16 @@ class NumberField(Part):
     scale: Step | None = Key(None, description="What one step is in a larger unit.")
     range: Bounds | None = Key(
         None, description="The values allowed, where they are fewer than the type holds."
+    )
+    limits: Limits | None = Key(
+        None,
+        description="What a client refuses to send unless told otherwise: a matter of safety, and "
+        "not of the wire, which carries whatever `range` and type allow.",
+    )
+    signed_as: str | None = Key(
+        None,
+        description="The signed type, such as i16, as which the number can be read too: it is "
+        "unsigned, and wraps round below zero.",
     )
     values: dict[str, NamedValue] = Key(
         {}, description="Numbers with a meaning of their own, by name."
@@ -227,6 +273,16 @@ class Message(Part):
         "`servo_ids: positions.servo_id`: what tells the reply to this message from others.",
     )
     reports: list[str] = Key([], description="Messages that may follow it, sooner or later.")
+    acknowledged: str | None = Key(
+        None,
+        description="The one of its `reports` that says that it was taken, with the same values in "
+        "fields of the same name: a client tells whether it came in time.",
+    )
+    lasts: str | None = Key(
+        None,
+        description="The field that says how long what it starts goes on, in ms or s: a client "
+        "can wait until it is over.",
+    )
     method: Call | None = Key(
         None,
         description="What sends it in a client: name, order of the arguments, and the field of the "
@@ -237,6 +293,23 @@ class Message(Part):
     examples: list[Example] = Key([], description="Frames, each with what it means.")
     since: str = Key("", description="The first spec version that has it, if not the first of all.")
     deprecated: str = Key("", description="Why not to use it any more, and what to use.")
+
+
+class Pose(Part):
+    """The positions of what is named by numbers: how they are read, commanded and let go.
+
+    A client then has three methods more, and the command the verbs `teach` and `play`.
+    """
+
+    read: str = Key(description="The message that asks for positions, by a list of numbers.")
+    move: str = Key(
+        description="The message that commands positions, and how many milliseconds that may take."
+    )
+    release: str = Key(description="The message that lets go of them, by the same list.")
+    ids: Bounds = Key(description="The numbers that there can be, such as 1..253.")
+    hold: str = Key(description="The method that commands the positions which it reads.")
+    present: str = Key(description="The method that finds out which are there.")
+    targets: str = Key(description="The method that makes targets of positions that were read.")
 
 
 class Reserved(Part):
@@ -324,6 +397,9 @@ class Spec(Part):
     byte_order: Literal["little", "big"] = Key(description="Which byte of a number comes first.")
     frame: dict[str, FramePart] = Key(description="The parts of every frame, in order.")
     messages: dict[str, Message] = Key(description="The messages, by name.")
+    pose: Pose | None = Key(
+        None, description="How positions are read, commanded and let go, where there are any."
+    )
     reserved: list[Reserved] = Key([], description="Codes and names that must not be used.")
     errata: list[Erratum] = Key([], description="Where the documents are wrong.")
     unknowns: list[Unknown] = Key([], description="What nobody has written down.")

@@ -9,6 +9,7 @@ from difflib import unified_diff
 from io import StringIO
 from typing import TYPE_CHECKING, Literal
 
+from framegen.console import visible
 from framegen.yamltree import Unusable
 
 if TYPE_CHECKING:
@@ -35,8 +36,8 @@ class Change:
 
     def diff(self) -> str:
         """The change as a unified diff."""
-        before = "/dev/null" if self.old is None else f"a/{self.path}"
-        after = "/dev/null" if self.new is None else f"b/{self.path}"
+        before = "/dev/null" if self.old is None else f"a/{visible(self.path)}"
+        after = "/dev/null" if self.new is None else f"b/{visible(self.path)}"
         old, new = (list(StringIO(text or "")) for text in (self.old, self.new))
         shown = "".join(
             line if line.endswith("\n") else f"{line}\n\\ No newline at end of file\n"
@@ -73,7 +74,8 @@ def write(root: Path, rendered: Rendered) -> list[Change]:
     for change in found:
         if change.new is None and _MARK.match(change.old or "") is None:
             raise Unusable(
-                f"{change.path} was not written by framegen, and stands where only its output is",
+                f"{visible(change.path)} was not written by framegen, "
+                "and stands where only its output is",
                 hint="move it elsewhere; nothing was changed",
             )
     try:
@@ -81,7 +83,9 @@ def write(root: Path, rendered: Rendered) -> list[Change]:
     except OSError as error:
         reason = error.strerror or str(error)
         name = error.filename or root
-        raise Unusable(f"{name} cannot be written: {reason}", hint="nothing was changed") from None
+        raise Unusable(
+            f"{visible(str(name))} cannot be written: {reason}", hint="nothing was changed"
+        ) from None
     return found
 
 
@@ -146,7 +150,7 @@ def _read(file: Path) -> str | None:
     except FileNotFoundError:
         return None
     except OSError as error:
-        raise Unusable(f"{file} cannot be read: {error.strerror or error}") from None
+        raise Unusable(f"{visible(str(file))} cannot be read: {error.strerror or error}") from None
 
 
 def _orphans(root: Path, rendered: Rendered) -> Iterator[str]:

@@ -58,7 +58,7 @@ class Board(Device):
         groups: Mapping[int, ActionGroup] | None = None,
         *,
         battery_mv: int = 7500,
-        echo_run: bool = True,
+        start_report: bool = True,
     ) -> None:
         super().__init__()
         self.now = 0.0
@@ -66,7 +66,7 @@ class Board(Device):
         self.groups = dict(stored_groups() if groups is None else groups)
         self.speeds: dict[int, int] = {}
         self.battery = Battery(battery_mv, self._travelling)
-        self.echo_run = echo_run
+        self.start_report = start_report
         self.journal = Journal()
         self.heard = 0
         self.led_stays_on = False
@@ -153,7 +153,7 @@ class Board(Device):
 
     def on_action_group_run(self, message: ActionGroupRun) -> None:
         """The group starts, if there is one of this number."""
-        self.start_group(message.group, message.times, told=self.echo_run)
+        self.start_group(message.group, message.times, told=self.start_report)
 
     def on_action_group_stop(self, message: ActionGroupStop) -> None:  # noqa: ARG002 - it has no fields
         """The group that runs is stopped; without one, nothing happens and nothing is said."""

@@ -1,59 +1,76 @@
-"""The faults that can be asked for, each as the chance that it happens."""
+"""The faults that can be asked for: how likely each is, and how long what is slow takes."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass, fields
+import math
+from dataclasses import dataclass, field, fields
+
+
+def _chance(what_happens: str) -> float:
+    return field(default=0.0, metadata={"chance": what_happens})
+
+
+def _seconds(default: float, how_long: str) -> float:
+    return field(default=default, metadata={"seconds": how_long})
 
 
 @dataclass(frozen=True, slots=True)
 class Faults:
     """Chances, 0 to 1, of what can go wrong on the way from the board to the host, and back.
 
-    The same seed and the same traffic give the same faults. There is no checksum: a flipped bit in
-    a value is a wrong value, and no host can tell; on the way to the board, it is another command.
-    Every other fault can be told or outlived. Those that end in `_to_board` happen to each piece
-    that the host writes, all others to what the board sends.
+    The same seed and the same traffic give the same faults. Those that end in `_to_board` happen to
+    each piece that the host writes, all others to what the board sends. There is no checksum: a
+    flipped bit in a value is a wrong value, and so may be the bytes that follow a lost one; on the
+    way to the board, a flipped bit is another command.
+
+    Raises ValueError for a chance that is not from 0 to 1, and for seconds that are no length of
+    time.
     """
 
     seed: int = 0
-    noise: float = 0.0
-    """Bytes that hold no header come in front of a frame."""
-    bit_flips: float = 0.0
-    """A bit of a byte is turned over; the chance is that of each byte."""
-    splits: float = 0.0
-    """A frame comes in two pieces, with a pause between them."""
-    coalesced: float = 0.0
-    """A frame waits for the next one, and both come at once."""
-    delays: float = 0.0
-    """A frame comes late, by up to `longest_delay` seconds."""
-    dropped: float = 0.0
-    """A reply is never sent."""
-    fewer: float = 0.0
-    """A servo is left out of a reply; the chance is that of each servo."""
-    absent: float = 0.0
-    """A servo is told to be off, by 65535; the chance is that of each servo."""
-    unasked: float = 0.0
-    """A report about an action group that nobody asked for comes in front of a frame."""
-    hang_up: float = 0.0
-    """The line is cut in the middle of a frame."""
-    noise_to_board: float = 0.0
-    """Bytes that hold no header arrive in front of what the host writes."""
-    bit_flips_to_board: float = 0.0
-    """A bit of a byte that the host writes is turned over; the chance is that of each byte."""
-    splits_to_board: float = 0.0
-    """What the host writes arrives in two pieces, with a pause between them."""
-    longest_delay: float = 0.3
-    """In seconds."""
+    noise: float = _chance("bytes that hold no header come in front of a frame")
+    bit_flips: float = _chance("a bit of a byte is turned over; the chance is that of each byte")
+    lost_bytes: float = _chance("a byte of a frame is lost; the chance is that of each byte")
+    splits: float = _chance("a frame comes in two pieces, with a pause between them")
+    coalesced: float = _chance("a frame waits for the next one, and both come at once")
+    delays: float = _chance("a frame comes later, by up to longest_delay, and so do all behind it")
+    late: float = _chance("a reply comes later by late_by, and what is sent meanwhile passes it")
+    duplicated: float = _chance("a reply is sent twice")
+    dropped: float = _chance("a reply is never sent")
+    fewer: float = _chance("a servo is left out of a reply; the chance is that of each servo")
+    absent: float = _chance("a servo is told to be off, by 65535; the chance is that of each servo")
+    wrong_count: float = _chance("a reply counts one servo more, or fewer, than its length holds")
+    unasked: float = _chance("a report that nobody asked for comes in front of a frame")
+    hang_up: float = _chance("the line is cut in the middle of a frame")
+    noise_to_board: float = _chance("bytes that hold no header come in front of what a host writes")
+    bit_flips_to_board: float = _chance(
+        "a bit of what a host writes is turned over; the chance is that of each byte"
+    )
+    splits_to_board: float = _chance(
+        "what a host writes arrives in two pieces, with a pause between them"
+    )
+    longest_delay: float = _seconds(0.3, "how late a frame of the fault `delays` is at most")
+    late_by: float = _seconds(1.0, "how late a reply of the fault `late` is")
 
     def __post_init__(self) -> None:
         for name in CHANCES:
             chance = getattr(self, name)
             if not 0 <= chance <= 1:
                 raise ValueError(f"{name} is {chance}: a chance is from 0 to 1")
+        for name in DURATIONS:
+            seconds = getattr(self, name)
+            if not 0 <= seconds < math.inf:
+                raise ValueError(f"{name} is {seconds}: write seconds, 0 or more")
 
 
-CHANCES = tuple(
-    field.name for field in fields(Faults) if field.name not in {"seed", "longest_delay"}
-)
+def _described(kind: str) -> dict[str, str]:
+    return {each.name: each.metadata[kind] for each in fields(Faults) if kind in each.metadata}
+
+
+CHANCES = _described("chance")
+"""What happens, by the name of its chance."""
+
+DURATIONS = _described("seconds")
+"""What is so long, by the name of its seconds."""
 
 TO_BOARD = tuple(name for name in CHANCES if name.endswith("_to_board"))

@@ -2,13 +2,22 @@
 
 from __future__ import annotations
 
+import math
+from bisect import insort
+from operator import itemgetter
+from random import Random
 from typing import TYPE_CHECKING
 
+from busservo.protocol import BAUD, BITS_PER_BYTE
+
+from busservo_simulator.fault_injector import FaultInjector
 from busservo_simulator.faults import Faults
-from busservo_simulator.mischief import Mischief
+from busservo_simulator.uart import sampled
 from busservo_simulator.wire import Wire
 
 if TYPE_CHECKING:
+    from busservo.device import Report
+
     from busservo_simulator.board import Board
 
 # How long a frame waits for another one with which to come at once.
@@ -18,17 +27,31 @@ COALESCING = 0.02
 class Line:
     """Bytes of the host go in by `write`; `read` gives those that the host has by then.
 
-    Times are those of the board, which lives as far as it is asked about, event by event.
+    Times are those of the board, which lives as far as it is asked about, event by event. With
+    `baud`, bytes take their time; without, the rate is that of the protocol all the same, and a
+    host that has set another one hears garbage and is heard as garbage. With `local_echo`, the
+    host's adapter gives back what the host sends.
     """
 
     def __init__(
-        self, board: Board, *, seconds_per_byte: float = 0.0, faults: Faults | None = None
+        self,
+        board: Board,
+        *,
+        baud: float | None = None,
+        local_echo: bool = False,
+        faults: Faults | None = None,
     ) -> None:
         self.board = board
         self.hung_up = False
+        self.local_echo = local_echo
+        self.baud = BAUD if baud is None or math.isinf(baud) else baud
+        self._host_baud = self.baud
+        seconds_per_byte = 0.0 if baud is None else BITS_PER_BYTE / baud
         self._to_board = Wire(seconds_per_byte)
         self._to_host = Wire(seconds_per_byte)
-        self._mischief = Mischief(faults or Faults())
+        self.faults = faults or Faults()
+        # Replies that the board keeps back, and when they go out.
+        self._late: list[tuple[float, Report]] = []
         self._waiting = b""
         self._waits_until = 0.0
         self._hangs_up_at: float | None = None
@@ -40,11 +63,27 @@ class Line:
     @property
     def faults(self) -> Faults:
         """The faults that happen; setting them starts anew from their seed."""
-        return self._mischief.faults
+        return self._injector.faults
 
     @faults.setter
     def faults(self, faults: Faults) -> None:
-        self._mischief = Mischief(faults)
+        self._injector = FaultInjector(faults)
+        self._phase = Random(faults.seed)  # noqa: S311 - to be repeated, not to be secret
+
+    @property
+    def host_baud(self) -> float:
+        """The rate that the host has set; that of the board where nobody knows of another."""
+        return self._host_baud
+
+    @host_baud.setter
+    def host_baud(self, baud: float | None) -> None:
+        known = self.baud if baud is None else baud
+        if known == self._host_baud:
+            return
+        self._host_baud = known
+        self.board.journal.add(
+            self.board.now, "line", f"the host is at {known:g} baud, the board at {self.baud:g}"
+        )
 
     @property
     def next_event(self) -> float | None:
@@ -61,9 +100,12 @@ class Line:
         """Takes the bytes that the host sends."""
         if self.hung_up or not data:
             return
-        for pause, piece in self._mischief.hearing(data):
+        if self.local_echo:
+            self._to_host.put(data, moment, BITS_PER_BYTE / self._host_baud)
+        read, seconds_per_byte = self._sampled(data, self._host_baud, self.baud)
+        for pause, piece in self._injector.hearing(read):
             start = max(moment, self._to_board.free_at) + pause if pause else moment
-            self._to_board.put(piece, start)
+            self._to_board.put(piece, start, seconds_per_byte)
 
     def read(self, moment: float) -> list[bytes]:
         """Lives until then, and gives the pieces that reached the host; `hung_up` may follow."""
@@ -78,7 +120,14 @@ class Line:
     def send(self, data: bytes, moment: float) -> None:
         """Sends bytes to the host as they are."""
         if not self.hung_up:
-            self._to_host.put(data, moment)
+            read, seconds_per_byte = self._sampled(data, self.baud, self._host_baud)
+            self._to_host.put(read, moment, seconds_per_byte)
+
+    def reboot(self, seconds: float) -> None:
+        """Switches the board off and on: what it has kept back is never sent."""
+        self._late.clear()
+        self._waiting = b""
+        self.board.reboot(seconds)
 
     def babble(self, data: bytes, per_second: float, moment: float, *, deaf: bool) -> None:
         """Sends `data` again and again; without any, ends that."""
@@ -108,6 +157,7 @@ class Line:
             self.board.next_event,
             self._babbles_at,
             self._waits_until if self._waiting else None,
+            self._late[0][0] if self._late else None,
         )
         return min((moment for moment in moments if moment is not None), default=None)
 
@@ -118,6 +168,8 @@ class Line:
             if not self._deaf:
                 self.board.hear(data)
                 self._send_reports(moment)
+        while self._late and self._late[0][0] <= moment:
+            self._send_frame(self._late.pop(0)[1], moment)
         if self._waiting and self._waits_until <= moment:
             self._send_waiting(moment)
         if self._babbles_at is not None and self._babbles_at <= moment:
@@ -126,13 +178,16 @@ class Line:
 
     def _send_reports(self, moment: float) -> None:
         for report in self.board.take():
-            for told in self._mischief.reports(report):
-                self._send_frame(told.encode(), moment)
+            for sent in self._injector.reports(report):
+                if lateness := self._injector.lateness(sent):
+                    insort(self._late, (moment + lateness, sent), key=itemgetter(0))
+                else:
+                    self._send_frame(sent, moment)
 
-    def _send_frame(self, frame: bytes, moment: float) -> None:
+    def _send_frame(self, report: Report, moment: float) -> None:
         if self.hung_up or self._hangs_up_at is not None:
             return
-        sending = self._mischief.sending(frame)
+        sending = self._injector.sending(report)
         if sending.waits:
             self._waiting += b"".join(data for _, data in sending.pieces)
             self._waits_until = moment + COALESCING
@@ -141,7 +196,7 @@ class Line:
         # It is late from when it was due, whatever is still in front of it.
         start = moment
         for pause, data in sending.pieces:
-            self._to_host.put(waiting + data, start + pause)
+            self.send(waiting + data, start + pause)
             start, waiting = self._to_host.free_at, b""
         if sending.hangs_up:
             self._hangs_up_at = self._to_host.free_at
@@ -149,3 +204,10 @@ class Line:
     def _send_waiting(self, moment: float) -> None:
         waiting, self._waiting = self._waiting, b""
         self.send(waiting, moment)
+
+    def _sampled(self, data: bytes, sent_at: float, read_at: float) -> tuple[bytes, float]:
+        """What is read of bytes that were sent, and how many seconds each of those takes."""
+        if sent_at == read_at:
+            return data, BITS_PER_BYTE / read_at
+        read = sampled(data, sent_at, read_at, self._phase)
+        return read, len(data) * BITS_PER_BYTE / sent_at / max(1, len(read))

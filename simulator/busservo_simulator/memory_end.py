@@ -126,6 +126,11 @@ class MemoryEnd:
         """A name for it; there is nothing to open by it."""
         return self.name
 
+    @property
+    def host_baud(self) -> None:
+        """There is no rate to set in the same process."""
+        return None
+
     def plug_in(self) -> None:
         """Makes it usable, unless it has been closed."""
         self._plugged = True

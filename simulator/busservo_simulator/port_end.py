@@ -13,6 +13,11 @@ class PortEnd(Protocol):
         """The name that a host opens."""
         ...
 
+    @property
+    def host_baud(self) -> int | None:
+        """The rate that a host has set; None where ports have none, or none has been set."""
+        ...
+
     def plug_in(self) -> None:
         """Makes the port; it may have another name than before."""
         ...

@@ -8,16 +8,24 @@ import select
 import sys
 from pathlib import Path
 
+from busservo.protocol import BAUD
+
 from busservo_simulator.backlog import Backlog
 from busservo_simulator.waker import Waker
+
+if sys.platform != "win32":
+    from busservo_simulator.pty_rate import read_rate, set_rate
 
 CHUNK = 4096
 
 
 class PtyEnd:
-    """A pty; `link` is a name for it that stays the same when it is plugged in again."""
+    """A pty; `link` is a name for it that stays the same when it is plugged in again.
 
-    def __init__(self, link: str | os.PathLike[str] | None = None) -> None:
+    It is at `baud` until a host sets another rate.
+    """
+
+    def __init__(self, link: str | os.PathLike[str] | None = None, baud: float = BAUD) -> None:
         if sys.platform == "win32":
             raise OSError("Windows has no pseudo terminals: use TCP")
         self._link = None if link is None else Path(link)
@@ -26,11 +34,21 @@ class PtyEnd:
         # The other end stays open here too, or else the pty would end whenever a host closes it.
         self._board_end = self._host_end = -1
         self._name = ""
+        self._baud = max(1, round(baud))
+        self._baud_before: int | None = None
 
     @property
     def port(self) -> str:
         """The link, or else the name of the pty."""
         return str(self._link or self._name)
+
+    @property
+    def host_baud(self) -> int | None:
+        """The rate that a host has set; None where none has set another than there was before."""
+        if self._host_end < 0:
+            return None
+        rate = read_rate(self._host_end)
+        return None if rate == self._baud_before else rate
 
     def plug_in(self) -> None:
         """Makes the pty and the link. Raises FileExistsError where something else has that name."""
@@ -39,6 +57,9 @@ class PtyEnd:
         self._waker.open()
         self._board_end, self._host_end = os.openpty()
         tty.setraw(self._host_end)
+        set_rate(self._host_end, self._baud)
+        # Where the system knows no such rate, one that a host sets can still be told from it.
+        self._baud_before = read_rate(self._host_end)
         os.set_blocking(self._board_end, False)
         self._name = os.ttyname(self._host_end)
         if self._link is not None:

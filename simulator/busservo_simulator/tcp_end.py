@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import contextlib
+import errno
 import select
 import socket
 
@@ -30,6 +31,11 @@ class TcpEnd:
         host = f"[{self._host}]" if ":" in self._host else self._host
         return f"socket://{host}:{self._number}"
 
+    @property
+    def host_baud(self) -> None:
+        """There is no rate to set of a connection."""
+        return None
+
     def plug_in(self) -> None:
         """Listens, on the same number as before if there was one."""
         self._waker.open()
@@ -39,8 +45,10 @@ class TcpEnd:
         try:
             listener.bind((self._host, self._number))
             listener.listen()
-        except OSError:
+        except (OSError, TypeError) as error:
             listener.close()
+            if isinstance(error, TypeError):  # as Python refuses it, before the system sees it
+                raise OSError(errno.EINVAL, "no host has such a name") from None
             raise
         listener.setblocking(False)
         self._number = listener.getsockname()[1]

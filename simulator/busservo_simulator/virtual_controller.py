@@ -5,8 +5,6 @@ from __future__ import annotations
 from threading import Condition, Thread
 from typing import TYPE_CHECKING, Literal
 
-from busservo.protocol import BITS_PER_BYTE
-
 from busservo_simulator.board import DEFAULT_SERVOS, Board
 from busservo_simulator.clock import RealClock, VirtualClock
 from busservo_simulator.line import Line
@@ -42,18 +40,22 @@ class VirtualController:
 
     `via` is "memory" (`port` is then a transport), "pty" (a name such as /dev/pts/3, or `link`) or
     "tcp" (a name such as socket://127.0.0.1:40123). With `baud`, bytes take the time both ways
-    that they take on a wire. With a VirtualClock, time stands still until `advance`.
+    that they take on a wire. A host that sets another rate on the pty than `baud`, or than that of
+    the protocol, hears garbage and is heard as garbage; "memory" and "tcp" have no rate to set.
+    With `local_echo`, the adapter gives back what the host sends, in front of what the board says.
+    With a VirtualClock, time stands still until `advance`.
     """
 
-    def __init__(  # noqa: PLR0913 - a board has many properties, each with a default
+    def __init__(
         self,
         via: Literal["memory", "pty", "tcp"] = "memory",
         *,
         servos: Iterable[int] = DEFAULT_SERVOS,
         groups: Mapping[int, ActionGroup] | None = None,
         battery_mv: int = 7500,
-        echo_run: bool = True,
+        start_report: bool = True,
         baud: float | None = None,
+        local_echo: bool = False,
         clock: Clock | None = None,
         faults: Faults | None = None,
         link: str | os.PathLike[str] | None = None,
@@ -63,11 +65,10 @@ class VirtualController:
         if baud is not None and not baud > 0:
             raise ValueError(f"baud is {baud}: it is above 0, or None for a line that is not paced")
         self.clock: Clock = RealClock() if clock is None else clock
-        self.board = Board(servos, groups, battery_mv=battery_mv, echo_run=echo_run)
+        self.board = Board(servos, groups, battery_mv=battery_mv, start_report=start_report)
         self._since = self.clock.now()
         self._changed = Condition()
-        seconds_per_byte = 0.0 if baud is None else BITS_PER_BYTE / baud
-        self._line = Line(self.board, seconds_per_byte=seconds_per_byte, faults=faults)
+        self._line = Line(self.board, baud=baud, local_echo=local_echo, faults=faults)
         self._paced = baud is not None
         self._transport: MemoryEnd | None = None
         self._end = self._make_end(via, link, host, tcp_port)
@@ -80,7 +81,7 @@ class VirtualController:
         self, via: str, link: str | os.PathLike[str] | None, host: str, tcp_port: int
     ) -> PortEnd:
         if via == "pty":
-            return PtyEnd(link)
+            return PtyEnd(link, self._line.baud)
         if via == "tcp":
             return TcpEnd(host, tcp_port)
         if via != "memory":
@@ -214,7 +215,7 @@ class VirtualController:
         """Switches the board off and on: for so long it hears nothing and says nothing."""
         with self._changed:
             self._live()
-            self.board.reboot(seconds)
+            self._line.reboot(seconds)
         self._nudge()
 
     def unplug(self) -> None:
@@ -249,6 +250,7 @@ class VirtualController:
     def _live(self) -> None:
         """Lives up to now, and delivers what has reached the host. With the lock held."""
         whole = not self._line.hung_up
+        self._line.host_baud = self._end.host_baud
         for data in self._line.read(self._moment):
             self._end.deliver(data)
         if whole and self._line.hung_up:
@@ -266,6 +268,7 @@ class VirtualController:
                 listening = not self._paced or self._line.unheard < AHEAD
                 data = self._end.receive() if listening else b""
                 if data:
+                    self._line.host_baud = self._end.host_baud
                     self._line.write(data, self._moment)
                 self._live()
                 event = self._line.next_event

@@ -24,19 +24,21 @@ class Wire:
         """How many bytes are under way."""
         return sum(len(data) for _, data in self._pieces)
 
-    def put(self, data: bytes, moment: float) -> None:
-        """Puts bytes behind those that are under way."""
+    def put(self, data: bytes, moment: float, seconds_per_byte: float | None = None) -> None:
+        """Puts bytes behind those that are under way, on a paced line at a speed of their own."""
         if not data:
             return
         start = max(moment, self.free_at)
-        if self.seconds_per_byte:
+        each = self.seconds_per_byte
+        if each and seconds_per_byte is not None:
+            each = seconds_per_byte
+        if each:
             self._pieces.extend(
-                (start + (count + 1) * self.seconds_per_byte, data[count : count + 1])
-                for count in range(len(data))
+                (start + (count + 1) * each, data[count : count + 1]) for count in range(len(data))
             )
         else:
             self._pieces.append((start, data))
-        self.free_at = start + len(data) * self.seconds_per_byte
+        self.free_at = start + len(data) * each
 
     def take(self, moment: float) -> list[bytes]:
         """The pieces that are out by then. Of a paced line, all that has come is one piece."""

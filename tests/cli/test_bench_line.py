@@ -47,15 +47,47 @@ def test_json_has_the_same_in_seconds(capsys: pytest.CaptureFixture[str]) -> Non
     assert 0 < found["min"] <= found["median"] <= found["max"]
 
 
+def test_a_line_that_takes_no_time_allows_any_rate(capsys: pytest.CaptureFixture[str]) -> None:
+    words = ["-n", "3", "--baud", "inf", *PATIENT]
+    with VirtualController("tcp") as board:
+        assert main(["bench-line", "--port", board.port, *words]) == 0
+        assert main(["bench-line", "--port", board.port, *words, "--json"]) == 0
+    _, wire, _, rate, _, record = capsys.readouterr().out.splitlines()
+    size = "4 bytes there and 6 back"
+    assert wire == f"  the wire alone  0.00 ms: {size}, on a line that takes no time"
+    assert re.fullmatch("  rate +[0-9.]+ a second", rate)
+    found = json.loads(record)
+    assert (found["baud"], found["wire"], found["share"]) == (None, 0.0, None)
+
+
 def test_a_line_that_is_faster_than_its_rate_is_none(
     capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     line = VirtualLine(lambda _: [(0.001, BatteryVoltage(7500))])
-    client = Client(line, background=False, clock=line.clock)
-    monkeypatch.setattr(bench_line, "open_client", lambda _: client)
+    client = Client(line, background=False, clock=line.clock, settle=0)
+    monkeypatch.setattr(bench_line, "open_client", lambda *_, **__: client)
     monkeypatch.setattr(bench_line, "time", SimpleNamespace(perf_counter=line.clock))
-    assert main(["bench-line", "--port", "COM7", "-n", "3"]) == 0
-    assert "it is faster than that rate, so it is no such line" in capsys.readouterr().out
+    assert main(["bench-line", "--port", "COM7", "-n", "30"]) == 0
+    told = capsys.readouterr().out
+    assert "it is faster than that rate, so try --baud inf" in told
+    assert "too soon        3 questions had a reply that no such wire can have carried" in told
+    assert "slips" not in told
+
+
+def test_a_reply_that_comes_twice_is_named_and_not_taken_for_speed(
+    capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    reply = BatteryVoltage(7500)
+    twice: list[tuple[float, bytes | Message]] = [(0.0105, reply), (0.0107, reply)]
+    answers = iter([twice])
+    line = VirtualLine(lambda _: next(answers, twice[:1]))
+    client = Client(line, background=False, clock=line.clock, settle=0)
+    monkeypatch.setattr(bench_line, "open_client", lambda *_, **__: client)
+    monkeypatch.setattr(bench_line, "time", SimpleNamespace(perf_counter=line.clock))
+    assert main(["bench-line", "--port", "COM7", "-n", "30"]) == 0
+    told = capsys.readouterr().out
+    assert "faster" not in told
+    assert "slips           1 reply to nothing, sent twice or too late: dropped" in told
 
 
 def test_errors_are_counted_by_kind(
@@ -69,8 +101,8 @@ def test_errors_are_counted_by_kind(
         [(0.0, ServoPositions([(1, 5), (2, 6)]))],
     ]
     line = VirtualLine(lambda _: replies.pop(0))
-    client = Client(line, background=False, clock=line.clock)
-    monkeypatch.setattr(bench_line, "open_client", lambda _: client)
+    client = Client(line, background=False, clock=line.clock, settle=0)
+    monkeypatch.setattr(bench_line, "open_client", lambda *_, **__: client)
     words = ["ServoPositionsRead", "servo_ids=1,2", "-n", "5"]
     assert main(["bench-line", "--port", "COM7", *words]) == 1
     lines = capsys.readouterr().out.splitlines()
@@ -106,7 +138,10 @@ def test_silence_alone_gives_no_times(capsys: pytest.CaptureFixture[str]) -> Non
             "servo_ids: 85 items are asked for at once, and a reply has room for 84",
         ),
         (["-n", "0"], "argument -n: 0 is below 1"),
-        (["--timeout", "4000"], "argument --timeout: 4000 is not above 0 and up to 3600 seconds"),
+        (
+            ["--timeout", "4000"],
+            "argument --timeout: 4000 is no number of seconds above 0 and up to 3600",
+        ),
     ],
 )
 def test_what_cannot_be_measured_is_refused(

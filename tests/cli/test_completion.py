@@ -5,13 +5,17 @@ from __future__ import annotations
 import shutil
 import subprocess
 import sys
+from typing import TYPE_CHECKING
 
 import pytest
 from busservo.cli import main
 from busservo.cli.examples import VERBS
 
+if TYPE_CHECKING:
+    from pathlib import Path
 
-@pytest.mark.parametrize("shell", ["bash", "zsh", "tcsh"])
+
+@pytest.mark.parametrize("shell", ["bash", "zsh", "tcsh", "fish"])
 def test_a_shell_learns_the_verbs_their_options_and_the_messages(
     capsys: pytest.CaptureFixture[str], shell: str
 ) -> None:
@@ -67,6 +71,44 @@ def test_without_shtab_there_is_a_hint(
     )
 
 
-def test_an_unknown_shell_is_refused(capsys: pytest.CaptureFixture[str]) -> None:
+def test_a_shtab_that_knows_no_fish_is_to_be_renewed(
+    capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    shtab = pytest.importorskip("shtab")
+
+    def refuse(*_: object, **__: object) -> None:
+        raise NotImplementedError
+
+    monkeypatch.setattr(shtab, "complete", refuse)
     assert main(["--print-completion", "fish"]) == 2
-    assert "invalid choice: 'fish'" in capsys.readouterr().err
+    told = "this shtab is too old to know fish: pip install --upgrade shtab"
+    assert capsys.readouterr() == ("", f"busservo: error: {told}\n")
+
+
+@pytest.mark.skipif(shutil.which("fish") is None, reason="there is no fish here")
+def test_fish_completes_verbs_messages_and_options(
+    capsys: pytest.CaptureFixture[str], tmp_path: Path
+) -> None:
+    pytest.importorskip("shtab")
+    main(["--print-completion", "fish"])
+    file = tmp_path / "busservo.fish"
+    file.write_text(capsys.readouterr().out, encoding="utf-8")
+    fish = shutil.which("fish")
+    assert fish is not None
+    for line, offered in {
+        "busservo mon": {"monitor"},
+        "busservo send ServoP": {"ServoPositionsRead"},
+        "busservo monitor --di": {"--direction"},
+    }.items():
+        done = subprocess.run(
+            [fish, "--no-config", "-c", f"source {file}; complete -C '{line}'"],
+            capture_output=True,
+            text=True,
+            check=True,
+        )
+        assert {each.partition("\t")[0] for each in done.stdout.splitlines()} == offered
+
+
+def test_an_unknown_shell_is_refused(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["--print-completion", "ksh"]) == 2
+    assert "invalid choice: 'ksh'" in capsys.readouterr().err

@@ -13,10 +13,12 @@ from importlib import import_module
 
 import pytest
 from busservo import ServoPositions, ServoPositionsRead
-from busservo.cli import main, send, simulate
+from busservo.cli import link, main, send, simulate
 from busservo.cli.examples import EXAMPLES, VERBS
 from busservo.cli.questions import in_parts
 from busservo.client import Client
+from busservo.hid_boards import HidBoard
+from busservo.link_errors import PortNotFoundError
 from busservo_simulator import Faults, VirtualController
 from serial.tools.list_ports_common import ListPortInfo
 
@@ -100,6 +102,52 @@ def test_retries_ask_again(capsys: pytest.CaptureFixture[str]) -> None:
     assert "to 3 requests of BatteryVoltageRead()" in capsys.readouterr().err
 
 
+@pytest.mark.parametrize("name", VERBS)
+def test_a_verb_that_takes_a_port_takes_its_rate(name: str) -> None:
+    verb = import_module(f"busservo.cli.{name.replace('-', '_')}")
+    parser = argparse.ArgumentParser()
+    if hasattr(verb, "add_arguments"):
+        verb.add_arguments(parser)
+    options = parser.format_help()
+    assert ("--port" in options) == ("--baud" in options)
+
+
+@pytest.mark.parametrize("baud", ["19200", "inf"])
+@pytest.mark.parametrize(
+    "words",
+    [
+        ["send", "BatteryVoltageRead"],
+        ["bench-line"],
+        ["monitor"],
+        ["replay", str(ROOT / "tests" / "captures" / "noisy_line.bin"), "--raw"],
+    ],
+)
+def test_the_rate_is_that_of_the_port(
+    monkeypatch: pytest.MonkeyPatch, words: list[str], baud: str
+) -> None:
+    opened: list[tuple[str, float]] = []
+
+    def refuse(port: str, *, baud: float) -> object:
+        opened.append((port, baud))
+        raise PortNotFoundError(port, "it is a test", "look elsewhere")
+
+    monkeypatch.setattr(link, "open_transport", refuse)
+    assert main([*words, "--port", "COM7", "--baud", baud]) == 2
+    assert opened == [("COM7", float(baud))]
+
+
+@pytest.mark.parametrize("echoes", [True, False])
+def test_a_local_echo_is_expected_where_it_was_said(
+    capsys: pytest.CaptureFixture[str], *, echoes: bool
+) -> None:
+    words = ["BatteryVoltageRead", "--baud", "inf", "--local-echo"]
+    with VirtualController("tcp", local_echo=echoes) as board:
+        status = main(["send", "--port", board.port, *words, *PATIENT])
+    output, errors = capsys.readouterr()
+    assert (status, "7500 mV" in output) == ((0, True) if echoes else (2, False))
+    assert ("leave out local_echo" in errors) == (not echoes)
+
+
 def test_silence_is_told_from_success(capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["send", "--port", "loop://", "BatteryVoltageRead"]) == 1
     assert "no BatteryVoltage came" in capsys.readouterr().err
@@ -124,19 +172,35 @@ def test_silence_is_told_from_success(capsys: pytest.CaptureFixture[str]) -> Non
         ),
         (
             ["send", "--port", "loop://", "BatteryVoltageRead", "--timeout", "0"],
-            "argument --timeout: 0 is not above 0 and up to 3600 seconds",
+            "argument --timeout: 0 is no number of seconds above 0 and up to 3600",
         ),
         (
             ["send", "--port", "loop://", "BatteryVoltageRead", "--timeout", "inf"],
-            "argument --timeout: inf is not above 0 and up to 3600 seconds",
+            "argument --timeout: inf is no number of seconds above 0 and up to 3600",
         ),
         (
             ["send", "--port", "loop://", "BatteryVoltageRead", "--timeout", "nan"],
-            "argument --timeout: nan is not above 0 and up to 3600 seconds",
+            "argument --timeout: 'nan' is no number of seconds: write it like 12 or 0.5",
         ),
         (
             ["send", "--port", "loop://", "BatteryVoltageRead", "--timeout", "soon"],
             "argument --timeout: 'soon' is no number of seconds",
+        ),
+        (
+            ["send", "--port", "loop://", "BatteryVoltageRead", "--timeout", "1_0"],
+            "argument --timeout: '1_0' is no number of seconds",
+        ),
+        (
+            ["send", "--port", "loop://", "BatteryVoltageRead", "--retries", "٣"],
+            "argument --retries: '٣' is no whole number",
+        ),
+        (
+            ["send", "--port", "loop://", "BatteryVoltageRead", "--baud", "0"],
+            "argument --baud: 0 is below 1",
+        ),
+        (
+            ["send", "--port", "loop://", "BatteryVoltageRead", "--baud", str(2**31)],
+            "baud is 2147483648, and must be from 1 to 2147483647",
         ),
     ],
 )
@@ -152,7 +216,43 @@ def test_what_cannot_be_done_is_said_in_a_line(
 def test_ports_lists_or_says_that_there_are_none(capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["ports"]) == 0
     output, errors = capsys.readouterr()
-    assert output or errors == "no serial port is plugged in\n"
+    assert output or errors.startswith("no serial port is plugged in\n")
+
+
+def test_boards_without_a_serial_port_are_listed(
+    capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("serial.tools.list_ports.comports", list)
+    one = HidBoard(0x0483, 0x5750, "/dev/hidraw1", "LOBOT")
+    monkeypatch.setattr("busservo.cli.ports.hid_boards_at_hand", lambda: [one])
+    assert main(["ports"]) == 0
+    output, errors = capsys.readouterr()
+    about = "USB HID, no serial port (not seen on hardware yet)"
+    assert output == f"hid://0483:5750   0483:5750  LOBOT, {about}\n"
+    assert errors == "no serial port is plugged in\n"
+    # Of two of a kind, each has an address of its own.
+    other = one._replace(path="/dev/hidraw2", product="")
+    monkeypatch.setattr("busservo.cli.ports.hid_boards_at_hand", lambda: [one, other])
+    assert main(["ports", "--json"]) == 0
+    assert [json.loads(line) for line in capsys.readouterr().out.splitlines()] == [
+        {"port": "hid:///dev/hidraw1", "usb": "0483:5750", "description": f"LOBOT, {about}"},
+        {"port": "hid:///dev/hidraw2", "usb": "0483:5750", "description": about},
+    ]
+
+
+def test_where_nobody_can_list_such_boards_it_says_so(
+    capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("serial.tools.list_ports.comports", list)
+    monkeypatch.setattr("busservo.cli.ports.hid_boards_at_hand", lambda: None)
+    assert main(["ports"]) == 0
+    assert capsys.readouterr().err.splitlines() == [
+        "no serial port is plugged in",
+        (
+            "boards of USB HID (0483:5750) have no serial port, and are not listed without an "
+            "extra: pip install 'busservo[hid]'"
+        ),
+    ]
 
 
 def test_ports_are_told_with_what_usb_knows_of_them(
@@ -187,7 +287,10 @@ def test_a_line_that_is_lost_in_the_middle_of_a_reply_has_a_status_of_its_own(
 
 def test_simulate_hands_over(capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["simulate", "--help"]) == 0
-    assert "busservo-simulator --tcp 4000" in capsys.readouterr().out
+    shown = capsys.readouterr().out
+    assert shown.startswith("usage: busservo simulate ")
+    assert "busservo simulate --tcp 4000" in shown
+    assert "busservo-simulator" not in shown
 
 
 def test_simulate_says_what_is_missing(
@@ -226,6 +329,8 @@ def test_without_a_port_there_is_no_serial_and_no_thread(words: list[str]) -> No
         ["send", "--help"],
         ["bench-line", "--help"],
         ["replay", "--help"],
+        ["doctor", "--help"],
+        ["ports", "--help"],
         ["replay", FILE, "--dry-run", "--skip-noise", "--either", "send"],
         ["send", "--port", "COM7", "ServoMov"],
     ],
@@ -283,6 +388,7 @@ def test_no_port_is_said_where_nothing_is_plugged_in(
     capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr("serial.tools.list_ports.comports", list)
+    monkeypatch.setattr("busservo.cli.ports.hid_boards_at_hand", list)
     assert main(["ports"]) == 0
     assert capsys.readouterr() == ("", "no serial port is plugged in\n")
 
@@ -322,6 +428,6 @@ def test_a_package_that_the_simulator_lacks_is_not_taken_for_the_simulator(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     monkeypatch.delitem(sys.modules, "busservo_simulator.cli", raising=False)
-    monkeypatch.setitem(sys.modules, "argparse", None)
-    with pytest.raises(ModuleNotFoundError, match="argparse"):
+    monkeypatch.setitem(sys.modules, "signal", None)
+    with pytest.raises(ModuleNotFoundError, match="signal"):
         simulate.hand_over([])

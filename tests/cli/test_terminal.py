@@ -133,7 +133,7 @@ def test_a_line_that_is_lost_is_told_and_what_was_seen_is_kept(tmp_path: Path, v
 
 
 def test_send_shows_that_it_waits_for_a_silent_board() -> None:
-    words = ("send", "--port", "loop://", "BatteryVoltageRead", "--timeout", "3")
+    words = ("send", "--port", "loop://", "--local-echo", "BatteryVoltageRead", "--timeout", "3")
     with OnTerminal(*words) as send:
         send.wait_for("waiting for BatteryVoltage, [0-9]+ s")
         assert send.end() == 1
@@ -143,7 +143,7 @@ def test_send_shows_that_it_waits_for_a_silent_board() -> None:
 
 
 def test_ctrl_c_ends_send_on_a_line_of_its_own() -> None:
-    words = ("send", "--port", "loop://", "BatteryVoltageRead", "--timeout", "3600")
+    words = ("send", "--port", "loop://", "--local-echo", "BatteryVoltageRead", "--timeout", "3600")
     with OnTerminal(*words) as send:
         send.wait_for("waiting for BatteryVoltage, [0-9]+ s")
         send.type(CTRL_C)

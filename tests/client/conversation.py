@@ -22,7 +22,7 @@ from busservo import (
     ServoPositions,
     TransportError,
 )
-from busservo_simulator.mischief import REPLIES
+from busservo_simulator.fault_injector import REPLIES
 
 from tests.patience import PATIENCE, await_that
 
@@ -57,8 +57,8 @@ class Ledger:
         self._lock = threading.Lock()
         board.board.on_battery_voltage_read = self._voltage  # type: ignore[method-assign, assignment]
         board.board.on_servo_positions_read = self._positions  # type: ignore[method-assign]
-        mischief = board._line._mischief
-        reports = mischief.reports
+        injector = board._line._injector
+        reports = injector.reports
 
         def noted(report: Report) -> Iterator[Report]:
             for told in reports(report):
@@ -66,7 +66,7 @@ class Ledger:
                     self.reported.append(told)
                 yield told
 
-        mischief.reports = noted  # type: ignore[method-assign]
+        injector.reports = noted  # type: ignore[method-assign]
 
     def _next(self) -> int:
         self.asked += 1

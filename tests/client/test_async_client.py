@@ -175,9 +175,14 @@ def test_waiting_for_a_group_to_end() -> None:
             assert (
                 await controller.wait_for(ActionGroupCompleted, group=8, timeout=PATIENCE)
             ).times == 1
-            with pytest.raises(NoReportError):
+            with pytest.raises(NoReportError, match=r"instead: ActionGroupStarted\(group=8"):
                 await controller.wait_for(ActionGroupCompleted, group=8, timeout=0.02)
-            assert heard == [ActionGroupStarted(8, 1), ActionGroupCompleted(8, 1)]
+            await controller.run_action_group(8, times=1)
+            ended = await controller.wait_for(
+                (ActionGroupStopped, ActionGroupCompleted), group=8, timeout=PATIENCE
+            )
+            assert ended == ActionGroupCompleted(8, 1)
+            assert heard == 2 * [ActionGroupStarted(8, 1), ActionGroupCompleted(8, 1)]
 
     run(work())
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import logging
 import math
 import os
+import pickle
 import subprocess
 import sys
 import threading
@@ -42,6 +43,9 @@ from tests.patience import PATIENCE, await_that
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
+    from typing import Any
+
+    from busservo.wanted import Kinds
 
 HEAVY = {"typing", "logging", "threading", "serial", "asyncio"}
 
@@ -220,8 +224,61 @@ def test_waiting_for_what_can_never_come_is_refused() -> None:
     controller = virtual(VirtualLine())
     with pytest.raises(TypeError, match="has no field 'grup'; it has group, times"):
         controller.wait_for(ActionGroupCompleted, grup=8, timeout=1)
-    with pytest.raises(TypeError, match="no message that comes to this end"):
-        controller.wait_for(ServoMove, timeout=1)
+    with pytest.raises(
+        TypeError,
+        match="none of these has a field 'grup': ActionGroupCompleted has group, times; "
+        "ActionGroupStopped has none",
+    ):
+        controller.wait_for((ActionGroupCompleted, ActionGroupStopped), grup=8, timeout=1)
+    foreign: list[Kinds] = [ServoMove, (ActionGroupStopped, ServoMove), Message]
+    for kind in foreign:
+        with pytest.raises(TypeError, match="no message that comes to this end"):
+            controller.wait_for(kind, timeout=1)
+    wrong: list[Any] = [7, ActionGroupStopped(), (ActionGroupStopped(),)]
+    for each in wrong:
+        with pytest.raises(TypeError, match="is no class of messages"):
+            controller.wait_for(each, timeout=1)
+    with pytest.raises(TypeError, match="give one"):
+        controller.wait_for((), timeout=1)
+
+
+def test_waiting_for_one_of_several_reports() -> None:
+    def answer(message: Message) -> list[tuple[float, bytes | Message]]:
+        return [(0.0, ActionGroupStarted(8, 1)), (1.0, ActionGroupStopped())]
+
+    controller = virtual(VirtualLine(answer))
+    controller.run_action_group(8, times=1)
+    ended: ActionGroupCompleted | ActionGroupStopped = controller.wait_for(
+        (ActionGroupCompleted, ActionGroupStopped), group=8, timeout=5
+    )
+    assert ended == ActionGroupStopped()
+    with pytest.raises(
+        NoReportError,
+        match=r"no ActionGroupCompleted\(group=8\) or ActionGroupStopped\(\) came",
+    ):
+        controller.wait_for((ActionGroupCompleted, ActionGroupStopped), group=8, timeout=1)
+
+
+def test_what_came_instead_of_a_report_is_told() -> None:
+    line = VirtualLine()
+    controller = virtual(line)
+    with pytest.raises(NoReportError, match="what came instead: no report at all"):
+        controller.wait_for(ActionGroupStopped, timeout=1)
+    controller.run_action_group(8, times=1)
+    for report in (ActionGroupStarted(8, 1), ActionGroupStopped(), ActionGroupStarted(8, 1)):
+        line.say(report)
+    with pytest.raises(NoReportError) as caught:
+        controller.wait_for(ActionGroupCompleted, group=8, timeout=3)
+    assert str(caught.value).endswith(
+        "what came instead: 2 times ActionGroupStarted(group=8, times=1), ActionGroupStopped()"
+    )
+    assert caught.value.instead == {ActionGroupStarted(8, 1): 2, ActionGroupStopped(): 1}
+    again = pickle.loads(pickle.dumps(caught.value))  # noqa: S301 - it is ours
+    assert (str(again), again.instead) == (str(caught.value), caught.value.instead)
+    for group in range(10, 16):
+        line.say(ActionGroupStarted(group, 1))
+    with pytest.raises(NoReportError, match=r"instead: 4 others, .*12.*13.*14.*15, times=1\)$"):
+        controller.wait_for(ActionGroupCompleted, group=8, timeout=3)
 
 
 def test_callbacks_may_use_the_client_and_fail_alone(caplog: pytest.LogCaptureFixture) -> None:

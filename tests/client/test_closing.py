@@ -6,7 +6,7 @@ import asyncio
 import gc
 import threading
 import time
-from concurrent.futures import ThreadPoolExecutor
+from concurrent.futures import ThreadPoolExecutor, wait
 from types import SimpleNamespace
 from typing import TYPE_CHECKING, Any, Literal
 
@@ -20,6 +20,7 @@ from busservo import (
     PortNotFoundError,
     ServoUnload,
     TransportError,
+    open_async_controller,
     open_transport,
 )
 from busservo.async_opening import Opening
@@ -32,6 +33,8 @@ from tests.patience import PATIENCE, await_that
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
     from pathlib import Path
+
+    from busservo import Message
 
 
 def own_threads() -> list[str]:
@@ -63,6 +66,84 @@ class Unplugged(LiveLine):
         if self.attempts < 3:
             raise PortNotFoundError(self.name, "there is no such port", "plug it in")
         return LiveLine()
+
+
+# -------------------------------------------------------------------- closed by several
+
+
+class SlowToClose(LiveLine):
+    """A line that is drained only when the test says so, and calls `meanwhile` before it waits."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.draining, self.go_on = threading.Event(), threading.Event()
+        self.meanwhile: Callable[[], object] = self.draining.set
+
+    def drain(self, _timeout: float) -> None:
+        self.meanwhile()
+        self.draining.set()
+        assert self.go_on.wait(PATIENCE)
+
+
+def test_whoever_closes_second_waits_for_whoever_closes_first() -> None:
+    line = SlowToClose()
+    with ThreadPoolExecutor() as pool:
+        controller = Controller(line)
+        first = pool.submit(controller.close)
+        assert line.draining.wait(PATIENCE)
+
+        def close_too() -> bool:
+            controller.close()
+            return line.closed
+
+        others = [pool.submit(close_too) for _ in range(3)]
+        done, _ = wait(others, timeout=0.05)
+        assert not done, "the line is not closed yet"
+        line.go_on.set()
+        assert [each.result(PATIENCE) for each in others] == [True] * 3
+        first.result(PATIENCE)
+
+
+def test_closing_while_closing_does_not_wait_for_itself() -> None:
+    """As a handler of signals may, which runs in the middle of anything."""
+    line = SlowToClose()
+    controller = Controller(line)
+    line.meanwhile = controller.close
+    line.go_on.set()
+    controller.close()
+    assert line.closed
+
+
+def test_a_callback_may_close_while_another_thread_does() -> None:
+    line = SlowToClose()
+    told, closed = threading.Event(), threading.Event()
+
+    def close_too(_report: Message) -> None:
+        told.set()
+        assert line.draining.wait(PATIENCE)
+        controller.close()
+        closed.set()
+
+    with ThreadPoolExecutor() as pool:
+        controller = Controller(line)
+        controller.on_report(close_too)
+        line.say(ActionGroupStopped())
+        assert told.wait(PATIENCE)
+        closing = pool.submit(controller.close)
+        assert line.draining.wait(PATIENCE)
+        assert closed.wait(PATIENCE), "it waits for nobody who may be waiting for it"
+        line.go_on.set()
+        closing.result(PATIENCE)
+
+
+def test_a_controller_that_is_not_open_yet_says_how_to_open_it() -> None:
+    opening: Any = open_async_controller("/dev/nothing")
+    for name in ("on_report", "read_battery_voltage", "counters"):
+        with pytest.raises(
+            AttributeError, match=f"not open yet, and has no '{name}': .*async with"
+        ):
+            getattr(opening, name)
+    assert not hasattr(opening, "reports")
 
 
 # -------------------------------------------------------------------- forgotten
@@ -271,7 +352,7 @@ def test_a_call_that_is_interrupted_leaves_the_line_usable() -> None:
             return super().read(timeout)
 
     line = Once(lambda message: [(0.1, each) for each in answered(message)])
-    with Controller(line, background=False, clock=line.clock) as controller:
+    with Controller(line, background=False, clock=line.clock, settle=0) as controller:
         with pytest.raises(KeyboardInterrupt):
             controller.read_battery_voltage()
         assert controller.read_servo_positions([1]) == ((1, 10),)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+import contextlib
 import os
 import select
 import socket
@@ -31,6 +32,7 @@ from busservo import (
     open_controller,
     open_transport,
 )
+from busservo.port_errors import not_opened
 from busservo.rejects import Rejects
 from busservo.serial_port import SerialPort
 
@@ -158,6 +160,7 @@ def test_what_a_socket_holds_is_read_at_once_and_not_byte_by_byte(
     sent = bytes(range(256)) * 8
     with socket.create_server(("127.0.0.1", 0)) as listener:
         transport = open_transport(f"socket://127.0.0.1:{listener.getsockname()[1]}")
+        assert isinstance(transport, SerialPort)
         pieces: list[bytes] = []
         read = transport._port.read
 
@@ -178,6 +181,7 @@ def test_what_a_socket_holds_is_read_at_once_and_not_byte_by_byte(
 
 def test_a_socket_sends_small_frames_at_once(tcp: tuple[str, list[socket.socket]]) -> None:
     transport = open_transport(tcp[0])
+    assert isinstance(transport, SerialPort)
     assert transport._port._socket.getsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY)
     transport.close()
 
@@ -213,19 +217,39 @@ def test_exclusive_unless_told_otherwise(board: PtyBoard) -> None:
         assert not one.closed
 
 
+REFUSED_NAMES = {
+    "": "^'': this is no name; name a port",
+    " ": "^' ': this is no name; name a port",
+    "hwgrep://CH340(": r"'CH340\(' is no regular expression .*; such as hwgrep://CH340$",
+    "spy://loop://?file=all.log": "would write to any file .*; name the port alone, and record it",
+    "socket://": "it names no host; write socket://HOST:PORT",
+    "socket://:4000": "it names no host; write socket://HOST:PORT",
+    "socket://board": "it names no TCP port; write socket://HOST:PORT",
+    "socket://[::1]": "it names no TCP port; write socket://HOST:PORT",
+    "socket://board:": "it names no TCP port; write socket://HOST:PORT",
+    "socket://[::1": "it is no address .*; write socket://HOST:PORT",
+    "socket://board:http": "'http' is no TCP port, which is a number; write",
+    "socket://board:99999": "99999 is no TCP port, which is 1 to 65535; write socket://HOST:PORT",
+    "socket://board:0": "0 is no TCP port, which is 1 to 65535",
+    "rfc2217://board:99999": "99999 is no TCP port, which is 1 to 65535; write rfc2217://HOST:PORT",
+    f"socket://board:{'9' * 5000}": "is no TCP port, which is 1 to 65535",
+}
+
+
 @pytest.mark.parametrize(
     ("port", "error", "advice"),
     [
         ("/dev/ttyNoSuchPort", PortNotFoundError, "exist|plugged in"),
         ("COM999", PortNotFoundError, "exist|plugged in"),
-        ("", PortNotFoundError, "exist|plugged in"),
-        ("hwgrep://no such adapter", PortNotFoundError, "exist|plugged in"),
+        ("hwgrep://no such adapter", PortNotFoundError, "'no such adapter' in its description"),
         ("socket://127.0.0.1:1", PortNotFoundError, "there and listening"),
         ("carrier-pigeon://coop", PortAddressError, "name a port"),
-        ("socket://", TransportError, "name a port|listening"),
+        ("/", PortAddressError, "it is there, and is no serial port"),
+        (__file__, PortAddressError, "it is there, and is no serial port"),
         ("bad\0name", PortAddressError, "name a port"),
         (None, PortAddressError, "name a port"),
         (7, PortAddressError, "name a port"),
+        *((name, PortAddressError, told) for name, told in REFUSED_NAMES.items()),
     ],
 )
 def test_what_is_no_port_is_refused_with_advice(
@@ -234,10 +258,30 @@ def test_what_is_no_port_is_refused_with_advice(
     with pytest.raises(error, match=advice) as caught:
         open_transport(port)
     assert isinstance(caught.value, TransportError)
-    assert caught.value.port == str(port)
+    assert caught.value.port == (str(port) if str(port).strip() else repr(port))
 
 
-@pytest.mark.parametrize("baud", [0, -9600, float("inf"), float("nan"), 2**31])
+@pytest.mark.parametrize(
+    ("port", "platform", "told"),
+    [
+        ("COM5", "linux", "that is how Windows names ports, and this is Linux"),
+        ("com12", "darwin", "that is how Windows names ports, and this is macOS"),
+        ("/dev/ttyUSB0", "win32", "that is how Linux names ports, and this is Windows"),
+        ("/dev/ttyACM0", "darwin", "that is how Linux names ports, and this is macOS"),
+        ("/dev/cu.usbserial-1410", "linux", "that is how macOS names ports, and this is Linux"),
+        ("COM5", "win32", "there is no such port"),
+        ("/dev/ttyUSB0", "linux", "there is no such port"),
+        ("/dev/cu.usbserial-1410", "darwin", "there is no such port"),
+        ("COMMUNE", "linux", "there is no such port"),
+    ],
+)
+def test_a_name_of_another_system_is_told_as_such(port: str, platform: str, told: str) -> None:
+    absent = serial.SerialException(2, f"could not open port {port}")
+    error = not_opened(port, absent, lambda: "no serial port is plugged in", platform=platform)
+    assert str(error) == f"{port}: {told}; no serial port is plugged in"
+
+
+@pytest.mark.parametrize("baud", [0, -9600, float("nan"), 2**31])
 def test_a_rate_that_no_port_has_is_refused(baud: float) -> None:
     with pytest.raises(ValueError, match="must be from 1 to 2147483647"):
         open_controller("loop://", baud=baud)
@@ -380,9 +424,10 @@ class Driver:
         self.left = max(0, self.left - 1)
         return self.left
 
-    def write(self, _data: bytes) -> None:
+    def write(self, data: bytes) -> int:
         if self.error is not None:
             raise self.error
+        return len(data)
 
     def cancel_read(self) -> None:
         if self.error is not None:
@@ -405,6 +450,56 @@ def test_an_adapter_that_takes_no_more_bytes_is_told_with_what_helps() -> None:
     port = driven_by(Driver(serial.SerialTimeoutException("Write timeout")))
     with pytest.raises(WriteStuckError, match="has taken no bytes for 1 s; unplug and replug"):
         port.write(b"UU")
+
+
+class Paused(Driver):
+    """A port whose process stands still in the middle of each write, for longer than its time."""
+
+    def __init__(self, handle: int, most: int, clock: list[float]) -> None:
+        super().__init__()
+        self.handle = handle
+        self.most = most
+        self.clock = clock
+        self.taken = b""
+        self.write_timeout: float | None = 1.0
+
+    def fileno(self) -> int:
+        return self.handle
+
+    def write(self, data: bytes) -> int:
+        self.taken += data[: self.most]
+        self.clock[0] += 5.0
+        if self.write_timeout:  # as pyserial, which looks at the clock before it looks at the port
+            raise serial.SerialTimeoutException("Write timeout")
+        return min(len(data), self.most)
+
+
+@pytest.mark.parametrize("most", [1, 2, 100])
+def test_a_pause_of_the_process_is_no_adapter_that_takes_no_bytes(
+    monkeypatch: pytest.MonkeyPatch, most: int
+) -> None:
+    clock = [100.0]
+    monkeypatch.setattr(time, "monotonic", lambda: clock[0])
+    one, other = socket.socketpair()
+    with one, other:
+        driver = Paused(one.fileno(), most, clock)
+        driven_by(driver).write(b"UU\x02\x0f")
+    assert driver.taken == b"UU\x02\x0f"
+
+
+def test_a_pause_in_front_of_an_adapter_that_takes_no_bytes_hides_nothing(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    one, other = socket.socketpair()
+    with one, other:
+        one.setblocking(False)
+        with contextlib.suppress(BlockingIOError):
+            while True:
+                one.send(bytes(65536))
+        monkeypatch.setattr("busservo.serial_port._WRITE_TIMEOUT", 0.01)
+        port = driven_by(Paused(one.fileno(), 100, [0.0]))
+        with pytest.raises(WriteStuckError, match="has taken no bytes"):
+            port.write(b"UU\x02\x0f")
 
 
 @pytest.mark.parametrize("error", [OSError(5, "Input/output error"), TypeError("fd is None")])

@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING
 import pytest
 from busservo import (
     ActionGroupCompleted,
-    ActionGroupRun,
     ActionGroupStop,
     BatteryVoltage,
     BatteryVoltageRead,
@@ -362,26 +361,6 @@ def test_settings_of_no_sense_are_refused(wrong: dict[str, float]) -> None:
     good: dict[str, float] = {"baud": 9600, "margin": 0.25, "report_limit": 16}
     with pytest.raises(ValueError, match="must be"):
         Session(**(good | wrong))  # type: ignore[arg-type]
-
-
-def test_a_run_is_the_cause_of_its_reports() -> None:
-    line = session(baud=math.inf)
-    log = line.reports
-    line.receive(ActionGroupCompleted(8, 1).encode(), 0.0)
-    assert log.since(ActionGroupCompleted, {"group": 8}) == 1
-    line.submit(ActionGroupRun(8, 1))
-    line.outgoing(0.0)
-    line.submit(ActionGroupRun(9, 1))
-    line.receive(ActionGroupCompleted(8, 1).encode(), 0.1)
-    line.outgoing(0.2)
-    assert log.since(ActionGroupCompleted, {"group": 8}) == 1
-    assert log.since(ActionGroupCompleted, {"group": 9}) == 2
-    found = log.find(ActionGroupCompleted, {"group": 8}, since=1, asked_at=2)
-    assert found == ActionGroupCompleted(8, 1)
-    # It has been waited for: the next wait wants another.
-    assert log.find(ActionGroupCompleted, {"group": 8}, since=1, asked_at=2) is None
-    assert log.take() == log.take() == ActionGroupCompleted(8, 1)
-    assert log.take() is None
 
 
 # -------------------------------------------------------------------- how long a reply may be

@@ -72,7 +72,7 @@ def test_positions_are_read_at_the_speed_of_the_wire() -> None:
     clock = VirtualClock(follow_reads=True)
     with (
         VirtualController(baud=9600, clock=clock) as board,
-        Controller(board.transport, background=False, clock=clock.now) as controller,
+        Controller(board.transport, background=False, clock=clock.now, settle=0) as controller,
     ):
         for _ in range(200):
             assert len(controller.read_servo_positions(range(1, 7))) == 6

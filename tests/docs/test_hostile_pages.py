@@ -53,6 +53,8 @@ def hostile(payload: str) -> Reference:
     spoilt = poisoned(data, payload)
     spoilt["lookalikes"]["lx16a"]["commands"] = {1: payload}
     spoilt["messages"]["ServoMove"]["deprecated"] = payload
+    # The field that it names has a unit of time, and no other text.
+    del spoilt["messages"]["ServoMove"]["lasts"]
     source = respelled(spoilt)
     assert [finding.rule for finding in check(load(source))] == []
     return reference_of(source)

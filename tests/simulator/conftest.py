@@ -6,6 +6,7 @@ import sys
 from typing import TYPE_CHECKING, Any
 
 import pytest
+from busservo.protocol import BAUD
 from busservo.serial_port import open_transport
 from busservo_simulator import VirtualClock, VirtualController
 
@@ -41,7 +42,8 @@ def connect(request: pytest.FixtureRequest) -> Iterator[Callable[..., tuple[Any,
         board.start()
         boards.append(board)
         memory = request.param == "memory"
-        hosts.append(Host(board.transport if memory else open_transport(board.port)))
+        baud = options.get("baud") or BAUD
+        hosts.append(Host(board.transport if memory else open_transport(board.port, baud=baud)))
         return board, hosts[-1]
 
     yield make

@@ -194,9 +194,9 @@ def test_a_speed_of_nothing_is_ignored(nodding: VirtualController) -> None:
         assert board.clock.now() == pytest.approx(0.5)
 
 
-def test_the_echo_of_a_run_can_be_left_out() -> None:
+def test_the_report_that_a_group_starts_can_be_left_out() -> None:
     clock = VirtualClock(follow_reads=True)
-    with VirtualController(clock=clock, groups={5: NOD}, echo_run=False) as board:
+    with VirtualController(clock=clock, groups={5: NOD}, start_report=False) as board:
         assert host_of(board).ask(ActionGroupRun(5, 1)) == ActionGroupCompleted(5, 1)
 
 

@@ -6,13 +6,16 @@ import os
 import signal
 import subprocess
 import sys
+from dataclasses import fields, replace
 from typing import TYPE_CHECKING
 
 import pytest
 from busservo import BatteryVoltage, BatteryVoltageRead, ServoPositions, ServoPositionsRead
 from busservo.serial_port import open_transport
-from busservo_simulator.cli import main
+from busservo_simulator import Faults
+from busservo_simulator.cli import _board, main
 from busservo_simulator.faults import CHANCES
+from busservo_simulator.options import PROGRAM, faults_of, parser_of
 from busservo_simulator.servo_list import parse_servos
 
 from tests.patience import PATIENCE
@@ -96,16 +99,74 @@ def test_help_teaches_by_example(capsys: pytest.CaptureFixture[str]) -> None:
     assert all(name in shown for name in CHANCES)
 
 
+def test_every_option_has_its_help() -> None:
+    for action in parser_of(PROGRAM)._actions:
+        assert action.help, action.option_strings
+
+
+@pytest.mark.parametrize("name", [each.name for each in fields(Faults)])
+def test_every_field_of_the_faults_is_reached(name: str) -> None:
+    value = 7 if name == "seed" else 0.125
+    option = [f"--{name.replace('_', '-')}", str(value)]
+    words = ["--fault", f"{name}={value}"] if name in CHANCES else option
+    arguments = parser_of(PROGRAM).parse_args(words)
+    assert faults_of(arguments) == replace(Faults(), **{name: value})  # type: ignore[arg-type]
+
+
+ASK = BatteryVoltageRead().encode()
+REPLY = BatteryVoltage(7500).encode()
+
+
+@pytest.mark.parametrize(
+    ("words", "heard"),
+    [
+        ("--local-echo --baud 96000", ASK + REPLY),
+        ("--fault duplicated=1", REPLY + REPLY),
+        ("--fault late=1 --late-by 0.02", REPLY),
+        ("--fault delays=1 --longest-delay 0.02", REPLY),
+        ("--fault lost_bytes=0.2 --seed 1", bytes.fromhex("55 04 0F 4C 1D")),
+        ("--servos 1-2 --fault wrong_count=1 --seed 1", bytes.fromhex("55 55 09 15 01")),
+    ],
+)
+def test_its_options_are_heard_on_the_wire(words: str, heard: bytes) -> None:
+    arguments = parser_of(PROGRAM).parse_args(["--tcp", *words.split()])
+    with _board(arguments) as board:
+        host = Host(open_transport(board.port))
+        host.transport.write(ServoPositionsRead([1, 2]).encode() if "count" in words else ASK)
+        assert host.collect(len(heard))[: len(heard)] == heard
+        host.hang_up()
+
+
+@not_windows
+def test_it_tells_of_a_host_at_another_rate(
+    start: Callable[..., tuple[subprocess.Popen[str], str]],
+) -> None:
+    process, port = start()
+    host = Host(open_transport(port, baud=115200))
+    host.say(BatteryVoltageRead())
+    assert process.stdout is not None
+    assert "the host is at 115200 baud, the board at 9600\n" in process.stdout.readline()
+    host.hang_up()
+
+
 @pytest.mark.parametrize(
     ("arguments", "words"),
     [
         (["--fault", "gremlins=1"], "no fault is called 'gremlins'"),
-        (["--fault", "noise=lots"], "noise=0.1"),
-        (["--fault", "noise=2", "--tcp"], "noise is 2.0: a chance is from 0 to 1"),
+        (["--fault", "noise=lots"], "--fault: 'lots' is no chance: write one from 0 to 1"),
+        (["--fault", "noise=2"], "--fault: '2' is no chance: write one from 0 to 1, as noise=0.1"),
+        (["--fault", "noise"], "--fault: '' is no chance: write one from 0 to 1, as noise=0.1"),
+        (["--fault", "late_by=2"], "no fault is called 'late_by'"),
+        (["--late-by=-1"], "--late-by: '-1' is no time: write seconds, as 0.5"),
+        (["--longest-delay", "nan"], "--longest-delay: 'nan' is no time"),
+        (["--seed", "1_0"], "--seed: '1_0' is no seed: write a whole number, as 7"),
         (["--off", "9", "--tcp"], "there is no such servo"),
         (["--tcp", "--link", "COM7"], "--link names a pty"),
+        (["--tcp", "99999"], "'99999' is no TCP port: write one from 0 to 65535"),
+        (["--tcp", "0", "--host", "203.0.113.7"], "203.0.113.7, port 0 cannot be opened: "),
         (["--servos", "300"], "--servos"),
-        (["--baud", "0", "--tcp"], "baud is 0.0"),
+        (["--baud", "0"], "--baud: '0' is no rate: write one above 0, as 9600"),
+        (["--baud", "fast"], "--baud: 'fast' is no rate"),
     ],
 )
 def test_what_it_cannot_do_it_says(
@@ -148,7 +209,7 @@ def test_it_ends_when_whoever_read_along_has_gone(
     host.say(BatteryVoltageRead())
     _, errors = process.communicate(timeout=PATIENCE)
     host.hang_up()
-    assert (process.returncode, errors) == (0, "1 messages, 0 rejected\n")
+    assert (process.returncode, errors) == (141, "1 messages, 0 rejected\n")
 
 
 @not_windows

@@ -16,7 +16,7 @@ from busservo import (
 )
 from busservo.link_errors import DisconnectedError, TransportError
 from busservo_simulator import Faults, VirtualClock, VirtualController
-from busservo_simulator.faults import CHANCES
+from busservo_simulator.faults import CHANCES, DURATIONS
 
 from tests.patience import await_that
 from tests.simulator.hosts import Host, host_of
@@ -46,6 +46,13 @@ def test_nothing_goes_wrong_unless_asked_for() -> None:
 def test_a_chance_is_from_0_to_1(name: str, chance: float) -> None:
     with pytest.raises(ValueError, match=f"{name} is"):
         Faults(**{name: chance})  # type: ignore[arg-type]
+
+
+@pytest.mark.parametrize("name", DURATIONS)
+@pytest.mark.parametrize("seconds", [-0.1, float("inf"), float("nan")])
+def test_seconds_are_0_or_more(name: str, seconds: float) -> None:
+    with pytest.raises(ValueError, match=f"{name} is"):
+        Faults(**{name: seconds})  # type: ignore[arg-type]
 
 
 def test_noise_comes_in_front_of_frames_and_costs_none() -> None:
@@ -96,6 +103,90 @@ def test_frames_come_late_and_in_order() -> None:
         assert host.ask(ASK) == ActionGroupStarted(8, 1)
         assert isinstance(host.hear(), BatteryVoltage)
         assert 0 < board.clock.now() <= 0.4
+
+
+def test_a_reply_comes_later_than_any_time_out_and_what_is_sent_meanwhile_passes_it() -> None:
+    with faulty(late=1, late_by=1000) as board:
+        host = host_of(board)
+        host.say(ASK)
+        assert host.hear(999) is None
+        board.faults = Faults()
+        board.report(ActionGroupStopped())
+        assert host.ask(ServoPositionsRead([1])) == ActionGroupStopped()
+        assert host.hear() == ServoPositions([(1, 500)])
+        assert host.hear() == VOLTAGE
+        assert board.clock.now() == pytest.approx(1000)
+
+
+def test_late_replies_come_in_order_and_whole() -> None:
+    with VirtualController(clock=VirtualClock(follow_reads=True), baud=9600) as board:
+        board.faults = Faults(late=1, late_by=0.05)
+        host = host_of(board)
+        for servo_id in range(1, 7):
+            host.say(ServoPositionsRead([servo_id]))
+        heard = [host.hear() for _ in range(6)]
+        assert heard == [ServoPositions([(servo_id, 500)]) for servo_id in range(1, 7)]
+        assert host.noise() == []
+
+
+def test_a_late_reply_finds_the_host_that_is_there_by_then() -> None:
+    with faulty(late=1, late_by=1.0) as board:
+        host = host_of(board)
+        host.say(ASK)
+        board.unplug()
+        board.advance(0.5)
+        board.plug_in()
+        assert Host(board.open(), board.clock.now, 2).hear() == VOLTAGE
+        host.say(ASK)
+        board.unplug()
+        board.advance(1.5)
+        board.plug_in()
+        assert Host(board.open(), board.clock.now, 2).hear() is None
+
+
+def test_a_board_that_restarts_forgets_its_late_replies() -> None:
+    with faulty(late=1, coalesced=1) as board:
+        host = host_of(board)
+        host.say(ASK)
+        board.reboot(0.1)
+        assert host.hear() is None
+
+
+def test_a_reply_comes_twice_and_a_report_once() -> None:
+    with faulty(duplicated=1) as board:
+        host = host_of(board)
+        assert host.ask(ASK) == VOLTAGE
+        assert host.hear() == VOLTAGE
+        board.press_button(8)
+        assert host.hear() == ActionGroupStarted(8, 1)
+        assert host.hear() == ActionGroupCompleted(8, 1)
+        assert host.hear() is None
+
+
+def test_bytes_are_lost() -> None:
+    clean = VOLTAGE.encode()
+    with faulty(lost_bytes=0.1) as board:
+        host = host_of(board)
+        sizes = []
+        for _ in range(50):
+            host.say(ASK)
+            frame = board.transport.read(0.01)
+            rest = iter(clean)
+            assert all(byte in rest for byte in frame)  # what is left is in order
+            sizes.append(len(frame))
+        assert 10 <= sum(6 - size for size in sizes) <= 60
+        assert sizes.count(6) > sizes.count(5) > 0
+
+
+def test_a_reply_counts_one_too_many_or_too_few() -> None:
+    with faulty(wrong_count=1) as board:
+        host = host_of(board)
+        frames = set()
+        for _ in range(20):
+            host.say(ServoPositionsRead([1, 2]))
+            frames.add(board.transport.read(1).hex(" "))
+        assert frames == {f"55 55 09 15 {count} 01 f4 01 02 f4 01" for count in ("01", "03")}
+        assert host.ask(ASK) == VOLTAGE  # it has no count
 
 
 def test_replies_are_dropped_and_reports_are_not() -> None:
@@ -194,7 +285,26 @@ def test_faults_can_be_set_at_any_time() -> None:
         assert host.ask(ASK) == VOLTAGE
 
 
-HARMFUL = {"bit_flips", "bit_flips_to_board", "dropped", "hang_up"}
+NEW = {"duplicated": 0.3, "late": 0.3, "lost_bytes": 0.1, "wrong_count": 0.3}
+
+
+@pytest.mark.parametrize("name", NEW)
+def test_a_seed_repeats_a_fault_and_another_does_not(name: str) -> None:
+    def run(seed: int) -> bytes:
+        clock = VirtualClock(follow_reads=True)
+        with VirtualController(clock=clock, faults=Faults(seed, **{name: NEW[name]})) as board:
+            host = host_of(board)
+            for servo_id in range(1, 7):
+                host.say(ServoPositionsRead([servo_id]))
+                host.hear(0.01)
+            host.hear(5)
+            return host.bytes
+
+    assert run(1) == run(1)
+    assert len({run(seed) for seed in range(9)}) > 1
+
+
+HARMFUL = {"bit_flips", "bit_flips_to_board", "dropped", "hang_up", "lost_bytes", "wrong_count"}
 HARMLESS = [
     pytest.param(name, marks=[pytest.mark.garbage] * (name == "noise_to_board"))
     for name in CHANCES
@@ -206,13 +316,13 @@ HARMLESS = [
 def test_a_fault_that_loses_nothing_loses_nothing_on_any_port(
     connect: Callable[..., tuple[Any, Host]], name: str
 ) -> None:
-    faults = Faults(seed=3, longest_delay=0.01, **{name: 0.5})
+    faults = Faults(seed=3, longest_delay=0.01, late_by=0.01, **{name: 0.5})
     board, host = connect(faults=faults)
     for _ in range(8):
         host.say(ServoPositionsRead(range(1, 7)))
-        while not isinstance(host.hear(), ServoPositions):
-            pass
-    assert board.accepted == 8
+        while not isinstance(heard := host.hear(), ServoPositions):
+            assert heard is not None
+    await_that(lambda: board.accepted == 8)
     assert bool(board.rejects.total) == (name == "noise_to_board")
 
 

@@ -3,29 +3,57 @@
 from __future__ import annotations
 
 import re
+import sys
 from functools import partial
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import busservo
 import pytest
+from busservo_simulator.cli import _board
+from busservo_simulator.faults import CHANCES, TO_BOARD
+from busservo_simulator.options import PROGRAM, parser_of
 
 from tests.patience import PATIENCE
 
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
 GUIDE = Path(__file__).parents[2] / "docs" / "test-your-robot.md"
-BLOCKS = re.findall(
-    r"^```python\n(.*?)^```$", GUIDE.read_text(encoding="utf-8"), re.DOTALL | re.MULTILINE
-)
+TEXT = GUIDE.read_text(encoding="utf-8")
+BLOCKS = re.findall(r"^```python\n(.*?)^```$", TEXT, re.DOTALL | re.MULTILINE)
+COMMANDS = re.findall(r"^\$ busservo-simulator (.*)$", TEXT, re.MULTILINE)
+FAULTS = re.findall(r"^\| `(.*)` \| (.*) \|$", TEXT, re.MULTILINE)
 
 
 def test_the_guide_has_examples() -> None:
-    assert len(BLOCKS) == 7
+    assert (len(BLOCKS), len(COMMANDS)) == (10, 2)
 
 
-# Those that look for a reason why something was refused have sent it on purpose.
-SHOWN = [
-    pytest.param(block, marks=[pytest.mark.garbage] * ("rejects.total == 1" in block))
-    for block in BLOCKS
-]
+def marks(block: str) -> Iterator[pytest.MarkDecorator]:
+    # Some send on purpose what the board refuses.
+    if "rejects.total == 1" in block or "baud=115200" in block:
+        yield pytest.mark.garbage
+    if '"pty"' in block:
+        yield pytest.mark.skipif(sys.platform == "win32", reason="Windows has no pty")
+
+
+SHOWN = [pytest.param(block, marks=list(marks(block))) for block in BLOCKS]
+
+
+@pytest.mark.parametrize("words", COMMANDS)
+def test_a_command_puts_a_board_behind_a_port(words: str) -> None:
+    with _board(parser_of(PROGRAM).parse_args(words.split())) as board:
+        assert board.port
+
+
+def test_the_guide_tells_of_every_fault_as_the_help_does() -> None:
+    told = dict(FAULTS)
+    for name, what in CHANCES.items():
+        if name in TO_BOARD:
+            assert name in "".join(told)
+        else:
+            assert told[name].replace("`", "").replace(" seconds", "") == what
 
 
 @pytest.mark.parametrize("block", SHOWN)

@@ -19,6 +19,7 @@ from busservo import (
 )
 from busservo.link_errors import ClosedError, DisconnectedError, PortNotFoundError
 from busservo_simulator import Board, Faults, VirtualClock, VirtualController
+from busservo_simulator.faults import CHANCES
 from busservo_simulator.line import Line
 from busservo_simulator.wire import Wire
 from hypothesis import given
@@ -189,19 +190,7 @@ CHANCE = st.floats(0, 0.5)
 FAULTS = st.builds(
     Faults,
     seed=st.integers(0, 99),
-    noise=CHANCE,
-    bit_flips=CHANCE,
-    splits=CHANCE,
-    coalesced=CHANCE,
-    delays=CHANCE,
-    dropped=CHANCE,
-    fewer=CHANCE,
-    absent=CHANCE,
-    unasked=CHANCE,
-    hang_up=st.floats(0, 0.05),
-    noise_to_board=CHANCE,
-    bit_flips_to_board=CHANCE,
-    splits_to_board=CHANCE,
+    **dict.fromkeys(CHANCES, CHANCE) | {"hang_up": st.floats(0, 0.05)},
 )
 CHUNKS = st.lists(
     st.tuples(
@@ -212,12 +201,20 @@ CHUNKS = st.lists(
 )
 
 
-@given(CHUNKS, FAULTS, st.sampled_from([0.0, 10 / 9600]))
+RATES = st.sampled_from([None, 300, 9601, 921600])
+
+
+@given(CHUNKS, FAULTS, st.sampled_from([None, 9600]), RATES, st.booleans())
 @pytest.mark.garbage
 def test_nothing_that_arrives_can_make_the_board_fail(
-    chunks: list[tuple[bytes, float]], faults: Faults, seconds_per_byte: float
+    chunks: list[tuple[bytes, float]],
+    faults: Faults,
+    baud: float | None,
+    host_baud: float | None,
+    local_echo: bool,
 ) -> None:
-    line = Line(Board(range(256)), seconds_per_byte=seconds_per_byte, faults=faults)
+    line = Line(Board(range(256)), baud=baud, local_echo=local_echo, faults=faults)
+    line.host_baud = host_baud
     moment = 0.0
     for data, pause in chunks:
         line.write(data, moment)
@@ -227,13 +224,14 @@ def test_nothing_that_arrives_can_make_the_board_fail(
     assert line.unheard == 0
 
 
-@given(CHUNKS, FAULTS)
+@given(CHUNKS, FAULTS, RATES)
 @pytest.mark.garbage
 def test_the_same_seed_and_the_same_traffic_give_the_same_bytes(
-    chunks: list[tuple[bytes, float]], faults: Faults
+    chunks: list[tuple[bytes, float]], faults: Faults, host_baud: float | None
 ) -> None:
     def run() -> list[bytes]:
         line, moment = Line(Board(), faults=faults), 0.0
+        line.host_baud = host_baud
         heard: list[bytes] = []
         for data, pause in chunks:
             line.write(data, moment)
@@ -246,7 +244,7 @@ def test_the_same_seed_and_the_same_traffic_give_the_same_bytes(
 
 @given(st.lists(strategies.messages(HOST)), st.integers(1, 40), st.booleans())
 def test_legal_traffic_is_never_refused(messages: list[Message], size: int, slow: bool) -> None:
-    line = Line(Board(), seconds_per_byte=10 / 9600 if slow else 0.0)
+    line = Line(Board(), baud=9600 if slow else None)
     data = b"".join(message.encode() for message in messages)
     for at in range(0, len(data), size):
         line.write(data[at : at + size], 0.0)

@@ -86,12 +86,13 @@ def test_one_sends_and_closes_and_never_listens(tmp_path: Path) -> None:
 
 def test_xarm_is_served(board: VirtualController, monkeypatch: pytest.MonkeyPatch) -> None:
     """It takes a port only by a name that begins with COM, and waits a second for each answer:
-    here, that second begins when the answer has come, however busy the machine is.
+    here, what is left of it begins when the answer has come, however busy the machine is.
     """
     xarm = pytest.importorskip("xarm", reason="it is in the dependency group `test`")
     link = Path(board.port)
     monkeypatch.chdir(link.parent)
     arm = xarm.Controller(link.name)
+    arm._device.timeout = 0.05
     send, sizes = arm._send, iter([6, 23, 8])
 
     def patient(command: int, *data: object) -> None:
@@ -101,6 +102,7 @@ def test_xarm_is_served(board: VirtualController, monkeypatch: pytest.MonkeyPatc
 
     monkeypatch.setattr(arm, "_send", patient)
     arm.setPosition([[1, 700], [2, 300]], duration=0)
+    await_that(lambda: (board.servos[1].position, board.servos[2].position) == (700, 300))
     assert arm.getBatteryVoltage() == pytest.approx(7.5, abs=0.1)
     servos = [xarm.Servo(number) for number in range(1, 7)]
     arm.getPosition(servos)

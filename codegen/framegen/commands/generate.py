@@ -6,6 +6,7 @@ import sys
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from framegen.console import visible
 from framegen.wording import counted
 
 if TYPE_CHECKING:
@@ -54,7 +55,7 @@ def run(arguments: Namespace) -> int:
     if not (arguments.check or arguments.diff):
         done = write(root, rendered)
         for change in done:
-            print(f"{'removed' if change.new is None else 'wrote'} {change.path}")
+            print(f"{'removed' if change.new is None else 'wrote'} {visible(change.path)}")
         _tell(f"{files} from {loaded.source.name}: {len(done) or 'none'} changed")
         return 0
     found = changes(root, rendered)
@@ -62,7 +63,7 @@ def run(arguments: Namespace) -> int:
         print(change.diff(), end="")
     sys.stdout.flush()
     for change in found:
-        _tell(f"{change.why}: {change.path}")
+        _tell(f"{change.why}: {visible(change.path)}")
     _tell(f"{files} from {loaded.source.name}: {len(found) or 'none'} would change")
     return 1 if found and arguments.check else 0
 

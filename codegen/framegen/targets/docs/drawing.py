@@ -109,10 +109,16 @@ def _caption(layout: Layout, name: str) -> str:
     sender, receiver = message.direction.sender, message.direction.receiver
     if message.reply is not None:
         return f"The {sender} sends {name}; the {receiver} answers with {message.reply}."
+    acknowledged = message.acknowledged
+    known = "" if acknowledged is None else f" {acknowledged} says that {name} was taken."
+    if message.lasts is not None:
+        known = f" What it starts goes on for {message.lasts}; nothing says when it is over."
     if message.reports:
         listed = ", then perhaps ".join(message.reports)
-        return f"The {sender} sends {name}; sooner or later the {receiver} may report {listed}."
-    return f"The {sender} sends {name}. Nothing comes back, whether it was understood or not."
+        may = f"sooner or later the {receiver} may report {listed}."
+        return f"The {sender} sends {name}; {may}{known}"
+    silent = "Nothing comes back, whether it was understood or not."
+    return f"The {sender} sends {name}. {silent}{known}"
 
 
 def _drawn(layout: Layout, id_: str, steps: list[tuple[str, str, bool]], caption: str) -> Drawing:

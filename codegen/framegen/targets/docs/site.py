@@ -27,7 +27,7 @@ from framegen.targets.docs.timing import RoundTrip, Timing, bytes_a_second, roun
 if TYPE_CHECKING:
     from framegen.layout import Layout
     from framegen.source import Source
-    from framegen.spec import Protocol, Release, Reserved, SourceDocument
+    from framegen.spec import HidBoard, Protocol, Release, Reserved, SourceDocument
     from framegen.yamltree import Tree
 
 
@@ -46,6 +46,20 @@ class PageView:
     def root(self) -> str:
         """The way from the page to the root of the reference."""
         return "../" * self.path.count("/")
+
+
+@dataclass(frozen=True, slots=True)
+class HidBoardView:
+    """Boards that show as a USB HID device, and where that is known from."""
+
+    said: HidBoard
+    cite: CiteView | None
+
+    @property
+    def text(self) -> str:
+        """How they are found, and what they send."""
+        told = f"{self.said.ids}, a frame in each report of {self.said.report_size} bytes"
+        return f"{told}. {self.said.about}" if self.said.about else told
 
 
 @dataclass(frozen=True, slots=True)
@@ -111,6 +125,15 @@ class SiteView:
         link = self.layout.spec.link
         letter = {"none": "N", "even": "E", "odd": "O"}[link.parity]
         return f"{link.baud} baud, {link.data_bits}{letter}{link.stop_bits}"
+
+    @property
+    def hid_boards(self) -> list[HidBoardView]:
+        """Boards that have no serial port."""
+        spec = self.layout.spec
+        return [
+            HidBoardView(board, None if board.cite is None else cite_view(spec, board.cite))
+            for board in spec.link.usb_hid
+        ]
 
     @property
     def bytes_a_second(self) -> str:

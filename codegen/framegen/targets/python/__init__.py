@@ -20,8 +20,8 @@ if TYPE_CHECKING:
     from framegen.source import Source
 
 _HERE = Path(__file__).parent
-# What framegen itself reads hex with, the library reads it with, too.
-_SHARED = ("hextext.py",)
+# What framegen and a library have in common is written once: where it is copied to.
+_SHARED = {"cli/console.py": "console.py", "hextext.py": "hextext.py"}
 
 
 def render(source: Source, layout: Layout) -> dict[str, str]:
@@ -48,7 +48,7 @@ def _runtime() -> list[tuple[str, str]]:
     """The files that are the same for every protocol, copied as they are."""
     root = _HERE / "runtime"
     files = {file.relative_to(root).as_posix(): file for file in sorted(root.rglob("*.py"))}
-    files |= {name: _HERE.parents[1] / name for name in _SHARED}
+    files |= {name: _HERE.parents[1] / shared for name, shared in _SHARED.items()}
     return [(name, file.read_text(encoding="utf-8")) for name, file in files.items()]
 
 

@@ -8,20 +8,25 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, ClassVar
 
-from framegen.exchanges import exchanges, sent_by_client
+from framegen.exchanges import STEPS_PER_SECOND, exchanges, sent_by_client
 from framegen.targets.python.escape import Bracketed, literal
 from framegen.targets.python.exports import relative_import
 from framegen.targets.python.method_view import Flavour, MethodView
+from framegen.targets.python.pose_view import PoseView
 from framegen.targets.python.words import direction_member
 
 if TYPE_CHECKING:
     from framegen.exchanges import Exchange
     from framegen.layout import Layout
+    from framegen.values import Range
 
 _SHARED = (
     "Each method sends one message. What they share is explained at {}: {}, deadlines, reports, "
     "and closing."
 )
+
+# What a command returns, by module.
+_RESULTS = {"motion": ["AsyncMotion", "Motion"], "request": ["Sent"], "run": ["Run"]}
 
 
 @dataclass(frozen=True, slots=True)
@@ -31,8 +36,8 @@ class ClientView:
     layout: Layout
 
     FLAVOURS: ClassVar = {
-        "Controller": Flavour("def ", ""),
-        "AsyncController": Flavour("async def ", "await "),
+        "Controller": Flavour("def ", "", "Motion"),
+        "AsyncController": Flavour("async def ", "await ", "AsyncMotion"),
     }
 
     @property
@@ -67,6 +72,43 @@ class ClientView:
 
     def _methods(self, flavour: Flavour) -> list[MethodView]:
         return [MethodView(each, self.layout, flavour) for each in exchanges(self.layout)]
+
+    @property
+    def pose(self) -> PoseView | None:
+        """The methods for positions of the client for threads, where there are any."""
+        return self._pose(self.FLAVOURS["Controller"])
+
+    @property
+    def async_pose(self) -> PoseView | None:
+        """The same of the client for asyncio."""
+        return self._pose(self.FLAVOURS["AsyncController"])
+
+    def _pose(self, flavour: Flavour) -> PoseView | None:
+        pose = self.layout.spec.pose
+        return None if pose is None else PoseView(pose, self.layout, flavour)
+
+    @property
+    def limits(self) -> str:
+        """What describes the limits of what is sent."""
+        limited = {
+            each.request.name: each.request.limited
+            for each in exchanges(self.layout)
+            if each.request.limited
+        }
+        if not limited:
+            return "LIMITS = Limits()"
+        limits = next(each for fields in limited.values() for each in fields.values())
+        others = [f"{literal(name)}: {_bounds(each)}" for name, each in limits.others.items()]
+        fields: list[str | Bracketed] = [
+            Bracketed(f"{name}: (", [literal(path) for path in paths], ")", lone=",")
+            for name, paths in limited.items()
+        ]
+        items: list[str | Bracketed] = [_bounds(limits.usual)]
+        items += [Bracketed("others={", others, "}")] if others else []
+        items.append(Bracketed("fields={", fields, "}"))
+        pose = self.layout.spec.pose
+        items += [] if pose is None else [f"targets={literal(pose.targets)}"]
+        return Bracketed("LIMITS = Limits(", items, ")").fitted(0)
 
     @property
     def entries(self) -> list[str]:
@@ -106,18 +148,40 @@ class ClientView:
         shown = " ".join(method.returns for method in self.methods)
         lists = [each.repeat for each in self.layout.messages.values()]
         elements = {each.element for each in lists if each is not None and each.element is not None}
-        names = sorted(each for each in elements if f"tuple[{each}, ...]" in shown)
+        found = {each for each in elements if f"tuple[{each}, ...]" in shown}
+        names = sorted(found | ({self.pose.element} if self.pose else set()))
         return relative_import("messages", names, 4) if names else ""
 
     @property
     def iterables(self) -> bool:
         """Whether a method takes a list."""
-        return any("Iterable[" in method.signature for method in self.methods)
+        return self.pose is not None or any(
+            "Iterable[" in method.signature for method in self.methods
+        )
 
     @property
-    def commands(self) -> bool:
-        """Whether a method only sends."""
-        return any(method.returns == "Sent" for method in self.methods)
+    def import_results(self) -> list[str]:
+        """The classes of what commands of the client for threads return."""
+        return _results(self.methods)
+
+    @property
+    def async_import_results(self) -> list[str]:
+        """The classes of what commands of the client for asyncio return."""
+        return _results(self.async_methods)
+
+
+def _results(methods: list[MethodView]) -> list[str]:
+    returned = {method.returns for method in methods}
+    return [
+        relative_import(module, names, 4)
+        for module, of_it in _RESULTS.items()
+        if (names := [name for name in of_it if name in returned])
+    ]
+
+
+def _bounds(range_: Range) -> str:
+    """A pair of numbers as Python writes it."""
+    return f"({range_.low}, {range_.high})"
 
 
 def _entry(each: Exchange) -> str:
@@ -132,6 +196,11 @@ def _entry(each: Exchange) -> str:
         items.append(f"result={literal(each.method.result)}")
     if each.reports:
         items.append(Bracketed("reports=(", list(each.reports), ")", lone=","))
+    if each.acknowledged is not None:
+        items.append(f"acknowledged={each.acknowledged}")
+    if each.lasts is not None:
+        steps = STEPS_PER_SECOND[each.lasts.field.unit]
+        items.append(f"lasts=({literal(each.lasts.name)}, {steps})")
     if each.echoed:
         pairs = [f"({literal(one)}, {literal(other)})" for one, other in each.echoed]
         items.append(Bracketed("echoed=(", pairs, ")", lone=","))

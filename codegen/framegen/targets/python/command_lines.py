@@ -50,6 +50,13 @@ def line_examples(layout: Layout) -> dict[str, list[str]]:
             (f"{words} -n 20" if at else words, f"how long {reply} takes to come")
             for at, (words, _, reply) in enumerate(questions)
         ],
+        "doctor": [
+            ("", "the port that is plugged in, and the board behind it"),
+            ("--port COM7", "this port"),
+            ("--port COM7 --move 1", "also whether servo 1 moves; asks first"),
+            ('--port COM7 --board "LSC-32, V1.3" --report line.hex', "a report to be sent in"),
+            ("--port COM7 --json", "for a program to read"),
+        ],
         "monitor": [
             ("--port COM7", "every frame and all noise"),
             ("--port COM7 -t delta -n 5", "five, and their distances"),
@@ -74,9 +81,21 @@ def line_examples(layout: Layout) -> dict[str, list[str]]:
             ("--help", "what else it can do"),
         ],
     }
+    if layout.spec.pose is not None:
+        lines |= {
+            "play": [
+                ("poses.json --dry-run", "what would be sent, and when"),
+                ("poses.json --port COM7", "from pose to pose, each in a second"),
+                ("poses.json --port COM7 --time-ms 500 --pause 1 --repeat 3", "faster, and thrice"),
+            ],
+            "teach": [
+                ("poses.json --port COM7", "all that are there, at each Enter"),
+                ("poses.json --port COM7 --ids 1-3 --append", "three, behind what is recorded"),
+            ],
+        }
     return {
         verb: _pairs((f"{program} {verb} {words}".rstrip(), what) for words, what in examples)
-        for verb, examples in lines.items()
+        for verb, examples in sorted(lines.items())
     }
 
 

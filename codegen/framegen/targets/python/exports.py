@@ -7,7 +7,9 @@ from framegen.targets.python.escape import WIDTH
 # What every library exports besides its messages, and the module that each is in.
 HOMES = {
     "MESSAGES": "messages",
+    "AbsentError": "link_errors",
     "AsyncController": "async_controller",
+    "AsyncMotion": "motion",
     "ClosedError": "link_errors",
     "Controller": "controller",
     "Counters": "decoder",
@@ -18,7 +20,10 @@ HOMES = {
     "EchoError": "link_errors",
     "EncodeError": "errors",
     "IncompleteReplyError": "link_errors",
+    "LimitError": "errors",
+    "LineCounters": "counters",
     "Message": "message",
+    "Motion": "motion",
     "NoReplyError": "link_errors",
     "NoReportError": "link_errors",
     "Noise": "noise",
@@ -28,6 +33,7 @@ HOMES = {
     "PortPermissionError": "link_errors",
     "ProtocolError": "errors",
     "Reason": "errors",
+    "Run": "run",
     "Sent": "request",
     "StreamDecoder": "decoder",
     "Transport": "transport",

@@ -198,6 +198,16 @@ class LibraryView:
         return self.layout.spec.link
 
     @property
+    def hid_boards(self) -> str:
+        """An assignment: vendor, product and the bytes of a report, of each."""
+        boards = [
+            f"(0x{board.vendor:04X}, 0x{board.product:04X}, {board.report_size})"
+            for board in self.link.usb_hid
+        ]
+        before = "HID_BOARDS: tuple[tuple[int, int, int], ...] = ("
+        return Bracketed(before, boards, ")", lone=",").fitted(0)
+
+    @property
     def byte_order(self) -> str:
         return self.layout.spec.byte_order
 

@@ -18,6 +18,18 @@ _HANDED_OVER = (
     "Returns once the frame is handed over; `delay` of the result is in how many seconds it will "
     "be on the wire."
 )
+_LASTS = (
+    "`lasts` of the result is how long it goes on, and its `wait()` returns once it is over, by "
+    "calculation."
+)
+_LATEST = (
+    "`latest`: Does not wait for the line, and gives way to a newer one that is about the same, as "
+    "`send_latest` does."
+)
+_ACKNOWLEDGED = (
+    "`started` of the result says whether {} has come for it: False once it has not in time, on a "
+    "line on which such reports have come before."
+)
 _REFUSED = "Raises EncodeError for what no frame can carry"
 _LATE = "NoReplyError where no reply comes in time, and TransportError."
 _SPLIT = "more are asked for in several requests, one after the other."
@@ -28,10 +40,14 @@ _PARTLY = (
 
 @dataclass(frozen=True, slots=True)
 class Flavour:
-    """How one of the clients is written: what stands before a definition, a call and an example."""
+    """How one of the clients is written: what stands before a definition, a call and an example.
+
+    `motion` is what it returns for a message that lasts.
+    """
 
     define: str
     wait: str
+    motion: str
 
 
 @dataclass(frozen=True, slots=True)
@@ -51,19 +67,27 @@ class MethodView:
     def signature(self) -> str:
         """Its declaration."""
         given = [f"{name}: {self._type(self._argument(name))}" for name in self._names]
+        latest = [] if self.exchange.lasts is None else ["*", "latest: bool = False"]
         before = f"{self.flavour.define}{self.name}("
-        return Bracketed(before, ["self", *given], f") -> {self.returns}:").fitted(4)
+        return Bracketed(before, ["self", *given, *latest], f") -> {self.returns}:").fitted(4)
 
     @property
     def returns(self) -> str:
         """The type of its result."""
         reply = self.exchange.reply
         if reply is None:
-            return "Sent"
+            return self._sent
         result = self._result
         if result is None:
             return reply.name
         return "int" if isinstance(result, WireField) else self._list(result).read_as
+
+    @property
+    def _sent(self) -> str:
+        """The type of what a command returns."""
+        if self.exchange.lasts is not None:
+            return self.flavour.motion
+        return "Sent" if self.exchange.acknowledged is None else "Run"
 
     @property
     def doc(self) -> list[str]:
@@ -81,7 +105,7 @@ class MethodView:
     def _outcome(self) -> list[str]:
         reply, result = self.exchange.reply, self._result
         if reply is None:
-            return [_HANDED_OVER, f"{_REFUSED}, and TransportError."]
+            return [*self._handed_over, f"{_REFUSED}, and TransportError."]
         told = f"Returns the {reply.name}."
         if result is not None:
             about, *rest = self._shown(result).doc
@@ -92,6 +116,14 @@ class MethodView:
         partly = any("." in path for _, path in self.exchange.echoed)
         lines.append(f"{_REFUSED}, {_LATE}{_PARTLY if partly else ''}")
         return lines
+
+    @property
+    def _handed_over(self) -> list[str]:
+        if self.exchange.lasts is not None:
+            return [_LATEST, f"{_HANDED_OVER} {_LASTS}"]
+        if self.exchange.acknowledged is not None:
+            return [f"{_HANDED_OVER} {_ACKNOWLEDGED.format(self.exchange.acknowledged)}"]
+        return [_HANDED_OVER]
 
     @property
     def example_lines(self) -> list[str]:
@@ -111,10 +143,10 @@ class MethodView:
         name, reply = self.exchange.request.name, self.exchange.reply
         given = [f"{field.name}={field.name}" for field in self.exchange.request.arguments]
         wait = self.flavour.wait
+        latest = [] if self.exchange.lasts is None else ["latest=latest"]
         if reply is None:
-            return Bracketed(
-                f"return {wait}self.send(", [Bracketed(f"{name}(", given, ")")], ")"
-            ).fitted(8)
+            sent: list[str | Bracketed] = [Bracketed(f"{name}(", given, ")"), *latest]
+            return Bracketed(f"return {wait}self.{self._sender}(", sent, ")").fitted(8)
         if self.exchange.split is not None:
             asked = [name, reply.name, self.exchange.split.name]
             replies = Bracketed(f"replies = {wait}self._ask_in_parts(", asked, ")").fitted(8)
@@ -130,6 +162,13 @@ class MethodView:
             Bracketed(f"reply = {wait}self._ask(", call, ")").fitted(8)
             + f"\n        return reply.{self._result.name}"
         )
+
+    @property
+    def _sender(self) -> str:
+        """What a command is sent by."""
+        if self.exchange.lasts is not None:
+            return "_move"
+        return "send" if self.exchange.acknowledged is None else "_run"
 
     @property
     def _names(self) -> tuple[str, ...]:

@@ -9,16 +9,20 @@ import time
 import warnings
 import weakref
 from queue import SimpleQueue
-from typing import TYPE_CHECKING, TypeVar
+from typing import TYPE_CHECKING, TypeVar, overload
 
 from .client import GRACE, MARGIN, NEVER_CLOSED, REPORT_LIMIT, SLICE, repeat
+from .exchanges import LIMITS
 from .guarded import Guarded
 from .link_errors import ClosedError, IncompleteReplyError, NoReportError, TransportError
-from .outcome import lacking, parts_of, report_wanted
+from .motion import AsyncMotion
+from .outcome import lacking, parts_of
 from .protocol import BAUD
 from .request import Request
+from .run import Run
 from .session import Session
 from .tap import Tap
+from .wanted import Wanted
 
 if TYPE_CHECKING:
     from collections.abc import AsyncIterator, Callable, Iterable
@@ -29,15 +33,21 @@ if TYPE_CHECKING:
     from typing_extensions import Self
 
     from .counters import LineCounters
+    from .limits import Bounds
     from .message import Message
     from .request import Sent
     from .transport import Transport
+    from .wanted import Kinds
 
     # Frames to write, who is to hear that those before are written, and None for the end.
     _Outbox: TypeAlias = SimpleQueue[bytes | Request | asyncio.Future[None] | None]
 
 logger = logging.getLogger(__package__)
+# While the loop is busy, what is due may stay so: the reading thread is not to spin meanwhile.
+_SHORTEST_READ = 0.002
 _Reply = TypeVar("_Reply", bound="Message")
+_Second = TypeVar("_Second", bound="Message")
+_Third = TypeVar("_Third", bound="Message")
 
 
 class AsyncClient:
@@ -62,9 +72,11 @@ class AsyncClient:
         retries: int = 0,
         trace: str | PathLike[str] | None = None,
         report_limit: int = REPORT_LIMIT,
+        limits: Bounds | None = LIMITS.usual,
         local_echo: bool = False,
         settle: float | None = None,
     ) -> None:
+        self._limits = LIMITS.chosen(limits)
         self._transport = Guarded(transport)
         self._name = self._transport.name
         self._retries = retries
@@ -74,16 +86,18 @@ class AsyncClient:
             margin=margin,
             report_limit=report_limit,
             tap=self._tap,
+            limits=self._limits,
             local_echo=local_echo,
             settle=settle,
             name=self._name,
             now=time.monotonic(),
         )
+        self._session.largest_frame = self._transport.largest_frame
         self._loop: asyncio.AbstractEventLoop | None = None
         self._threads: list[threading.Thread] = []
         self._outbox: _Outbox = SimpleQueue()
-        # Whether the reading thread should say that time passes, besides that bytes arrive.
-        self._ticking = False
+        # When the reading thread should say, at the latest, that time has passed and nothing come.
+        self._tick_at: float | None = None
         # Until when nothing can be complete that is arriving.
         self._resting_until = float("-inf")
         self._timer: asyncio.TimerHandle | None = None
@@ -137,22 +151,22 @@ class AsyncClient:
         """Sends a command, as soon as the frames before it have left: no lag builds up unseen.
 
         Returns when it has been handed over; `delay` of the result is when it will be on the wire.
-        Raises TransportError.
+        The result is an AsyncMotion for a command that lasts, and a Run for one that is
+        acknowledged. Raises LimitError for what is outside the limits, and TransportError.
         """
-        sent = (await self._done(message, None)).sent
-        if sent is None:
+        request = await self._done(message, None)
+        if request.sent is None:
             raise AssertionError(f"{message!r} ended without an error, and was not sent")
-        return sent
+        return request.sent if request.exchange.lasts is None else self._motion(request)
 
     def send_latest(self, message: Message) -> None:
         """Sends a command when the line is free, unless a newer one overtakes it; does not wait.
 
         It takes the place of what waits here of the same class for the same servos, or for fewer.
         So a stream of motions faster than the line is thinned out instead of falling behind.
+        Raises LimitError for what is outside the limits.
         """
-        self._start()
-        self._session.submit(message, question=False, latest=True)
-        self._advance()
+        self._submit_latest(message)
 
     async def request(self, message: Message, *, retries: int | None = None) -> Message:
         """Sends a question and returns the reply, which may tell less than was asked.
@@ -199,27 +213,56 @@ class AsyncClient:
 
         return stop
 
-    async def wait_for(self, kind: type[_Reply], *, timeout: float, **fields: int) -> _Reply:
+    @overload
+    async def wait_for(self, kind: type[_Reply], *, timeout: float, **fields: int) -> _Reply: ...
+
+    @overload
+    async def wait_for(
+        self, kind: tuple[type[_Reply]], *, timeout: float, **fields: int
+    ) -> _Reply: ...
+
+    @overload
+    async def wait_for(
+        self, kind: tuple[type[_Reply], type[_Second]], *, timeout: float, **fields: int
+    ) -> _Reply | _Second: ...
+
+    @overload
+    async def wait_for(
+        self,
+        kind: tuple[type[_Reply], type[_Second], type[_Third]],
+        *,
+        timeout: float,
+        **fields: int,
+    ) -> _Reply | _Second | _Third: ...
+
+    @overload
+    async def wait_for(self, kind: Kinds, *, timeout: float, **fields: int) -> Message: ...
+
+    async def wait_for(self, kind: Kinds, *, timeout: float, **fields: int) -> Message:
         """Waits for a report of a class, with these fields, and returns it.
 
-        One that has already come counts, if it came after the latest command that causes such
-        reports (for that group, say) and no earlier wait was satisfied by it. The report is still
-        there for reports(). Raises NoReportError after `timeout` seconds, and TransportError.
+        `kind` may be a tuple of classes: the first report of any of them is returned, and a field
+        is not asked of a class that lacks it.
+
+        A report that has already come counts, if it came after the latest command that causes such
+        reports (for that group, say) and no earlier wait was satisfied by it. It is still there for
+        reports(). Raises NoReportError after `timeout` seconds, which says what came instead, and
+        TransportError.
         """
         self._start()
-        wanted = report_wanted(kind, fields)
+        wanted = Wanted(kind, fields)
         began = time.monotonic()
         log = self._session.reports
         asked_at = log.next_number
-        since = log.since(kind, fields)
+        since = log.since(wanted)
         while True:
-            found = log.find(kind, fields, since=since, asked_at=asked_at)
-            if isinstance(found, kind):
+            found = log.find(wanted, since=since, asked_at=asked_at)
+            if found is not None:
                 return found
             self._check()
             waited = time.monotonic() - began
             if waited >= timeout:
-                raise NoReportError(wanted, waited)
+                raise NoReportError(str(wanted), waited, log.instead_of(wanted, since=since))
             await self._change(began + timeout)
 
     async def close(self) -> None:
@@ -267,6 +310,35 @@ class AsyncClient:
             self._loop = None
             self._start()
 
+    async def _move(self, message: Message, *, latest: bool) -> AsyncMotion:
+        """Sends a command that lasts."""
+        if latest:
+            return self._motion(self._submit_latest(message))
+        return self._motion(await self._done(message, None))
+
+    def _motion(self, request: Request) -> AsyncMotion:
+        return AsyncMotion(request, self._session.wire, time.monotonic, self._live)
+
+    async def _run(self, message: Message) -> Run:
+        """Sends a command that is acknowledged."""
+        sent = await self.send(message)
+        if not isinstance(sent, Run):
+            raise TypeError(f"{message!r} is acknowledged by nothing")
+        return sent
+
+    async def _live(self, until: float | None) -> None:
+        """Lets time pass, until then at the latest. Raises TransportError."""
+        self._check()
+        await self._change(until)
+
+    def _submit_latest(self, message: Message) -> Request:
+        self._start()
+        request = self._session.submit(message, question=False, latest=True)
+        # Whoever waits for it must hear that it has been sent or replaced.
+        request.notify = self._wake
+        self._advance()
+        return request
+
     async def _ask(self, message: Message, kind: type[_Reply]) -> _Reply:
         """The reply to a question, whole. Raises IncompleteReplyError."""
         reply = await self._reply(message, kind)
@@ -291,6 +363,12 @@ class AsyncClient:
         if missing:
             raise IncompleteReplyError(asked, missing, replies, arrived)
         return replies
+
+    async def _exchanged(
+        self, kind: type[Message], items: Iterable[Any]
+    ) -> list[tuple[Message, Message]]:
+        """Each request that a question about a list takes, with its reply, whole or not."""
+        return [(each, await self.request(each)) for each in parts_of(kind, items)]
 
     async def _reply(self, message: Message, kind: type[_Reply]) -> _Reply:
         reply = await self.request(message)
@@ -320,6 +398,9 @@ class AsyncClient:
             raise error.again() if isinstance(error, TransportError) else error
         if request.sent is not None:
             await self._handed_over()
+            if self._session.acknowledgements.unwritten:
+                self._session.acknowledgements.written(time.monotonic(), request.sent)
+                self._advance()
         return request
 
     async def _handed_over(self) -> None:
@@ -368,7 +449,7 @@ class AsyncClient:
         asked = self._session.unwritten
         if frames and asked is not None:
             self._outbox.put(asked)
-        self._ticking = self._session.tick_at is not None
+        self._tick_at = self._session.tick_at
         self._resting_until = self._session.resting_until(now)
         if self._timer is not None:
             self._timer.cancel()
@@ -484,13 +565,17 @@ class AsyncClient:
         if rest > 0:
             time.sleep(min(rest, SLICE))
         began = time.monotonic()
+        tick_at = self._tick_at
+        left = SLICE if tick_at is None else tick_at - began
         try:
-            data = line.transport.read(SLICE)
+            data = line.transport.read(min(SLICE, max(_SHORTEST_READ, left)))
             arrived = time.monotonic()
         except TransportError as error:
             _post(loop, self._lost, line, error)
             return False
-        return not (data or self._ticking) or _post(loop, self._arrived, line, data, began, arrived)
+        return not (data or tick_at is not None) or _post(
+            loop, self._arrived, line, data, began, arrived
+        )
 
 
 class _Line:

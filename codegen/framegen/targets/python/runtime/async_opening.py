@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 from .async_client import close_late
 from .async_controller import AsyncController
 from .client import MARGIN, REPORT_LIMIT
+from .exchanges import LIMITS
 from .protocol import BAUD
 from .serial_port import open_transport
 
@@ -18,14 +19,15 @@ if TYPE_CHECKING:
     from types import TracebackType
     from typing import Any
 
-    from .serial_port import SerialPort
+    from .limits import Bounds
+    from .transport import Transport
 
 
 class Opening:
     """A controller that is about to be opened: by `await`, or better by `async with`."""
 
     def __init__(
-        self, opener: Callable[[], SerialPort], make: Callable[[SerialPort], AsyncController]
+        self, opener: Callable[[], Transport], make: Callable[[Transport], AsyncController]
     ) -> None:
         self._open = opener
         self._make = make
@@ -36,6 +38,13 @@ class Opening:
 
     async def __aenter__(self) -> AsyncController:
         return await self._opened()
+
+    if not TYPE_CHECKING:
+
+        def __getattr__(self, name: str) -> object:
+            problem = f"the controller is not open yet, and has no {name!r}"
+            how = "enter open_async_controller() with `async with`, or await it"
+            raise AttributeError(f"{problem}: {how}", name=name, obj=self)
 
     async def __aexit__(
         self,
@@ -70,6 +79,7 @@ def open_async_controller(
     retries: int = 0,
     trace: str | PathLike[str] | None = None,
     report_limit: int = REPORT_LIMIT,
+    limits: Bounds | None = LIMITS.usual,
     local_echo: bool = False,
     settle: float | None = None,
 ) -> Opening:
@@ -86,6 +96,7 @@ def open_async_controller(
         retries=retries,
         trace=trace,
         report_limit=report_limit,
+        limits=limits,
         local_echo=local_echo,
         settle=settle,
     )

@@ -8,8 +8,9 @@ import time
 import warnings
 import weakref
 from contextlib import contextmanager
-from typing import TYPE_CHECKING, TypeVar
+from typing import TYPE_CHECKING, TypeVar, overload
 
+from .exchanges import LIMITS
 from .guarded import Guarded
 from .link_errors import (
     ClosedError,
@@ -17,10 +18,13 @@ from .link_errors import (
     NoReportError,
     TransportError,
 )
-from .outcome import lacking, parts_of, report_wanted
+from .motion import Motion
+from .outcome import lacking, parts_of
 from .protocol import BAUD
+from .run import Run
 from .session import Session
 from .tap import Tap
+from .wanted import Wanted
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Iterator
@@ -31,9 +35,11 @@ if TYPE_CHECKING:
     from typing_extensions import Self
 
     from .counters import LineCounters
+    from .limits import Bounds
     from .message import Message
     from .request import Request, Sent
     from .transport import Transport
+    from .wanted import Kinds
 
 MARGIN = 0.25
 REPORT_LIMIT = 1024
@@ -47,6 +53,8 @@ GRACE = 1.0
 NEVER_CLOSED = "use the controller in a `with`, or call close()"
 logger = logging.getLogger(__package__)
 _Reply = TypeVar("_Reply", bound="Message")
+_Second = TypeVar("_Second", bound="Message")
+_Third = TypeVar("_Third", bound="Message")
 
 
 class Client:
@@ -60,9 +68,10 @@ class Client:
     pacing are worked out from (math.inf for a line that takes no time), `margin` the seconds that
     an answer may take besides, `retries` how often a question is asked again that was not answered,
     `trace` a file that every frame is recorded in, for `recordings` and `decode` to read (what it
-    holds already is never overwritten: FileExistsError), `report_limit` how many reports are kept.
-    With `background`, a thread listens while nobody waits; without, only calls read the line, and
-    `clock` may be of any kind.
+    holds already is never overwritten: FileExistsError), `report_limit` how many reports are kept,
+    `limits` the lowest and the highest position (or whatever has limits) that is sent, None for
+    any. With `background`, a thread listens while nobody waits; without, only calls read the line,
+    and `clock` may be of any kind.
 
     `local_echo` says that the line gives back what is sent, as half-duplex adapters do: it is then
     expected, compared and dropped, and EchoError raised where it does not come. `settle` is for how
@@ -80,11 +89,13 @@ class Client:
         retries: int = 0,
         trace: str | PathLike[str] | None = None,
         report_limit: int = REPORT_LIMIT,
+        limits: Bounds | None = LIMITS.usual,
         background: bool = True,
         clock: Callable[[], float] = time.monotonic,
         local_echo: bool = False,
         settle: float | None = None,
     ) -> None:
+        self._limits = LIMITS.chosen(limits)
         self._transport = Guarded(transport)
         self._name = self._transport.name
         self._retries = retries
@@ -97,11 +108,13 @@ class Client:
             margin=margin,
             report_limit=report_limit,
             tap=self._tap,
+            limits=self._limits,
             local_echo=local_echo,
             settle=settle,
             name=self._name,
             now=clock(),
         )
+        self._session.largest_frame = self._transport.largest_frame
         # Held for every touch of the session, never for a read; told whenever anything changed.
         self._changed = threading.Condition(threading.Lock())
         self._reading = False
@@ -113,6 +126,9 @@ class Client:
         # Held while the line is opened again: the port is one, whoever wants it back.
         self._reopening = threading.Lock()
         self._closing = False
+        # Which thread closes it, and whether that has been done.
+        self._closer: threading.Thread | None = None
+        self._closed_now = threading.Event()
         self._listen()
 
     def __enter__(self) -> Self:
@@ -155,24 +171,22 @@ class Client:
         """Sends a command, as soon as the frames before it have left: no lag builds up unseen.
 
         Returns when it has been handed over; `delay` of the result is when it will be on the wire.
-        Raises TransportError.
+        The result is a Motion for a command that lasts, and a Run for one that is acknowledged.
+        Raises LimitError for what is outside the limits, and TransportError.
         """
-        sent = self._done(message, None).sent
-        if sent is None:
+        request = self._done(message, None)
+        if request.sent is None:
             raise AssertionError(f"{message!r} ended without an error, and was not sent")
-        return sent
+        return request.sent if request.exchange.lasts is None else self._motion(request)
 
     def send_latest(self, message: Message) -> None:
         """Sends a command when the line is free, unless a newer one overtakes it; does not wait.
 
         It takes the place of what waits here of the same class for the same servos, or for fewer.
         So a stream of motions faster than the line is thinned out instead of falling behind.
+        Raises LimitError for what is outside the limits.
         """
-        with self._changed:
-            self._check()
-            self._session.submit(message, question=False, latest=True)
-            self._send_due()
-            self._changed.notify_all()
+        self._submit_latest(message)
 
     def request(self, message: Message, *, retries: int | None = None) -> Message:
         """Sends a question and returns the reply, which may tell less than was asked.
@@ -223,60 +237,80 @@ class Client:
 
         return stop
 
-    def wait_for(self, kind: type[_Reply], *, timeout: float, **fields: int) -> _Reply:
+    @overload
+    def wait_for(self, kind: type[_Reply], *, timeout: float, **fields: int) -> _Reply: ...
+
+    @overload
+    def wait_for(self, kind: tuple[type[_Reply]], *, timeout: float, **fields: int) -> _Reply: ...
+
+    @overload
+    def wait_for(
+        self, kind: tuple[type[_Reply], type[_Second]], *, timeout: float, **fields: int
+    ) -> _Reply | _Second: ...
+
+    @overload
+    def wait_for(
+        self,
+        kind: tuple[type[_Reply], type[_Second], type[_Third]],
+        *,
+        timeout: float,
+        **fields: int,
+    ) -> _Reply | _Second | _Third: ...
+
+    @overload
+    def wait_for(self, kind: Kinds, *, timeout: float, **fields: int) -> Message: ...
+
+    def wait_for(self, kind: Kinds, *, timeout: float, **fields: int) -> Message:
         """Waits for a report of a class, with these fields, and returns it.
 
-        One that has already come counts, if it came after the latest command that causes such
-        reports (for that group, say) and no earlier wait was satisfied by it. The report is still
-        there for reports(). Raises NoReportError after `timeout` seconds, and TransportError.
+        `kind` may be a tuple of classes: the first report of any of them is returned, and a field
+        is not asked of a class that lacks it.
+
+        A report that has already come counts, if it came after the latest command that causes such
+        reports (for that group, say) and no earlier wait was satisfied by it. It is still there for
+        reports(). Raises NoReportError after `timeout` seconds, which says what came instead, and
+        TransportError.
         """
-        wanted = report_wanted(kind, fields)
+        wanted = Wanted(kind, fields)
         began = self._clock()
         with self._changed, self._waiting():
             log = self._session.reports
             asked_at = log.next_number
-            since = log.since(kind, fields)
+            since = log.since(wanted)
             last = False
             while True:
-                found = log.find(kind, fields, since=since, asked_at=asked_at)
+                found = log.find(wanted, since=since, asked_at=asked_at)
                 if found is not None or last:
                     break
                 self._check()
                 # One more look after the time is up: what has arrived by then has come in time.
                 last = self._clock() >= began + timeout
                 self._wait(self._clock() if last else began + timeout)
+            instead = log.instead_of(wanted, since=since)
         self._tell()
-        if not isinstance(found, kind):
-            raise NoReportError(wanted, self._clock() - began)
+        if found is None:
+            raise NoReportError(str(wanted), self._clock() - began, instead)
         return found
 
     def close(self) -> None:
         """Sends what is still to be sent, waits until the last byte is out, and closes the line.
 
-        Questions of other threads end with ClosedError. May be called again.
+        Questions of other threads end with ClosedError. May be called again, and by several threads
+        at once: each of them returns once the line is closed.
         """
         with self._changed:
-            if self._closing:
-                return
-            self._closing = True
+            closer, self._closing = self._closer, True
+            if closer is None:
+                self._closer = threading.current_thread()
+        if closer is not None:
+            # Whoever closes waits for the listener, and for itself nobody can wait.
+            if threading.current_thread() not in (closer, self._listener):
+                self._closed_now.wait()
+            return
         try:
-            with self._changed:
-                self._session.refuse_questions(self._closed())
-                self._changed.notify_all()
-                self._drain()
-                left = max(0.0, self._session.wire.free_at - self._clock())
-            if self._failure is None:
-                self._transport.drain(min(left, GRACE) + GRACE)
-        except TransportError as error:
-            logger.debug("%s could not be drained: %s", self._name, error)
+            self._end()
         finally:
-            # Whatever interrupts the wait, the port is given back.
-            self._transport.close()
-            self._stop_listening()
-            with self._changed:
-                self._session.fail(self._closed())
-                self._changed.notify_all()
-            self._tap.close()
+            self._closed_now.set()
 
     def reconnect(self) -> None:
         """Opens the same port again, after the line was lost; what was under way has failed.
@@ -311,6 +345,37 @@ class Client:
                 self._failure = None
             self._listen()
 
+    def _move(self, message: Message, *, latest: bool) -> Motion:
+        """Sends a command that lasts."""
+        return self._motion(self._submit_latest(message) if latest else self._done(message, None))
+
+    def _motion(self, request: Request) -> Motion:
+        return Motion(request, self._session.wire, self._clock, self._live)
+
+    def _run(self, message: Message) -> Run:
+        """Sends a command that is acknowledged."""
+        sent = self.send(message)
+        if not isinstance(sent, Run):
+            raise TypeError(f"{message!r} is acknowledged by nothing")
+        return sent
+
+    def _live(self, until: float | None) -> None:
+        """Lets time pass, until then or for a moment less. Raises TransportError."""
+        with self._changed, self._waiting():
+            self._check()
+            self._wait(until)
+        self._tell()
+
+    def _submit_latest(self, message: Message) -> Request:
+        with self._changed:
+            self._check()
+            request = self._session.submit(message, question=False, latest=True)
+            # Whoever waits for it must hear that it has been sent or replaced.
+            request.notify = self._changed.notify_all
+            self._send_due()
+            self._changed.notify_all()
+        return request
+
     def _ask(self, message: Message, kind: type[_Reply]) -> _Reply:
         """The reply to a question, whole. Raises IncompleteReplyError."""
         reply = self._reply(message, kind)
@@ -335,6 +400,12 @@ class Client:
         if missing:
             raise IncompleteReplyError(asked, missing, replies, arrived)
         return replies
+
+    def _exchanged(
+        self, kind: type[Message], items: Iterable[Any]
+    ) -> list[tuple[Message, Message]]:
+        """Each request that a question about a list takes, with its reply, whole or not."""
+        return [(each, self.request(each)) for each in parts_of(kind, items)]
 
     def _reply(self, message: Message, kind: type[_Reply]) -> _Reply:
         reply = self.request(message)
@@ -439,7 +510,29 @@ class Client:
         asked = self._session.unwritten
         if asked is not None:
             self._session.written(asked, self._clock())
+        if self._session.acknowledgements.unwritten:
+            self._session.acknowledgements.written(self._clock())
         return bool(frames)
+
+    def _end(self) -> None:
+        try:
+            with self._changed:
+                self._session.refuse_questions(self._closed())
+                self._changed.notify_all()
+                self._drain()
+                left = max(0.0, self._session.wire.free_at - self._clock())
+            if self._failure is None:
+                self._transport.drain(min(left, GRACE) + GRACE)
+        except TransportError as error:
+            logger.debug("%s could not be drained: %s", self._name, error)
+        finally:
+            # Whatever interrupts the wait, the port is given back.
+            self._transport.close()
+            self._stop_listening()
+            with self._changed:
+                self._session.fail(self._closed())
+                self._changed.notify_all()
+            self._tap.close()
 
     def _drain(self) -> None:
         """Sends all commands that wait, and lets the time pass that they take on the wire."""

@@ -17,12 +17,24 @@ class Exchange:
 
     `method` is the method of the controller that sends it and `arguments` their order; `result` is
     the field of the reply that the method returns, or empty. `reply` is the message that answers
-    it, None where none does; `reports` are messages that may follow it. `echoed` pairs what was
+    it, None where none does; `reports` are messages that may follow it, and `acknowledged` is that
+    of them which says that it was taken. `lasts` is the field that says how long what it starts
+    goes on, and how many steps of it make a second. `echoed` pairs what was
     asked with where the reply repeats it (`servo_ids` with `positions.servo_id`); `most` is how
     many elements of the request a reply has room for, 0 where that does not matter.
     """
 
-    __slots__ = ("arguments", "echoed", "method", "most", "reply", "reports", "result")
+    __slots__ = (
+        "acknowledged",
+        "arguments",
+        "echoed",
+        "lasts",
+        "method",
+        "most",
+        "reply",
+        "reports",
+        "result",
+    )
 
     def __init__(
         self,
@@ -32,6 +44,8 @@ class Exchange:
         reply: type[Message] | None = None,
         result: str = "",
         reports: tuple[type[Message], ...] = (),
+        acknowledged: type[Message] | None = None,
+        lasts: tuple[str, int] | None = None,
         echoed: tuple[tuple[str, str], ...] = (),
         most: int = 0,
     ) -> None:
@@ -40,6 +54,8 @@ class Exchange:
         self.reply = reply
         self.result = result
         self.reports = reports
+        self.acknowledged = acknowledged
+        self.lasts = lasts
         self.echoed = echoed
         self.most = most
 
@@ -70,6 +86,14 @@ class Exchange:
             for value in dict.fromkeys(column(request, asked)):
                 if value not in there:
                     yield asked, value
+
+    def seconds(self, request: Message) -> float:
+        """How long what `request` starts goes on; 0.0 where it says nothing of that."""
+        if self.lasts is None:
+            return 0.0
+        name, steps_per_second = self.lasts
+        steps: int = getattr(request, name)
+        return steps / steps_per_second
 
     def reply_size(self, request: Message) -> int:
         """The bytes of the largest frame that can answer `request`."""

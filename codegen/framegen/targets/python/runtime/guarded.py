@@ -23,6 +23,7 @@ class Guarded:
     def __init__(self, transport: Transport) -> None:
         self._transport = transport
         self.name = str(getattr(transport, "name", type(transport).__name__))
+        self.largest_frame: int | None = getattr(transport, "largest_frame", None)
         self._closed = False
 
     def read(self, timeout: float) -> bytes:

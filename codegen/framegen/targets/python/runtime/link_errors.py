@@ -6,11 +6,14 @@ from .errors import ProtocolError
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
-    from collections.abc import Iterable
+    from collections.abc import Iterable, Mapping
 
     from typing_extensions import Self
 
     from .message import Message
+
+# How many reports the text of an error names.
+_SHOWN = 4
 
 
 class TransportError(ProtocolError, OSError):
@@ -138,16 +141,40 @@ class IncompleteReplyError(ProtocolError):
         )
 
 
-class NoReportError(ProtocolError, TimeoutError):
-    """A report did not come. `report` is what was waited for, `waited` how many seconds."""
-
-    def __init__(self, report: str, waited: float) -> None:
-        super().__init__(report, waited)
-        self.report = report
-        self.waited = waited
+class AbsentError(IncompleteReplyError):
+    """Some of those that were to be held are switched off or missing, so that nothing was sent."""
 
     def __str__(self) -> str:
-        return f"no {self.report} came within {self.waited:.3f} s"
+        missing = ", ".join(str(number) for number in self.missing)
+        return (
+            f"nothing was sent, since these are off or missing: {self.asked} {missing}; "
+            f"what did arrive ({len(self.arrived)}) is kept in `arrived`"
+        )
+
+
+class NoReportError(ProtocolError, TimeoutError):
+    """A report did not come. `report` is what was waited for, `waited` how many seconds.
+
+    `instead` has the reports that came in its place, and how often each of them did.
+    """
+
+    def __init__(
+        self, report: str, waited: float, instead: Mapping[Message, int] | None = None
+    ) -> None:
+        self.report = report
+        self.waited = waited
+        self.instead = {} if instead is None else dict(instead)
+        super().__init__(report, waited, self.instead)
+
+    def __str__(self) -> str:
+        came = [
+            f"{message!r}" if count == 1 else f"{count} times {message!r}"
+            for message, count in self.instead.items()
+        ]
+        # The latest tell most of what goes on now.
+        more = [f"{len(came) - _SHOWN} others"] if len(came) > _SHOWN else []
+        what = ", ".join([*more, *came[-_SHOWN:]]) or "no report at all"
+        return f"no {self.report} came within {self.waited:.3f} s; what came instead: {what}"
 
 
 def _counted(number: int, noun: str, plural: str = "") -> str:

@@ -62,6 +62,10 @@ class Message:
     def __hash__(self) -> int:
         return hash((type(self), self._frame))
 
+    def __reduce__(self) -> tuple[object, ...]:
+        # By its frame, which is looked at again: whatever exists has been checked.
+        return type(self).decode, (self._frame,)
+
     def __repr__(self) -> str:
         fields = ", ".join(f"{name}={getattr(self, name)!r}" for name in self.__match_args__)
         return f"{type(self).__name__}({fields})"

@@ -38,6 +38,9 @@ class Noise:
     def __hash__(self) -> int:
         return hash((type(self), self._data, self._reason))
 
+    def __reduce__(self) -> tuple[object, ...]:
+        return type(self), (self._data, self._reason)
+
     def __repr__(self) -> str:
         return f"{type(self).__name__}(bytes.fromhex({spaced(self._data)!r}), {self._reason})"
 

@@ -4,11 +4,12 @@ from __future__ import annotations
 
 
 def octets(data: bytes | bytearray | memoryview) -> bytes:
-    """`data` as bytes. Raises TypeError for anything that is not bytes-like, text above all."""
-    if isinstance(data, bytes):
+    """`data` as plain bytes. Raises TypeError for what is not bytes-like, text above all."""
+    if type(data) is bytes:
         return data
-    if isinstance(data, (bytearray, memoryview)):
-        return bytes(data)
+    if isinstance(data, (bytes, bytearray, memoryview)):
+        # By its buffer: a class derived from bytes may have its own idea of being copied.
+        return bytes(memoryview(data))
     hint = "; bytes.fromhex() reads hex" if isinstance(data, str) else ""
     raise TypeError(f"bytes, bytearray or memoryview expected, not {type(data).__name__}{hint}")
 

@@ -6,11 +6,14 @@ from typing import TYPE_CHECKING
 
 from .client import MARGIN, REPORT_LIMIT
 from .controller import Controller
+from .exchanges import LIMITS
 from .protocol import BAUD
 from .serial_port import open_transport
 
 if TYPE_CHECKING:
     from os import PathLike
+
+    from .limits import Bounds
 
 
 def open_controller(
@@ -22,13 +25,15 @@ def open_controller(
     retries: int = 0,
     trace: str | PathLike[str] | None = None,
     report_limit: int = REPORT_LIMIT,
+    limits: Bounds | None = LIMITS.usual,
     local_echo: bool = False,
     settle: float | None = None,
 ) -> Controller:
     """Opens the port of a controller, to be used in a `with`.
 
     `port` is a name or a URL that pyserial knows: `/dev/ttyUSB0`, `COM7`, `hwgrep://CH340`,
-    `socket://host:port`, `rfc2217://host:port`, `loop://`. With `exclusive`, nobody else can have
+    `socket://host:port`, `rfc2217://host:port`, `loop://`; `hid://` is a board of USB HID, which
+    needs the extra `hid`, and was not seen on hardware yet. With `exclusive`, nobody else can have
     it meanwhile. The rest is explained at Controller. Raises TransportError, which names the port,
     what happened and what to do.
     """
@@ -41,6 +46,7 @@ def open_controller(
             retries=retries,
             trace=trace,
             report_limit=report_limit,
+            limits=limits,
             local_echo=local_echo,
             settle=settle,
         )

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from .exchanges import EXCHANGES, RECEIVED
+from .exchanges import EXCHANGES
 from .fields import as_tuple
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Mapping
+    from collections.abc import Iterable
     from typing import Any
 
     from .message import Message
@@ -37,14 +37,3 @@ def lacking(request: Message, reply: Message) -> tuple[str, list[int], list[Any]
     arrived = [] if items is None else list(getattr(reply, items.name))
     asked = found[0][0] if found else ""
     return asked, [value for _, value in found], arrived
-
-
-def report_wanted(kind: type[Message], fields: Mapping[str, int]) -> str:
-    """A report that is waited for, in words. Raises TypeError for one that can never come."""
-    if kind.DIRECTION is not RECEIVED:
-        raise TypeError(f"{kind.__name__} is no message that comes to this end")
-    unknown = [name for name in fields if name not in kind.__match_args__]
-    if unknown:
-        known = ", ".join(kind.__match_args__) or "none"
-        raise TypeError(f"{kind.__name__} has no field {unknown[0]!r}; it has {known}")
-    return f"{kind.__name__}({', '.join(f'{name}={value}' for name, value in fields.items())})"

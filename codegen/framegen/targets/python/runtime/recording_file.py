@@ -67,6 +67,10 @@ class RecordingFile:
         """Notes bytes of one event, `at` seconds from the beginning."""
         self._file.write(f"{spaced(data)}  # {at:.6f} s, {who}: {what}\n")
 
+    def note(self, text: str) -> None:
+        """Notes anything else, in a line of its own."""
+        self._file.write(f"# {' '.join(text.split())}\n")
+
     def quiet(self) -> None:
         """Notes that half a frame was given up: what follows is not its other half."""
         self._file.write(f"{QUIET}\n")

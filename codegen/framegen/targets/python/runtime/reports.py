@@ -6,9 +6,8 @@ from collections import deque
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
-
     from .message import Message
+    from .wanted import Wanted
 
 # How many commands are remembered as possible causes of reports.
 _CAUSES = 64
@@ -59,31 +58,38 @@ class ReportLog:
         self._taken += 1
         return entry.message
 
-    def since(self, kind: type[Message], fields: Mapping[str, int]) -> int:
-        """The number from which on a report answers the latest command that causes its kind.
+    def since(self, wanted: Wanted) -> int:
+        """The number from which on a report answers the latest command that may cause it.
 
-        Where a command and a report share a field, such as a group, it must be the one asked for.
+        A command that is about what is asked for, such as a group, goes before one that is about
+        nothing of it: a run of that group begins a story which a stop, of any group, may end.
         """
+        latest: int | None = None
         for number, command, reports in reversed(self._causes):
-            shared = [name for name in command.__match_args__ if name in fields]
-            if kind in reports and all(getattr(command, name) == fields[name] for name in shared):
+            if not wanted.may_follow(command, reports):
+                continue
+            if wanted.asked_of(type(command)):
                 return number
-        return self.next_number
+            latest = number if latest is None else latest
+        return self.next_number if latest is None else latest
 
-    def find(
-        self, kind: type[Message], fields: Mapping[str, int], *, since: int, asked_at: int
-    ) -> Message | None:
-        """The first report of a kind, with such fields, from number `since` on.
+    def find(self, wanted: Wanted, *, since: int, asked_at: int) -> Message | None:
+        """The first report that is wanted, from number `since` on.
 
         One that came before number `asked_at` satisfies only one wait: the next wants another.
         """
         for entry in self._kept:
             if entry.number < since or (entry.awaited and entry.number < asked_at):
                 continue
-            message = entry.message
-            if type(message) is kind and all(
-                getattr(message, name) == value for name, value in fields.items()
-            ):
+            if wanted.is_met_by(entry.message):
                 entry.awaited = True
-                return message
+                return entry.message
         return None
+
+    def instead_of(self, wanted: Wanted, *, since: int) -> dict[Message, int]:
+        """What else came from number `since` on, and how often each; as far as it is kept."""
+        counts: dict[Message, int] = {}
+        for entry in self._kept:
+            if entry.number >= since and not wanted.is_met_by(entry.message):
+                counts[entry.message] = counts.get(entry.message, 0) + 1
+        return counts

@@ -25,7 +25,8 @@ class Sent:
         self.duration = duration
 
     def __repr__(self) -> str:
-        return f"Sent({self.message!r}, delay={self.delay:.4f}, duration={self.duration:.4f})"
+        name, when = type(self).__name__, f"delay={self.delay:.4f}, duration={self.duration:.4f}"
+        return f"{name}({self.message!r}, {when})"
 
 
 class Request:
@@ -74,7 +75,7 @@ class Request:
         # Whether a reply came that is impossible; whether the reply to an earlier one, which never
         # came, may come yet; and what had been counted when it was sent.
         self.doubted = self.after_lost = False
-        self.counted = (0, 0, 0)
+        self.counted: tuple[int, int, int] = (0, 0, 0)
         # What to call once it is done.
         self.notify: Callable[[], None] | None = None
 
@@ -86,9 +87,10 @@ class Request:
         error: Exception | None = None,
     ) -> None:
         """Says what has become of it."""
-        self.done = True
         self.sent = sent
         self.reply = reply
         self.error = error
+        # Last, for those who look from other threads.
+        self.done = True
         if self.notify is not None:
             self.notify()

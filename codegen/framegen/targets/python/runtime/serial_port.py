@@ -1,36 +1,29 @@
 """A serial port as a transport: pyserial, and its failures turned into errors that say what to do.
 
 Whatever pyserial opens is a port: `/dev/ttyUSB0`, `COM7`, `hwgrep://CH340`, `socket://host:port`,
-`rfc2217://host:port`, `loop://`.
+`rfc2217://host:port`, `loop://`. What begins with `hid:` is opened by USB HID instead.
 """
 
 from __future__ import annotations
 
-import errno
 import math
 import select
 import socket
-import sys
 import threading
 import time
 from functools import partial
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
-from .link_errors import (
-    ClosedError,
-    DisconnectedError,
-    PortAddressError,
-    PortBusyError,
-    PortNotFoundError,
-    PortPermissionError,
-    TransportError,
-    WriteStuckError,
-)
+from .link_errors import ClosedError, DisconnectedError, TransportError, WriteStuckError
+from .port_errors import not_opened, refused_name
 from .protocol import BAUD, DATA_BITS, PARITY, STOP_BITS
 
 if TYPE_CHECKING:
     from collections.abc import Callable
     from typing import Any
+
+    from .hid_port import HidPort
+    from .transport import Transport
 
 # pyserial reconfigures the port whenever its timeout changes, so that stays as it is; longer waits
 # are made of several, and shorter ones are waited for here. It is also how long closing waits for a
@@ -43,29 +36,58 @@ _MOST = 4096
 # No driver knows a rate of more bits than this.
 _FASTER = 2**31
 _SOCKET = "socket:"
-_NAMED = "name a port, such as /dev/ttyUSB0 or COM7, or a URL, such as socket://host:port"
-_PERMITTED = (
-    "add yourself to the group that owns it (dialout on most systems, uucp on some), as by "
-    "`sudo usermod -aG dialout $USER`, then log in again"
-)
-# What pyserial says, where there is no errno to go by.
-_ABSENT = ("filenotfounderror", "no ports found")
 # What pyserial raises besides OSError once its descriptor is gone in mid-call.
 _GONE = (OSError, TypeError, ValueError, AttributeError)
 
 
-def open_transport(port: str, *, baud: float = BAUD, exclusive: bool = True) -> SerialPort:
-    """Opens a port, by the name or the URL that pyserial knows it by.
+class SerialPortSeen(NamedTuple):
+    """A serial port of this machine. `usb` is VID:PID, empty for what is not on USB."""
+
+    name: str
+    usb: str
+    product: str
+    # Only known so that it can be left out of what is sent to others.
+    serial: str = ""
+
+    def __str__(self) -> str:
+        about = " ".join(filter(None, [self.usb, self.product]))
+        return f"{self.name} ({about})" if about else self.name
+
+
+def serial_ports() -> list[SerialPortSeen]:
+    """The serial ports that are plugged in."""
+    from serial.tools import list_ports
+
+    return sorted(
+        SerialPortSeen(
+            str(each.device),
+            "" if each.vid is None else f"{each.vid:04X}:{each.pid or 0:04X}",
+            "" if each.description in (None, "n/a") else str(each.description),
+            str(each.serial_number or ""),
+        )
+        for each in list_ports.comports()
+    )
+
+
+def open_transport(
+    port: str, *, baud: float = BAUD, exclusive: bool = True
+) -> SerialPort | HidPort:
+    """Opens a port, by the name or the URL that pyserial knows it by, or a board by `hid://`.
 
     The rest of the line's parameters are the protocol's; a `baud` of math.inf says that the line
     takes no time, and sets the port to the protocol's rate. With `exclusive`, no other program that
     asks for the same can have the port meanwhile. Raises TransportError; ValueError for a `baud`
     that no port can be set to.
     """
+    if isinstance(port, str) and port.lower().startswith("hid:"):
+        from .hid_port import open_hid
+
+        return open_hid(port)
     import serial
 
-    if not isinstance(port, str):
-        raise PortAddressError(repr(port), "a port is named by text", _NAMED)
+    refused = refused_name(port)
+    if refused is not None:
+        raise refused
     rate = BAUD if baud == math.inf else baud
     if not 1 <= rate < _FASTER:
         raise ValueError(f"baud is {baud!r}, and must be from 1 to {_FASTER - 1}, or math.inf")
@@ -83,7 +105,7 @@ def open_transport(port: str, *, baud: float = BAUD, exclusive: bool = True) -> 
             exclusive=exclusive or None,
         )
     except (*_GONE, LookupError, NotImplementedError, StopIteration) as error:
-        raise _not_opened(str(port), error) from error
+        raise not_opened(str(port), error, _listed) from error
     # pyserial leaves a socket to collect small writes: the second of two would wait for 40 ms.
     behind = getattr(opened, "_socket", None)
     if behind is not None:
@@ -96,11 +118,15 @@ def open_transport(port: str, *, baud: float = BAUD, exclusive: bool = True) -> 
 class SerialPort:
     """An open port of pyserial, as a transport. `reopen` opens the same one anew."""
 
-    def __init__(self, name: str, port: Any, reopen: Callable[[], SerialPort]) -> None:
+    def __init__(self, name: str, port: Any, reopen: Callable[[], Transport]) -> None:
         self.name = name
         self.reopen = reopen
         self._port = port
         self._handle = _handle_of(port)
+        if self._handle is not None:
+            # Only then does pyserial tell how much was taken. Its own time-out is also raised where
+            # all was, but the process had been stopped meanwhile.
+            port.write_timeout = 0
         self._at_once = getattr(port, "timeout", None) == 0
         self._closed = False
         # Held while a read is under way, so that the descriptor is not closed underneath it: its
@@ -155,17 +181,33 @@ class SerialPort:
         if self._closed:
             raise self._is_closed()
         try:
-            self._port.write(data)
+            taken = self._taken(data)
         except _GONE as error:
             from serial import SerialTimeoutException
 
             if not isinstance(error, SerialTimeoutException):
                 raise self._failed(error) from error
+            taken = False
+        if not taken:
             raise WriteStuckError(
                 self.name,
                 f"it has taken no bytes for {_WRITE_TIMEOUT:g} s",
                 "unplug and replug the adapter, and see that flow control is off",
-            ) from error
+            )
+
+    def _taken(self, data: bytes) -> bool:
+        """Whether the port takes all of `data` in time."""
+        if self._handle is None:
+            self._port.write(data)
+            return True
+        until = time.monotonic() + _WRITE_TIMEOUT
+        while data:
+            # Asked once more when time is up: it may have passed while this process stood still.
+            left = max(0.0, until - time.monotonic())
+            if not select.select([], [self._handle], [], left)[1]:
+                return False
+            data = data[self._port.write(data) :]
+        return True
 
     def drain(self, timeout: float) -> None:
         """Waits until the last byte has left, as far as the driver can tell."""
@@ -223,32 +265,6 @@ def _handle_of(port: Any) -> int | None:
     return handle if isinstance(handle, int) else None
 
 
-def _not_opened(port: str, error: Exception) -> TransportError:
-    """Why a port could not be opened, and what to do about it."""
-    code, text = getattr(error, "errno", None), str(error)
-    low = text.lower()
-    # On Windows pyserial gives the system's words instead of an errno.
-    denied = code in (errno.EACCES, errno.EPERM) or "permissionerror" in low
-    busy = code in (errno.EBUSY, errno.EAGAIN) or "exclusively lock" in low
-    if busy or (denied and sys.platform == "win32"):
-        advice = "close the other program, or the other client, that has it"
-        return PortBusyError(port, "it is in use", advice)
-    if denied:
-        return PortPermissionError(port, "permission is denied", _PERMITTED)
-    absent = isinstance(error, (StopIteration, LookupError)) or any(each in low for each in _ABSENT)
-    if absent or code in (errno.ENOENT, errno.ENXIO, errno.ENODEV):
-        return PortNotFoundError(port, "there is no such port", _listed())
-    if not isinstance(error, OSError) or "expected a string in the form" in low:
-        return PortAddressError(port, f"it is no port ({text})", _NAMED)
-    if "://" in port:
-        why = text.removeprefix(f"Could not open port {port}: ")
-        advice = "see that the other end is there and listening"
-        return PortNotFoundError(port, f"it cannot be reached ({why})", advice)
-    return TransportError(port, f"it cannot be opened ({text})", _listed())
-
-
 def _listed() -> str:
-    from serial.tools import list_ports
-
-    found = sorted(each.device for each in list_ports.comports())
-    return f"these exist: {', '.join(found)}" if found else "no serial port is plugged in"
+    found = ", ".join(each.name for each in serial_ports())
+    return f"these exist: {found}" if found else "no serial port is plugged in"

@@ -34,18 +34,21 @@ from collections import deque
 from copy import copy
 from typing import TYPE_CHECKING
 
+from .acknowledgements import Acknowledgements
 from .careful_decoder import GAP, CarefulDecoder
 from .counters import LineCounters
-from .exchanges import EXCHANGES, RECEIVED
+from .exchanges import EXCHANGES, LIMITS, RECEIVED
 from .link_errors import EchoError, NoReplyError
 from .local_echo import EchoWatch, LocalEcho
 from .noise import Noise
 from .pace import Pace
 from .reports import ReportLog
 from .request import Request, Sent
+from .room import check_room
 from .wire import Wire
 
 if TYPE_CHECKING:
+    from .limits import Bounds
     from .message import Message
     from .tap import Tap
 
@@ -77,9 +80,10 @@ class _Overdue:
 class Session:
     """One end of a line. Times are seconds on any clock that never goes back.
 
-    `margin` is how long the controller may take for an answer, besides the time on the wire.
-    `local_echo` says that the line gives back what is sent; `settle` is for how many seconds
-    nothing is asked on a line that has been opened, None for one reply time where that may matter.
+    `margin` is how long the controller may take for an answer, besides the time on the wire, and
+    `limits` what may be sent of that which has limits. `local_echo` says that the line gives back
+    what is sent; `settle` is for how many seconds nothing is asked on a line that has been opened,
+    None for one reply time where that may matter.
     """
 
     def __init__(
@@ -89,6 +93,7 @@ class Session:
         margin: float,
         report_limit: int,
         tap: Tap | None = None,
+        limits: Bounds | None = None,
         local_echo: bool = False,
         settle: float | None = None,
         name: str = "the line",
@@ -101,9 +106,13 @@ class Session:
         self.wire = Wire(baud)
         self.counters = LineCounters()
         self.reports = ReportLog(report_limit)
+        self.acknowledgements = Acknowledgements(self.wire, margin)
         # Reports for callbacks, to be taken out by whoever drives the session.
         self.news: deque[Message] = deque(maxlen=report_limit)
+        # The longest frame that the line carries; None for any.
+        self.largest_frame: int | None = None
         self._margin = margin
+        self._limits = limits
         self._name = name
         self._tap = tap
         self._settle = settle
@@ -138,8 +147,9 @@ class Session:
         retries: int = 0,
         latest: bool = False,
     ) -> Request:
-        """Asks for a message to be sent. Raises EncodeError where no reply could answer it.
+        """Asks for a message to be sent.
 
+        Raises EncodeError where no reply could answer it, LimitError where the limits forbid it.
         With `question`, TypeError is raised where it has no reply, or has one against expectation.
         """
         exchange = EXCHANGES.get(type(message))
@@ -150,6 +160,8 @@ class Session:
         if question is True and exchange.reply is None:
             raise TypeError(f"{message!r} is a command: send() sends it, and nothing answers")
         exchange.check(message)
+        LIMITS.check(message, self._limits)
+        check_room(message, self.largest_frame)
         request = Request(message, exchange, retries=retries, latest=latest)
         if self._asks_first is None:
             self._asks_first = exchange.reply is not None
@@ -205,6 +217,7 @@ class Session:
         if not data:
             return
         self._heard_at = max(self._heard_at, now)
+        self.acknowledgements.delay(len(data))
         if self._echo is not None:
             data, came, lost = self._echo.take_out(data)
             for request in lost:
@@ -229,6 +242,8 @@ class Session:
             self._decide(asked, now)
         if self._asked is not None and now >= self._ends_at(self._asked):
             self._expire(self._asked, now)
+        if not self._decoder.pending:
+            self.acknowledgements.tick(now)
 
     def send_at(self, now: float) -> float | None:
         """When to call `outgoing` again; None while there is nothing to send."""
@@ -250,8 +265,11 @@ class Session:
             times.append(self._ends_at(self._asked))
             if self._held is not None:
                 times.append(self._held_until(self._asked))
+        acknowledged_by = self.acknowledgements.tick_at
         if self._decoder.pending:
             times.append(self._heard_at + GAP)
+        elif acknowledged_by is not None:
+            times.append(acknowledged_by)
         if self._echo is not None and self._echo.due is not None:
             times.append(self._echo.due)
         if self._queue:
@@ -292,6 +310,7 @@ class Session:
         self._flush()
         self._decoder = CarefulDecoder(RECEIVED)
         self._pace = Pace()
+        self.acknowledgements.restart()
         self.wire.clear()
         self._opened_at = now
         self._asks_first = None
@@ -396,7 +415,10 @@ class Session:
         else:
             self._echo_watch.sent(frame)
         if request.exchange.reply is None:
-            sent = Sent(request.message, starts - now, self.wire.seconds(len(frame)))
+            delay, duration = starts - now, self.wire.seconds(len(frame))
+            sent = Sent(request.message, delay, duration)
+            if request.exchange.acknowledged is not None:
+                sent = self.acknowledgements.expect(request, delay, duration)
             if self._echo is None:
                 request.finish(sent=sent)
             else:
@@ -433,6 +455,7 @@ class Session:
             else:
                 self.counters.reports += 1
                 self.reports.add(event)
+                self.acknowledgements.add(event)
                 self.counters.lost_reports = self.reports.lost
                 self.news.append(event)
         # Only now, since of several replies the last is the answer.
@@ -537,18 +560,23 @@ class Session:
         self.counters.echoes += 1
         if self.counters.echoes == 1:
             logger.warning(
-                "%s gives back what is sent: open it with local_echo=True, or else commands that "
-                "come back look like reports",
+                "%s gives back what is sent: say so (local_echo=True, or --local-echo), or else "
+                "commands that come back look like reports",
                 self._name,
             )
 
     def _give_up(self, request: Request, since: float) -> None:
         """No longer waits for a reply, which may come all the same."""
-        self._asked = None
-        if self._held is not None:
-            reply, self._held = self._held[0], None
-            self._drop(reply, "what it may answer was given up")
-        self._remember(request, since)
+        if self._held is None:
+            self._asked = None
+            self._remember(request, since)
+            return
+        # The reply that is held may be its own; if not, that has as long to come as is held for.
+        until = self._held_until(request)
+        reply, _ = self._held
+        self._asked = self._held = None
+        self._drop(reply, "what it may answer was given up")
+        self._overdue.append(_Overdue(type(reply), request.attempts, until, owed=False))
 
     def _remember(self, request: Request, since: float) -> None:
         if request.attempts and request.exchange.reply is not None:

@@ -10,8 +10,9 @@ class Transport(Protocol):
 
     Inherit from nothing: having the methods is enough. A `name` of type str, if there is one, is
     what errors and logs call the line; a method `reopen()`, if there is one, returns the same line
-    opened anew. Failures are raised as TransportError. `read` and `write` may run at the same time
-    in two threads, but never two reads nor two writes.
+    opened anew; of a `largest_frame` of type int, if there is one, longer frames are refused before
+    they are sent. Failures are raised as TransportError. `read` and `write` may run at the same
+    time in two threads, but never two reads nor two writes.
     """
 
     def read(self, timeout: float) -> bytes:

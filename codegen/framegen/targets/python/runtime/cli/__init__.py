@@ -3,57 +3,40 @@
 from __future__ import annotations
 
 import argparse
-import os
 import sys
+from contextlib import suppress
 from importlib import import_module
 
 from .. import __version__
+from . import console
 from .examples import EXAMPLES, PROGRAM, SUMMARY, VERBS
-from .exits import DONE, INTERRUPTED, MEANINGS, READER_GONE, UNUSABLE
+from .exits import DONE, MEANINGS, UNUSABLE
 from .unusable import UnusableError
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
-    from typing import Any, NoReturn
+    from typing import Any
 
 _WIDTH = 100
-_SHELLS = ("bash", "zsh", "tcsh")
+_SHELLS = ("bash", "zsh", "tcsh", "fish")
 
 
 def main(argv: Sequence[str] | None = None) -> int:
     """Runs the command line, and returns its exit status: one of those in `exits`."""
     words = sys.argv[1:] if argv is None else list(argv)
+    return console.run(PROGRAM, lambda: _run(words))
+
+
+def _run(words: Sequence[str]) -> int:
     try:
-        code = _run_verb(words[0], words[1:]) if words and words[0] in VERBS else _run_none(words)
-        sys.stdout.flush()
-    except SystemExit as stop:  # argparse has said what there was to say
-        return stop.code if isinstance(stop.code, int) else DONE
+        return _run_verb(words[0], words[1:]) if words and words[0] in VERBS else _run_none(words)
     except UnusableError as error:
-        sys.stdout.flush()
-        print(f"{PROGRAM}: error: {error}", file=sys.stderr)
+        # What was printed before it comes first; if that fails, console.run says so.
+        with suppress(OSError):
+            sys.stdout.flush()
+        console.complain(PROGRAM, str(error))
         return error.code
-    except KeyboardInterrupt:
-        # The terminal has shown ^C: what comes next begins a line of its own.
-        if sys.stderr.isatty():
-            print(file=sys.stderr)
-        return INTERRUPTED
-    except BrokenPipeError:
-        _give_up_output()
-        return READER_GONE
-    except OSError as error:
-        # Ports and files are told of where they are used: this is what was to be printed.
-        _give_up_output()
-        print(f"{PROGRAM}: error: the output cannot be written: {error}", file=sys.stderr)
-        return UNUSABLE
-    return code
-
-
-def _give_up_output() -> None:
-    """What is left goes nowhere, so that the interpreter does not fail on it at exit."""
-    nowhere = os.open(os.devnull, os.O_WRONLY)
-    os.dup2(nowhere, sys.stdout.fileno())
-    os.close(nowhere)
 
 
 def _run_verb(name: str, words: Sequence[str]) -> int:
@@ -71,23 +54,21 @@ def _module(name: str) -> Any:
     return import_module(f"{__name__}.{name.replace('-', '_')}")
 
 
-def _parser(name: str, verb: Any) -> _Parser:
+def _parser(name: str, verb: Any) -> console.Parser:
     ends: dict[int, str] = MEANINGS | getattr(verb, "ENDS", {})
     statuses = [(str(code), told) for code, told in sorted(ends.items())]
     about = [VERBS[name], *([verb.ABOUT] if hasattr(verb, "ABOUT") else [])]
-    parser = _Parser(
+    parser = console.Parser(
         prog=f"{PROGRAM} {name}",
         description="\n\n".join(about),
         epilog="\n\n".join((_listed("examples", EXAMPLES[name]), _listed("exit status", statuses))),
-        formatter_class=argparse.RawDescriptionHelpFormatter,
-        allow_abbrev=False,
     )
     verb.add_arguments(parser)
     return parser
 
 
 def _run_none(words: Sequence[str]) -> int:
-    parser = _Parser(
+    parser = console.Parser(
         prog=PROGRAM,
         usage=f"{PROGRAM} VERB ...",
         description=SUMMARY,
@@ -98,8 +79,6 @@ def _run_none(words: Sequence[str]) -> int:
                 f"`{PROGRAM} VERB --help` shows what else a verb can do.",
             )
         ),
-        formatter_class=argparse.RawDescriptionHelpFormatter,
-        allow_abbrev=False,
     )
     parser.add_argument("--version", action="version", version=f"{PROGRAM} {__version__}")
     parser.add_argument(
@@ -127,10 +106,3 @@ def _listed(title: str, entries: Iterable[tuple[str, str]]) -> str:
     if any(len(line) > _WIDTH for line in lines):
         lines = [line for left, right in rows for line in (f"  {left}", f"      {right}")]
     return "\n".join([f"{title}:", *lines])
-
-
-class _Parser(argparse.ArgumentParser):
-    """Says what is wrong in one line, and where the examples are."""
-
-    def error(self, message: str) -> NoReturn:
-        raise UnusableError(f"{message}\n  `{self.prog} --help` shows how it is used")

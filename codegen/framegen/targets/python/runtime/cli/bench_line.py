@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import math
 import time
 from statistics import median
 
@@ -13,8 +14,11 @@ from ..outcome import lacking
 from ..protocol import BAUD
 from ..wire import Wire
 from . import link
+from .console import visible
+from .events import counted
 from .exits import DONE, INTERRUPTED, NOT_ALL
-from .link import add_port, add_timeout, at_least, failures_told, open_client
+from .link import add_port, add_timeout, failures_told, open_client
+from .numerals import at_least
 from .questions import exchange_named
 from .unusable import UnusableError
 from .values import fields_as_text, message_from_text
@@ -52,8 +56,8 @@ def add_arguments(parser: ArgumentParser) -> None:
 
 def run(arguments: Namespace) -> int:
     """Asks, and prints what came of it, also when it ended early."""
-    trips = Trips(_question(arguments), arguments.port)
-    with failures_told(), open_client(arguments) as client:
+    trips = Trips(_question(arguments), arguments.port, arguments.baud)
+    with failures_told(), open_client(arguments, settle=0) as client:
         try:
             trips.make(client, arguments.n)
         except KeyboardInterrupt:
@@ -92,14 +96,17 @@ def _question(arguments: Namespace) -> Message:
 class Trips:
     """Round trips of one question on a port, as many as were made."""
 
-    def __init__(self, question: Message, port: str) -> None:
+    def __init__(self, question: Message, port: str, baud: float = BAUD) -> None:
         self._question = question
         self._port = port
-        self._wire = Wire(BAUD)
+        self._baud = baud
+        self._wire = Wire(baud)
         # Of each that was answered: the seconds it took, and the size of question and answer.
         self._taken: list[float] = []
         self._sizes: list[int] = []
         self._whole = 0.0
+        # Replies that answer nothing, and questions with one sooner than the wire allows.
+        self._unsolicited = self._impossible = 0
         self.errors: dict[str, int] = {}
 
     def make(self, client: Client, count: int) -> None:
@@ -111,6 +118,8 @@ class Trips:
                     self._make_one(client)
         finally:
             self._whole = time.perf_counter() - began
+            self._unsolicited = client.counters.unsolicited
+            self._impossible = client.counters.impossible
 
     def _make_one(self, client: Client) -> None:
         began = time.perf_counter()
@@ -137,34 +146,50 @@ class Trips:
         needed = [self._wire.seconds(size) for size in self._sizes]
         return {
             "question": type(self._question).__name__,
-            "baud": BAUD,
+            "baud": None if self._baud == math.inf else self._baud,
             "asked": self._asked,
             "answered": len(taken),
             "errors": self.errors,
+            "unsolicited": self._unsolicited,
+            "impossible": self._impossible,
             "min": round(min(taken), 6) if taken else None,
             "median": round(median(taken), 6) if taken else None,
             "max": round(max(taken), 6) if taken else None,
             "wire": round(median(needed), 6) if needed else None,
             "per_second": round(len(taken) / self._whole, 3) if self._whole else None,
-            "share": round(sum(needed) / self._whole, 4) if self._whole else None,
+            "share": round(sum(needed) / self._whole, 4) if sum(needed) else None,
         }
 
     def as_text(self) -> str:
         """The result, for people."""
         found = self.as_record()
         name = " ".join(filter(None, [found["question"], fields_as_text(self._question)]))
-        lines = [f"{name} on {self._port}: {self._asked} asked, {len(self._taken)} answered"]
+        lines = [
+            f"{name} on {visible(self._port)}: {self._asked} asked, {len(self._taken)} answered"
+        ]
         if self._taken:
             there, size = len(self._question.encode()), round(median(self._sizes))
             times = [f"{found[each] * 1000:.2f} ms" for each in ("wire", "min", "median", "max")]
-            share = found["share"]
-            faster = "; it is faster than that rate, so it is no such line" if share > 1 else ""
-            wire = f"{times[0]}: {there} bytes there and {size - there} back, at {BAUD} baud"
-            rate = f"{found['per_second']:.1f} a second, {share:.1%} of what the line allows"
+            faster = found["median"] < found["wire"]
+            hint = "; it is faster than that rate, so try --baud inf" if faster else ""
+            line = "on a line that takes no time"
+            rate = f"{found['per_second']:.1f} a second"
+            if self._baud != math.inf:
+                line = f"at {self._baud} baud"
+                rate = f"{rate}, {found['share']:.1%} of what the line allows"
+            wire = f"{times[0]}: {there} bytes there and {size - there} back, {line}"
             lines += [
                 f"  the wire alone  {wire}",
                 f"  round trips     min {times[1]}, median {times[2]}, max {times[3]}",
-                f"  rate            {rate}{faster}",
+                f"  rate            {rate}{hint}",
             ]
+        if self._unsolicited:
+            slips = counted(self._unsolicited, "reply", "replies")
+            lines.append(f"  slips           {slips} to nothing, sent twice or too late: dropped")
+        if self._impossible:
+            early = counted(self._impossible, "question")
+            lines.append(
+                f"  too soon        {early} had a reply that no such wire can have carried"
+            )
         told = ", ".join(f"{number} {kind}" for kind, number in self.errors.items())
         return "\n".join([*lines, f"  errors          {told or 'none'}"])

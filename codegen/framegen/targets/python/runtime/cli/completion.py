@@ -21,7 +21,7 @@ _FILES = {"FILE", "HEX|FILE", "PORT"}
 
 
 def script(shell: str) -> str:
-    """The script for a shell. Raises UnusableError where shtab is not installed."""
+    """The script for a shell. Raises UnusableError where shtab is not installed or too old."""
     try:
         shtab = import_module("shtab")
     except ModuleNotFoundError:
@@ -38,7 +38,12 @@ def script(shell: str) -> str:
         part = verbs.add_parser(name, help=about)
         if hasattr(verb, "add_arguments"):
             verb.add_arguments(part)
-    made: str = shtab.complete(parser, shell=shell)
+    try:
+        made: str = shtab.complete(parser, shell=shell)
+    except NotImplementedError:
+        raise UnusableError(
+            f"this shtab is too old to know {shell}: pip install --upgrade shtab"
+        ) from None
     return made
 
 

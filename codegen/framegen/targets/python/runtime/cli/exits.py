@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
-DONE = 0
+from . import console
+
+DONE = console.DONE
 # What each verb means by it stands in its ENDS.
 NOT_ALL = 1
-UNUSABLE = 2
+UNUSABLE = console.UNUSABLE
 LINE_LOST = 3
-# What a shell reports for a program that SIGINT, SIGPIPE or SIGTERM ended.
-INTERRUPTED = 130
-READER_GONE = 141
+INTERRUPTED = console.INTERRUPTED
+READER_GONE = console.READER_GONE
+# What a shell reports for a program that SIGTERM ended.
 TERMINATED = 143
 
 MEANINGS = {

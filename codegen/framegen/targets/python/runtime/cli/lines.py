@@ -9,6 +9,7 @@ from ..octets import spaced
 from ..recording_entry import SENDERS
 from ..recording_file import EITHER, NOISE
 from .colour import painted, takes_colour
+from .console import visible, write_as_it_is
 from .events import UNKNOWN, as_record, bytes_of, in_words, sender_of
 
 TYPE_CHECKING = False
@@ -56,7 +57,8 @@ class Lines:
             text = self._as_json(event, direction, at)
         else:
             text = self._as_text(event, direction, at)
-        print(text, file=self._screen, flush=True)
+        write_as_it_is(self._screen, f"{text}\n")
+        self._screen.flush()
 
     def _as_text(self, event: Message | Noise, direction: Direction | None, at: float) -> str:
         when = time_of_day(at) if self._times == "absolute" else f"{at:12.6f}"
@@ -73,7 +75,7 @@ class Lines:
 def in_line(event: Message | Noise, direction: Direction | None) -> str:
     """What every verb says of an event, behind its time or place: who, what, and its bytes."""
     who, what = sender_of(event, direction), in_words(event, direction)
-    return f"{who:10}  {what} | {spaced(bytes_of(event))}"
+    return f"{who:10}  {visible(what)} | {spaced(bytes_of(event))}"
 
 
 def time_of_day(now: float) -> str:

@@ -2,22 +2,30 @@
 
 from __future__ import annotations
 
-import argparse
+import logging
+import math
 import signal
 import sys
 from contextlib import contextmanager
 
 from ..client import MARGIN, Client
+from ..exchanges import LIMITS
 from ..link_errors import ClosedError, DisconnectedError, TransportError, WriteStuckError
+from ..protocol import BAUD
 from ..serial_port import open_transport
+from .console import visible
+from .examples import PROGRAM
 from .exits import LINE_LOST, TERMINATED
+from .numerals import above_zero, at_least
 from .unusable import LineLostError, UnusableError
 from .waiting import shown_waiting
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator
+    import argparse
+    from collections.abc import Iterator
 
+    from ..limits import Bounds
     from ..transport import Transport
 
 ENDS = {
@@ -28,21 +36,44 @@ ENDS = {
 _LONGEST = 3600.0
 
 
-def add_port(parser: argparse.ArgumentParser, *, required: bool = True) -> None:
-    """Declares the option that names the port."""
+def add_port(
+    parser: argparse.ArgumentParser, *, required: bool = True, client: bool = True
+) -> None:
+    """Declares the options that name the port and say what its line is like.
+
+    `client` is whether a client is opened on it; only that knows what to do about a local echo.
+    """
     parser.add_argument(
         "--port",
         required=required,
         metavar="PORT",
         help="such as /dev/ttyUSB0, COM7 or socket://HOST:PORT; `ports` lists them",
     )
+    parser.add_argument(
+        "--baud",
+        type=_rate,
+        default=BAUD,
+        metavar="BAUD",
+        help=f"the rate of the line; inf: one that takes no time, as TCP may be (default: {BAUD})",
+    )
+    if client:
+        parser.add_argument(
+            "--local-echo",
+            action="store_true",
+            help="the line gives back what is sent, as adapters for half-duplex wires do",
+        )
+
+
+def _rate(text: str) -> float:
+    """A rate, as an argument: a whole number of baud, or inf."""
+    return math.inf if text == "inf" else at_least(1)(text)
 
 
 def add_timeout(parser: argparse.ArgumentParser) -> None:
     """Declares the option that says how long an answer may take."""
     parser.add_argument(
         "--timeout",
-        type=seconds,
+        type=above_zero("number of seconds", highest=_LONGEST),
         default=MARGIN,
         metavar="S",
         help="seconds that the board may take for an answer, besides those on the wire "
@@ -50,41 +81,45 @@ def add_timeout(parser: argparse.ArgumentParser) -> None:
     )
 
 
-def seconds(text: str) -> float:
-    """A time to wait, as an argument."""
+def open_line(port: str, baud: float = BAUD) -> Transport:
+    """Opens a port, and shows that it is at it: an address that is far away may take a while.
+
+    Raises UnusableError for a rate that no port can be set to.
+    """
     try:
-        given = float(text)
-    except ValueError:
-        raise argparse.ArgumentTypeError(f"{text!r} is no number of seconds") from None
-    if not 0 < given <= _LONGEST:
-        raise argparse.ArgumentTypeError(f"{text} is not above 0 and up to {_LONGEST:g} seconds")
-    return given
+        with shown_waiting(lambda waited: f"opening {port}, {waited:.0f} s"):
+            return open_transport(port, baud=baud)
+    except ValueError as error:
+        raise UnusableError(str(error)) from None
 
 
-def at_least(lowest: int) -> Callable[[str], int]:
-    """A whole number with a bound, as an argument."""
-
-    def read(text: str) -> int:
-        try:
-            given = int(text)
-        except ValueError:
-            raise argparse.ArgumentTypeError(f"{text!r} is no whole number") from None
-        if given < lowest:
-            raise argparse.ArgumentTypeError(f"{given} is below {lowest}, the least there can be")
-        return given
-
-    return read
-
-
-def open_line(port: str) -> Transport:
-    """Opens a port, and shows that it is at it: an address that is far away may take a while."""
-    with shown_waiting(lambda waited: f"opening {port}, {waited:.0f} s"):
-        return open_transport(port)
-
-
-def open_client(arguments: argparse.Namespace, *, retries: int = 0) -> Client:
+def open_client(
+    arguments: argparse.Namespace,
+    *,
+    retries: int = 0,
+    limits: Bounds | None = LIMITS.usual,
+    settle: float | None = None,
+) -> Client:
     """As open_line, for a client that waits as long as the arguments say."""
-    return Client(open_line(arguments.port), margin=arguments.timeout, retries=retries)
+    logger = logging.getLogger(Client.__module__.rpartition(".")[0])
+    if not any(isinstance(each, _Warnings) for each in logger.handlers):
+        logger.addHandler(_Warnings(logging.WARNING))
+    return Client(
+        open_line(arguments.port, arguments.baud),
+        baud=arguments.baud,
+        margin=arguments.timeout,
+        retries=retries,
+        local_echo=arguments.local_echo,
+        limits=limits,
+        settle=settle,
+    )
+
+
+class _Warnings(logging.Handler):
+    """Prints what the library has to say of a line as the command prints everything else."""
+
+    def emit(self, record: logging.LogRecord) -> None:
+        print(f"{PROGRAM}: {visible(record.getMessage())}", file=sys.stderr)
 
 
 @contextmanager

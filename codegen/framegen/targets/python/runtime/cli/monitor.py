@@ -7,6 +7,7 @@ import time
 from contextlib import closing
 from pathlib import Path
 
+from ..careful_decoder import GAP
 from ..decoder import StreamDecoder
 from ..exchanges import RECEIVED
 from ..recording_entry import SENDERS
@@ -16,7 +17,8 @@ from .encode import message_named
 from .events import KINDS, UNKNOWN, counted, names_of, sender_of, totals
 from .exits import DONE, INTERRUPTED
 from .lines import TIMES, Lines
-from .link import add_port, at_least, failures_told, open_line
+from .link import add_port, failures_told, open_line
+from .numerals import at_least
 from .recorder import Recorder
 from .unusable import UnusableError
 from .waiting import PATIENCE, Waiting
@@ -36,13 +38,13 @@ ABOUT = """\
 One line for each frame and each piece of noise: the time, who sent it, its bytes, what they mean.
 Ctrl-C ends it, and the totals follow on the error stream. Colours are for terminals alone, and for
 nobody who has set NO_COLOR."""
-# How long a line is quiet before half a frame is given up.
-_QUIET = 0.25
+# How long to read in one piece, so that Ctrl-C is noticed on every system.
+_SLICE = 0.25
 
 
 def add_arguments(parser: ArgumentParser) -> None:
     """Declares the arguments of the verb."""
-    add_port(parser)
+    add_port(parser, client=False)
     usual = "any" if RECEIVED is None else RECEIVED.sender
     parser.add_argument(
         "--direction",
@@ -93,7 +95,7 @@ def run(arguments: Namespace) -> int:
     monitor = Monitor(arguments, sys.stdout)
     with (
         failures_told(),
-        closing(open_line(arguments.port)) as line,
+        closing(open_line(arguments.port, arguments.baud)) as line,
         Recorder(arguments.log) as recorder,
     ):
         recorder.begin(arguments.port, time.monotonic())
@@ -128,17 +130,17 @@ class Monitor:
 
     def watch(self, line: Transport, recorder: Recorder) -> None:
         """Reads and shows, until so many lines were shown; the totals come in any case."""
-        shown = heard = self._clock()
+        shown = self._clock()
         self._lines.begin(self._day() if self._absolute else shown)
         try:
             while self._left != 0:
-                data = line.read(_QUIET)
+                data = line.read(GAP if self._decoder.pending else _SLICE)
                 now = self._clock()
                 before = self._lines.count
                 if data:
-                    heard = now
                     self._tell(self._decoder.feed(data), recorder, now)
-                elif self._decoder.pending and now - heard >= _QUIET:
+                elif self._decoder.pending:
+                    # Found empty for so long: half a frame must not grow together with the next.
                     self._tell(self._decoder.flush(), recorder, now)
                     recorder.quiet()
                 if self._lines.count != before:

@@ -1,15 +1,25 @@
-"""The verb `ports`: what is plugged in."""
+"""The verb `ports`: what is plugged in, by serial port or by USB HID."""
 
 from __future__ import annotations
 
 import json
 import sys
 
-from serial.tools import list_ports
+from ..hid_boards import UNSEEN, hid_boards_at_hand
+from ..protocol import HID_BOARDS
+from ..serial_port import serial_ports
+from .console import visible
+from .examples import PROGRAM
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
     from argparse import ArgumentParser, Namespace
+    from collections.abc import Iterator
+
+    from ..hid_boards import HidBoard
+
+    # The name of a port, VID:PID, and what it is.
+    Line = tuple[str, str, str]
 
 
 def add_arguments(parser: ArgumentParser) -> None:
@@ -18,15 +28,26 @@ def add_arguments(parser: ArgumentParser) -> None:
 
 
 def run(arguments: Namespace) -> int:
-    """Prints a line for each serial port: its name, VID:PID where it has them, what it is."""
-    found = sorted(list_ports.comports(), key=lambda each: str(each.device))
-    for port in found:
-        usb = "" if port.vid is None else f"{port.vid:04X}:{port.pid or 0:04X}"
-        about = "" if port.description in (None, "n/a") else str(port.description)
+    """Prints a line for each port: its name, VID:PID where it has them, what it is."""
+    serial = [(each.name, each.usb, each.product) for each in serial_ports()]
+    boards = hid_boards_at_hand()
+    for name, usb, about in [*serial, *_by_hid(boards or [])]:
         if arguments.json:
-            print(json.dumps({"port": port.device, "usb": usb or None, "description": about}))
+            print(json.dumps({"port": name, "usb": usb or None, "description": about}))
         else:
-            print(f"{port.device:16}  {usb or '-':9}  {about}".rstrip())
-    if not found:
+            print(visible(f"{name:16}  {usb or '-':9}  {about}".rstrip()))
+    if not serial:
         print("no serial port is plugged in", file=sys.stderr)
+    if boards is None and HID_BOARDS and not any(usb for _, usb, _ in serial):
+        known = ", ".join(f"{vendor:04X}:{product:04X}" for vendor, product, _ in HID_BOARDS)
+        told = f"boards of USB HID ({known}) have no serial port, and are not listed without an"
+        print(f"{told} extra: pip install '{PROGRAM}[hid]'", file=sys.stderr)
     return 0
+
+
+def _by_hid(boards: list[HidBoard]) -> Iterator[Line]:
+    """Boards without a serial port, each by an address that opens it."""
+    for each in boards:
+        alone = len([other for other in boards if other.ids == each.ids]) == 1
+        about = f"{each.product}, USB HID, no serial port ({UNSEEN})".removeprefix(", ")
+        yield f"hid://{each.ids if alone else each.path}", each.ids, about

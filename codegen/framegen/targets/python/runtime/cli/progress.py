@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import os
 
+from .console import visible, write_as_it_is
+
 TYPE_CHECKING = False
 if TYPE_CHECKING:
     from typing import TextIO
@@ -25,7 +27,7 @@ class Waiting:
         if not self.seen:
             return
         # A line that is longer than the terminal is wide could not be taken back.
-        text = text[: _columns(self._screen) - 1]
+        text = visible(text)[: _columns(self._screen) - 1]
         if text != self._shown:
             blank = " " * (len(self._shown) - len(text))
             self._shown = text
@@ -44,7 +46,7 @@ class Waiting:
             self._shown = ""
 
     def _write(self, text: str) -> None:
-        self._screen.write(text)
+        write_as_it_is(self._screen, text)
         self._screen.flush()
 
 

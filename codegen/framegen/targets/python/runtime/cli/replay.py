@@ -2,14 +2,12 @@
 
 from __future__ import annotations
 
-import argparse
 import sys
 from contextlib import closing
 from pathlib import Path
 
 from ..exchanges import EXCHANGES, RECEIVED
 from ..noise import Noise
-from ..protocol import BAUD
 from ..recording_entry import SENDERS
 from ..recording_file import EITHER, NOISE
 from ..recordings import FORMS
@@ -19,6 +17,7 @@ from .events import bytes_of, counted, in_words
 from .exits import DONE, INTERRUPTED
 from .lines import Lines
 from .link import add_port, failures_told, open_line
+from .numerals import above_zero
 from .playback import Playback
 from .recording import opened
 from .rereading import rereadable
@@ -26,6 +25,7 @@ from .unusable import UnusableError
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
+    import argparse
     from collections.abc import Iterable, Iterator
 
     from ..recordings import Entry
@@ -38,16 +38,17 @@ the line can carry it; raw bytes and plain hex have no times, and go as fast as 
 sent is left out. What is no frame, or may be of either end, is refused before anything is sent,
 unless an option says what to do with it. What is sent is printed, and so is what comes back.
 
-The board does at once what it is told: give the arm room, and look at --dry-run first."""
+The board does at once what it is told, within the limits of `send` or beyond them: give the arm
+room, and look at --dry-run first."""
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declares the arguments of the verb."""
     parser.add_argument("file", type=Path, metavar="FILE", help="a recording; - is standard input")
-    add_port(parser, required=False)
+    add_port(parser, required=False, client=False)
     parser.add_argument(
         "--speed",
-        type=_speed,
+        type=above_zero("number"),
         default=1.0,
         metavar="X",
         help="so many times as fast as it was recorded; inf: as fast as the line can (default: 1)",
@@ -91,11 +92,11 @@ def run(arguments: argparse.Namespace) -> int:
             for entry in recording.entries(arguments.format, direction)
             if _is_chosen(entry, recording.name, arguments)
         )
-        timed = _timed(entries, arguments.speed)
+        timed = _timed(entries, arguments.speed, arguments.baud)
         if arguments.dry_run:
-            _show(timed)
+            _show(timed, arguments.baud)
             return DONE
-        with failures_told(), closing(open_line(port)) as line:
+        with failures_told(), closing(open_line(port, arguments.baud)) as line:
             try:
                 Playback(sys.stdout).play(line, timed, count)
             except KeyboardInterrupt:
@@ -160,9 +161,9 @@ def _kinds(found: dict[str, int]) -> str:
     return ", ".join(told) or "nothing at all"
 
 
-def _timed(entries: Iterable[Entry], speed: float) -> Iterator[tuple[Entry, float]]:
+def _timed(entries: Iterable[Entry], speed: float, baud: float) -> Iterator[tuple[Entry, float]]:
     """Each, and when it is sent, in seconds from the first: as recorded, one after the other."""
-    wire = Wire(BAUD)
+    wire = Wire(baud)
     first: float | None = None
     for entry in entries:
         at = entry.time or 0.0
@@ -170,9 +171,9 @@ def _timed(entries: Iterable[Entry], speed: float) -> Iterator[tuple[Entry, floa
         yield entry, wire.take(len(bytes_of(entry.event)), (at - first) / speed)
 
 
-def _show(timed: Iterable[tuple[Entry, float]]) -> None:
+def _show(timed: Iterable[tuple[Entry, float]], baud: float) -> None:
     """Prints what would be sent, and when."""
-    lines, wire = Lines(sys.stdout), Wire(BAUD)
+    lines, wire = Lines(sys.stdout), Wire(baud)
     size, ends = 0, 0.0
     for entry, at in timed:
         lines.show(entry.event, entry.direction, at)
@@ -180,13 +181,3 @@ def _show(timed: Iterable[tuple[Entry, float]]) -> None:
         ends = at + wire.seconds(len(bytes_of(entry.event)))
     told = f"{counted(lines.count, 'frame')}, {counted(size, 'byte')} in {ends:.3f} s"
     print(f"{told}: nothing was sent", file=sys.stderr)
-
-
-def _speed(text: str) -> float:
-    try:
-        given = float(text)
-    except ValueError:
-        raise argparse.ArgumentTypeError(f"{text!r} is no number") from None
-    if not given > 0:
-        raise argparse.ArgumentTypeError(f"{text} is not above 0; inf is as fast as the line can")
-    return given

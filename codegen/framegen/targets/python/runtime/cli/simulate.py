@@ -24,5 +24,5 @@ def hand_over(words: Sequence[str]) -> int:
             f"the package {package} is not installed here; it comes with the whole of {PROGRAM}, "
             "so install that, or put the folder `simulator` of a clone on PYTHONPATH"
         ) from None
-    code: int = simulator.main(list(words))
+    code: int = simulator.main(list(words), program=f"{PROGRAM} simulate")
     return code

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from ..errors import EncodeError
+from .numerals import whole_in_any_base
 from .unusable import UnusableError
 
 TYPE_CHECKING = False
@@ -124,7 +125,7 @@ def _read_number(number: Number, text: str, path: str) -> int:
     if named is not None:
         return named
     try:
-        return int(text, 0)
+        return whole_in_any_base(text)
     except ValueError:
         names = "".join(f", or {name}" for name in number.names)
         raise UnusableError(

@@ -22,6 +22,8 @@ if TYPE_CHECKING:
     from busservo_simulator.faults import Faults
 
 REPLIES = (BatteryVoltage, ServoPositions)
+# Where the count of servos stands in the reply that has one: behind header, length and command.
+COUNT_AT = 4
 
 
 class Sending(NamedTuple):
@@ -32,7 +34,7 @@ class Sending(NamedTuple):
     hangs_up: bool = False
 
 
-class Mischief:
+class FaultInjector:
     """One run of faults, repeatable by their seed."""
 
     def __init__(self, faults: Faults) -> None:
@@ -48,18 +50,26 @@ class Mischief:
         if isinstance(report, ServoPositions) and (self.faults.fewer or self.faults.absent):
             report = self._thinned(report)
         yield report
+        if isinstance(report, REPLIES) and self._happens(self.faults.duplicated):
+            yield report
 
-    def sending(self, frame: bytes) -> Sending:
-        """How the frame goes out."""
+    def lateness(self, report: Report) -> float:
+        """For how many seconds the board keeps `report` back, 0.0 for none."""
+        late = isinstance(report, REPLIES) and self._happens(self.faults.late)
+        return self.faults.late_by if late else 0.0
+
+    def sending(self, report: Report) -> Sending:
+        """How the frame of `report` goes out."""
         faults, pause = self.faults, 0.0
+        data = self._miscounted(report)
         if self._happens(faults.delays):
             pause = self._random.uniform(0.0, faults.longest_delay)
-        data = self._flipped(frame, faults.bit_flips)
+        data = self._shortened(self._flipped(data, faults.bit_flips), faults.lost_bytes)
         if self._happens(faults.noise):
             data = self._noise() + data
         if self._happens(faults.hang_up):
             return Sending([(pause, data[: len(data) // 2])], hangs_up=True)
-        if self._happens(faults.splits):
+        if len(data) > 1 and self._happens(faults.splits):
             return Sending(self._split(data, pause))
         return Sending([(pause, data)], waits=self._happens(faults.coalesced))
 
@@ -95,6 +105,14 @@ class Mischief:
             kept.append((servo_id, ServoPosition.POSITION_ABSENT if absent else position))
         return ServoPositions(kept)
 
+    def _miscounted(self, report: Report) -> bytes:
+        """The frame of a report, its count of servos off by one if that fault happens."""
+        frame = report.encode()
+        if not (isinstance(report, ServoPositions) and self._happens(self.faults.wrong_count)):
+            return frame
+        count = (frame[COUNT_AT] + self._random.choice((-1, 1))) % 256
+        return frame[:COUNT_AT] + bytes([count]) + frame[COUNT_AT + 1 :]
+
     def _split(self, data: bytes, pause: float) -> list[tuple[float, bytes]]:
         cut = self._random.randrange(1, len(data))
         rest = self._random.uniform(0.001, 0.02)
@@ -108,6 +126,12 @@ class Mischief:
             if self._happens(chance):
                 data[at] ^= 1 << self._random.randrange(8)
         return bytes(data)
+
+    def _shortened(self, frame: bytes, chance: float) -> bytes:
+        """The frame without the bytes that are lost."""
+        if not chance:
+            return frame
+        return bytes(byte for byte in frame if not self._happens(chance))
 
     def _noise(self) -> bytes:
         """Up to eight bytes without a header, though a lone byte of one may be among them."""

@@ -1,0 +1,80 @@
+"""Rule: how long something goes on is a time that the message gives."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from framegen.checks.rule import Problem, StructureRule
+from framegen.exchanges import STEPS_PER_SECOND, arguments_of, sent_by_client
+from framegen.findings import did_you_mean
+from framegen.spec import NumberField
+from framegen.wiretypes import WIRE_TYPES
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from framegen.spec import Message, Spec
+
+# What a client adds to the arguments of the method.
+_ADDED = "latest"
+_UNITS = " or ".join(f"`unit: {unit}`" for unit in reversed(STEPS_PER_SECOND))
+
+
+def _look(spec: Spec) -> Iterator[Problem]:
+    for name, message in spec.messages.items():
+        if message.lasts is None:
+            continue
+        found = _misuse(name, message, spec) or _no_time(name, message, message.lasts)
+        if found is not None:
+            yield Problem(("messages", name, "lasts"), *found)
+
+
+def _misuse(name: str, message: Message, spec: Spec) -> tuple[str, str] | None:
+    """What keeps the message from starting anything that a client could wait for."""
+    sent = sent_by_client(spec)
+    if message.direction != sent:
+        what = f"{name} goes {message.direction}, and a client sends {sent}"
+        return what, "only what a client sends can be waited for"
+    if message.reply is not None:
+        what = f"{name} is answered by {message.reply}, and that is what a client returns"
+        return what, "leave out `lasts`, or the reply"
+    if _ADDED in message.fields:
+        what = f"a client adds an argument `{_ADDED}` to the method, and {name} has one already"
+        return what, "give the field another name, or leave out `lasts`"
+    return None
+
+
+def _no_time(name: str, message: Message, lasts: str) -> tuple[str, str] | None:
+    """What keeps the field from being a time."""
+    times = [each for each in arguments_of(message) if _is_time(message, each)]
+    field = message.fields.get(lasts)
+    if field is None or lasts not in arguments_of(message):
+        return f"{name} is not given `{lasts}`", did_you_mean(lasts, times)
+    if not isinstance(field, NumberField) or field.counted_by is not None:
+        return f"`{lasts}` is a list, and not one time", did_you_mean(lasts, times)
+    if field.unit not in STEPS_PER_SECOND:
+        return f"`{lasts}` has no unit of time", f"give it {_UNITS}, or name another field"
+    wire = WIRE_TYPES.get(field.type)
+    lowest = field.range.low if field.range is not None else 0 if wire is None else wire.low
+    if lowest < 0:
+        what = f"`{lasts}` may be below zero, and no time is"
+        return what, "take a type without a sign, or give it a `range` from 0 on"
+    return None
+
+
+def _is_time(message: Message, name: str) -> bool:
+    field = message.fields[name]
+    if not isinstance(field, NumberField) or field.counted_by is not None:
+        return False
+    return field.unit in STEPS_PER_SECOND
+
+
+RULE = StructureRule(
+    id="lasts",
+    title="How long something goes on is a time that the message gives",
+    why="A client adds it to the moment at which the message has left, and waits until then: what "
+    "is in no known unit, or below zero, is no time to wait for.",
+    bad="LampFade: {lasts: level}",
+    good="LampFade: {lasts: fade_ms}",
+    look=_look,
+)

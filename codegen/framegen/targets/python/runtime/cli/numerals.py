@@ -1,0 +1,63 @@
+"""Numbers as arguments: plain digits, and nothing else that Python would take for a number."""
+
+from __future__ import annotations
+
+import argparse
+import math
+import re
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+_WHOLE = re.compile(r"-?[0-9]+")
+_ANY_BASE = re.compile(r"-?(?:0[xX][0-9A-Fa-f]+|0[oO][0-7]+|0[bB][01]+|[0-9]+)")
+_DECIMAL = re.compile(r"-?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][-+]?[0-9]+)?|inf")
+# Far more digits than any number here has; Python refuses to read some thousands.
+_MOST_DIGITS = 100
+
+
+def whole(text: str) -> int:
+    """A whole number, in decimal. Raises ValueError."""
+    if len(text) > _MOST_DIGITS or _WHOLE.fullmatch(text) is None:
+        raise ValueError(f"{text[:40]!r} is no whole number: write it like 12")
+    return int(text)
+
+
+def whole_in_any_base(text: str) -> int:
+    """A whole number: in decimal, or such as 0x0C, 0o14 or 0b1100. Raises ValueError."""
+    if len(text) > _MOST_DIGITS or _ANY_BASE.fullmatch(text) is None:
+        raise ValueError(f"{text[:40]!r} is no whole number: write it like 12 or 0x0C")
+    return int(text, 0)
+
+
+def at_least(lowest: int) -> Callable[[str], int]:
+    """A whole number with a bound, as an argument."""
+
+    def read(text: str) -> int:
+        try:
+            given = whole(text)
+        except ValueError as error:
+            raise argparse.ArgumentTypeError(str(error)) from None
+        if given < lowest:
+            raise argparse.ArgumentTypeError(f"{given} is below {lowest}, the least there can be")
+        return given
+
+    return read
+
+
+def above_zero(what: str, *, highest: float = math.inf) -> Callable[[str], float]:
+    """A number above 0 and up to a bound, as an argument; inf only where there is none.
+
+    `what` is what it is: a number of seconds.
+    """
+
+    def read(text: str) -> float:
+        if len(text) > _MOST_DIGITS or _DECIMAL.fullmatch(text) is None:
+            raise argparse.ArgumentTypeError(f"{text[:40]!r} is no {what}: write it like 12 or 0.5")
+        if not 0 < float(text) <= highest:
+            bound = "" if math.isinf(highest) else f" and up to {highest:g}"
+            raise argparse.ArgumentTypeError(f"{text} is no {what} above 0{bound}")
+        return float(text)
+
+    return read

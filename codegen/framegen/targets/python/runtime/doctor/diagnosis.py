@@ -1,0 +1,97 @@
+"""What the checks share: what they look at, and what they have found so far."""
+
+from __future__ import annotations
+
+import time
+from pathlib import Path
+
+from ..guarded import Guarded
+from ..hid_boards import hid_boards_at_hand
+from ..protocol import BAUD
+from ..serial_port import open_transport, serial_ports
+from .probe import Probe
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from ..hid_boards import HidBoard
+    from ..link_errors import TransportError
+    from ..message import Message
+    from ..noise import Noise
+    from ..serial_port import SerialPortSeen
+    from ..transport import Transport
+    from .probe import Entry
+    from .trip import Trip
+
+
+class Diagnosis:
+    """One examination of one port, with what has been found so far.
+
+    `port` may be None: the one that is plugged in is taken, if there is one. `opener` opens a port
+    at a rate, `ports` and `boards` tell what is plugged in, and `clock` tells seconds; all of them
+    are for tests to replace. With `local_echo`, what is sent is expected to come back.
+    """
+
+    def __init__(
+        self,
+        port: str | None,
+        *,
+        baud: float = BAUD,
+        margin: float = 0.25,
+        local_echo: bool = False,
+        opener: Callable[[str, float], Transport] | None = None,
+        ports: Callable[[], list[SerialPortSeen]] = serial_ports,
+        boards: Callable[[], list[HidBoard] | None] = hid_boards_at_hand,
+        clock: Callable[[], float] = time.monotonic,
+    ) -> None:
+        self.port = port
+        self.baud = baud
+        self.margin = margin
+        self.local_echo = local_echo
+        self.ports = ports()
+        self.boards = boards()
+        self.log: list[Entry] = []
+        # Why it could not be opened, and whether it was lost since.
+        self.error: TransportError | None = None
+        self.lost = False
+        self.probe: Probe | None = None
+        # What came unasked, and the questions at the rate that was found to be right.
+        self.unasked: list[Message | Noise] = []
+        self.trips: list[Trip] = []
+        # What came at other rates.
+        self.strange: list[Noise] = []
+        self._clock = clock
+        self._open = opener or (lambda name, rate: open_transport(name, baud=rate))
+
+    @property
+    def adapter(self) -> str:
+        """What is plugged in, by VID:PID and product; empty where that is not known."""
+        port = self.port or ""
+        if port.lower().startswith("hid:"):
+            return ", ".join(f"{each.ids} {each.product}" for each in self.boards or [])
+        names = (port, str(Path(port).resolve()))
+        found = (each for each in self.ports if each.name in names)
+        return next((f"{each.usb} {each.product}".strip() for each in found), "")
+
+    def connect(self, baud: float | None = None) -> Probe:
+        """Opens the port, at a rate; whatever was open before is closed. Raises TransportError."""
+        if self.port is None:
+            raise AssertionError("no check asks for a port where none was found")
+        self.close()
+        rate = self.baud if baud is None else baud
+        transport = Guarded(self._open(self.port, rate))
+        self.probe = Probe(
+            transport, baud=rate, margin=self.margin, clock=self._clock, log=self.log
+        )
+        return self.probe
+
+    def connected(self) -> Probe:
+        """The open port."""
+        return self.connect() if self.probe is None else self.probe
+
+    def close(self) -> None:
+        """Gives the port back."""
+        if self.probe is not None:
+            probe, self.probe = self.probe, None
+            probe.close()

@@ -1,0 +1,38 @@
+"""Check: whether a board is plugged in that has no serial port at all."""
+
+from __future__ import annotations
+
+from ..hid_boards import UNSEEN
+from ..protocol import HID_BOARDS
+from .check import Check
+from .result import passed, unknown
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from .diagnosis import Diagnosis
+    from .result import Result
+
+_PACKAGE = __name__.partition(".")[0]
+
+
+def _look(diagnosis: Diagnosis) -> Result:
+    known = ", ".join(f"{vendor:04X}:{product:04X}" for vendor, product, _ in HID_BOARDS)
+    if not known:
+        return passed("no board of this protocol is known to be reached by USB HID")
+    if diagnosis.boards is None:
+        return unknown(
+            f"nobody here can tell whether a board of USB HID ({known}) is plugged in",
+            f"pip install '{_PACKAGE}[hid]'; such a board has no serial port at all",
+        )
+    if not diagnosis.boards:
+        return passed(f"no board of USB HID ({known}) is plugged in")
+    told = ", ".join(f"{each.ids} {each.product}".rstrip() for each in diagnosis.boards)
+    if diagnosis.port is not None and diagnosis.port.lower().startswith("hid:"):
+        return passed(f"{told} is plugged in")
+    return unknown(
+        f"{told} is plugged in, a board without a serial port ({UNSEEN})",
+        f"if that is the board you mean: pip install '{_PACKAGE}[hid]', and --port hid://",
+    )
+
+
+CHECK = Check("hid", "which boards have no serial port", (), _look)

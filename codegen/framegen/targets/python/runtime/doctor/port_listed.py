@@ -1,0 +1,58 @@
+"""Check: there is a port to look at."""
+
+from __future__ import annotations
+
+from .check import Check
+from .result import failed, passed, unknown
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from .diagnosis import Diagnosis
+    from .result import Result
+
+_NONE = "no serial port is plugged in"
+_PLUG_IN = (
+    "plug in the board or its adapter, by a cable that carries data; where that changes nothing, "
+    "see the check `hid`: boards of USB HID have no serial port at all"
+)
+
+
+def _look(diagnosis: Diagnosis) -> Result:
+    found = ", ".join(str(each) for each in diagnosis.ports)
+    if diagnosis.port is None:
+        return _choose(diagnosis, found)
+    for each in diagnosis.ports:
+        if each.name == diagnosis.port:
+            return passed(str(each))
+    if "://" in diagnosis.port:
+        return passed(f"{diagnosis.port} is an address, which nothing lists")
+    told = f"{diagnosis.port} is not among the ports that are listed ({found or 'none'})"
+    return unknown(told, "go on if it is a name of your own for a port, or a pseudo terminal")
+
+
+def _choose(diagnosis: Diagnosis, found: str) -> Result:
+    """Takes the one port that there is; or a board without any."""
+    by_usb = [each for each in diagnosis.ports if each.usb]
+    boards = diagnosis.boards or []
+    if not by_usb and boards:
+        diagnosis.port = "hid://"
+        told = f"{_NONE}, but a board of USB HID is, which has none"
+        return passed(f"{told}: {boards[0].ids} {boards[0].product}".rstrip())
+    if not by_usb and len(diagnosis.ports) == 1:
+        diagnosis.port = diagnosis.ports[0].name
+        return unknown(f"no port is plugged in by USB; {found} is taken", _PLUG_IN)
+    if not by_usb:
+        return failed(
+            f"no port is plugged in by USB: {found} are there" if found else _NONE,
+            f"{_PLUG_IN}; or name another port: --port NAME",
+        )
+    if len(by_usb) > 1:
+        return failed(
+            f"{len(by_usb)} ports are plugged in: {', '.join(str(each) for each in by_usb)}",
+            "name the board's: --port NAME; it is the one that goes when you unplug the board",
+        )
+    diagnosis.port = by_usb[0].name
+    return passed(f"the one that is plugged in is taken: {by_usb[0]}")
+
+
+CHECK = Check("port", "there is a port", (), _look)

@@ -1,0 +1,33 @@
+"""What a check has found: its state, what was seen, the bytes that show it, and what to do next."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+PASSED, FAILED, UNKNOWN = STATES = ("passed", "failed", "unknown")
+# Of bytes that show the same, the first few are enough.
+_MOST = 3
+
+
+class Result(NamedTuple):
+    """What a check has found. `advice` is empty where nothing is to be done."""
+
+    state: str
+    seen: str
+    evidence: tuple[bytes, ...] = ()
+    advice: str = ""
+
+
+def passed(seen: str, *evidence: bytes) -> Result:
+    """All is as it should be."""
+    return Result(PASSED, seen, evidence[:_MOST])
+
+
+def failed(seen: str, advice: str, *evidence: bytes) -> Result:
+    """Something is not as it should be; `advice` says what to do."""
+    return Result(FAILED, seen, evidence[:_MOST], advice)
+
+
+def unknown(seen: str, advice: str = "", *evidence: bytes) -> Result:
+    """It could not be told, or it is as it should be for some boards only."""
+    return Result(UNKNOWN, seen, evidence[:_MOST], advice)

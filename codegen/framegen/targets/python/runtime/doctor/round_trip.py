@@ -1,0 +1,50 @@
+"""Check: replies take as long as their bytes take on the wire."""
+
+from __future__ import annotations
+
+from statistics import median
+
+from .check import Check
+from .result import failed, passed, unknown
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from .diagnosis import Diagnosis
+    from .result import Result
+
+
+def _look(diagnosis: Diagnosis) -> Result:
+    single = [trip for trip in diagnosis.trips if len(trip.replies) == 1]
+    answered = [trip for trip in diagnosis.trips if trip.replies]
+    if not answered:
+        return unknown("there was no reply to measure: see the check `rate`")
+    probe = diagnosis.connected()
+    taken: list[float] = []
+    early: list[bytes] = []
+    for trip in answered:
+        seconds, reply = trip.replies[0]
+        taken.append(seconds)
+        if seconds < probe.wire.least(len(trip.question.encode()) + len(reply.encode())):
+            early.append(reply.encode())
+    sizes = len(answered[0].question.encode()) + len(answered[0].replies[0][1].encode())
+    wire = f"{probe.wire.seconds(sizes) * 1000:.2f} ms, which {sizes} bytes take at {probe.baud:g}"
+    told = (
+        f"the median of {len(taken)} is {median(taken) * 1000:.2f} ms; the wire needs {wire} baud"
+    )
+    if not early:
+        return passed(told)
+    if len(early) == len(answered) == len(single):
+        return unknown(
+            f"{told}: this is no line of that rate, but one such as TCP, a pseudo terminal or USB",
+            "say so: baud=math.inf in Python; then replies need not be watched for coming too soon",
+            *early,
+        )
+    return failed(
+        f"{len(early)} of {len(answered)} replies were there before the line could have carried "
+        f"question and reply ({told})",
+        "these answer an earlier question: replies come late, or twice; see the check `reply`",
+        *early,
+    )
+
+
+CHECK = Check("round-trip", "replies take their time on the wire", ("opening",), _look)

@@ -1,0 +1,52 @@
+"""What a UART makes of bytes that were sent at another rate than its own."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from busservo.protocol import BITS_PER_BYTE
+
+if TYPE_CHECKING:
+    from random import Random
+
+# A UART looks at the line sixteen times a bit, so that it sees an edge by so much early or late.
+JITTER = 1 / 32
+
+
+def sampled(data: bytes, sent_at: float, read_at: float, random: Random) -> bytes:
+    """Sample `data`, sent in one go at `sent_at` baud, as a UART at `read_at` baud does.
+
+    Framing errors are passed on as they are read, as by a port in raw mode. A reader that is slower
+    gets fewer bytes, or none at all; a faster one gets a byte for each stretch of low line; one
+    that is off by a few percent reads what was sent.
+    """
+    # The line rests at 1, in front of the first byte, too.
+    levels = b"\x01" + b"".join(map(_levels, data))
+    step = sent_at / read_at
+    found = bytearray()
+    at = 0
+    while (edge := _falling_edge(levels, at)) >= 0:
+        late = random.uniform(-JITTER, JITTER)
+        if _level(levels, edge + step * (0.5 + late)):
+            at = int(edge + step * 0.5)  # too short for a start bit
+            continue
+        moments = (edge + step * (1.5 + late + bit) for bit in range(8))
+        found.append(sum(_level(levels, moment) << bit for bit, moment in enumerate(moments)))
+        at = int(edge + step * (BITS_PER_BYTE - 0.5 + late))
+    return bytes(found)
+
+
+def _levels(byte: int) -> bytes:
+    """A start bit, eight bits with the lowest first, and a stop bit."""
+    return bytes([0, *(byte >> bit & 1 for bit in range(8)), 1])
+
+
+def _level(levels: bytes, moment: float) -> int:
+    at = int(moment)
+    return levels[at] if at < len(levels) else 1
+
+
+def _falling_edge(levels: bytes, at: int) -> int:
+    """Where the line falls next, once it is up; -1 if it does not."""
+    up = levels.find(1, at)
+    return -1 if up < 0 else levels.find(0, up)

@@ -1,0 +1,47 @@
+"""A virtual board for the doctor to look at, in virtual time, and what it needs for that."""
+
+from __future__ import annotations
+
+from contextlib import contextmanager
+from typing import TYPE_CHECKING, Any
+
+from busservo.doctor.checks import CHECKS, examine
+from busservo.doctor.diagnosis import Diagnosis
+from busservo.serial_port import SerialPortSeen
+from busservo_simulator import VirtualClock, VirtualController
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from busservo.doctor.result import Result
+    from busservo_simulator import Faults
+
+PORT = "virtual board"
+ADAPTER = SerialPortSeen(PORT, "1A86:7523", "USB Serial", "A50285BI")
+# What the doctor takes at most of the board's time, whatever happens.
+LONGEST = 60.0
+
+
+@contextmanager
+def board_with(faults: Faults | None = None, **more: Any) -> Iterator[VirtualController]:
+    """A board at the end of a wire of 9600 baud, unless told otherwise."""
+    made = {"clock": VirtualClock(follow_reads=True), "baud": 9600.0, "faults": faults, **more}
+    with VirtualController(**made) as board:
+        yield board
+
+
+def diagnosis_of(board: VirtualController, **more: Any) -> Diagnosis:
+    """A diagnosis of that board alone, whatever is plugged into the machine."""
+    given: dict[str, Any] = {
+        "port": PORT,
+        "opener": lambda _port, _baud: board.open(),
+        "ports": lambda: [ADAPTER],
+        "boards": list,
+        "clock": board.clock.now,
+    }
+    return Diagnosis(**(given | more))
+
+
+def examined(diagnosis: Diagnosis) -> dict[str, Result]:
+    """What each check has found, by its id."""
+    return {check.id: result for check, result in examine(diagnosis, CHECKS)}

@@ -1,0 +1,218 @@
+"""What the doctor says of each fault of the virtual board, in virtual time."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Any
+
+import pytest
+from busservo import ActionGroupStarted, exchanges
+from busservo.doctor.checks import CHECKS
+from busservo.doctor.result import FAILED, PASSED, UNKNOWN
+from busservo_simulator import Faults
+from hypothesis import given
+from hypothesis import strategies as st
+
+from tests.doctor.patient import LONGEST, board_with, diagnosis_of, examined
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from busservo_simulator import VirtualController
+
+
+@dataclass
+class Case:
+    """A fault, and the checks that do not pass, each with its state and what is said."""
+
+    faults: Faults = field(default_factory=Faults)
+    board: dict[str, Any] = field(default_factory=dict)
+    given: dict[str, Any] = field(default_factory=dict)
+    before: Callable[[VirtualController], object] = lambda _board: None
+    told: dict[str, tuple[str, str, str]] = field(default_factory=dict)
+    garbage: bool = False
+
+
+NO_REPLY = {
+    "reply": (UNKNOWN, "there was no reply to look at", ""),
+    "round-trip": (UNKNOWN, "there was no reply to measure", ""),
+    "servos": (UNKNOWN, "there is no reply to anything", ""),
+}
+NOTHING = NO_REPLY | {"look-alike": (UNKNOWN, "nothing came", "")}
+LOST = dict.fromkeys(
+    ("echo", "reply", "round-trip", "servos", "look-alike"),
+    (UNKNOWN, "not looked at: see the check `rate`", ""),
+)
+
+CASES = {
+    "nothing": Case(),
+    "noise": Case(
+        Faults(noise=1.0),
+        told={"reply": (FAILED, "11 of 11 was answered with noise around it", "grounds")},
+    ),
+    "some bits": Case(
+        Faults(bit_flips=0.03, seed=3),
+        told={"reply": (FAILED, "by bytes that are no reply", "loose plugs")},
+    ),
+    "lost bytes": Case(
+        Faults(lost_bytes=0.02, seed=1),
+        told={"reply": (FAILED, "by bytes that are no reply", "loose plugs")},
+    ),
+    "pieces": Case(Faults(splits=1.0)),
+    "together": Case(Faults(coalesced=1.0)),
+    "a little late": Case(Faults(late=1.0, late_by=0.2)),
+    "late": Case(
+        Faults(late=1.0, late_by=0.6),
+        told={"reply": (FAILED, "11 of 11 was answered too late", "--timeout 2")},
+    ),
+    "far too late": Case(
+        Faults(late=1.0, late_by=100.0),
+        told=NOTHING | {"rate": (FAILED, "nothing came at all", "TX goes to RX")},
+    ),
+    "twice": Case(
+        Faults(duplicated=1.0),
+        told={"reply": (FAILED, "11 of 11 was answered more than once", "no other program")},
+    ),
+    "never": Case(
+        Faults(dropped=1.0),
+        told=NOTHING | {"rate": (FAILED, "nothing came at all", "TX goes to RX")},
+    ),
+    "sometimes": Case(
+        Faults(dropped=0.3, seed=5),
+        told={"reply": (FAILED, "was not answered", "retries=2 asks again")},
+    ),
+    "reports": Case(Faults(unasked=1.0)),
+    "hung up": Case(
+        Faults(hang_up=1.0), told=LOST | {"rate": (FAILED, "virtual board: ", "run this again")}
+    ),
+    "noise to the board": Case(Faults(noise_to_board=1.0), garbage=True),
+    "pieces to the board": Case(Faults(splits_to_board=1.0)),
+    "echo": Case(
+        board={"local_echo": True},
+        told={"echo": (FAILED, "came back 1 of 1 times: a local echo", "say --local-echo")},
+    ),
+    "echo that is known": Case(board={"local_echo": True}, given={"local_echo": True}),
+    "no echo, against expectation": Case(
+        given={"local_echo": True},
+        told={"echo": (FAILED, "came back 0 of 1 times", "leave out --local-echo")},
+    ),
+    "echo alone": Case(
+        Faults(dropped=1.0),
+        board={"local_echo": True},
+        told=NOTHING
+        | {
+            "rate": (FAILED, "which are the question itself", "TX goes to RX"),
+            "echo": (FAILED, "came back 2 of 2 times", "say --local-echo"),
+        },
+    ),
+    "as fast as can be": Case(
+        board={"baud": None},
+        told={"round-trip": (UNKNOWN, "this is no line of that rate", "baud=math.inf")},
+    ),
+    "babble": Case(
+        before=lambda board: board.babble(b"\x00\xf8", 20, deaf=False),
+        told={
+            "silence": (FAILED, "bytes that are no frame came unasked", "see that the rate"),
+            "reply": (FAILED, "was answered with noise around it", "grounds"),
+        },
+    ),
+    "babble and nothing else": Case(
+        before=lambda board: board.babble(b"\x00\xf8", 20),
+        told=NO_REPLY
+        | {
+            "silence": (FAILED, "bytes that are no frame came unasked", "see that the rate"),
+            "rate": (FAILED, "that are no reply", "at which rate the board is set"),
+        },
+    ),
+    "a report": Case(before=lambda board: board.report(ActionGroupStarted(3, 1))),
+    "the servos' own protocol": Case(
+        before=lambda board: board.send_bytes(bytes.fromhex("55 55 01 07 01 20 03 E8 03 E8")),
+        told={
+            "silence": (FAILED, "10 bytes that are no frame", "see that the rate"),
+            "look-alike": (FAILED, "another protocol came: LX-16A", "look-alikes"),
+        },
+    ),
+    "another edition": Case(
+        before=lambda board: board.send_bytes(bytes.fromhex("55 55 03 63 01")),
+        told={
+            "silence": (FAILED, "5 bytes that are no frame", "see that the rate"),
+            "look-alike": (FAILED, "a frame of command 99 came", "send a report in"),
+        },
+    ),
+    "another length": Case(
+        before=lambda board: board.send_bytes(bytes.fromhex("55 55 06 0F 4C 1D 00 00")),
+        told={
+            "silence": (FAILED, "8 bytes that are no frame", "see that the rate"),
+            "look-alike": (FAILED, "BatteryVoltage came with a length of 6", "send a report in"),
+        },
+    ),
+}
+
+
+@pytest.mark.parametrize("name", [name for name in CASES if not CASES[name].garbage])
+def test_each_fault_is_told_by_the_checks_that_see_it(name: str) -> None:
+    check_case(CASES[name])
+
+
+@pytest.mark.garbage
+@pytest.mark.parametrize("name", [name for name in CASES if CASES[name].garbage])
+def test_what_the_board_refuses_is_no_fault_of_the_line_back(name: str) -> None:
+    check_case(CASES[name])
+
+
+def check_case(case: Case) -> None:
+    with board_with(case.faults, **case.board) as board:
+        case.before(board)
+        found = examined(diagnosis_of(board, **case.given))
+        assert board.clock.now() < LONGEST
+    assert [*found] == [check.id for check in CHECKS]
+    if not hasattr(exchanges, "POSE"):
+        found.pop("servos")
+    states = {name: result.state for name, result in found.items()}
+    assert states == {
+        name: case.told[name][0] if name in case.told else PASSED for name in states
+    }, found
+    for name, (_, seen, advice) in case.told.items():
+        if name not in found:
+            continue
+        assert seen in found[name].seen
+        assert advice in found[name].advice
+        assert found[name].advice or found[name].state == UNKNOWN
+
+
+CHANCES = st.sampled_from([0.0, 0.0, 0.05, 0.5, 1.0])
+
+
+@given(
+    faults=st.builds(
+        Faults,
+        seed=st.integers(0, 99),
+        noise=CHANCES,
+        bit_flips=st.sampled_from([0.0, 0.02]),
+        lost_bytes=st.sampled_from([0.0, 0.02]),
+        splits=CHANCES,
+        coalesced=CHANCES,
+        delays=CHANCES,
+        late=CHANCES,
+        duplicated=CHANCES,
+        dropped=CHANCES,
+        fewer=CHANCES,
+        absent=CHANCES,
+        wrong_count=CHANCES,
+        unasked=CHANCES,
+        hang_up=st.sampled_from([0.0, 0.0, 0.1]),
+        late_by=st.floats(0, 5),
+    ),
+    local_echo=st.booleans(),
+    baud=st.sampled_from([None, 9600.0]),
+)
+def test_whatever_goes_wrong_each_check_ends_in_time_and_says_what_to_do(
+    faults: Faults, local_echo: bool, baud: float | None
+) -> None:
+    with board_with(faults, local_echo=local_echo, baud=baud) as board:
+        found = examined(diagnosis_of(board))
+        assert board.clock.now() < LONGEST
+    assert [*found] == [check.id for check in CHECKS]
+    for result in found.values():
+        assert result.seen
+        assert result.advice or result.state != FAILED

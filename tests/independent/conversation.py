@@ -1,0 +1,163 @@
+"""What a host was told by the independent board, and whether it may have been told so.
+
+A call is right if its value answers a question that the board heard after the call began. Any
+other must be excused: by a fault that happened during it or during the call before. So the second
+next call after a fault is right. A stale value is excused only if its reply was complete no earlier
+than question and reply can have fitted on the wire, and never twice in a row for one fault.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, NamedTuple, Protocol
+
+from busservo import IncompleteReplyError, NoReplyError
+
+from tests.independent.board import BITS_PER_BYTE, NUMBERS
+from tests.independent.firmware import (
+    battery_question,
+    battery_reply,
+    positions_question,
+    positions_reply,
+)
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Sequence
+
+    from busservo import AsyncController, Controller
+
+    # The battery, or these servos.
+    Asked = Sequence[int] | None
+
+SIX = (1, 2, 3, 4, 5, 6)
+# A line may run this much faster than it should, and no host can know.
+FAST = 0.95
+
+
+class NumberingBoard(Protocol):
+    """A board that answers each question with the number of it."""
+
+    asked: int
+
+    def arrivals(self, data: bytes) -> list[float]:
+        """When these bytes were with the host."""
+        ...
+
+    def troubled(self, since: float, until: float) -> bool:
+        """Whether something then excuses a wrong value."""
+        ...
+
+    def faulted(self, since: float, until: float) -> bool:
+        """Whether a fault began then."""
+        ...
+
+
+class Call(NamedTuple):
+    """One read: the questions that the board had heard `before`, and the number that came back."""
+
+    began: float
+    ended: float
+    before: int
+    number: int | None
+    asked: Asked
+
+
+class Conversation:
+    """The calls of one asker, in order."""
+
+    def __init__(self, board: NumberingBoard, now: Callable[[], float]) -> None:
+        self.board = board
+        self.calls: list[Call] = []
+        self._now = now
+
+    def ask(self, controller: Controller, asked: Asked) -> None:
+        """Reads once. A declared error is noted, any other is raised."""
+        began, before = self._now(), self.board.asked
+        number: int | None = None
+        try:
+            if asked is None:
+                number = controller.read_battery_voltage()
+            else:
+                number = only(controller.read_servo_positions(asked), asked)
+        except (NoReplyError, IncompleteReplyError):
+            pass
+        self.calls.append(Call(began, self._now(), before, number, asked))
+
+    async def ask_async(self, controller: AsyncController, asked: Asked) -> None:
+        """The same, for asyncio."""
+        began, before = self._now(), self.board.asked
+        number: int | None = None
+        try:
+            if asked is None:
+                number = await controller.read_battery_voltage()
+            else:
+                number = only(await controller.read_servo_positions(asked), asked)
+        except (NoReplyError, IncompleteReplyError):
+            pass
+        self.calls.append(Call(began, self._now(), before, number, asked))
+
+    @property
+    def stale(self) -> list[Call]:
+        """The calls that were told an answer to an earlier question."""
+        return [each for each in self.calls if each.number and not self._fresh(each)]
+
+    @property
+    def failed(self) -> list[Call]:
+        """The calls that ended in a declared error."""
+        return [each for each in self.calls if each.number is None]
+
+    def check(self, baud: float, bound: float) -> None:
+        """Raises AssertionError where a call took too long, or is wrong without an excuse."""
+        since, before_was_stale = float("-inf"), False
+        for place, call in enumerate(self.calls):
+            told = f"call {place} of {len(self.calls)}: {call}"
+            assert call.ended - call.began <= bound, f"it took too long: {told}"
+            stale = call.number is not None and not self._fresh(call)
+            if call.number is None or stale:
+                assert self.board.troubled(since, call.ended), f"nothing excuses it: {told}"
+            if stale:
+                another = self.board.faulted(since, call.ended)
+                assert another or not before_was_stale, f"two in a row are stale: {told}"
+                possible_at = call.began + FAST * wire_time(call.asked, baud)
+                arrived = self._arrived(call)
+                assert any(at >= possible_at for at in arrived), f"impossible: {told}, {arrived}"
+            since, before_was_stale = call.began, stale
+
+    def _fresh(self, call: Call) -> bool:
+        number = self.board.asked - (self.board.asked - (call.number or 0)) % NUMBERS
+        return call.before < number
+
+    def _arrived(self, call: Call) -> list[float]:
+        """When replies with this number were complete, until the call ended."""
+        reply = reply_to(call.asked, call.number or 0)
+        return [at for at in self.board.arrivals(reply) if at <= call.ended]
+
+
+def only(positions: Sequence[tuple[int, int]], asked: Sequence[int]) -> int:
+    """The one number that all servos of a reply have."""
+    assert [servo_id for servo_id, _ in positions] == list(asked)
+    numbers = {position for _, position in positions}
+    assert len(numbers) == 1, f"of one reply, all positions are the same: {positions}"
+    return numbers.pop()
+
+
+def question_of(asked: Asked) -> bytes:
+    """The frame that asks it."""
+    return battery_question() if asked is None else positions_question(list(asked))
+
+
+def reply_to(asked: Asked, number: int) -> bytes:
+    """The frame that answers it."""
+    if asked is None:
+        return battery_reply(number)
+    return positions_reply([(servo_id, number) for servo_id in asked])
+
+
+def wire_time(asked: Asked, baud: float) -> float:
+    """How long question and reply take on the wire, at the least."""
+    return (len(question_of(asked)) + len(reply_to(asked, 0))) * BITS_PER_BYTE / baud
+
+
+def repeated(talks: Sequence[Conversation]) -> int:
+    """How many values came more than once, among all calls of all askers."""
+    numbers = [call.number for talk in talks for call in talk.calls if call.number is not None]
+    return len(numbers) - len(set(numbers))

@@ -1,0 +1,375 @@
+"""What commands do with their standard streams, and with text that would command a terminal."""
+
+from __future__ import annotations
+
+import io
+import os
+import re
+import subprocess
+import sys
+import unicodedata
+from functools import partial
+from typing import TYPE_CHECKING, NamedTuple, TypeAlias
+
+import busservo.cli
+import busservo_simulator.cli
+import framegen.cli
+import pytest
+from busservo.cli import console as library_console
+from framegen import console
+from framegen.console import Screen, visible
+from framegen.text import first_invisible
+from hypothesis import example, given
+from hypothesis import strategies as st
+from serial.tools.list_ports_common import ListPortInfo
+
+from tests.documents import ROOT
+from tests.patience import PATIENCE
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+    from pathlib import Path
+
+Capture: TypeAlias = "pytest.CaptureFixture[str]"
+
+not_windows = pytest.mark.skipif(sys.platform == "win32", reason="its streams close otherwise")
+SPEC = str(ROOT / "spec" / "busservo.yaml")
+
+# -- One and the same, whatever the environment and the streams ------------------------------------
+
+
+class Command(NamedTuple):
+    """A command line that prints something, and its error stream when all is well."""
+
+    words: list[str]
+    told: str = ""
+    stdin: str = ""
+
+    @property
+    def program(self) -> str:
+        return self.words[1].replace("_", "-")
+
+
+COMMANDS = [
+    Command(["-m", "busservo", "--version"]),
+    Command(["-m", "busservo", "decode"], "4 bytes: 1 message, 0 bytes of noise\n", "55 55 02 07"),
+    Command(["-m", "busservo", "encode", "--raw", "ActionGroupStop"]),
+    Command(["-m", "framegen", "--help"]),
+    Command(["-m", "busservo_simulator", "--help"]),
+]
+# It ends by itself only where nobody can be told the name of its port.
+SIMULATOR = Command(["-m", "busservo_simulator", "--tcp"])
+EXAMPLE = Command([str(ROOT / "examples" / "virtual_arm.py")])
+
+
+def environments(folder: Path) -> list[dict[str, str]]:
+    """With and without buffers, and with and without bytecode."""
+    path = os.pathsep.join(filter(None, sys.path))
+    switches = ("PYTHONUNBUFFERED", "PYTHONDONTWRITEBYTECODE", "PYTHONPYCACHEPREFIX")
+    plain = {name: value for name, value in os.environ.items() if name not in switches}
+    plain |= {"PYTHONPATH": path, "LC_ALL": "C.UTF-8", "COLUMNS": "80"}
+    return [
+        plain | {"PYTHONPYCACHEPREFIX": str(folder)},
+        plain | {"PYTHONUNBUFFERED": "1", "PYTHONDONTWRITEBYTECODE": "1"},
+    ]
+
+
+@pytest.fixture(scope="module")
+def run(tmp_path_factory: pytest.TempPathFactory) -> Callable[..., tuple[int, str]]:
+    """Runs a command in each environment at once; status and errors, which must be the same."""
+    folder = tmp_path_factory.mktemp("bytecode")
+
+    def run_in_each(
+        command: Command, closed: tuple[int, ...] = (), stdout: int = subprocess.DEVNULL
+    ) -> tuple[int, str]:
+        started = [
+            subprocess.Popen(
+                [sys.executable, *command.words],
+                env=environment,
+                stdin=subprocess.PIPE,
+                stdout=stdout,
+                stderr=subprocess.PIPE,
+                text=True,
+                preexec_fn=partial(close_all, closed) if closed else None,  # noqa: PLW1509
+            )
+            for environment in environments(folder)
+        ]
+        done = []
+        for process in started:
+            _, errors = process.communicate(command.stdin, timeout=PATIENCE)
+            done.append((process.returncode, errors))
+        assert done[0] == done[1]
+        return done[0]
+
+    return run_in_each
+
+
+def close_all(streams: tuple[int, ...]) -> None:
+    for stream in streams:
+        os.close(stream)
+
+
+def shown(command: Command) -> str:
+    return " ".join(command.words)
+
+
+@pytest.mark.parametrize("command", [*COMMANDS, EXAMPLE], ids=shown)
+def test_all_is_well(run: Callable[..., tuple[int, str]], command: Command) -> None:
+    assert run(command) == (0, command.told)
+
+
+@not_windows
+@pytest.mark.parametrize("command", [*COMMANDS, SIMULATOR], ids=shown)
+def test_the_reader_has_gone(run: Callable[..., tuple[int, str]], command: Command) -> None:
+    ours, theirs = os.pipe()
+    os.close(ours)
+    try:
+        assert run(command, stdout=theirs) == (141, "")
+    finally:
+        os.close(theirs)
+
+
+@pytest.mark.skipif(not os.path.exists("/dev/full"), reason="needs a device that is always full")  # noqa: PTH110
+@pytest.mark.parametrize("command", [*COMMANDS, SIMULATOR], ids=shown)
+def test_the_disk_is_full(run: Callable[..., tuple[int, str]], command: Command) -> None:
+    full = os.open("/dev/full", os.O_WRONLY)
+    try:
+        status, errors = run(command, stdout=full)
+    finally:
+        os.close(full)
+    assert status == 2
+    told = "the output cannot be written: No space left on device"
+    assert errors == f"{command.program}: error: {told}\n"
+
+
+@not_windows
+@pytest.mark.parametrize("command", [*COMMANDS, SIMULATOR], ids=shown)
+def test_the_output_is_closed(run: Callable[..., tuple[int, str]], command: Command) -> None:
+    told = f"{command.program}: error: the output cannot be written: it is closed\n"
+    assert run(command, closed=(1,)) == (2, told)
+
+
+@not_windows
+@pytest.mark.parametrize("command", COMMANDS, ids=shown)
+def test_the_error_stream_is_closed(run: Callable[..., tuple[int, str]], command: Command) -> None:
+    assert run(command, closed=(2,)) == (0, "")
+
+
+@not_windows
+@pytest.mark.parametrize("command", COMMANDS, ids=shown)
+def test_the_input_is_closed(run: Callable[..., tuple[int, str]], command: Command) -> None:
+    if command.stdin:
+        expected = (2, "busservo: error: standard input cannot be read: it is closed\n")
+    else:
+        expected = (0, command.told)
+    assert run(command._replace(stdin=""), closed=(0,)) == expected
+
+
+@not_windows
+def test_no_port_gets_the_number_of_a_stream_that_is_closed() -> None:
+    program = (
+        "import os, sys; from framegen.console import run;"
+        "sys.exit(run('it', lambda: os.open(os.devnull, os.O_RDONLY)))"
+    )
+    done = subprocess.run(
+        [sys.executable, "-c", program],
+        env=environments(ROOT)[1],
+        preexec_fn=lambda: close_all((0, 1, 2)),
+        timeout=PATIENCE,
+        check=False,
+    )
+    assert done.returncode == 3
+
+
+# -- Text of strangers -----------------------------------------------------------------------------
+
+# It clears the screen, colours what follows, turns the writing round, and tells a lie in a line of
+# its own; at its end are a byte that is no text and a bell.
+HOSTILE = "\x1b[2J\x9b31m\u202eevil\nbusservo: all is well\udcff\x07"
+ADDRESS = f"socket://{HOSTILE}:1"
+LINE = ["--port", "loop://"]
+
+BUSSERVO = [
+    [HOSTILE],
+    [f"--{HOSTILE}"],
+    ["--print-completion", HOSTILE],
+    ["decode", HOSTILE],
+    ["decode", "--file", HOSTILE],
+    ["decode", "--direction", HOSTILE],
+    ["decode", "--format", HOSTILE],
+    ["encode", HOSTILE],
+    ["encode", "BatteryVoltage", HOSTILE],
+    ["encode", "BatteryVoltage", f"{HOSTILE}=1"],
+    ["encode", "BatteryVoltage", f"voltage_mv={HOSTILE}"],
+    ["encode", "ServoMove", "time_ms=1", f"targets={HOSTILE}"],
+    ["monitor", "--port", HOSTILE],
+    ["monitor", "--port", ADDRESS],
+    ["monitor", "--port", f"hwgrep://{HOSTILE}"],
+    ["monitor", "--port", f"{HOSTILE}://"],
+    ["monitor", "--port", f"spy://loop://?file={HOSTILE}"],
+    ["monitor", *LINE, "--baud", HOSTILE],
+    ["monitor", *LINE, "--only", HOSTILE],
+    ["monitor", *LINE, "--log", f"{HOSTILE}/log"],
+    ["monitor", *LINE, "-n", HOSTILE],
+    ["send", "--port", HOSTILE, "BatteryVoltageRead"],
+    ["send", *LINE, HOSTILE],
+    ["send", *LINE, "BatteryVoltageRead", "--timeout", HOSTILE],
+    ["replay", HOSTILE, "--dry-run"],
+    ["replay", "hostile", "--dry-run"],
+    ["replay", "log.hex", "--port", HOSTILE],
+    ["replay", "log.hex", "--dry-run", "--speed", HOSTILE],
+    ["bench-line", "--port", HOSTILE],
+    ["bench-line", *LINE, HOSTILE],
+    ["ports", HOSTILE],
+    ["simulate", HOSTILE],
+    ["simulate", "--link", f"{HOSTILE}/link"],
+    ["simulate", "--tcp", HOSTILE],
+    ["simulate", "--tcp", "99999"],
+    ["simulate", "--tcp", "--host", HOSTILE],
+    ["simulate", "--tcp", "--host", "\0"],
+    ["simulate", "--servos", HOSTILE],
+    ["simulate", "--battery", HOSTILE],
+    ["simulate", "--fault", HOSTILE],
+    ["simulate", "--fault", f"noise={HOSTILE}"],
+]
+FRAMEGEN = [
+    [HOSTILE],
+    [f"--{HOSTILE}"],
+    ["check", HOSTILE],
+    ["check", f"{HOSTILE}.yaml"],
+    ["check", "--json", f"{HOSTILE}.yaml"],
+    ["check", "escaped.yaml"],
+    ["check", "--json", "escaped.yaml"],
+    ["check", "raw.yaml"],
+    ["generate", f"{HOSTILE}.yaml"],
+    ["generate", SPEC, "--out", "log.hex"],
+    ["docs", f"{HOSTILE}.yaml"],
+    ["diff", f"{HOSTILE}.yaml", SPEC],
+    ["explain", HOSTILE],
+    ["explain", f"{HOSTILE}.yaml", "55"],
+    ["explain", SPEC, "55", "--direction", HOSTILE],
+    ["rules", HOSTILE],
+    ["schema", HOSTILE],
+]
+MAINS = {
+    "busservo": busservo.cli.main,
+    "framegen": framegen.cli.main,
+    "busservo-simulator": busservo_simulator.cli.main,
+}
+CALLS = [
+    *(("busservo", words) for words in BUSSERVO),
+    *(("framegen", words) for words in FRAMEGEN),
+    *(("busservo-simulator", words[1:]) for words in BUSSERVO if words[0] == "simulate"),
+]
+
+
+@pytest.fixture
+def _hostile_files(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    log = "55 55 02 07  # 0.0 s, host: a\n"
+    (tmp_path / "log.hex").write_text(log, encoding="utf-8")
+    (tmp_path / "hostile").write_text(f"{log}zz # 0.1 s, \x1b[2J\x9b: b\n", encoding="utf-8")
+    spec = (ROOT / "spec" / "busservo.yaml").read_text(encoding="utf-8")
+    for name, value in {
+        f"{HOSTILE}.yaml": "u17",
+        "raw.yaml": '"u17\x1b[2J"',
+        "escaped.yaml": r'"u17\e[2J\x9b31m\u202e\n"',
+    }.items():
+        text = spec.replace("type: u16", f"type: {value}", 1)
+        try:
+            (tmp_path / name).write_text(text, encoding="utf-8")
+        except OSError:  # a file cannot have this name here, and is not found
+            assert sys.platform in ("win32", "darwin")
+
+
+@pytest.mark.usefixtures("_hostile_files")
+@pytest.mark.parametrize(("program", "words"), CALLS, ids=ascii)
+def test_a_hostile_call_is_refused_in_visible_text(
+    capsys: Capture, program: str, words: list[str]
+) -> None:
+    assert MAINS[program](words) in (1, 2)
+    output, errors = capsys.readouterr()
+    assert hidden_in(output) == hidden_in(errors) == ""
+    assert "Traceback" not in errors
+    assert "\nbusservo: all is well" not in output + errors
+    assert errors
+
+
+def hidden_in(text: str) -> str:
+    """What a terminal would obey or not show."""
+    return "".join(c for c in text if c != "\n" and unicodedata.category(c) in ("Cc", "Cf", "Cs"))
+
+
+@pytest.mark.parametrize("form", [[], ["--json"]])
+def test_a_device_cannot_command_the_terminal(
+    capsys: Capture, monkeypatch: pytest.MonkeyPatch, form: list[str]
+) -> None:
+    port = ListPortInfo("/dev/ttyUSB0")
+    port.description = HOSTILE
+    monkeypatch.setattr("serial.tools.list_ports.comports", lambda: [port])
+    assert busservo.cli.main(["ports", *form]) == 0
+    output, _ = capsys.readouterr()
+    assert hidden_in(output) == ""
+    assert output.count("\n") == 1
+    assert r"\x1b[2J" in output or r"\u001b[2J" in output
+
+
+@example(HOSTILE)
+@given(st.text())
+def test_visible_text_is_one_line_that_hides_nothing(text: str) -> None:
+    seen = visible(text)
+    assert first_invisible(seen) is None
+    assert "\n" not in seen
+    if not first_invisible(text) and "\n" not in text:
+        assert seen == text
+
+
+@example(HOSTILE)
+@given(st.text())
+def test_a_screen_shows_what_is_hidden_and_keeps_the_lines(text: str) -> None:
+    behind = io.StringIO(newline="")
+    screen = Screen(behind)
+    assert screen.write(text) == len(text)
+    lines = [[visible(part) for part in line.split("\t")] for line in text.split("\n")]
+    assert behind.getvalue() == "\n".join("\t".join(parts) for parts in lines)
+
+
+def test_a_screen_of_few_characters_shows_the_others_as_escapes() -> None:
+    behind = io.TextIOWrapper(io.BytesIO(), encoding="ascii", errors="strict")
+    print("25 °C → 298 K", file=Screen(behind), flush=True)
+    assert behind.buffer.getvalue() == rb"25 \xb0C \u2192 298 K" + os.linesep.encode()
+
+
+def test_what_fails_once_fails_ever_after() -> None:
+    class Full(io.StringIO):
+        def write(self, _text: str, /) -> int:
+            raise OSError(28, "it is full")
+
+    screen = Screen(Full())
+    for _ in range(2):
+        with pytest.raises(OSError, match="it is full"):
+            screen.write("text")
+    # A stream that is not vital loses what it cannot take.
+    assert Screen(Full(), vital=False).write("text") == 4
+
+
+def test_a_colour_of_our_own_is_one() -> None:
+    behind = io.StringIO()
+    console.write_as_it_is(Screen(behind), "\x1b[31mred\x1b[0m")
+    console.write_as_it_is(behind, "\r")
+    assert behind.getvalue() == "\x1b[31mred\x1b[0m\r"
+
+
+def test_a_library_has_the_same_console() -> None:
+    assert re.search("^(?:#.*\n)*", library_console_text()) is not None
+    assert library_console_text().endswith(text_of(console.__file__))
+
+
+def library_console_text() -> str:
+    return text_of(library_console.__file__)
+
+
+def text_of(file: str | None) -> str:
+    assert file is not None
+    with open(file, encoding="utf-8") as stream:  # noqa: PTH123
+        return stream.read()
