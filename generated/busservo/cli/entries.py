@@ -39,7 +39,8 @@ class EntryLines:
         self._last = 0.0
         self._with_time = self._with_day = self._count = 0
         self._said: dict[tuple[object, ...], Any] = {}
-        self._rows = csv.writer(screen)
+        # Text streams end lines as the system does.
+        self._rows = csv.writer(screen, lineterminator="\n")
         self._say = {"text": self._as_text, "json": self._as_json, "csv": self._as_row}[form]
         if form == "csv":
             self._rows.writerow(COLUMNS)
