@@ -29,14 +29,14 @@ class LookalikeView:
         return self.spec.frame if self.lookalike.frame is None else self.lookalike.frame
 
     @property
-    def entry(self) -> str:
-        """The call that describes it, as an item of a tuple that stands behind four blanks."""
+    def entry(self) -> Bracketed:
+        """The call that describes it."""
         places = self._places()
         counted = next(part.counts for part in self.frame.values() if isinstance(part, LengthPart))
         sizes = {name: part_size(part) for name, part in self.frame.items()}
         uncounted = sum(size for name, size in sizes.items() if name not in counted)
         commands = [str(code) for code in sorted(self.lookalike.commands)]
-        described = [
+        described: list[str | Bracketed] = [
             Bracketed("constants=(", self._constants(places), ")", lone=","),
             f"length={_slice(places[self._only(LengthPart)])}",
             f"uncounted={uncounted}",
@@ -45,8 +45,8 @@ class LookalikeView:
             Bracketed("commands=(", commands, ")", lone=","),
             Bracketed("checksums=(", self._checksums(places), ")", lone=","),
         ]
-        items: list[str | Bracketed] = [literal(self.lookalike.title), *described]
-        return Bracketed("Lookalike(", items, ")").fitted(4, last=",") + ","
+        items = [literal(self.lookalike.title), *described]
+        return Bracketed("Lookalike(", items, ")")
 
     def _only(self, kind: type[FramePart]) -> str:
         return next(name for name, part in self.frame.items() if isinstance(part, kind))
