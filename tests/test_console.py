@@ -159,7 +159,7 @@ def test_the_error_stream_is_closed(run: Callable[..., tuple[int, str]], command
 @pytest.mark.parametrize("command", COMMANDS, ids=shown)
 def test_the_input_is_closed(run: Callable[..., tuple[int, str]], command: Command) -> None:
     if command.stdin:
-        expected = (2, "busservo: error: standard input: it is closed\n")
+        expected = (2, "busservo: error: standard input cannot be read: it is closed\n")
     else:
         expected = (0, command.told)
     assert run(command._replace(stdin=""), closed=(0,)) == expected

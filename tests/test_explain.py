@@ -8,7 +8,6 @@ from framegen import codec
 from framegen.cli import main
 from framegen.explain import Explanation, Reading, Refusal, Row, explain
 from framegen.explain_text import as_json, as_text
-from framegen.hextext import NoHex, read_hex
 from framegen.layout import Layout, derive
 from framegen.load import load, read_source
 from framegen.values import Direction
@@ -462,31 +461,14 @@ def test_hex_longer_than_a_path_can_be_is_hex(
 
 
 @pytest.mark.parametrize(
-    "text",
-    [
-        "55 55 02 07",
-        "55550207",
-        "0x55,0x55,0x02,0x07",
-        "0x55, 0x55, 0x2, 0x7",
-        "0X55550207",
-        "5555 0207",
-        "55:55:02:07",
-        "  55\t55\n02,,07, ",
-    ],
-)
-def test_hex_of_any_usual_shape_is_read(text: str) -> None:
-    assert read_hex(text) == bytes.fromhex("55550207")
-
-
-@pytest.mark.parametrize(
-    ("text", "message", "hint"),
+    ("text", "told", "hint"),
     [
         ("", "there are no bytes to explain", "give them in hex, like 55 55 02 07"),
         (" , ", "there are no bytes to explain", "give them in hex, like 55 55 02 07"),
         ("55 5 02", "`5` is half a byte\n  55 5 02\n     ^", "did you mean 05?"),
         (
             "55 555",
-            "3 digits make no whole number of bytes\n  55 555\n     ^^^",
+            "`555` is 3 digits, which is no whole number of bytes\n  55 555\n     ^^^",
             "look for a digit that was lost or added",
         ),
         (
@@ -499,41 +481,24 @@ def test_hex_of_any_usual_shape_is_read(text: str) -> None:
             "`\u0665` is no hex digit\n  55 \u0665\u0665\n     ^",
             "write two digits a byte, like 55 55 02 07",
         ),
-        ("0x", "no digits come after `0x`\n  0x\n    ^", "write the byte whole, like 0x55"),
+        ("0x", "`0x` has no digits after it\n  0x\n  ^^", "write the byte whole, like 0x55"),
         (
             "55\x1b[2J",
             "`\ufffd` is no hex digit\n  55\ufffd[2J\n    ^",
             "write two digits a byte, like 55 55 02 07",
         ),
         (
-            40 * "55" + "-" + 40 * "55",
-            f"`-` is no hex digit\n  {15 * '55'}-{'55' * 14}5\n{' ' * 32}^",
+            40 * "55" + "!" + 40 * "55",
+            f"`!` is no hex digit\n  {15 * '55'}!{'55' * 14}5\n{' ' * 32}^",
             "write two digits a byte, like 55 55 02 07",
         ),
     ],
 )
-def test_what_is_no_hex_is_shown_at_its_place(text: str, message: str, hint: str) -> None:
-    with pytest.raises(NoHex) as caught:
-        read_hex(text)
-    assert (str(caught.value), caught.value.hint) == (message, hint)
-
-
-@settings(max_examples=300, deadline=None, derandomize=True)
-@given(
-    text=st.text(
-        alphabet=st.one_of(st.sampled_from("0123456789abcdefABCDEFxX ,:"), st.characters())
-    )
-)
-def test_text_is_hex_or_refused_with_a_caret(text: str) -> None:
-    try:
-        data = read_hex(text)
-    except NoHex as error:
-        lines = str(error).split("\n")
-        assert len(lines) in (1, 3)
-        assert len(lines) == 1 or set(lines[2]) == {" ", "^"}
-    else:
-        assert data
-        assert read_hex(data.hex(" ")) == data
+def test_what_is_no_hex_is_shown_at_its_place(
+    text: str, told: str, hint: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main(["explain", str(BUSSERVO), text]) == 2
+    assert capsys.readouterr().err == f"framegen: error: {told}\n  hint: {hint}\n"
 
 
 # ---------------------------------------------------------------------------- any bytes

@@ -11,6 +11,7 @@ from __future__ import annotations
 
 import argparse
 import errno
+import io
 import os
 import re
 import sys
@@ -119,12 +120,11 @@ def _standard_streams() -> Iterator[Screen]:
     _occupy_descriptors()
     before = sys.stdin, sys.stdout, sys.stderr
     # Where a stream was closed when the command began, Python has None.
-    stdin, stdout, stderr = (
-        stream or _Closed(name) for stream, name in zip(before, _NAMES, strict=True)
-    )
-    output = Screen(stdout)
+    sys.stdin = before[0] or io.TextIOWrapper(io.BufferedReader(_Closed("standard input")))
+    output = Screen(before[1] or _no_output("standard output"))
     replaced: Any = sys
-    replaced.stdin, replaced.stdout, replaced.stderr = stdin, output, Screen(stderr, vital=False)
+    replaced.stdout = output
+    replaced.stderr = Screen(before[2] or _no_output("standard error"), vital=False)
     try:
         yield output
     finally:
@@ -132,7 +132,9 @@ def _standard_streams() -> Iterator[Screen]:
         sys.stdin, sys.stdout, sys.stderr = before
 
 
-_NAMES = ("standard input", "standard output", "standard error")
+def _no_output(name: str) -> TextIO:
+    unbuffered: Any = _Closed(name)
+    return io.TextIOWrapper(unbuffered, write_through=True)
 
 
 def _occupy_descriptors() -> None:
@@ -223,37 +225,25 @@ def write_as_it_is(screen: TextIO | Screen, text: str) -> None:
     getattr(screen, "write_as_it_is", screen.write)(text)
 
 
-class _Closed:
+class _Closed(io.RawIOBase):
     """A standard stream that was closed when the command began: using it raises OSError."""
 
     def __init__(self, name: str) -> None:
         self._name = name
 
-    @property
-    def buffer(self) -> _Closed:
-        """For bytes as for text."""
-        return self
+    def readable(self) -> bool:
+        """Say so, to be asked and to raise the error that tells why not."""
+        return True
 
-    def isatty(self) -> bool:
-        """Nobody looks at it."""
-        return False
+    def writable(self) -> bool:
+        """Say so, as for `readable`."""
+        return True
 
-    def flush(self) -> None:
-        """Write nothing, as there is nothing to write."""
-
-    def fileno(self) -> int:
+    def readinto(self, _buffer: Any, /) -> int:
         """Raise OSError."""
         raise self._error()
 
-    def read(self, _size: int = -1) -> Any:
-        """Raise OSError."""
-        raise self._error()
-
-    def readline(self, _size: int = -1) -> Any:
-        """Raise OSError."""
-        raise self._error()
-
-    def write(self, _text: Any) -> int:
+    def write(self, _data: Any, /) -> int:
         """Raise OSError."""
         raise self._error()
 

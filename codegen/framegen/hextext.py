@@ -1,70 +1,131 @@
-"""Hex as people paste it: glued or spaced, with 0x, commas or colons, in one piece or in many."""
+r"""Hex as people paste it: `55 55 02 07`, `0x55, 0x55`, `\x55\x55`, `55550207`, over any lines.
+
+Between bytes may stand blanks, commas, colons, semicolons, dashes and underscores, and comments
+from a `#` to the end of the line. A byte is two digits, with `0x` or `\x` before it or not; behind
+one of these, a single digit at the end of a word is a byte, too. Nothing else is hex.
+
+This is copied into every library, and the script of the decoder's page says the same.
+"""
 
 from __future__ import annotations
 
 import re
 
-_WORD = re.compile(r"[^\s,:;]+")
-_PREFIX = re.compile(r"0[xX]")
+_BETWEEN = " \t\n\r\v\f\N{NO-BREAK SPACE}\N{ZERO WIDTH NO-BREAK SPACE},:;_-"
+_COMMENT = re.compile(r"#[^\n]*")
+_WORD = re.compile(f"[^{_BETWEEN}]+")
+_AS_BLANKS = str.maketrans(dict.fromkeys(_BETWEEN, " "))
+_PREFIX = r"(?:0[xX]|\\[xX])"
+_BYTES = re.compile(rf"(?:{_PREFIX}?[0-9A-Fa-f]{{2}})*")
+_LAST = re.compile(rf"{_PREFIX}[0-9A-Fa-f]")
+# What may stand at the end of a piece, when the rest of the byte comes in the next one.
+_BEGUN = re.compile(rf"(?:0|\\|{_PREFIX}[0-9A-Fa-f]?|[0-9A-Fa-f])?")
+_DIGITS = re.compile(rf"(?:^|{_PREFIX})([0-9A-Fa-f]+)$")
 _NO_DIGIT = re.compile(r"[^0-9A-Fa-f]")
-# Enough to find the place by; a long paste is cut around it.
-_SHOWN = 30
 
 
-class NoHex(ValueError):  # noqa: N818 - says what the text is
-    """Text that is no hex. `hint` says what to write; the message shows the place."""
+class HexError(ValueError):
+    """Text that is no hex: what is wrong in which word, where it begins, and what to do."""
 
-    def __init__(self, message: str, hint: str) -> None:
-        super().__init__(message)
+    def __init__(self, word: str, wrong: str, at: int, problem: str, hint: str) -> None:
+        where = "" if wrong == word else f" in {_shortened(word)!r}"
+        super().__init__(f"no hex: {_shortened(wrong)!r}{where} {problem}; {hint}")
+        self.wrong = wrong
+        self.at = at
+        self.problem = problem
         self.hint = hint
 
 
 def read_hex(text: str) -> bytes:
-    """Read bytes from hex of any usual shape. Raises NoHex."""
-    data = b""
-    for match in _WORD.finditer(text):
-        word, at = match.group(), match.start()
-        prefix = _PREFIX.match(word)
-        digits = word if prefix is None else word[prefix.end() :]
-        at += len(word) - len(digits)
-        wrong = _NO_DIGIT.search(digits)
-        if wrong is not None:
-            raise NoHex(
-                f"`{_visible(wrong.group())}` is no hex digit{_pointed(text, at + wrong.start())}",
-                "write two digits a byte, like 55 55 02 07",
-            )
-        if not digits:
-            raise NoHex(
-                f"no digits come after `{word}`{_pointed(text, at)}",
-                "write the byte whole, like 0x55",
-            )
-        if prefix is not None and len(digits) == 1:
-            digits = f"0{digits}"
-        if len(digits) % 2:
-            place = _pointed(text, at, len(digits))
-            if len(digits) == 1:
-                raise NoHex(f"`{digits}` is half a byte{place}", f"did you mean 0{digits}?")
-            raise NoHex(
-                f"{len(digits)} digits make no whole number of bytes{place}",
-                "look for a digit that was lost or added",
-            )
-        data += bytes.fromhex(digits)
-    if not data:
-        raise NoHex("there are no bytes to explain", "give them in hex, like 55 55 02 07")
-    return data
+    """Read the bytes that hex stands for. Raises HexError."""
+    try:
+        # As most hex is written, and many times as fast.
+        return bytes.fromhex(text)
+    except ValueError:
+        plain = _COMMENT.sub(lambda comment: " " * len(comment.group()), text)
+    try:
+        return bytes.fromhex(plain.translate(_AS_BLANKS))
+    except ValueError:
+        return b"".join(_read_word(word.group(), word.start()) for word in _WORD.finditer(plain))
 
 
-def _pointed(text: str, at: int, length: int = 1) -> str:
-    """Show the place in the text, with a caret under it."""
-    start = max(0, at - _SHOWN)
-    line = _visible(text[start : at + _SHOWN])
-    return (
-        f"\n  {line}\n  {' ' * (at - start)}{'^' * max(1, min(length, len(line) - (at - start)))}"
-    )
+def is_hex(text: str) -> bool:
+    """Tell whether text is hex, and of one byte at least."""
+    try:
+        return bool(read_hex(text))
+    except HexError:
+        return False
 
 
-def _visible(text: str) -> str:
-    """Show blanks as blanks and what cannot be seen as a mark, one for one."""
-    return "".join(
-        " " if c.isspace() else c if c.isprintable() else "\N{REPLACEMENT CHARACTER}" for c in text
-    )
+class HexReader:
+    """Reads hex that comes in pieces, cut anywhere."""
+
+    def __init__(self) -> None:
+        self._begun = ""
+        self._in_comment = False
+
+    def feed(self, text: str) -> bytes:
+        """Read a further piece, but for a byte that has only begun. Raises HexError."""
+        if self._in_comment:
+            _, end, text = text.partition("\n")
+            self._in_comment = not end
+        text = self._begun + text
+        comment = text.find("#", text.rfind("\n") + 1)
+        if comment >= 0:
+            self._in_comment = True
+            text = text[:comment]
+            self._begun = ""
+        else:
+            word = text[max(map(text.rfind, _BETWEEN)) + 1 :]
+            self._begun = _rest(word)
+            if not _BEGUN.fullmatch(self._begun):
+                self._begun = ""
+            text = text[: len(text) - len(self._begun)]
+        return read_hex(text)
+
+    def end(self) -> bytes:
+        """Read what has begun, now that no more comes. Raises HexError."""
+        begun, self._begun = self._begun, ""
+        return read_hex(begun)
+
+
+def _rest(word: str) -> str:
+    """Give what stands in a word behind its whole bytes."""
+    if _NO_DIGIT.search(word) is None:
+        return word[len(word) // 2 * 2 :]
+    whole = _BYTES.match(word)
+    return word[whole.end() :] if whole else word
+
+
+def _read_word(word: str, at: int) -> bytes:
+    rest = _rest(word)
+    digits = re.sub(_PREFIX, "", word[: len(word) - len(rest)])
+    if _LAST.fullmatch(rest):
+        return bytes.fromhex(f"{digits}0{rest[-1]}")
+    if rest:
+        raise _refusal(word, len(word) - len(rest), at)
+    return bytes.fromhex(digits)
+
+
+def _refusal(word: str, rest_at: int, at: int) -> HexError:
+    """Say what is wrong with a word, of which the bytes up to `rest_at` are right."""
+    prefix = re.compile(_PREFIX).match(word, rest_at)
+    start = prefix.end() if prefix else rest_at
+    if prefix and start == len(word):
+        hint = f"write the byte whole, like {prefix.group()}55"
+        return HexError(word, prefix.group(), at + rest_at, "has no digits after it", hint)
+    wrong = _NO_DIGIT.search(word, start)
+    if wrong is not None:
+        hint = "write two digits a byte, like 55 55 02 07"
+        return HexError(word, wrong.group(), at + wrong.start(), "is no hex digit", hint)
+    run = _DIGITS.search(word)
+    digits, start = (run[1], run.start(1)) if run else (word, 0)
+    if len(digits) == 1:
+        return HexError(word, digits, at + start, "is half a byte", f"did you mean 0{digits}?")
+    problem = f"is {len(digits)} digits, which is no whole number of bytes"
+    hint = "look for a digit that was lost or added"
+    return HexError(word, digits, at + start, problem, hint)
+
+
+def _shortened(text: str) -> str:
+    return text if len(text) <= 40 else f"{text[:37]}..."

@@ -69,10 +69,11 @@ class Client:
     `transport` is anything with the methods of Transport. `baud` is the rate that deadlines and
     pacing are worked out from (math.inf for a line that takes no time), `margin` the seconds that
     an answer may take besides, `retries` how often a question is asked again that was not answered,
-    `trace` a file that every frame is written to, for `decode` to read, `report_limit` how many
-    reports are kept, `limits` the lowest and the highest position (or whatever has limits) that is
-    sent, None for any. With `background`, a thread listens while nobody waits; without, only calls
-    read the line, and `clock` may be of any kind.
+    `trace` a file that every frame is recorded in, for `recordings` and `decode` to read (what it
+    holds already is never overwritten: FileExistsError), `report_limit` how many reports are kept,
+    `limits` the lowest and the highest position (or whatever has limits) that is sent, None for
+    any. With `background`, a thread listens while nobody waits; without, only calls read the line,
+    and `clock` may be of any kind.
 
     `local_echo` says that the line gives back what is sent, as half-duplex adapters do: it is then
     expected, compared and dropped, and EchoError raised where it does not come. `settle` is for how

@@ -162,8 +162,8 @@ class Session:
         if question is True and exchange.reply is None:
             raise TypeError(f"{message!r} is a command: send() sends it, and nothing answers")
         exchange.check(message)
-        check_room(message, self.largest_frame)
         LIMITS.check(message, self._limits)
+        check_room(message, self.largest_frame)
         request = Request(message, exchange, retries=retries, latest=latest)
         if self._asks_first is None:
             self._asks_first = exchange.reply is not None
@@ -232,7 +232,7 @@ class Session:
         """Takes in that it is `now`, and that all which arrived before has been received."""
         if self._decoder.pending and now >= self._heard_at + GAP:
             # The line has gone quiet: half a frame must not grow together with the next one.
-            self._take_in(self._decoder.flush(), self._heard_at)
+            self._flush()
         if self._echo is not None:
             held, lost = self._echo.expire(now)
             self._take_in(self._decoder.feed(held), self._heard_at)
@@ -309,7 +309,7 @@ class Session:
 
     def restart(self, now: float) -> None:
         """Begins anew on another line: half a frame of the old one is forgotten."""
-        self._take_in(self._decoder.flush(), self._heard_at)
+        self._flush()
         self._decoder = CarefulDecoder(RECEIVED)
         self._pace = Pace()
         self.acknowledgements.restart()
@@ -346,6 +346,13 @@ class Session:
         )
         asked.finish(error=error)
 
+    def _flush(self) -> None:
+        """Gives up the frame that has begun, if one has."""
+        if self._decoder.pending:
+            self._take_in(self._decoder.flush(), self._heard_at)
+            if self._tap is not None:
+                self._tap.quiet()
+
     def _look_behind(self) -> None:
         """Takes what a false header is holding back; half a frame is left to come in full."""
         decoder = copy(self._decoder)
@@ -353,6 +360,8 @@ class Session:
         if any(not isinstance(event, Noise) for event in events):
             self._decoder = decoder
             self._take_in(events, self._heard_at)
+            if self._tap is not None:
+                self._tap.quiet()
 
     def _ends_at(self, asked: Request) -> float:
         """When a question is given up: its time has not even begun before the port has it."""

@@ -56,12 +56,12 @@ def test_what_is_raw_and_long_is_read_piece_by_piece(
     [
         (["--file", "line.bin", "55"], "give either --file or bytes, not both"),
         (["--file", "absent.bin"], "absent.bin cannot be read: No such file or directory"),
-        (["absent.bin"], "is not hex: 's' is no hex digit; write two digits a byte"),
+        (["absent.bin"], "no hex: 's' in 'absent.bin' is no hex digit; write two"),
         (["absent.bin"], "and there is no file 'absent.bin'"),
-        (["55 5"], "'5' is not hex: it has 1 digits; write two digits a byte"),
+        (["55 5"], "no hex: '5' is half a byte; did you mean 05?"),
         (["a\0b"], "there is no file 'a\\x00b'"),
-        (["x" * 5000], "is not hex: 'x' is no hex digit"),
-        (["55", "zz"], "'zz' is not hex: 'z' is no hex digit"),
+        (["x" * 5000], "no hex: 'x' in 'xxx"),
+        (["55", "zz"], "no hex: 'z' in 'zz' is no hex digit"),
     ],
 )
 def test_what_cannot_be_decoded_is_told_in_a_line(

@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     from pathlib import Path
 
 CTRL_C = b"\x03"
-BATTERY = "55 55 04 0F 4C 1D | BatteryVoltage voltage_mv=7500 mV"
+BATTERY = "BatteryVoltage voltage_mv=7500 mV | 55 55 04 0F 4C 1D"
 
 
 @pytest.fixture
@@ -36,7 +36,7 @@ def test_ctrl_c_ends_a_monitor_with_its_totals(board: VirtualController) -> None
     with OnTerminal("monitor", "--port", board.port) as monitor:
         monitor.wait_for("nothing heard for [0-9]+ s")
         board.report(BatteryVoltage(7500))
-        monitor.wait_for("7500 mV\r\n")
+        monitor.wait_for(r"7500 mV \| 55 55 04 0F 4C 1D\r\n")
         monitor.wait_for("nothing to show for [0-9]+ s")
         monitor.type(CTRL_C)
         assert monitor.end() == 130
@@ -162,7 +162,7 @@ def test_ctrl_c_ends_a_replay_and_says_how_far_it_got(
         replay.type(CTRL_C)
         assert replay.end() == 130
         shown, totals, rest = replay.lines
-        assert shown.endswith(f"{move} | ServoMove time_ms=1000 ms targets=1:800")
+        assert shown.endswith(f"ServoMove time_ms=1000 ms targets=1:800 | {move}")
         assert (
             totals
             == "1 of 2 frames sent, 10 bytes; came back: 0 bytes: 0 messages, 0 bytes of noise"
@@ -177,8 +177,8 @@ def test_a_replay_tells_of_a_line_that_is_lost(board: VirtualController, tmp_pat
     log.write_text("55 55 02 0F  # 0.0 s, host: a\n55 55 02 0F  # 3600.0 s, host: another\n")
     replay = start("replay", str(log), "--port", board.port)
     assert replay.stdout is not None
-    assert replay.stdout.readline().endswith("| BatteryVoltageRead\n")
-    assert replay.stdout.readline().endswith("| BatteryVoltage voltage_mv=7500 mV\n")
+    assert replay.stdout.readline().endswith("  BatteryVoltageRead | 55 55 02 0F\n")
+    assert replay.stdout.readline().endswith(f"  controller  {BATTERY}\n")
     board.unplug()
     _, told = replay.communicate(timeout=PATIENCE)
     assert replay.returncode == 3

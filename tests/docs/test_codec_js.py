@@ -8,9 +8,11 @@ from types import ModuleType
 from typing import Any
 
 import pytest
+from busservo.hextext import HexError, read_hex
 
 from tests.docs.peers import library, noisy_lines, python_events, python_verdict, vectors_of
 from tests.docs.reference import NODE, ROOT, SPECS, reference
+from tests.hex_cases import HEX, NO_HEX, random_texts
 
 pytestmark = pytest.mark.skipif(NODE is None, reason="node is not installed")
 
@@ -21,7 +23,7 @@ const codec = makeCodec(protocol);
 const hex = (bytes) => bytes.map((byte) => byte.toString(16).padStart(2, "0")).join("");
 const answers = questions.map(({ ask, hex: text, direction, message, fields }) => {
   if (ask === "hex") {
-    try { return parseHex(text); } catch (error) { return [error instanceof Unusable]; }
+    try { return parseHex(text); } catch (error) { return { refused: error instanceof Unusable }; }
   }
   if (ask === "encode") {
     try { return hex(codec.encode(message, fields)); }
@@ -158,20 +160,12 @@ def test_values_that_no_frame_can_carry_are_refused(fields: dict[str, Any], erro
     assert answer["error"].startswith(error)
 
 
-@pytest.mark.parametrize(
-    ("text", "data"),
-    [
-        ("55 55 02 07", "55550207"),
-        ("55550207", "55550207"),
-        ("0x55,0x55, 0x2; 0X07", "55550207"),
-        ("55:55\n02\t07", "55550207"),
-        ("", ""),
-    ],
-)
-def test_hex_is_read_as_people_paste_it(text: str, data: str) -> None:
-    assert ask("busservo", [{"ask": "hex", "hex": text}]) == [list(bytes.fromhex(data))]
-
-
-@pytest.mark.parametrize("text", ["5", "555", "0x", "5G", "55 55 zz", "“55”"])
-def test_what_is_no_hex_is_refused(text: str) -> None:
-    assert ask("busservo", [{"ask": "hex", "hex": text}]) == [[True]]
+def test_hex_is_read_as_the_library_reads_it() -> None:
+    texts = [text for text, _ in HEX] + NO_HEX + random_texts(1000)
+    expected: list[Any] = []
+    for text in texts:
+        try:
+            expected.append(list(read_hex(text)))
+        except HexError:
+            expected.append({"refused": True})
+    assert ask("busservo", [{"ask": "hex", "hex": text} for text in texts]) == expected

@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from framegen.findings import did_you_mean
-from framegen.hextext import NoHex, read_hex
+from framegen.hextext import HexError, read_hex
 
 if TYPE_CHECKING:
     from argparse import ArgumentParser, Namespace
@@ -15,6 +15,8 @@ if TYPE_CHECKING:
     from framegen.layout import Layout
     from framegen.values import Direction
 
+# Enough of a text to find a place by; a long paste is cut around it.
+_SHOWN = 30
 SUMMARY = "Take a frame apart byte by byte, or show where and why bytes are no frame."
 EXAMPLES = (
     ("framegen explain 55 55 08 03 01 E8 03 01 20 03", "each byte, and what it says"),
@@ -47,14 +49,33 @@ def run(arguments: Namespace) -> int:
     spec, words = None, arguments.words
     if _is_spec(words[0]):
         spec, words = Path(words[0]), words[1:]
+    text = " ".join(words)
     try:
-        data = read_hex(" ".join(words))
-    except NoHex as error:
-        raise Unusable(str(error), hint=error.hint) from None
+        data = read_hex(text)
+    except HexError as error:
+        raise Unusable(_pointed(text, error), hint=error.hint) from None
+    if not data:
+        raise Unusable("there are no bytes to explain", hint="give them in hex, like 55 55 02 07")
     layout = read_layout(spec)
     explanation = explain(layout, data, _directions(layout, arguments.direction))
     print(json.dumps(as_json(explanation)) if arguments.json else as_text(explanation))
     return 0 if explanation.readings else 1
+
+
+def _pointed(text: str, error: HexError) -> str:
+    """Tell what is no hex, and show the place in the text, with a caret under it."""
+    start = max(0, error.at - _SHOWN)
+    line = _visible(text[start : error.at + _SHOWN])
+    place = error.at - start
+    carets = "^" * max(1, min(len(error.wrong), len(line) - place))
+    return f"`{_visible(error.wrong[:_SHOWN])}` {error.problem}\n  {line}\n  {' ' * place}{carets}"
+
+
+def _visible(text: str) -> str:
+    """Show blanks as blanks and what cannot be seen as a mark, one for one."""
+    return "".join(
+        " " if c.isspace() else c if c.isprintable() else "\N{REPLACEMENT CHARACTER}" for c in text
+    )
 
 
 def _is_spec(word: str) -> bool:

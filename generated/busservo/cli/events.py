@@ -5,11 +5,12 @@
 from __future__ import annotations
 
 from ..codec import table_for
-from ..direction import Direction
 from ..errors import DecodeError
-from ..messages import MESSAGES
 from ..noise import Noise, UnknownFrame
 from ..octets import spaced
+from ..recording_entry import SENDERS
+from ..recording_file import EITHER, NOISE
+from ..twins import twins
 from .values import fields_as_json, fields_as_text
 
 TYPE_CHECKING = False
@@ -17,12 +18,11 @@ if TYPE_CHECKING:
     from typing import Any
 
     from ..decoder import Counters
+    from ..direction import Direction
     from ..message import Message
 
-# How the ends are called, and which direction is whose.
-SENDERS = {direction.sender: direction for direction in Direction}
-# Who sent what is no message, and what may be a message of either end.
-NOISE, UNKNOWN, EITHER = "noise", "unknown", "either"
+# What is no message, but has the shape of one.
+UNKNOWN = "unknown"
 KINDS = [*SENDERS, EITHER, NOISE, UNKNOWN]
 
 
@@ -35,14 +35,15 @@ def names_of(event: Message | Noise, direction: Direction | None) -> list[str]:
     """The messages that it may be; none for noise."""
     if isinstance(event, Noise):
         return []
-    return [kind.__name__ for kind in (type(event), *twins(event, direction))]
+    others = twins(event) if direction is None else []
+    return [kind.__name__ for kind in (type(event), *others)]
 
 
 def sender_of(event: Message | Noise, direction: Direction | None) -> str:
     """Who sent it; `either` where nobody can tell; or that it is noise."""
     if isinstance(event, Noise):
         return UNKNOWN if isinstance(event, UnknownFrame) else NOISE
-    return EITHER if twins(event, direction) else event.DIRECTION.sender
+    return EITHER if direction is None and twins(event) else event.DIRECTION.sender
 
 
 def in_words(event: Message | Noise, direction: Direction | None) -> str:
@@ -56,15 +57,17 @@ def in_words(event: Message | Noise, direction: Direction | None) -> str:
 
 
 def as_record(event: Message | Noise, direction: Direction | None) -> dict[str, Any]:
-    """What it says, for JSON."""
+    """What it says, for JSON: who sent it, noise or no, and what it is."""
     if isinstance(event, Noise):
-        record: dict[str, Any] = {"noise": spaced(event.data), "reason": event.reason.value}
+        record: dict[str, Any] = {"from": EITHER if direction is None else direction.sender}
+        record |= {"noise": spaced(event.data), "reason": event.reason.value}
         if isinstance(event, UnknownFrame):
             record |= {"command": event.command, "parameters": spaced(event.parameters)}
         return record
-    record = {"direction": event.DIRECTION.value, "message": type(event).__name__}
+    name, *others = names_of(event, direction)
+    record = {"from": EITHER if others else event.DIRECTION.sender}
+    record |= {"direction": event.DIRECTION.value, "message": name}
     record |= {"fields": fields_as_json(event), "hex": spaced(event.encode())}
-    others = names_of(event, direction)[1:]
     return record | {"or": others} if others else record
 
 
@@ -80,21 +83,6 @@ def totals(seen: Counters) -> str:
 def counted(number: int, noun: str, plural: str = "") -> str:
     """A number of things, in words."""
     return f"{number} {noun}" if number == 1 else f"{number} {plural or noun + 's'}"
-
-
-def twins(message: Message, direction: Direction | None) -> list[type[Message]]:
-    """The other messages that the same frame may be, where the direction is not known."""
-    if direction is not None:
-        return []
-    found: list[type[Message]] = []
-    for kind in MESSAGES:
-        if kind.COMMAND == message.COMMAND and kind is not type(message):
-            try:
-                kind.decode(message.encode())
-            except DecodeError:
-                continue
-            found.append(kind)
-    return found
 
 
 def _why(noise: Noise, direction: Direction | None) -> str:

@@ -9,23 +9,25 @@ import sys
 import threading
 import time
 
+from ..careful_decoder import GAP
 from ..decoder import StreamDecoder
 from ..exchanges import RECEIVED
 from ..link_errors import TransportError
-from .events import SENDERS, bytes_of, counted, totals
+from .events import bytes_of, counted, totals
 from .lines import Lines
 from .waiting import PATIENCE, Waiting
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
+    from collections.abc import Iterable
     from typing import TextIO
 
     from ..message import Message
     from ..noise import Noise
+    from ..recordings import Entry
     from ..transport import Transport
-    from .recording import Heard
 
-# How long a line is quiet before half a frame is given up, and how long the last answer may take.
+# How long the last answer may take.
 _QUIET = 0.25
 # How long to wait in one piece, so that Ctrl-C is noticed on every system.
 _SLICE = 0.1
@@ -43,8 +45,8 @@ class Playback:
         self._over = threading.Event()
         self._last = 0.0
 
-    def play(self, line: Transport, recorded: list[Heard], times: list[float]) -> None:
-        """Sends each of what was recorded at its time; the totals come in any case."""
+    def play(self, line: Transport, entries: Iterable[tuple[Entry, float]], count: int) -> None:
+        """Sends each of so many entries at its time; the totals come in any case."""
         sent = size = 0
         # Reading in a thread of its own, since a read may take longer than the time up to the next
         # frame, and that one is not to be late.
@@ -53,12 +55,12 @@ class Playback:
         began = self._last = time.monotonic()
         self._lines.begin(began)
         try:
-            for heard, at in zip(recorded, times, strict=True):
-                self._wait(began + at, f"{sent} of {len(recorded)} sent, the next")
-                data, now = bytes_of(heard.event), time.monotonic()
+            for entry, at in entries:
+                self._wait(began + at, f"{sent} of {count} sent, the next")
+                data, now = bytes_of(entry.event), time.monotonic()
                 line.write(data)
                 self._waiting.clear()
-                self._lines.show(heard.event, SENDERS.get(heard.sender), now)
+                self._lines.show(entry.event, entry.direction, now)
                 sent, size = sent + 1, size + len(data)
             line.drain(1.0)
             self._wait(time.monotonic() + _QUIET, "the last answer")
@@ -66,7 +68,7 @@ class Playback:
             self._over.set()
             listener.join(1.0)
             self._waiting.end()
-            told = f"{sent} of {counted(len(recorded), 'frame')} sent, {counted(size, 'byte')}"
+            told = f"{sent} of {counted(count, 'frame')} sent, {counted(size, 'byte')}"
             try:
                 self._show(self._decoder.flush(), time.monotonic())
             finally:
@@ -87,10 +89,11 @@ class Playback:
         began = time.monotonic()
         while (left := until - time.monotonic()) > 0:
             try:
-                heard, now = self._heard.get(timeout=min(left, _SLICE))
+                pause = GAP if self._decoder.pending else _SLICE
+                heard, now = self._heard.get(timeout=min(left, pause))
             except queue.Empty:
                 now = time.monotonic()
-                if self._decoder.pending and now - self._last >= _QUIET:
+                if self._decoder.pending and now - self._last >= GAP:
                     self._show(self._decoder.flush(), now)
                 if now - began >= PATIENCE:
                     self._waiting.show(f"{what} in {left:.0f} s")

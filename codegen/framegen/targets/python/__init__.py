@@ -6,7 +6,7 @@ from functools import cache
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from framegen import __version__, console
+from framegen import __version__
 from framegen.targets.python.client_view import ClientView
 from framegen.targets.python.device_view import DeviceView
 from framegen.targets.python.escape import comment, docstring, literal
@@ -20,8 +20,8 @@ if TYPE_CHECKING:
     from framegen.source import Source
 
 _HERE = Path(__file__).parent
-# What the command of the generator and that of a library have in common is written once.
-_SHARED = {"cli/console.py": Path(console.__file__)}
+# What framegen and a library have in common is written once: where it is copied to.
+_SHARED = {"cli/console.py": "console.py", "hextext.py": "hextext.py"}
 
 
 def render(source: Source, layout: Layout) -> dict[str, str]:
@@ -48,7 +48,8 @@ def _runtime() -> list[tuple[str, str]]:
     """The files that are the same for every protocol, copied as they are."""
     root = _HERE / "runtime"
     files = {file.relative_to(root).as_posix(): file for file in sorted(root.rglob("*.py"))}
-    return [(name, file.read_text(encoding="utf-8")) for name, file in (files | _SHARED).items()]
+    files |= {name: _HERE.parents[1] / shared for name, shared in _SHARED.items()}
+    return [(name, file.read_text(encoding="utf-8")) for name, file in files.items()]
 
 
 def _from_templates(library: LibraryView) -> list[tuple[str, str]]:

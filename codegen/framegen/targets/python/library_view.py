@@ -184,12 +184,14 @@ class LibraryView:
         return [VerbView(name, lines) for name, lines in line_examples(self.layout).items()]
 
     @property
-    def lookalikes(self) -> list[str]:
-        """The entries of a tuple: each protocol that is easily taken for this one."""
+    def lookalikes(self) -> str:
+        """The tuple of the protocols that are easily taken for this one."""
         spec = self.layout.spec
         # With neither a frame nor commands of its own, there is nothing to tell it by.
         told = [each for each in spec.lookalikes.values() if each.frame or each.commands]
-        return [LookalikeView(lookalike, spec).entry for lookalike in told]
+        entries = [LookalikeView(lookalike, spec).entry for lookalike in told]
+        before = "LOOKALIKES: tuple[Lookalike, ...] = ("
+        return Bracketed(before, entries, ")", lone=",").fitted(0)
 
     @property
     def link(self) -> Link:

@@ -29,8 +29,8 @@ class LookalikeView:
         return self.spec.frame if self.lookalike.frame is None else self.lookalike.frame
 
     @property
-    def entry(self) -> str:
-        """The call that describes it, as an item of a tuple that stands behind four blanks."""
+    def entry(self) -> Bracketed:
+        """The call that describes it."""
         places = self._places()
         counted = next(part.counts for part in self.frame.values() if isinstance(part, LengthPart))
         sizes = {name: part_size(part) for name, part in self.frame.items()}
@@ -46,7 +46,7 @@ class LookalikeView:
             Bracketed("checksums=(", self._checksums(places), ")", lone=","),
         ]
         items = [literal(self.lookalike.title), *described]
-        return Bracketed("Lookalike(", items, ")").fitted(4, last=",") + ","
+        return Bracketed("Lookalike(", items, ")")
 
     def _only(self, kind: type[FramePart]) -> str:
         return next(name for name, part in self.frame.items() if isinstance(part, kind))

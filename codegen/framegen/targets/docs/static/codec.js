@@ -11,16 +11,20 @@ const Reason = {
 // What was typed cannot be used; the message says why.
 class Unusable extends Error {}
 
-// Hex as people paste it: spaced or glued, with 0x, commas, colons or semicolons.
+// Hex as people paste it: spaced or glued, with 0x or \x, commas, colons, dashes and # comments.
+// What framegen's hextext.py reads, and nothing else.
 function parseHex(text) {
   const bytes = [];
-  for (const [word] of text.matchAll(/[^\s,:;]+/g)) {
-    let digits = word.replace(/^0x/i, "");
-    const wrong = /[^0-9a-f]/i.exec(digits);
-    if (wrong) throw new Unusable(`“${wrong[0]}” in “${word}” is no hex digit`);
-    if (digits.length === 1 && digits !== word) digits = "0" + digits;
-    if (!digits || digits.length % 2) throw new Unusable(`“${word}” is no whole number of bytes`);
-    for (let i = 0; i < digits.length; i += 2) bytes.push(parseInt(digits.slice(i, i + 2), 16));
+  const plain = text.replace(/#[^\n]*/g, " ");
+  for (const [word] of plain.matchAll(/[^ \t\n\r\v\f\u00a0\ufeff,:;_-]+/g)) {
+    if (!/^(?:(?:0x|\\x)?[0-9a-f]{2})*(?:(?:0x|\\x)[0-9a-f])?$/i.test(word)) {
+      const wrong = /[^0-9a-f]/i.exec(word.replace(/0x|\\x/gi, ""));
+      if (wrong) throw new Unusable(`“${wrong[0]}” in “${word}” is no hex digit`);
+      throw new Unusable(`“${word}” is no whole number of bytes`);
+    }
+    for (const [, digits] of word.matchAll(/(?:0x|\\x)?([0-9a-f]{1,2})/gi)) {
+      bytes.push(parseInt(digits, 16));
+    }
   }
   return bytes;
 }

@@ -1,13 +1,13 @@
-"""Shows what passes on a line: to `logging`, and to a file that the command `decode` reads back."""
+"""Shows what passes on a line: to `logging`, and to a recording that `recordings` reads back."""
 
 from __future__ import annotations
 
 import logging
-from io import BufferedWriter, FileIO, TextIOWrapper
 from typing import TYPE_CHECKING
 
 from .noise import Noise
 from .octets import spaced
+from .recording_file import NOISE, RecordingFile
 
 if TYPE_CHECKING:
     from os import PathLike
@@ -18,15 +18,14 @@ logger = logging.getLogger(__package__)
 
 
 class Tap:
-    """Logs each frame at level DEBUG, and writes it to `trace`: a line of hex and a comment."""
+    """Logs each frame at level DEBUG, and records it in the file `trace`.
+
+    Raises OSError where that cannot be written: FileExistsError if it holds a recording.
+    """
 
     def __init__(self, name: str, trace: str | PathLike[str] | None = None) -> None:
         self._name = name
-        self._trace: TextIOWrapper | None = None
-        if trace is not None:
-            # By the line, so that the file is whole up to the last frame whatever happens.
-            file = BufferedWriter(FileIO(trace, "w"))
-            self._trace = TextIOWrapper(file, encoding="ascii", line_buffering=True)
+        self._trace = None if trace is None else RecordingFile(trace)
         self._began: float | None = None
 
     def sent(self, message: Message, now: float) -> None:
@@ -36,9 +35,14 @@ class Tap:
     def received(self, event: Message | Noise, now: float) -> None:
         """A frame, or noise, came from the line."""
         if isinstance(event, Noise):
-            self._tell("<", "noise", event.reason.value, event.data, now)
+            self._tell("<", NOISE, event.reason.value, event.data, now)
         else:
             self._tell("<", event.DIRECTION.sender, event, event.encode(), now)
+
+    def quiet(self) -> None:
+        """The line fell silent within a frame: what comes next is not the rest of it."""
+        if self._trace is not None:
+            self._trace.quiet()
 
     def _tell(self, way: str, who: str, what: Message | str, data: bytes, now: float) -> None:
         if logger.isEnabledFor(logging.DEBUG):
@@ -47,7 +51,8 @@ class Tap:
             return
         if self._began is None:
             self._began = now
-        self._trace.write(f"{spaced(data)}  # {now - self._began:.6f} s, {who}: {what}\n")
+            self._trace.begin(self._name)
+        self._trace.write(data, now - self._began, who, what)
 
     def close(self) -> None:
         """Closes the trace."""

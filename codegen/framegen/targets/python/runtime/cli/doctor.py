@@ -13,6 +13,7 @@ from ..doctor.result import FAILED, PASSED, STATES, UNKNOWN
 from ..octets import spaced
 from . import link
 from .colour import painted, takes_colour
+from .console import visible, write_as_it_is
 from .exits import DONE, LINE_LOST, NOT_ALL
 from .link import add_port, add_timeout, failures_told, open_line
 from .numerals import at_least
@@ -78,7 +79,8 @@ def run(arguments: Namespace) -> int:
             while (finding := _next(found)) is not None:
                 findings.append(finding)
                 shown = _as_json(*finding) if arguments.json else _as_text(*finding)
-                print(shown, flush=True)
+                write_as_it_is(sys.stdout, f"{shown}\n")
+                sys.stdout.flush()
         finally:
             if report is not None:
                 _finish(report, arguments, diagnosis, findings)
@@ -143,8 +145,8 @@ def _as_text(check: Check, result: Result) -> str:
     state = f"{result.state:8}"
     if takes_colour(sys.stdout):
         state = painted(state, _COLOURS[result.state])
-    lines = [f"{state} {check.id:12} {result.seen}"]
+    lines = [f"{state} {check.id:12} {visible(result.seen)}"]
     lines += [f"{'':8} {'bytes':>12} {spaced(each)}" for each in result.evidence if each]
     if result.advice:
-        lines.append(f"{'':8} {'next':>12} {result.advice}")
+        lines.append(f"{'':8} {'next':>12} {visible(result.advice)}")
     return "\n".join(lines)

@@ -5,28 +5,20 @@ from __future__ import annotations
 import json
 import time
 
-from ..noise import Noise
 from ..octets import spaced
+from ..recording_entry import SENDERS
+from ..recording_file import EITHER, NOISE
 from .colour import painted, takes_colour
 from .console import visible, write_as_it_is
-from .events import (
-    EITHER,
-    NOISE,
-    SENDERS,
-    UNKNOWN,
-    as_record,
-    bytes_of,
-    counted,
-    in_words,
-    sender_of,
-)
+from .events import UNKNOWN, as_record, bytes_of, in_words, sender_of
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
-    from typing import Any, TextIO
+    from typing import TextIO
 
     from ..direction import Direction
     from ..message import Message
+    from ..noise import Noise
 
 TIMES = ("absolute", "delta", "zero")
 _COLOURS = {
@@ -69,15 +61,21 @@ class Lines:
         self._screen.flush()
 
     def _as_text(self, event: Message | Noise, direction: Direction | None, at: float) -> str:
-        who, data, what = sender_of(event, direction), bytes_of(event), in_words(event, direction)
         when = time_of_day(at) if self._times == "absolute" else f"{at:12.6f}"
-        size = f" ({counted(len(data), 'byte')})" if isinstance(event, Noise) else ""
-        shown = painted(f"{who:10}", _COLOURS[who]) if self._colour else f"{who:10}"
-        return f"{when:>12}  {shown}  {spaced(data)} | {visible(what)}{size}"
+        line = in_line(event, direction)
+        if self._colour:
+            who = sender_of(event, direction)
+            line = painted(f"{who:10}", _COLOURS[who]) + line[max(10, len(who)) :]
+        return f"{when:>12}  {line}"
 
     def _as_json(self, event: Message | Noise, direction: Direction | None, at: float) -> str:
-        record: dict[str, Any] = {"time": round(at, 6), "from": sender_of(event, direction)}
-        return json.dumps(record | as_record(event, direction))
+        return json.dumps({"time": round(at, 6)} | as_record(event, direction))
+
+
+def in_line(event: Message | Noise, direction: Direction | None) -> str:
+    """What every verb says of an event, behind its time or place: who, what, and its bytes."""
+    who, what = sender_of(event, direction), in_words(event, direction)
+    return f"{who:10}  {visible(what)} | {spaced(bytes_of(event))}"
 
 
 def time_of_day(now: float) -> str:

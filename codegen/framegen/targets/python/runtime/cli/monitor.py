@@ -7,11 +7,14 @@ import time
 from contextlib import closing
 from pathlib import Path
 
+from ..careful_decoder import GAP
 from ..decoder import StreamDecoder
 from ..exchanges import RECEIVED
+from ..recording_entry import SENDERS
+from ..recording_file import EITHER, NOISE
 from . import link
 from .encode import message_named
-from .events import EITHER, KINDS, NOISE, SENDERS, UNKNOWN, counted, names_of, sender_of, totals
+from .events import KINDS, UNKNOWN, counted, names_of, sender_of, totals
 from .exits import DONE, INTERRUPTED
 from .lines import TIMES, Lines
 from .link import add_port, failures_told, open_line
@@ -35,8 +38,8 @@ ABOUT = """\
 One line for each frame and each piece of noise: the time, who sent it, its bytes, what they mean.
 Ctrl-C ends it, and the totals follow on the error stream. Colours are for terminals alone, and for
 nobody who has set NO_COLOR."""
-# How long a line is quiet before half a frame is given up.
-_QUIET = 0.25
+# How long to read in one piece, so that Ctrl-C is noticed on every system.
+_SLICE = 0.25
 
 
 def add_arguments(parser: ArgumentParser) -> None:
@@ -75,7 +78,8 @@ def add_arguments(parser: ArgumentParser) -> None:
         "--log",
         type=Path,
         metavar="FILE",
-        help="write all of it, shown or not, to a new file for `decode` and `replay`",
+        help="record all of it, shown or not, for `decode` and `replay`; a FILE that holds "
+        "anything is never overwritten",
     )
     parser.add_argument("-n", type=at_least(1), metavar="N", help="end after so many lines")
     parser.add_argument(
@@ -126,17 +130,17 @@ class Monitor:
 
     def watch(self, line: Transport, recorder: Recorder) -> None:
         """Reads and shows, until so many lines were shown; the totals come in any case."""
-        shown = heard = self._clock()
+        shown = self._clock()
         self._lines.begin(self._day() if self._absolute else shown)
         try:
             while self._left != 0:
-                data = line.read(_QUIET)
+                data = line.read(GAP if self._decoder.pending else _SLICE)
                 now = self._clock()
                 before = self._lines.count
                 if data:
-                    heard = now
                     self._tell(self._decoder.feed(data), recorder, now)
-                elif self._decoder.pending and now - heard >= _QUIET:
+                elif self._decoder.pending:
+                    # Found empty for so long: half a frame must not grow together with the next.
                     self._tell(self._decoder.flush(), recorder, now)
                     recorder.quiet()
                 if self._lines.count != before:

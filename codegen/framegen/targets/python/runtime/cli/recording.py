@@ -1,139 +1,85 @@
-"""Reads what was recorded of a line: a log of `monitor`, a trace of a client, hex, raw bytes."""
+"""What the verbs read, a file or standard input: opened, read as it comes, and failures told."""
 
 from __future__ import annotations
 
-import re
 import sys
-from typing import NamedTuple
+import time
+from contextlib import contextmanager
 
-from ..codec import decode
-from ..decoder import StreamDecoder
-from ..errors import DecodeError, Reason
-from ..exchanges import RECEIVED
-from ..noise import Noise
-from .events import EITHER, NOISE, SENDERS, bytes_of, twins
-from .hextext import looks_like_hex, parse_hex
+from ..recordings import RecordingError, read
+from .progress import PATIENCE, Waiting
 from .unusable import UnusableError
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
     from collections.abc import Iterator
     from pathlib import Path
+    from typing import BinaryIO
 
     from ..direction import Direction
-    from ..message import Message
-
-# A line as Recorder and the client's Tap write it.
-_LINE = re.compile(r"(?P<hex>[^#]*)# *(?P<at>[0-9]{1,9}(?:\.[0-9]{1,9})?) s, (?P<who>[^:]*): ")
+    from ..recordings import Entry
 
 
-class Heard(NamedTuple):
-    """One event of a recording: where it stands, when it was, what it is, and who sent it.
+class Recording:
+    """A recording that is open; `again` says whether it can be read more than once.
 
-    `at` is seconds, None where nobody noted the time. `sender` is one of SENDERS, or EITHER where
-    nobody can tell; for noise, too.
+    What was printed is shown before it waits for more. Where that leaves a terminal empty for long,
+    it says there how far it has come.
     """
 
-    place: str
-    at: float | None
-    event: Message | Noise
-    sender: str
+    def __init__(self, stream: BinaryIO, name: str) -> None:
+        self.name = name
+        self._stream = stream
+        self._read = getattr(stream, "read1", stream.read)
+        self.again = stream.seekable()
+        self._size = stream.seek(0, 2) if self.again else 0
+        self._done = 0
+        self._waiting = Waiting(sys.stderr)
+        self._shown = time.monotonic()
 
-
-def read_recording(
-    path: Path, form: str, direction: Direction | None, *, strict: bool
-) -> list[Heard]:
-    """All of a file, or of standard input for `-`. Raises UnusableError for what is malformed.
-
-    `direction` is who sent the bytes, for a file that does not say so itself. If `strict`, a line
-    must hold the frame of the sender that it names; or else its bytes are noise.
-    """
-    data = _bytes(path)
-    name = "standard input" if str(path) == "-" else str(path)
-    lines = data.decode("utf-8", errors="replace").splitlines()
-    # A log is one by its comments, so that a slip in its hex is told as such.
-    if form != "raw" and any(_LINE.match(line) for line in lines):
-        return list(_logged(lines, name, strict=strict))
-    if form == "raw" or (form == "auto" and not looks_like_hex(data)):
-        return list(_streamed(data, name, direction))
-    try:
-        octets = b"".join(parse_hex(line) for line in lines)
-    except UnusableError as error:
-        raise UnusableError(f"{name}: {error}") from None
-    return list(_streamed(octets, name, direction))
-
-
-def _bytes(path: Path) -> bytes:
-    try:
-        return sys.stdin.buffer.read() if str(path) == "-" else path.read_bytes()
-    except OSError as error:
-        raise UnusableError(f"{path} cannot be read: {error.strerror or error}") from None
-
-
-def _streamed(data: bytes, name: str, direction: Direction | None) -> Iterator[Heard]:
-    """The events of a stream, each at its byte."""
-    decoder = StreamDecoder(direction)
-    offset = 0
-    for event in [*decoder.feed(data), *decoder.flush()]:
-        if isinstance(event, Noise):
-            sender = EITHER if direction is None else direction.sender
-        else:
-            sender = EITHER if twins(event, direction) else event.DIRECTION.sender
-        yield Heard(f"{name}, byte {offset}", None, event, sender)
-        offset += len(bytes_of(event))
-
-
-def _logged(lines: list[str], name: str, *, strict: bool) -> Iterator[Heard]:
-    """The events of a log, each at its line."""
-    before = 0.0
-    for number, line in enumerate(lines, start=1):
-        place = f"{name}, line {number}"
-        if not line.strip() or line.lstrip().startswith("#"):
-            continue
-        found = _LINE.match(line)
-        if found is None:
-            raise UnusableError(
-                f"{place}: it has no time and sender, as in `55 55 02 07  # 0.5 s, NAME: ...`, "
-                "and other lines have"
-            )
+    def entries(self, form: str, direction: Direction | None) -> Iterator[Entry]:
+        """What it holds, from its beginning on. Raises UnusableError."""
+        self._done = 0
+        if self.again:
+            self._stream.seek(0)
         try:
-            data = parse_hex(found["hex"])
-        except UnusableError as error:
-            raise UnusableError(f"{place}: {error}") from None
-        at = float(found["at"])
-        event, sender = _told(data, found["who"], place, strict=strict)
-        # What came to this end may be told late: a client does so when it has opened a line anew.
-        if RECEIVED is None or sender != RECEIVED.sender:
-            if at < before:
-                raise UnusableError(
-                    f"{place}: {found['at']} s is before {before:.6f} s in a line above; "
-                    "play the recordings one by one, or put their times in order"
-                )
-            before = at
-        yield Heard(place, at, event, sender)
+            yield from read(self, form=form, direction=direction)
+        except RecordingError as error:
+            raise UnusableError(f"{self.name}, {error}") from None
+        finally:
+            self._waiting.clear()
+
+    def read(self, size: int) -> bytes:
+        """What there is, and at most so many bytes. Raises UnusableError."""
+        sys.stdout.flush()
+        try:
+            data: bytes = self._read(size)
+        except OSError as error:
+            raise _unreadable(self.name, error) from None
+        self._done += len(data)
+        if time.monotonic() - self._shown >= PATIENCE and not sys.stdout.isatty():
+            self._shown = time.monotonic()
+            of = f" of {self._size / 1e6:.1f}" if self._size else ""
+            self._waiting.show(f"{self.name}: {self._done / 1e6:.1f}{of} MB read")
+        return data
 
 
-def _told(data: bytes, who: str, place: str, *, strict: bool) -> tuple[Message | Noise, str]:
-    """What a line of a log says, and by whom. Raises UnusableError where its bytes disagree."""
-    whose, _, noise = who.rpartition(" ")
-    if noise == NOISE and whose in ("", EITHER, *SENDERS):
-        # Where nobody is named, it came to this end: what a client sends is never noise.
-        return _noise(data), whose or (EITHER if RECEIVED is None else RECEIVED.sender)
-    if who != EITHER and who not in SENDERS:
-        known = ", ".join([*SENDERS, EITHER, NOISE])
-        raise UnusableError(f"{place}: {who!r} is none of those who send: {known}")
+@contextmanager
+def opened(path: Path) -> Iterator[Recording]:
+    """The file of that name, or standard input for `-`. Raises UnusableError."""
+    name = "standard input" if str(path) == "-" else str(path)
+    if name != str(path) and sys.stdin is None:
+        raise UnusableError("standard input is closed; name a file")
     try:
-        return decode(data, SENDERS.get(who)), who
-    except DecodeError as error:
-        if not strict:
-            return Noise(data, error.reason), who
-        raise UnusableError(f"{place}: it is no frame of {who}: {error}") from None
-
-
-def _noise(data: bytes) -> Noise:
-    """Bytes that were no message when they were heard, whatever they are now."""
+        stream = path.open("rb") if name == str(path) else sys.stdin.buffer
+    except OSError as error:
+        raise _unreadable(name, error) from None
     try:
-        decode(data, None)
-    except DecodeError as error:
-        return Noise(data, error.reason)
-    return Noise(data, Reason.BAD_HEADER)
+        yield Recording(stream, name)
+    finally:
+        if name == str(path):
+            stream.close()
+
+
+def _unreadable(name: str, error: OSError) -> UnusableError:
+    return UnusableError(f"{name} cannot be read: {error.strerror or error}")

@@ -6,24 +6,29 @@ import sys
 from contextlib import closing
 from pathlib import Path
 
-from ..exchanges import EXCHANGES
+from ..exchanges import EXCHANGES, RECEIVED
 from ..noise import Noise
+from ..recording_entry import SENDERS
+from ..recording_file import EITHER, NOISE
+from ..recordings import FORMS
 from ..wire import Wire
 from . import link
-from .events import EITHER, NOISE, SENDERS, bytes_of, counted, in_words
+from .events import bytes_of, counted, in_words
 from .exits import DONE, INTERRUPTED
 from .lines import Lines
 from .link import add_port, failures_told, open_line
 from .numerals import above_zero
 from .playback import Playback
-from .recording import read_recording
+from .recording import opened
+from .rereading import rereadable
 from .unusable import UnusableError
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
     import argparse
+    from collections.abc import Iterable, Iterator
 
-    from .recording import Heard
+    from ..recordings import Entry
 
 ENDS = link.ENDS
 ABOUT = """\
@@ -57,9 +62,9 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     )
     parser.add_argument(
         "--format",
-        choices=["auto", "hex", "raw"],
+        choices=FORMS,
         default="auto",
-        help="what the file holds (default: auto, by its bytes)",
+        help="what the file holds (default: auto, by its first word)",
     )
     parser.add_argument(
         "--either",
@@ -78,32 +83,46 @@ def run(arguments: argparse.Namespace) -> int:
     port = arguments.port or ""
     if not port and not arguments.dry_run:
         raise UnusableError("replay needs --port PORT, or --dry-run to see what it would send")
-    chosen = _chosen(arguments)
-    times = _times(chosen, arguments.speed, arguments.baud)
-    if arguments.dry_run:
-        lines = Lines(sys.stdout)
-        for heard, at in zip(chosen, times, strict=True):
-            lines.show(heard.event, SENDERS.get(heard.sender), at)
-        sizes = [len(bytes_of(heard.event)) for heard in chosen]
-        taken = times[-1] + Wire(arguments.baud).seconds(sizes[-1])
-        told = f"{counted(len(chosen), 'frame')}, {counted(sum(sizes), 'byte')} in {taken:.3f} s"
-        print(f"{told}: nothing was sent", file=sys.stderr)
-        return DONE
-    with failures_told(), closing(open_line(port, arguments.baud)) as line:
-        try:
-            Playback(sys.stdout).play(line, chosen, times)
-        except KeyboardInterrupt:
-            return INTERRUPTED
+    direction = SENDERS.get(arguments.direction)
+    with opened(arguments.file) as given, rereadable(given) as recording:
+        # All of it is looked at before any of it is sent.
+        count = _survey(recording.entries(arguments.format, direction), recording.name, arguments)
+        entries = (
+            entry
+            for entry in recording.entries(arguments.format, direction)
+            if _is_chosen(entry, recording.name, arguments)
+        )
+        timed = _timed(entries, arguments.speed, arguments.baud)
+        if arguments.dry_run:
+            _show(timed, arguments.baud)
+            return DONE
+        with failures_told(), closing(open_line(port, arguments.baud)) as line:
+            try:
+                Playback(sys.stdout).play(line, timed, count)
+            except KeyboardInterrupt:
+                return INTERRUPTED
     return DONE
 
 
-def _chosen(arguments: argparse.Namespace) -> list[Heard]:
-    """What is to be sent of a recording. Raises UnusableError for what must not be."""
-    direction = SENDERS.get(arguments.direction)
-    recorded = read_recording(arguments.file, arguments.format, direction, strict=not arguments.raw)
-    chosen = [heard for heard in recorded if arguments.raw or _is_sent(heard, arguments)]
-    kept = {id(heard) for heard in chosen}
-    left = [heard for heard in recorded if id(heard) not in kept]
+def _survey(entries: Iterable[Entry], name: str, arguments: argparse.Namespace) -> int:
+    """How many are to be sent. Raises UnusableError for what must not be, and if there are none."""
+    before = 0.0
+    chosen = 0
+    left: dict[str, int] = {}
+    for entry in entries:
+        # What came to this end may be told late: a client does so when it has opened a line anew.
+        if entry.time is not None and (RECEIVED is None or entry.sender != RECEIVED.sender):
+            if entry.time < before:
+                raise UnusableError(
+                    f"{name}, {entry.place}: {entry.time:.6f} s is before {before:.6f} s in a line "
+                    "above; play the recordings one by one, or put their times in order"
+                )
+            before = entry.time
+        if _is_chosen(entry, name, arguments):
+            chosen += 1
+        else:
+            kind = NOISE if isinstance(entry.event, Noise) else entry.sender or EITHER
+            left[kind] = left.get(kind, 0) + 1
     if not chosen:
         raise UnusableError(f"{arguments.file} holds nothing to send; it holds {_kinds(left)}")
     if left:
@@ -111,46 +130,54 @@ def _chosen(arguments: argparse.Namespace) -> list[Heard]:
     return chosen
 
 
-def _is_sent(heard: Heard, arguments: argparse.Namespace) -> bool:
-    """Whether it is for sending. Raises UnusableError where nobody could say so."""
+def _is_chosen(entry: Entry, name: str, arguments: argparse.Namespace) -> bool:
+    """Whether it is to be sent. Raises UnusableError where nobody could say so."""
     own = {kind.DIRECTION.sender for kind in EXCHANGES}
-    if heard.sender not in {*own, EITHER}:
+    if arguments.raw:
+        return True
+    if entry.sender not in {*own, None}:
         return False
-    what = in_words(heard.event, SENDERS.get(heard.sender))
-    if isinstance(heard.event, Noise):
+    what = in_words(entry.event, entry.direction)
+    if isinstance(entry.event, Noise):
         if not arguments.skip_noise:
             raise UnusableError(
-                f"{heard.place}: it is no frame ({what}); "
+                f"{name}, {entry.place}: it is no frame ({what}); "
                 "--skip-noise leaves out what is none, --raw sends every byte"
             )
         return False
-    if heard.sender == EITHER and arguments.either is None:
+    if entry.sender is None and arguments.either is None:
         raise UnusableError(
-            f"{heard.place}: it is {what}, and nobody can tell whose; --either send sends such "
-            "frames, --either skip leaves them out, and of a file that names no senders "
+            f"{name}, {entry.place}: it is {what}, and nobody can tell whose; --either send sends "
+            "such frames, --either skip leaves them out, and of a file that names no senders "
             f"--direction {' or '.join(own)} says that all of it is from here"
         )
-    return heard.sender != EITHER or arguments.either == "send"
+    return entry.sender is not None or arguments.either == "send"
 
 
-def _kinds(recorded: list[Heard]) -> str:
+def _kinds(found: dict[str, int]) -> str:
     """How much there is of each kind, in words."""
-    found: dict[str, int] = {}
-    for heard in recorded:
-        kind = NOISE if isinstance(heard.event, Noise) else heard.sender
-        found[kind] = found.get(kind, 0) + 1
-    pieces = found.pop(NOISE, 0)
-    told = [f"{counted(number, 'frame')} of {sender}" for sender, number in found.items()]
-    told += [f"{counted(pieces, 'piece')} of noise"] if pieces else []
+    told = [f"{counted(n, 'frame')} of {sender}" for sender, n in found.items() if sender != NOISE]
+    told += [f"{counted(found[NOISE], 'piece')} of noise"] if NOISE in found else []
     return ", ".join(told) or "nothing at all"
 
 
-def _times(chosen: list[Heard], speed: float, baud: float) -> list[float]:
-    """When each is sent, in seconds from the first on: as recorded, one after the other."""
+def _timed(entries: Iterable[Entry], speed: float, baud: float) -> Iterator[tuple[Entry, float]]:
+    """Each, and when it is sent, in seconds from the first: as recorded, one after the other."""
     wire = Wire(baud)
-    first = chosen[0].at or 0.0
-    times = [first if heard.at is None else heard.at for heard in chosen]
-    return [
-        wire.take(len(bytes_of(heard.event)), (at - first) / speed)
-        for heard, at in zip(chosen, times, strict=True)
-    ]
+    first: float | None = None
+    for entry in entries:
+        at = entry.time or 0.0
+        first = at if first is None else first
+        yield entry, wire.take(len(bytes_of(entry.event)), (at - first) / speed)
+
+
+def _show(timed: Iterable[tuple[Entry, float]], baud: float) -> None:
+    """Prints what would be sent, and when."""
+    lines, wire = Lines(sys.stdout), Wire(baud)
+    size, ends = 0, 0.0
+    for entry, at in timed:
+        lines.show(entry.event, entry.direction, at)
+        size += len(bytes_of(entry.event))
+        ends = at + wire.seconds(len(bytes_of(entry.event)))
+    told = f"{counted(lines.count, 'frame')}, {counted(size, 'byte')} in {ends:.3f} s"
+    print(f"{told}: nothing was sent", file=sys.stderr)

@@ -5,11 +5,12 @@ from __future__ import annotations
 import sys
 
 from ..errors import EncodeError, LimitError
-from ..exchanges import EXCHANGES, RECEIVED
+from ..exchanges import EXCHANGES
 from ..link_errors import NoReplyError
 from ..outcome import lacking
+from ..recording_entry import Entry
 from . import link
-from .decode import event_as_json, event_as_text
+from .entries import EntryLines
 from .exits import DONE, NOT_ALL
 from .limits import add_limits, limits_of, refused
 from .link import add_port, add_timeout, failures_told, open_client
@@ -53,7 +54,7 @@ def run(arguments: Namespace) -> int:
     if len(messages) > 1:
         told = f"asked in {len(messages)} requests: one reply has no room for so much"
         print(told, file=sys.stderr)
-    show = event_as_json if arguments.json else event_as_text
+    lines = EntryLines(sys.stdout, "json" if arguments.json else "text")
     missing: dict[str, list[int]] = {}
     silent: NoReplyError | None = None
     with (
@@ -73,7 +74,8 @@ def run(arguments: Namespace) -> int:
                 silent = error
                 break
             if reply is not None:
-                print(show(reply, 0, RECEIVED), flush=True)
+                lines.show(Entry(reply, reply.DIRECTION.sender, 0))
+                sys.stdout.flush()
                 asked, lacks, _ = lacking(message, reply)
                 missing.setdefault(asked, []).extend(lacks)
     for asked, values in missing.items():

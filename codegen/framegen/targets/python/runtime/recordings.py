@@ -1,0 +1,162 @@
+"""Reads what was recorded of a line: a client's `trace`, a log of `monitor`, hex, or raw bytes.
+
+    for entry in read("line.hex"):
+        print(entry.time, entry.sender, entry.event)
+
+It is read as it comes, and never held as a whole. A line of a recording says when its bytes came
+and from whom: bytes of two lines are never joined. Plain hex and raw bytes are one stream.
+"""
+
+from __future__ import annotations
+
+import os
+import re
+from itertools import chain
+from pathlib import Path
+
+from .decoder import StreamDecoder
+from .hextext import HexError, HexReader
+from .noise import Noise
+from .recorded_lines import recorded
+from .recording_entry import Entry, RecordingError
+from .recording_file import QUIET
+from .recording_form import TIMED_LINE, blocks, is_text
+from .twins import twins
+
+TYPE_CHECKING = False  # typing alone would double the time that the import takes
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Iterator
+    from typing import Protocol
+
+    from .direction import Direction
+    from .message import Message
+
+    class Readable(Protocol):
+        """A stream of bytes."""
+
+        def read(self, size: int, /) -> bytes:
+            """At most so many bytes; none at the end."""
+            ...
+
+
+__all__ = ["FORMS", "Entry", "RecordingError", "read"]
+
+FORMS = ("auto", "hex", "raw")
+"""What a file may hold: hex, as every recording does, or raw bytes; auto goes by its first word."""
+
+_CHUNK = 65536
+_QUIET_LINE = re.compile(rf"^[ \t]{{0,80}}{QUIET}[ \t\r]{{0,80}}$", re.MULTILINE)
+_TIME = re.compile(r"#+ *[0-9]{1,9}(?:\.[0-9]{1,9})? s, [^:\n]*: ")
+
+
+def read(
+    source: str | os.PathLike[str] | Readable,
+    *,
+    form: str = "auto",
+    direction: Direction | None = None,
+) -> Iterator[Entry]:
+    """Each message and each piece of noise of a recording, in order.
+
+    `source` is the name of a file, or a stream of bytes. `form` is one of FORMS. `direction` is who
+    sent the bytes, where the recording does not say so itself. While it is read, raises
+    RecordingError for what makes no sense, and OSError for a file that cannot be read.
+    """
+    if form not in FORMS:
+        raise ValueError(f"{form!r} is none of the forms {', '.join(FORMS)}")
+    return _read(source, form, direction)
+
+
+def _read(
+    source: str | os.PathLike[str] | Readable, form: str, direction: Direction | None
+) -> Iterator[Entry]:
+    if isinstance(source, (str, os.PathLike)):
+        with Path(source).open("rb") as stream:
+            yield from _read(stream, form, direction)
+        return
+    chunks = _chunks(source)
+    begun = b""
+    text = {"hex": True, "raw": False}.get(form)
+    while text is None:
+        chunk = next(chunks, b"")
+        begun += chunk
+        text = is_text(begun, ended=not chunk)
+    whole = chain([begun], chunks)
+    if text:
+        yield from _text(blocks(whole), direction)
+    else:
+        yield from _streamed(_raw(whole, StreamDecoder(direction)), direction)
+
+
+def _chunks(stream: Readable) -> Iterator[bytes]:
+    # read1 gives what there is: on a live line nobody waits for a full buffer.
+    read_some = getattr(stream, "read1", stream.read)
+    while chunk := read_some(_CHUNK):
+        yield chunk
+
+
+def _streamed(
+    decoded: Iterable[list[Message | Noise]], direction: Direction | None
+) -> Iterator[Entry]:
+    """The entries of a stream, which says neither when its bytes came nor from whom."""
+    offset = 0
+    for events in decoded:
+        for event in events:
+            yield Entry(event, _sender(event, direction), offset)
+            offset += len(event.data if isinstance(event, Noise) else event.encode())
+
+
+def _sender(event: Message | Noise, direction: Direction | None) -> str | None:
+    if direction is not None:
+        return direction.sender
+    return None if isinstance(event, Noise) or twins(event) else event.DIRECTION.sender
+
+
+def _raw(chunks: Iterable[bytes], decoder: StreamDecoder) -> Iterator[list[Message | Noise]]:
+    for chunk in chunks:
+        yield decoder.feed(chunk)
+    yield decoder.flush()
+
+
+def _text(text: Iterator[str], direction: Direction | None) -> Iterator[Entry]:
+    """The entries of text: it is a recording if its first line that has bytes has a time."""
+    before: list[str] = []
+    for block in text:
+        before.append(block)
+        lines = (line for line in block.split("\n") if line.partition("#")[0].strip())
+        first = next(lines, None)
+        if first is not None:
+            whole = chain(before, text)
+            if TIMED_LINE.match(first):
+                yield from recorded(whole, direction)
+            else:
+                yield from _streamed(_hex(whole, StreamDecoder(direction)), direction)
+            return
+
+
+def _hex(text: Iterable[str], decoder: StreamDecoder) -> Iterator[list[Message | Noise]]:
+    reader = HexReader()
+    line = 1
+    for block in text:
+        timed = _TIME.search(block)
+        end = len(block) if timed is None else block.rfind("\n", 0, timed.start()) + 1
+        for is_after_quiet, part in enumerate(_QUIET_LINE.split(block[:end])):
+            if is_after_quiet:
+                yield decoder.flush()
+            try:
+                data = reader.feed(part)
+            except HexError as error:
+                raise _slip(error, line + part.count("\n", 0, error.at)) from None
+            yield decoder.feed(data)
+            line += part.count("\n")
+        if timed is not None:
+            problem = "it has a time and a sender, and the lines before it have none"
+            raise RecordingError(f"line {line}: {problem}")
+    try:
+        data = reader.end()
+    except HexError as error:
+        raise _slip(error, line) from None
+    yield decoder.feed(data) + decoder.flush()
+
+
+def _slip(error: HexError, line: int) -> RecordingError:
+    return RecordingError(f"line {line}: {error}; if these are raw bytes, read them as raw")
