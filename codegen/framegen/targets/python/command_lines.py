@@ -22,9 +22,11 @@ def decode_examples(layout: Layout) -> list[str]:
     hex_ = frame.hex(" ").upper()
     examples = [
         (f"{program} decode {hex_}", "bytes in hex, however they are written"),
-        (f"{program} decode line.bin", "a recording, raw or in hex"),
+        (f"{program} decode line.bin", "a recording, hex or raw bytes"),
         (f"{program} decode --direction {sender} -", "what arrives on standard input"),
         (f"{program} decode --json line.bin", "a line of JSON for each message and noise"),
+        (f"{program} decode -t absolute line.hex", "a recording, with the time of day"),
+        (f"{program} decode --csv line.hex", "a row for each, for a spreadsheet"),
     ]
     return _pairs(examples)
 
