@@ -29,6 +29,13 @@ def data_of(file: Path) -> Data:
     return read_tree(read_source(file))[0].data
 
 
+def kiln() -> Data:
+    """What the spec says that the guide to the language puts together."""
+    guide = (ROOT / "docs" / "write-a-spec.md").read_text(encoding="utf-8")
+    blocks = re.findall(r"```yaml\n(.*?)```", guide, re.DOTALL)
+    return read_tree(Source("kiln.yaml", "\n".join(blocks)))[0].data
+
+
 def yaml_of(value: object) -> str:
     """`value` as YAML, every text in double quotes and in ASCII, whatever it holds."""
     if isinstance(value, dict):

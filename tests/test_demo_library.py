@@ -20,7 +20,17 @@ from framegen.wiretypes import WIRE_TYPES, WireType
 from hypothesis import given
 from hypothesis import strategies as st
 
-from tests.specimens import DEMO, ROOT, Data, data_of, files_of, layout_of, library, rules_broken
+from tests.specimens import (
+    DEMO,
+    ROOT,
+    Data,
+    data_of,
+    files_of,
+    kiln,
+    layout_of,
+    library,
+    rules_broken,
+)
 
 SPEC = data_of(DEMO)
 LAYOUT = layout_of(SPEC)
@@ -495,7 +505,54 @@ def holds(data: Data, folder: Path) -> None:
 
 
 COUNT = {"type": "u8"}
+ABSENT: Data = {"absent": True, "about": "It is not there."}
 SHAPES: dict[str, tuple[Data, str | int]] = {
+    "numbers read as signed, and absent ones": (
+        message_of(
+            0x30,
+            {
+                "depth": {"type": "u32", "signed_as": "i32"},
+                "level": {"type": "u8", "values": {"none": {**ABSENT, "value": 9}}},
+                "n": COUNT,
+                "steps": {
+                    "element": "Step",
+                    "counted_by": "n",
+                    "fields": {
+                        "height": {
+                            "type": "u16",
+                            "about": "It.",
+                            "signed_as": "i16",
+                            "values": {
+                                "unplugged": {**ABSENT, "value": 65535},
+                                "broken": {**ABSENT, "value": 65534},
+                            },
+                        }
+                    },
+                },
+            },
+            (
+                {
+                    "depth": 0xFFFF_FFFE,
+                    "level": 9,
+                    "steps": [{"height": 65535}, {"height": 65534}, {"height": 5}],
+                },
+                "AA 0C 30 FF FF FF FE 09 03 FF FF FF FE 00 05",
+            ),
+        ),
+        "2 * n + 6",
+    ),
+    "limits of a number and of numbers in a list": (
+        message_of(
+            0x31,
+            {
+                "level": {"type": "u8", "limits": {"usual": "1..9"}},
+                "n": COUNT,
+                "numbers": {"type": "u8", "counted_by": "n", "limits": {"usual": "1..9"}},
+            },
+            ({"level": 1, "numbers": [2, 9]}, "AA 04 31 01 02 02 09"),
+        ),
+        "n + 2",
+    ),
     "bare u16 numbers": (
         message_of(
             1,
@@ -626,6 +683,30 @@ def test_a_message_of_any_shape_works(shape: str, tmp_path: Path) -> None:
     holds(data, tmp_path)
 
 
+def test_what_follows_from_a_number_is_told_of_messages_and_elements(tmp_path: Path) -> None:
+    message, length = SHAPES["numbers read as signed, and absent ones"]
+    with library(files_of(spec_with("Made", message, length, **FRAME)), tmp_path) as made:
+        kind: Any = made.Made
+        there = kind(depth=2**32 - 5, level=8, steps=[(65533,), (65534,), (65535,)])
+        assert (there.depth, there.signed_depth, there.absent) == (2**32 - 5, -5, False)
+        assert [each.signed_height for each in there.steps] == [-3, -2, -1]
+        assert [each.absent for each in there.steps] == [False, True, True]
+        assert kind(depth=5, level=9, steps=[]).absent
+        assert kind(depth=5, level=9, steps=[]).signed_depth == 5
+
+
+def test_limits_hold_for_a_number_and_for_numbers_in_a_list(tmp_path: Path) -> None:
+    message, length = SHAPES["limits of a number and of numbers in a list"]
+    with library(files_of(spec_with("Made", message, length, **FRAME)), tmp_path) as made:
+        limits = importlib.import_module(f"{made.__name__}.exchanges").LIMITS
+        limits.check(made.Made(9, [1, 9]), limits.usual)
+        for level, numbers, place in [(10, [1], "level: 10"), (1, [1, 0], "numbers[1]: 0")]:
+            with pytest.raises(made.LimitError) as refused:
+                limits.check(made.Made(level, numbers), limits.usual)
+            told = f"{place} is outside the limits 1..9; limits=None sends anything"
+            assert str(refused.value) == told
+
+
 @pytest.mark.parametrize("order", ["little", "big"])
 @pytest.mark.parametrize(
     "parts",
@@ -709,16 +790,16 @@ def tool(name: str) -> str:
 
 @pytest.fixture(scope="module")
 def many(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """The library of the demo spec, one of all the shapes above, and one of hardly anything."""
+    """The libraries of the demo spec and the guide, of all the shapes above, of hardly anything."""
     folder = tmp_path_factory.mktemp("many")
-    specs = [SPEC]
+    specs = [SPEC, kiln()]
     for name, shapes in {"shapes": list(SHAPES), "bare": ["no fields at all"]}.items():
         messages = {
-            f"Made{number}": {**SHAPES[shape][0], "length": SHAPES[shape][1]}
+            f"Made{number:02}": {**SHAPES[shape][0], "length": SHAPES[shape][1]}
             for number, shape in enumerate(shapes)
         }
         for number, message in enumerate(messages.values()):
-            _rename_element(message, f"Step{number}")
+            _rename_element(message, f"Step{number:02}")
         data = spec_with("Made", {}, 0, **FRAME)
         specs.append({**data, "protocol": {**data["protocol"], "name": name}, "messages": messages})
     for data in specs:
@@ -735,7 +816,7 @@ def _rename_element(message: Data, name: str) -> None:
     }
 
 
-@pytest.mark.parametrize("name", ["greenhouse", "shapes", "bare"])
+@pytest.mark.parametrize("name", ["greenhouse", "kiln", "shapes", "bare"])
 def test_every_verb_of_a_library_has_help(many: Path, name: str) -> None:
     program = (
         f"from {name}.cli import main; from {name}.cli.examples import VERBS; "
@@ -753,7 +834,16 @@ def test_every_verb_of_a_library_has_help(many: Path, name: str) -> None:
     [
         ("ruff", "check", "--no-cache", "--config", str(ROOT / "pyproject.toml"), "."),
         # A tuple of one message, where the formatter has another opinion, is left out.
-        ("ruff", "format", "--check", "--no-cache", "--line-length=100", "greenhouse", "shapes"),
+        (
+            "ruff",
+            "format",
+            "--check",
+            "--no-cache",
+            "--line-length=100",
+            "greenhouse",
+            "kiln",
+            "shapes",
+        ),
         ("mypy", "--strict", "--no-error-summary", "--python-version", "3.10", "."),
     ],
     ids=["ruff check", "ruff format", "mypy"],

@@ -48,6 +48,10 @@ SERVO, HOUSE = SPECS["busservo"], SPECS["greenhouse"]
 MOVE = ("messages", "ServoMove")
 VENTS = ("messages", "VentsOpen")
 ANGLE = (*VENTS, "fields", "vents", "fields", "angle")
+POSITION = (*MOVE, "fields", "targets", "fields", "position")
+PLACE = ("messages", "ServoPositions", "fields", "positions", "fields", "position")
+TARGET = ".".join(POSITION)
+TOLD = ".".join(PLACE[:-1])
 
 
 def reordered(data: Data, path: Steps, order: list[str]) -> Data:
@@ -445,6 +449,81 @@ CASES: list[tuple[Data, Data, list[str]]] = [
         HOUSE,
         with_(HOUSE, *ANGLE, "about", "How far it opens."),
         ["nothing messages.VentsOpen: words: is said otherwise"],
+    ),
+    # ------------------------------------------------------------------ limits, properties, poses
+    (
+        SERVO,
+        with_(SERVO, *POSITION, "limits", "usual", "100..900"),
+        [f"programs {TARGET}.limits: limits-narrowed: 0..1000 became 100..900"],
+    ),
+    (
+        SERVO,
+        with_(SERVO, *POSITION, "limits", "usual", "100..1100"),
+        [f"programs {TARGET}.limits: limits-narrowed: 0..1000 became 100..1100"],
+    ),
+    (
+        SERVO,
+        with_(SERVO, *POSITION, "limits", "usual", "0..1100"),
+        [f"nothing {TARGET}.limits: limits-widened: 0..1000 became 0..1100"],
+    ),
+    (
+        SERVO,
+        with_(SERVO, *POSITION, "limits", GONE),
+        [
+            f"nothing {TARGET}.limits: limits-widened: 0..1000 is gone",
+            "nothing messages.ServoMove: words: is said otherwise",
+        ],
+    ),
+    (
+        with_(SERVO, *POSITION, "limits", GONE),
+        SERVO,
+        [
+            f"programs {TARGET}.limits: limits-narrowed: 0..1000 is new",
+            "nothing messages.ServoMove: words: is said otherwise",
+        ],
+    ),
+    (
+        SERVO,
+        with_(SERVO, *POSITION, "limits", "others", {}),
+        ["nothing messages.ServoMove: words: is said otherwise"],
+    ),
+    (
+        SERVO,
+        with_(SERVO, *PLACE, "signed_as", GONE),
+        [f"programs {TOLD}.signed_position: property-removed: i16 is gone"],
+    ),
+    (
+        with_(SERVO, *PLACE, "signed_as", GONE),
+        SERVO,
+        [f"nothing {TOLD}.signed_position: property-added: i16 is new"],
+    ),
+    (
+        SERVO,
+        with_(SERVO, *PLACE, "values", "absent", "absent", GONE),
+        [f"programs {TOLD}.absent: property-removed: 65535 is gone"],
+    ),
+    (
+        with_(SERVO, *PLACE, "signed_as", "i32"),
+        SERVO,
+        [f"programs {TOLD}.signed_position: property-changed: i32 became i16"],
+    ),
+    (
+        SERVO,
+        with_(SERVO, "pose", GONE),
+        ["programs pose: pose-removed: hold_servos, present_servos is gone"],
+    ),
+    (
+        with_(SERVO, "pose", GONE),
+        SERVO,
+        ["nothing pose: pose-added: hold_servos, present_servos is new"],
+    ),
+    (
+        SERVO,
+        with_(SERVO, "pose", {**SERVO["pose"], "hold": "stop_servos", "ids": "1..20"}),
+        [
+            "programs pose.ids: pose-changed: 1..253 became 1..20",
+            "programs pose.hold: pose-changed: hold_servos became stop_servos",
+        ],
     ),
     (HOUSE, with_(HOUSE, "reserved", []), ["nothing reserved: words: is said otherwise"]),
 ]

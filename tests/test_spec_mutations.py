@@ -265,6 +265,43 @@ def results() -> Iterator[Mutation]:
         yield ("messages", "ServoMove", "fields", "time_ms", "unit"), unit
 
 
+POSITION: Steps = ("messages", "ServoMove", "fields", "targets", "fields", "position")
+PLACE: Steps = ("messages", "ServoPositions", "fields", "positions", "fields", "position")
+
+
+def limits() -> Iterator[Mutation]:
+    """Limits that no frame can reach, or of what no client sends."""
+    for wrong in ("1000..0", "0..", "0..65536", "-1..1000"):
+        yield (*POSITION, "limits", "usual"), wrong
+    for wrong in ("2500..500", "500..", "500..65536"):
+        yield (*POSITION, "limits", "others", "PWM servo boards"), wrong
+    yield (*POSITION, "limits", "usual"), GONE
+    yield PLACE, {"type": "u16", "about": "Where it is.", "limits": {"usual": "0..1000"}}
+
+
+def signed_and_absent() -> Iterator[Mutation]:
+    for wrong in ("i8", "i32", "u16", "int"):
+        yield (*PLACE, "signed_as"), wrong
+    yield ("messages", "ServoUnload", "fields", "servo_ids", "type"), "i8"
+    yield (*PLACE, "values", "absent", "absent"), "yes"
+
+
+def poses() -> Iterator[Mutation]:
+    for key in ("read", "move", "release"):
+        for name in MESSAGES:
+            if name != TREE["pose"][key]:
+                yield ("pose", key), name
+    for wrong in ("1..", "9..1", "0..256", "-1..9"):
+        yield ("pose", "ids"), wrong
+    for key in ("hold", "present", "targets"):
+        for wrong in ("move_servos", "close", "class", "Hold", "hold-servos"):
+            yield ("pose", key), wrong
+    yield ("pose", "present"), TREE["pose"]["hold"]
+    for key in TREE["pose"]:
+        yield ("pose", key), GONE
+    yield ("messages", "ServoPositionsRead", "echoed"), GONE
+
+
 def errata() -> Iterator[Mutation]:
     for index, erratum in enumerate(TREE["errata"]):
         yield ("errata", index, "document"), erratum["bytes"]
@@ -307,6 +344,9 @@ KINDS: list[Callable[[], Iterator[Mutation]]] = [
     origins,
     answers,
     results,
+    limits,
+    signed_and_absent,
+    poses,
     errata,
     rest,
 ]
@@ -341,6 +381,7 @@ BLIND: list[tuple[Steps, Any, str]] = [
     (("lookalikes", "lx16a", "frame", "command", "type"), "u32", SWALLOWED),
     (messages("ActionGroupStop"), GONE, NOT_MISSED),
     (messages("ServoPositionsRead"), GONE, NOT_MISSED),
+    (messages("ActionGroupRun", "reports", 0), GONE, NOT_MISSED),
     (messages("ActionGroupRun", "reports", 1), GONE, NOT_MISSED),
     (messages("ActionGroupStop", "reports", 0), GONE, NOT_MISSED),
     (messages("ActionGroupRun", "acknowledged"), GONE, NOT_MISSED),
@@ -373,7 +414,6 @@ BLIND: list[tuple[Steps, Any, str]] = [
     (messages("ActionGroupRun", "fields", "times", "type"), "i16", SMALL_NUMBERS),
     (messages("ActionGroupSpeed", "fields", "percent", "type"), "i16", SMALL_NUMBERS),
     (messages("ServoUnload", "fields", "servo_ids", "type"), "i8", SMALL_NUMBERS),
-    (messages("ServoPositionsRead", "fields", "servo_ids", "type"), "i8", SMALL_NUMBERS),
     (messages("ActionGroupStarted", "fields", "group", "type"), "i8", SMALL_NUMBERS),
     (messages("ActionGroupStarted", "fields", "times", "type"), "i16", SMALL_NUMBERS),
     (messages("ActionGroupCompleted", "fields", "group", "type"), "i8", SMALL_NUMBERS),
@@ -384,6 +424,13 @@ BLIND: list[tuple[Steps, Any, str]] = [
         "i8",
         SMALL_NUMBERS,
     ),
+    ((*POSITION, "limits", "usual"), "0..900", OUTSIDE),
+    ((*POSITION, "limits", "usual"), "0..799", "the other boards take what the examples send"),
+    ((*POSITION, "limits"), GONE, NOT_MISSED),
+    ((*PLACE, "signed_as"), GONE, NOT_MISSED),
+    ((*PLACE, "values", "absent", "absent"), GONE, NOT_MISSED),
+    (("pose",), GONE, NOT_MISSED),
+    (("pose", "ids"), "1..20", OUTSIDE),
     (("link", "baud"), 115200, OUTSIDE),
     (("link", "parity"), "even", OUTSIDE),
     (messages("BatteryVoltage", "fields", "voltage_mv", "scale"), "0.01 V", OUTSIDE),

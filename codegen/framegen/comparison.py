@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator, Mapping
 
     from framegen.layout import Layout, MessageLayout, Repeat, WireField
-    from framegen.spec import FramePart, Link, Message
+    from framegen.spec import FramePart, Limits, Link, Message, Pose
 
 Breaks: TypeAlias = Literal["wire", "programs", "nothing"]
 
@@ -52,6 +52,14 @@ KINDS: dict[str, Breaks] = {
     "element": "programs",
     "range-narrowed": "wire",
     "range-widened": "nothing",
+    "limits-narrowed": "programs",
+    "limits-widened": "nothing",
+    "property-added": "nothing",
+    "property-changed": "programs",
+    "property-removed": "programs",
+    "pose-added": "nothing",
+    "pose-changed": "programs",
+    "pose-removed": "programs",
     "value-added": "nothing",
     "value-removed": "programs",
     "value-renamed": "programs",
@@ -90,7 +98,12 @@ class Difference:
 
 def differences(old: Layout, new: Layout) -> list[Difference]:
     """All that changed from one edition to the next, in the order of the new spec."""
-    return [*_line(old, new), *_messages(old, new), *_said_of_all(old, new)]
+    return [
+        *_line(old, new),
+        *_messages(old, new),
+        *_pose(old.spec.pose, new.spec.pose),
+        *_said_of_all(old, new),
+    ]
 
 
 def _line(old: Layout, new: Layout) -> Iterator[Difference]:
@@ -203,6 +216,52 @@ def _fields(
     kept = [name for name in before if name in after]
     order = [name for name in after if name in before]
     yield from _changed("field-order", path, ", ".join(kept), ", ".join(order))
+    yield from _properties(path, [*before.values()], [*new])
+
+
+def _properties(path: str, old: list[WireField], new: list[WireField]) -> Iterator[Difference]:
+    """What follows from the numbers of a message, or of an element, as a property of its own."""
+    was, now = _told_besides(old), _told_besides(new)
+    for name in dict.fromkeys([*was, *now]):
+        here = f"{path}.{name}"
+        if name not in was:
+            yield Difference("property-added", here, None, now[name])
+        elif name not in now:
+            yield Difference("property-removed", here, was[name])
+        else:
+            yield from _changed("property-changed", here, was[name], now[name])
+
+
+def _told_besides(fields: Iterable[WireField]) -> dict[str, str]:
+    """Each such property by its name, and what it is made of."""
+    found: dict[str, str] = {}
+    for each in fields:
+        if each.field.signed_as is not None:
+            found[f"signed_{each.name}"] = each.field.signed_as
+        values = [str(named.value) for named in each.field.values.values() if named.absent]
+        if values:
+            found["absent"] = " or ".join(values)
+    return found
+
+
+def _limits(path: str, old: Limits | None, new: Limits | None) -> Iterator[Difference]:
+    was, now = (None if each is None else each.usual for each in (old, new))
+    if was != now:
+        wider = now is None or (was is not None and now.holds(was))
+        kind = "limits-widened" if wider else "limits-narrowed"
+        yield from _changed(kind, path, was, now)
+
+
+def _pose(old: Pose | None, new: Pose | None) -> Iterator[Difference]:
+    """The methods and the verbs that there are because positions are read and commanded."""
+    if old is None or new is None:
+        if new is not None:
+            yield Difference("pose-added", "pose", None, f"{new.hold}, {new.present}")
+        if old is not None:
+            yield Difference("pose-removed", "pose", f"{old.hold}, {old.present}")
+        return
+    for name in type(new).model_fields:
+        yield from _changed("pose-changed", f"pose.{name}", getattr(old, name), getattr(new, name))
 
 
 def _number(path: str, old: WireField, new: WireField) -> Iterator[Difference]:
@@ -213,6 +272,7 @@ def _number(path: str, old: WireField, new: WireField) -> Iterator[Difference]:
     for name in ("unit", "scale"):
         was, now = getattr(old.field, name), getattr(new.field, name)
         yield from _changed("field-unit", f"{path}.{name}", was or None, now or None)
+    yield from _limits(f"{path}.limits", old.field.limits, new.field.limits)
     yield from _values(f"{path}.values", old, new)
 
 
@@ -283,7 +343,8 @@ def _prose(message: Message) -> dict[object, object]:
         said[name] = (field.about, field.notes, field.cite)
         inner = field.fields if isinstance(field, GroupField) else {"": field}
         for key, number in inner.items():
-            said[name, key] = (number.about, number.notes, number.cite)
+            others = None if number.limits is None else number.limits.others
+            said[name, key] = (number.about, number.notes, number.cite, others)
             for word, value in number.values.items():
                 said[name, key, word] = (value.about, value.cite)
     return said

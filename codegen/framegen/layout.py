@@ -17,7 +17,7 @@ from framegen.wiretypes import WIRE_TYPES, WireType
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from framegen.spec import FramePart, Link, Message, NumberField, Spec
+    from framegen.spec import FramePart, Limits, Link, Message, NumberField, Spec
     from framegen.values import Direction
 
 
@@ -149,6 +149,16 @@ class MessageLayout:
             field for field in self.numbers if not self.counts_with(field)
         ]
         return tuple(given if self.repeat is None else [*given, self.repeat])
+
+    @property
+    def limited(self) -> dict[str, Limits]:
+        """The limits of what a client sends, by path: `targets.position` for one in an element."""
+        found = {field.name: field.field.limits for field in self.numbers}
+        if self.repeat is not None:
+            for field in self.repeat.fields:
+                inner = f".{field.name}" if self.repeat.element is not None else ""
+                found[f"{self.repeat.name}{inner}"] = field.field.limits
+        return {path: limits for path, limits in found.items() if limits is not None}
 
     def counts_with(self, field: WireField) -> bool:
         """Whether `field` is the count of the list."""

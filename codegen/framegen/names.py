@@ -55,12 +55,13 @@ PYTHON_CLASSES = _words(
 # What the library exports or is built of, whatever the protocol.
 LIBRARY_NAMES = _words(
     """
-    AsyncClient AsyncController AsyncMotion Client ClosedError Column Controller Counters decode
-    DecodeError Device Direction DisconnectedError EchoError Element EncodeError Exchange EXCHANGES
-    HEADER IncompleteReplyError Items LineCounters LineError Message MESSAGES Motion Noise
-    NoReplyError NoReportError Number open_async_controller open_controller open_transport
-    PortAddressError PortBusyError PortNotFoundError PortPermissionError ProtocolError Reason
-    RECEIVED Rejects Report Run SearchStrategy Sent Shape StreamDecoder Table Timed Transport
+    AbsentError AsyncClient AsyncController AsyncMotion Client ClosedError Column Controller
+    Counters decode DecodeError Device Direction DisconnectedError EchoError Element EncodeError
+    Exchange EXCHANGES HEADER IncompleteReplyError Items LimitError Limits LIMITS LineCounters
+    LineError Message MESSAGES Motion Noise NoReplyError NoReportError Number open_async_controller
+    open_controller open_transport PortAddressError PortBusyError PortNotFoundError
+    PortPermissionError Pose POSE ProtocolError Reason RECEIVED Rejects Report Run SearchStrategy
+    Sent Shape StreamDecoder Table Timed Transport
     TransportError UNFIT UnknownFrame WriteStuckError
     """
 )

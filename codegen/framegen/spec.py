@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from typing import Annotated, Any, Literal, TypeAlias
 
-from pydantic import BaseModel, ConfigDict, Discriminator, StrictInt, Tag
+from pydantic import BaseModel, ConfigDict, Discriminator, StrictBool, StrictInt, Tag
 from pydantic import Field as Key
 
 from framegen.formula import Formula, parse_formula
@@ -168,7 +168,21 @@ class NamedValue(Part):
 
     value: StrictInt = Key(description="The number.")
     about: str = Key(description="What it means.")
+    absent: StrictBool = Key(
+        False,
+        description="Whether it says that there is nothing to tell of: users of the library then "
+        "ask for `absent`, and it is never sent as if it were a value.",
+    )
     cite: Cite | None = Key(None, description="Where it is known from.")
+
+
+class Limits(Part):
+    """What a client sends unless told otherwise, though a frame could carry more."""
+
+    usual: Bounds = Key(description="The values that are sent unless told otherwise, `0..1000`.")
+    others: dict[str, Bounds] = Key(
+        {}, description="Values that other devices take, each by whose they are."
+    )
 
 
 class NumberField(Part):
@@ -180,6 +194,16 @@ class NumberField(Part):
     scale: Step | None = Key(None, description="What one step is in a larger unit.")
     range: Bounds | None = Key(
         None, description="The values allowed, where they are fewer than the type holds."
+    )
+    limits: Limits | None = Key(
+        None,
+        description="What a client refuses to send unless told otherwise: a matter of safety, and "
+        "not of the wire, which carries whatever `range` and type allow.",
+    )
+    signed_as: str | None = Key(
+        None,
+        description="The signed type, such as i16, as which the number can be read too: it is "
+        "unsigned, and wraps round below zero.",
     )
     values: dict[str, NamedValue] = Key(
         {}, description="Numbers with a meaning of their own, by name."
@@ -271,6 +295,23 @@ class Message(Part):
     deprecated: str = Key("", description="Why not to use it any more, and what to use.")
 
 
+class Pose(Part):
+    """The positions of what is named by numbers: how they are read, commanded and let go.
+
+    A client then has three methods more, and the command the verbs `teach` and `play`.
+    """
+
+    read: str = Key(description="The message that asks for positions, by a list of numbers.")
+    move: str = Key(
+        description="The message that commands positions, and how many milliseconds that may take."
+    )
+    release: str = Key(description="The message that lets go of them, by the same list.")
+    ids: Bounds = Key(description="The numbers that there can be, such as 1..253.")
+    hold: str = Key(description="The method that commands the positions which it reads.")
+    present: str = Key(description="The method that finds out which are there.")
+    targets: str = Key(description="The method that makes targets of positions that were read.")
+
+
 class Reserved(Part):
     """A code or a name that must not be used, for instance because a removed message had it."""
 
@@ -356,6 +397,9 @@ class Spec(Part):
     byte_order: Literal["little", "big"] = Key(description="Which byte of a number comes first.")
     frame: dict[str, FramePart] = Key(description="The parts of every frame, in order.")
     messages: dict[str, Message] = Key(description="The messages, by name.")
+    pose: Pose | None = Key(
+        None, description="How positions are read, commanded and let go, where there are any."
+    )
     reserved: list[Reserved] = Key([], description="Codes and names that must not be used.")
     errata: list[Erratum] = Key([], description="Where the documents are wrong.")
     unknowns: list[Unknown] = Key([], description="What nobody has written down.")

@@ -56,6 +56,11 @@ class Range:
     def __str__(self) -> str:
         return f"{self.low}..{'' if self.high is None else self.high}"
 
+    def holds(self, other: Range) -> bool:
+        """Whether all of another range is in this one."""
+        within = self.high is None or (other.high is not None and other.high <= self.high)
+        return self.low <= other.low and within
+
     @classmethod
     def parse(cls, text: str) -> Range:
         """Read `0..1000` or `1..`."""

@@ -135,6 +135,12 @@ def test_every_field_has_an_anchor_and_what_the_spec_says_of_it(name: str, messa
         for text in [said.about, said.unit, *about, *(note.text for note in said.notes)]:
             assert text in words, text
         assert f"{field.low}..{field.high}" in words
+        if said.limits is not None:
+            assert f"A client sends {said.limits.usual} unless told otherwise" in words
+        if said.signed_as is not None:
+            assert f"The property signed_{field.name} has it as {said.signed_as}." in words
+        for value in said.values.values():
+            assert not value.absent or f"At {value.value} the property absent is true." in words
 
 
 @pytest.mark.parametrize(("name", "message"), MESSAGES)

@@ -28,3 +28,16 @@ def numbers_of(path: KeyPath, message: Message) -> Iterator[tuple[KeyPath, Numbe
             continue
         for inner_name, inner in field.fields.items():
             yield (*here, "fields", inner_name), inner
+
+
+def owned_numbers(spec: Spec) -> Iterator[tuple[KeyPath, dict[str, NumberField]]]:
+    """The numbers of each message and of each element, by name, with the path of them all."""
+    for name, message in spec.messages.items():
+        path: KeyPath = ("messages", name, "fields")
+        yield (
+            path,
+            {key: each for key, each in message.fields.items() if not isinstance(each, GroupField)},
+        )
+        for key, field in message.fields.items():
+            if isinstance(field, GroupField):
+                yield (*path, key, "fields"), field.fields

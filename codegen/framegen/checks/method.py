@@ -36,6 +36,8 @@ def _look(spec: Spec) -> Iterator[Problem]:
         if message.method is not None:
             yield from _arguments(path, name, message)
             yield from _result(path, name, message, spec)
+    for key in ("hold", "present", "targets") if spec.pose is not None else ():
+        yield from _name(("pose", key), getattr(spec.pose, key), first, declared=True)
 
 
 def _name(

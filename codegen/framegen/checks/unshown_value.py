@@ -1,4 +1,4 @@
-"""Rule: an example shows every named value and every end of a range."""
+"""Rule: an example shows every named value, every end of a range, and what is below zero."""
 
 from __future__ import annotations
 
@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 from framegen.checks.fields import numbers_of
 from framegen.checks.rule import LayoutRule, Problem
 from framegen.codec import NotAFrame, decode
+from framegen.wiretypes import WIRE_TYPES
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -35,6 +36,9 @@ def _look(layout: Layout) -> Iterator[Problem]:
                 if end is not None and end not in there:
                     text = f"no example of {name} shows {end}, an end of the range"
                     yield Problem((*path, "range"), text, _HINT)
+            if field.signed_as and max(there, default=0) <= WIRE_TYPES[field.signed_as].high:
+                text = f"no example of {name} shows a value that `signed_as` tells below zero"
+                yield Problem((*path, "signed_as"), text, _HINT)
 
 
 def _shown(layout: Layout, message: MessageLayout) -> dict[KeyPath, set[int]]:
@@ -53,7 +57,7 @@ def _shown(layout: Layout, message: MessageLayout) -> dict[KeyPath, set[int]]:
 
 RULE = LayoutRule(
     id="unshown-value",
-    title="An example shows every named value and every end of a range",
+    title="An example shows every named value, every end of a range, and what is below zero",
     why="The values at the edge are where a width or a sign goes wrong unseen.",
     bad="level: {type: u8, range: 0..100}  # and examples with 50 alone",
     good="level: {type: u8, range: 0..100}  # and examples with 0 and 100",

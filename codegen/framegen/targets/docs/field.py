@@ -5,12 +5,13 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+from framegen.spec import NumberField
 from framegen.targets.docs.cite import CiteView, Lines, cite_view, lines_of
 from framegen.targets.docs.strip import repeated
 
 if TYPE_CHECKING:
     from framegen.layout import Layout, MessageLayout, WireField
-    from framegen.spec import GroupField, NumberField
+    from framegen.spec import GroupField
     from framegen.yamltree import KeyPath, Tree
 
 
@@ -44,6 +45,7 @@ class FieldView:
     about: str
     values: list[ValueView]
     notes: list[NoteView]
+    beside: list[str]
     cite: CiteView
     lines: Lines
     derived: bool
@@ -137,8 +139,26 @@ class _Maker:
                 )
                 for name, value in values.items()
             ],
+            beside=_beside(path.rpartition(".")[2], field),
             notes=[NoteView(note.text, cite_view(spec, note.cite)) for note in field.notes],
             cite=cite_view(spec, field.cite or self.message.message.cite),
             lines=lines_of(self.tree, ("messages", self.message.name, *key)),
             derived=derived,
         )
+
+
+def _beside(name: str, field: NumberField | GroupField) -> list[str]:
+    """What the library makes of a number besides the number itself."""
+    if not isinstance(field, NumberField):
+        return []
+    found: list[str] = []
+    if field.limits is not None:
+        others = [f"{who} take {range_}" for who, range_ in field.limits.others.items()]
+        told = "; ".join(["unless told otherwise", *others])
+        found.append(f"A client sends {field.limits.usual} {told}.")
+    if field.signed_as is not None:
+        found.append(f"The property signed_{name} has it as {field.signed_as}.")
+    marked = [str(value.value) for value in field.values.values() if value.absent]
+    if marked:
+        found.append(f"At {' or '.join(marked)} the property absent is true.")
+    return found

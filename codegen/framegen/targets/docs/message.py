@@ -99,6 +99,18 @@ class MessageView:
         return asks and self.said.reply is None and not self.said.reports
 
     @property
+    def posed(self) -> list[str]:
+        """The methods of a client that send it besides its own."""
+        pose = self.whole.spec.pose
+        if pose is None:
+            return []
+        found = {
+            pose.read: [pose.present, pose.hold],
+            pose.move: [pose.hold],
+        }
+        return found.get(self.name, [])
+
+    @property
     def formula(self) -> str:
         """The length rule."""
         return f"{self.layout.frame.length_name} = {self.layout.formula}"

@@ -12,11 +12,13 @@ from framegen.exchanges import STEPS_PER_SECOND, exchanges, sent_by_client
 from framegen.targets.python.escape import Bracketed, literal
 from framegen.targets.python.exports import relative_import
 from framegen.targets.python.method_view import Flavour, MethodView
+from framegen.targets.python.pose_view import PoseView
 from framegen.targets.python.words import direction_member
 
 if TYPE_CHECKING:
     from framegen.exchanges import Exchange
     from framegen.layout import Layout
+    from framegen.values import Range
 
 _SHARED = (
     "Each method sends one message. What they share is explained at {}: {}, deadlines, reports, "
@@ -72,6 +74,43 @@ class ClientView:
         return [MethodView(each, self.layout, flavour) for each in exchanges(self.layout)]
 
     @property
+    def pose(self) -> PoseView | None:
+        """The methods for positions of the client for threads, where there are any."""
+        return self._pose(self.FLAVOURS["Controller"])
+
+    @property
+    def async_pose(self) -> PoseView | None:
+        """The same of the client for asyncio."""
+        return self._pose(self.FLAVOURS["AsyncController"])
+
+    def _pose(self, flavour: Flavour) -> PoseView | None:
+        pose = self.layout.spec.pose
+        return None if pose is None else PoseView(pose, self.layout, flavour)
+
+    @property
+    def limits(self) -> str:
+        """What describes the limits of what is sent."""
+        limited = {
+            each.request.name: each.request.limited
+            for each in exchanges(self.layout)
+            if each.request.limited
+        }
+        if not limited:
+            return "LIMITS = Limits()"
+        limits = next(each for fields in limited.values() for each in fields.values())
+        others = [f"{literal(name)}: {_bounds(each)}" for name, each in limits.others.items()]
+        fields: list[str | Bracketed] = [
+            Bracketed(f"{name}: (", [literal(path) for path in paths], ")", lone=",")
+            for name, paths in limited.items()
+        ]
+        items: list[str | Bracketed] = [_bounds(limits.usual)]
+        items += [Bracketed("others={", others, "}")] if others else []
+        items.append(Bracketed("fields={", fields, "}"))
+        pose = self.layout.spec.pose
+        items += [] if pose is None else [f"targets={literal(pose.targets)}"]
+        return Bracketed("LIMITS = Limits(", items, ")").fitted(0)
+
+    @property
     def entries(self) -> list[str]:
         """What comes back for each message, as the entries of a dict."""
         return [_entry(each) for each in exchanges(self.layout)]
@@ -109,13 +148,16 @@ class ClientView:
         shown = " ".join(method.returns for method in self.methods)
         lists = [each.repeat for each in self.layout.messages.values()]
         elements = {each.element for each in lists if each is not None and each.element is not None}
-        names = sorted(each for each in elements if f"tuple[{each}, ...]" in shown)
+        found = {each for each in elements if f"tuple[{each}, ...]" in shown}
+        names = sorted(found | ({self.pose.element} if self.pose else set()))
         return relative_import("messages", names, 4) if names else ""
 
     @property
     def iterables(self) -> bool:
         """Whether a method takes a list."""
-        return any("Iterable[" in method.signature for method in self.methods)
+        return self.pose is not None or any(
+            "Iterable[" in method.signature for method in self.methods
+        )
 
     @property
     def import_results(self) -> list[str]:
@@ -135,6 +177,11 @@ def _results(methods: list[MethodView]) -> list[str]:
         for module, of_it in _RESULTS.items()
         if (names := [name for name in of_it if name in returned])
     ]
+
+
+def _bounds(range_: Range) -> str:
+    """A pair of numbers as Python writes it."""
+    return f"({range_.low}, {range_.high})"
 
 
 def _entry(each: Exchange) -> str:

@@ -81,9 +81,21 @@ def line_examples(layout: Layout) -> dict[str, list[str]]:
             ("--help", "what else it can do"),
         ],
     }
+    if layout.spec.pose is not None:
+        lines |= {
+            "play": [
+                ("poses.json --dry-run", "what would be sent, and when"),
+                ("poses.json --port COM7", "from pose to pose, each in a second"),
+                ("poses.json --port COM7 --time-ms 500 --pause 1 --repeat 3", "faster, and thrice"),
+            ],
+            "teach": [
+                ("poses.json --port COM7", "all that are there, at each Enter"),
+                ("poses.json --port COM7 --ids 1-3 --append", "three, behind what is recorded"),
+            ],
+        }
     return {
         verb: _pairs((f"{program} {verb} {words}".rstrip(), what) for words, what in examples)
-        for verb, examples in lines.items()
+        for verb, examples in sorted(lines.items())
     }
 
 

@@ -7,6 +7,7 @@ from framegen.targets.python.escape import WIDTH
 # What every library exports besides its messages, and the module that each is in.
 HOMES = {
     "MESSAGES": "messages",
+    "AbsentError": "link_errors",
     "AsyncController": "async_controller",
     "AsyncMotion": "motion",
     "ClosedError": "link_errors",
@@ -19,6 +20,7 @@ HOMES = {
     "EchoError": "link_errors",
     "EncodeError": "errors",
     "IncompleteReplyError": "link_errors",
+    "LimitError": "errors",
     "LineCounters": "counters",
     "Message": "message",
     "Motion": "motion",

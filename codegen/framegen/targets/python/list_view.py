@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 from framegen.exchanges import snake_case
 from framegen.layout import Repeat, WireField
 from framegen.targets.python.escape import WIDTH, Bracketed, lines, literal
-from framegen.targets.python.number_view import NumberView
+from framegen.targets.python.number_view import AbsentView, NumberView, absent_view
 from framegen.targets.python.words import range_expression, struct_order
 
 if TYPE_CHECKING:
@@ -48,6 +48,11 @@ class ListView:
     @property
     def fields(self) -> list[NumberView]:
         return [NumberView(field, self.spec) for field in self.layout.fields]
+
+    @property
+    def absent(self) -> AbsentView | None:
+        """What tells whether an element is absent, where one can be."""
+        return absent_view(self.fields)
 
     @property
     def codes(self) -> str:

@@ -36,7 +36,7 @@ class LookalikeView:
         sizes = {name: part_size(part) for name, part in self.frame.items()}
         uncounted = sum(size for name, size in sizes.items() if name not in counted)
         commands = [str(code) for code in sorted(self.lookalike.commands)]
-        described = [
+        described: list[str | Bracketed] = [
             Bracketed("constants=(", self._constants(places), ")", lone=","),
             f"length={_slice(places[self._only(LengthPart)])}",
             f"uncounted={uncounted}",

@@ -11,7 +11,7 @@ from framegen.layout import Repeat, WireField
 from framegen.names import PYTHON_BUILTINS, PYTHON_KEYWORDS
 from framegen.targets.python.escape import Bracketed, literal, session
 from framegen.targets.python.list_view import ListView, given
-from framegen.targets.python.number_view import NumberView
+from framegen.targets.python.number_view import AbsentView, NumberView, absent_view
 from framegen.targets.python.words import direction_member, range_expression
 
 if TYPE_CHECKING:
@@ -107,6 +107,11 @@ class MessageView:
         repeat = self.layout.repeat
         fields = [*self.layout.numbers, *(repeat.fields if repeat else ())]
         return any(field.narrowed for field in fields)
+
+    @property
+    def absent(self) -> AbsentView | None:
+        """What tells whether the message says that there is nothing to tell of, where it can."""
+        return absent_view(self.given)
 
     @property
     def arguments(self) -> list[str]:

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from framegen.targets.python.escape import Bracketed, literal
+from framegen.wiretypes import WIRE_TYPES
 
 if TYPE_CHECKING:
     from framegen.layout import WireField
@@ -19,6 +20,23 @@ class Constant:
     name: str
     value: int
     about: str
+
+
+@dataclass(frozen=True, slots=True)
+class SignedView:
+    """A number read as signed, as a property beside it."""
+
+    name: str
+    doc: list[str]
+    read: str
+
+
+@dataclass(frozen=True, slots=True)
+class AbsentView:
+    """What tells whether there is nothing to tell of, as a property."""
+
+    doc: list[str]
+    read: str
 
 
 @dataclass(frozen=True, slots=True)
@@ -50,7 +68,41 @@ class NumberView:
         notes = [
             f"{note.text} ({self.spec.sources[note.cite.source].title})" for note in field.notes
         ]
-        return [field.about, f"{self.low}..{self.high}{unit}{scale}.", *named, *notes]
+        return [field.about, f"{self.low}..{self.high}{unit}{scale}.", *self._sent, *named, *notes]
+
+    @property
+    def _sent(self) -> list[str]:
+        """What a client sends of it unless told otherwise."""
+        limits = self.layout.field.limits
+        if limits is None:
+            return []
+        others = [f"{name} take {range_}" for name, range_ in limits.others.items()]
+        told = f" ({', '.join(others)})" if others else ""
+        return [f"A client sends {limits.usual} unless its `limits` say otherwise{told}."]
+
+    @property
+    def signed(self) -> SignedView | None:
+        """What reads it as signed, where it can be."""
+        signed_as = self.layout.field.signed_as
+        if signed_as is None:
+            return None
+        wire = WIRE_TYPES[signed_as]
+        sign = wire.high + 1
+        return SignedView(
+            f"signed_{self.name}",
+            [
+                f"`{self.name}` read as {signed_as}, which may be below zero.",
+                f"{wire.low}..{wire.high}. One that is `absent` has none."
+                if self.absent_values
+                else f"{wire.low}..{wire.high}.",
+            ],
+            f"(self.{self.name} ^ {sign:#x}) - {sign:#x}",
+        )
+
+    @property
+    def absent_values(self) -> list[int]:
+        """The values that say that there is nothing to tell of."""
+        return [each.value for each in self.layout.field.values.values() if each.absent]
 
     @property
     def constants(self) -> list[Constant]:
@@ -85,3 +137,19 @@ class NumberView:
             names = [f"{literal(name)}: {value.value}" for name, value in field.values.items()]
             items.append(Bracketed("names={", names, "}"))
         return Bracketed("Number(", items, ")")
+
+
+def absent_view(fields: list[NumberView]) -> AbsentView | None:
+    """What tells whether an element, or a message, with these numbers is absent."""
+    for field in fields:
+        values = field.absent_values
+        if values:
+            named = field.layout.field.values
+            about = [each.about for each in named.values() if each.absent]
+            shown = ", ".join(map(str, values))
+            test = f"== {shown}" if len(values) == 1 else f"in ({shown})"
+            return AbsentView(
+                [f"Whether `{field.name}` says that there is nothing to tell of.", *about],
+                f"self.{field.name} {test}",
+            )
+    return None

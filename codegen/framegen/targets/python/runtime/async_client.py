@@ -12,6 +12,7 @@ from queue import SimpleQueue
 from typing import TYPE_CHECKING, TypeVar, overload
 
 from .client import GRACE, MARGIN, NEVER_CLOSED, REPORT_LIMIT, SLICE, repeat
+from .exchanges import LIMITS
 from .guarded import Guarded
 from .link_errors import ClosedError, IncompleteReplyError, NoReportError, TransportError
 from .motion import AsyncMotion
@@ -32,6 +33,7 @@ if TYPE_CHECKING:
     from typing_extensions import Self
 
     from .counters import LineCounters
+    from .limits import Bounds
     from .message import Message
     from .request import Sent
     from .transport import Transport
@@ -68,9 +70,11 @@ class AsyncClient:
         retries: int = 0,
         trace: str | PathLike[str] | None = None,
         report_limit: int = REPORT_LIMIT,
+        limits: Bounds | None = LIMITS.usual,
         local_echo: bool = False,
         settle: float | None = None,
     ) -> None:
+        self._limits = LIMITS.chosen(limits)
         self._transport = Guarded(transport)
         self._name = self._transport.name
         self._retries = retries
@@ -80,6 +84,7 @@ class AsyncClient:
             margin=margin,
             report_limit=report_limit,
             tap=self._tap,
+            limits=self._limits,
             local_echo=local_echo,
             settle=settle,
             name=self._name,
@@ -145,7 +150,7 @@ class AsyncClient:
 
         Returns when it has been handed over; `delay` of the result is when it will be on the wire.
         The result is an AsyncMotion for a command that lasts, and a Run for one that is
-        acknowledged. Raises TransportError.
+        acknowledged. Raises LimitError for what is outside the limits, and TransportError.
         """
         request = await self._done(message, None)
         if request.sent is None:
@@ -157,6 +162,7 @@ class AsyncClient:
 
         It takes the place of what waits here of the same class for the same servos, or for fewer.
         So a stream of motions faster than the line is thinned out instead of falling behind.
+        Raises LimitError for what is outside the limits.
         """
         self._submit_latest(message)
 
@@ -355,6 +361,12 @@ class AsyncClient:
         if missing:
             raise IncompleteReplyError(asked, missing, replies, arrived)
         return replies
+
+    async def _exchanged(
+        self, kind: type[Message], items: Iterable[Any]
+    ) -> list[tuple[Message, Message]]:
+        """Each request that a question about a list takes, with its reply, whole or not."""
+        return [(each, await self.request(each)) for each in parts_of(kind, items)]
 
     async def _reply(self, message: Message, kind: type[_Reply]) -> _Reply:
         reply = await self.request(message)

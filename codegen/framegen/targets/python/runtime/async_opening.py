@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 from .async_client import close_late
 from .async_controller import AsyncController
 from .client import MARGIN, REPORT_LIMIT
+from .exchanges import LIMITS
 from .protocol import BAUD
 from .serial_port import open_transport
 
@@ -18,6 +19,7 @@ if TYPE_CHECKING:
     from types import TracebackType
     from typing import Any
 
+    from .limits import Bounds
     from .transport import Transport
 
 
@@ -77,6 +79,7 @@ def open_async_controller(
     retries: int = 0,
     trace: str | PathLike[str] | None = None,
     report_limit: int = REPORT_LIMIT,
+    limits: Bounds | None = LIMITS.usual,
     local_echo: bool = False,
     settle: float | None = None,
 ) -> Opening:
@@ -93,6 +96,7 @@ def open_async_controller(
         retries=retries,
         trace=trace,
         report_limit=report_limit,
+        limits=limits,
         local_echo=local_echo,
         settle=settle,
     )

@@ -10,6 +10,7 @@ import weakref
 from contextlib import contextmanager
 from typing import TYPE_CHECKING, TypeVar, overload
 
+from .exchanges import LIMITS
 from .guarded import Guarded
 from .link_errors import (
     ClosedError,
@@ -34,6 +35,7 @@ if TYPE_CHECKING:
     from typing_extensions import Self
 
     from .counters import LineCounters
+    from .limits import Bounds
     from .message import Message
     from .request import Request, Sent
     from .transport import Transport
@@ -66,9 +68,10 @@ class Client:
     pacing are worked out from (math.inf for a line that takes no time), `margin` the seconds that
     an answer may take besides, `retries` how often a question is asked again that was not answered,
     `trace` a file that every frame is recorded in, for `recordings` and `decode` to read (what it
-    holds already is never overwritten: FileExistsError), `report_limit` how many reports are kept.
-    With `background`, a thread listens while nobody waits; without, only calls read the line, and
-    `clock` may be of any kind.
+    holds already is never overwritten: FileExistsError), `report_limit` how many reports are kept,
+    `limits` the lowest and the highest position (or whatever has limits) that is sent, None for
+    any. With `background`, a thread listens while nobody waits; without, only calls read the line,
+    and `clock` may be of any kind.
 
     `local_echo` says that the line gives back what is sent, as half-duplex adapters do: it is then
     expected, compared and dropped, and EchoError raised where it does not come. `settle` is for how
@@ -86,11 +89,13 @@ class Client:
         retries: int = 0,
         trace: str | PathLike[str] | None = None,
         report_limit: int = REPORT_LIMIT,
+        limits: Bounds | None = LIMITS.usual,
         background: bool = True,
         clock: Callable[[], float] = time.monotonic,
         local_echo: bool = False,
         settle: float | None = None,
     ) -> None:
+        self._limits = LIMITS.chosen(limits)
         self._transport = Guarded(transport)
         self._name = self._transport.name
         self._retries = retries
@@ -103,6 +108,7 @@ class Client:
             margin=margin,
             report_limit=report_limit,
             tap=self._tap,
+            limits=self._limits,
             local_echo=local_echo,
             settle=settle,
             name=self._name,
@@ -166,7 +172,7 @@ class Client:
 
         Returns when it has been handed over; `delay` of the result is when it will be on the wire.
         The result is a Motion for a command that lasts, and a Run for one that is acknowledged.
-        Raises TransportError.
+        Raises LimitError for what is outside the limits, and TransportError.
         """
         request = self._done(message, None)
         if request.sent is None:
@@ -178,6 +184,7 @@ class Client:
 
         It takes the place of what waits here of the same class for the same servos, or for fewer.
         So a stream of motions faster than the line is thinned out instead of falling behind.
+        Raises LimitError for what is outside the limits.
         """
         self._submit_latest(message)
 
@@ -393,6 +400,12 @@ class Client:
         if missing:
             raise IncompleteReplyError(asked, missing, replies, arrived)
         return replies
+
+    def _exchanged(
+        self, kind: type[Message], items: Iterable[Any]
+    ) -> list[tuple[Message, Message]]:
+        """Each request that a question about a list takes, with its reply, whole or not."""
+        return [(each, self.request(each)) for each in parts_of(kind, items)]
 
     def _reply(self, message: Message, kind: type[_Reply]) -> _Reply:
         reply = self.request(message)

@@ -37,6 +37,19 @@ class EncodeError(ProtocolError, ValueError):
         return f"{self.path}: {self.problem}"
 
 
+class LimitError(EncodeError):
+    """A value that a frame could carry, and that this end does not send: it is outside `limits`."""
+
+    def __init__(self, path: str, value: object, limits: tuple[int, int], way_out: str) -> None:
+        low, high = limits
+        super().__init__(path, value, f"{value} is outside the limits {low}..{high}; {way_out}")
+        self.limits = limits
+        self.way_out = way_out
+
+    def __reduce__(self) -> tuple[type[LimitError], tuple[str, object, tuple[int, int], str]]:
+        return type(self), (self.path, self.value, self.limits, self.way_out)
+
+
 class DecodeError(ProtocolError, ValueError):
     """Bytes that are not the frame they were taken for.
 

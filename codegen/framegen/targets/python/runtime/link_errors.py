@@ -141,6 +141,17 @@ class IncompleteReplyError(ProtocolError):
         )
 
 
+class AbsentError(IncompleteReplyError):
+    """Some of those that were to be held are switched off or missing, so that nothing was sent."""
+
+    def __str__(self) -> str:
+        missing = ", ".join(str(number) for number in self.missing)
+        return (
+            f"nothing was sent, since these are off or missing: {self.asked} {missing}; "
+            f"what did arrive ({len(self.arrived)}) is kept in `arrived`"
+        )
+
+
 class NoReportError(ProtocolError, TimeoutError):
     """A report did not come. `report` is what was waited for, `waited` how many seconds.
 

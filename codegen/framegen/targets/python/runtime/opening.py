@@ -6,11 +6,14 @@ from typing import TYPE_CHECKING
 
 from .client import MARGIN, REPORT_LIMIT
 from .controller import Controller
+from .exchanges import LIMITS
 from .protocol import BAUD
 from .serial_port import open_transport
 
 if TYPE_CHECKING:
     from os import PathLike
+
+    from .limits import Bounds
 
 
 def open_controller(
@@ -22,6 +25,7 @@ def open_controller(
     retries: int = 0,
     trace: str | PathLike[str] | None = None,
     report_limit: int = REPORT_LIMIT,
+    limits: Bounds | None = LIMITS.usual,
     local_echo: bool = False,
     settle: float | None = None,
 ) -> Controller:
@@ -42,6 +46,7 @@ def open_controller(
             retries=retries,
             trace=trace,
             report_limit=report_limit,
+            limits=limits,
             local_echo=local_echo,
             settle=settle,
         )

@@ -37,7 +37,7 @@ from typing import TYPE_CHECKING
 from .acknowledgements import Acknowledgements
 from .careful_decoder import GAP, CarefulDecoder
 from .counters import LineCounters
-from .exchanges import EXCHANGES, RECEIVED
+from .exchanges import EXCHANGES, LIMITS, RECEIVED
 from .link_errors import EchoError, NoReplyError
 from .local_echo import EchoWatch, LocalEcho
 from .noise import Noise
@@ -48,6 +48,7 @@ from .room import check_room
 from .wire import Wire
 
 if TYPE_CHECKING:
+    from .limits import Bounds
     from .message import Message
     from .tap import Tap
 
@@ -79,9 +80,10 @@ class _Overdue:
 class Session:
     """One end of a line. Times are seconds on any clock that never goes back.
 
-    `margin` is how long the controller may take for an answer, besides the time on the wire.
-    `local_echo` says that the line gives back what is sent; `settle` is for how many seconds
-    nothing is asked on a line that has been opened, None for one reply time where that may matter.
+    `margin` is how long the controller may take for an answer, besides the time on the wire, and
+    `limits` what may be sent of that which has limits. `local_echo` says that the line gives back
+    what is sent; `settle` is for how many seconds nothing is asked on a line that has been opened,
+    None for one reply time where that may matter.
     """
 
     def __init__(
@@ -91,6 +93,7 @@ class Session:
         margin: float,
         report_limit: int,
         tap: Tap | None = None,
+        limits: Bounds | None = None,
         local_echo: bool = False,
         settle: float | None = None,
         name: str = "the line",
@@ -109,6 +112,7 @@ class Session:
         # The longest frame that the line carries; None for any.
         self.largest_frame: int | None = None
         self._margin = margin
+        self._limits = limits
         self._name = name
         self._tap = tap
         self._settle = settle
@@ -143,8 +147,9 @@ class Session:
         retries: int = 0,
         latest: bool = False,
     ) -> Request:
-        """Asks for a message to be sent. Raises EncodeError where no reply could answer it.
+        """Asks for a message to be sent.
 
+        Raises EncodeError where no reply could answer it, LimitError where the limits forbid it.
         With `question`, TypeError is raised where it has no reply, or has one against expectation.
         """
         exchange = EXCHANGES.get(type(message))
@@ -156,6 +161,7 @@ class Session:
             raise TypeError(f"{message!r} is a command: send() sends it, and nothing answers")
         exchange.check(message)
         check_room(message, self.largest_frame)
+        LIMITS.check(message, self._limits)
         request = Request(message, exchange, retries=retries, latest=latest)
         if self._asks_first is None:
             self._asks_first = exchange.reply is not None

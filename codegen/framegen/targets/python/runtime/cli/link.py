@@ -8,6 +8,7 @@ import sys
 from contextlib import contextmanager
 
 from ..client import MARGIN, Client
+from ..exchanges import LIMITS
 from ..link_errors import ClosedError, DisconnectedError, TransportError, WriteStuckError
 from ..protocol import BAUD
 from ..serial_port import open_transport
@@ -21,6 +22,7 @@ if TYPE_CHECKING:
     import argparse
     from collections.abc import Iterator
 
+    from ..limits import Bounds
     from ..transport import Transport
 
 ENDS = {
@@ -68,7 +70,7 @@ def add_timeout(parser: argparse.ArgumentParser) -> None:
     """Declares the option that says how long an answer may take."""
     parser.add_argument(
         "--timeout",
-        type=above_zero("number of seconds", highest=_LONGEST),
+        type=above_zero(highest=_LONGEST, unit="seconds"),
         default=MARGIN,
         metavar="S",
         help="seconds that the board may take for an answer, besides those on the wire "
@@ -88,7 +90,9 @@ def open_line(port: str, baud: float = BAUD) -> Transport:
         raise UnusableError(str(error)) from None
 
 
-def open_client(arguments: argparse.Namespace, *, retries: int = 0) -> Client:
+def open_client(
+    arguments: argparse.Namespace, *, retries: int = 0, limits: Bounds | None = LIMITS.usual
+) -> Client:
     """As open_line, for a client that waits as long as the arguments say."""
     return Client(
         open_line(arguments.port, arguments.baud),
@@ -96,6 +100,7 @@ def open_client(arguments: argparse.Namespace, *, retries: int = 0) -> Client:
         margin=arguments.timeout,
         retries=retries,
         local_echo=arguments.local_echo,
+        limits=limits,
     )
 
 

@@ -38,7 +38,8 @@ the line can carry it; raw bytes and plain hex have no times, and go as fast as 
 sent is left out. What is no frame, or may be of either end, is refused before anything is sent,
 unless an option says what to do with it. What is sent is printed, and so is what comes back.
 
-The board does at once what it is told: give the arm room, and look at --dry-run first."""
+The board does at once what it is told, within the limits of `send` or beyond them: give the arm
+room, and look at --dry-run first."""
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -47,7 +48,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add_port(parser, required=False, client=False)
     parser.add_argument(
         "--speed",
-        type=above_zero("number"),
+        type=above_zero(),
         default=1.0,
         metavar="X",
         help="so many times as fast as it was recorded; inf: as fast as the line can (default: 1)",

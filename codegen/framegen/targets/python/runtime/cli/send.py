@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import sys
 
-from ..errors import EncodeError
+from ..errors import EncodeError, LimitError
 from ..exchanges import EXCHANGES
 from ..link_errors import NoReplyError
 from ..outcome import lacking
@@ -12,6 +12,7 @@ from ..recording_entry import Entry
 from . import link
 from .entries import EntryLines
 from .exits import DONE, NOT_ALL
+from .limits import add_limits, limits_of, refused
 from .link import add_port, add_timeout, failures_told, open_client
 from .numerals import at_least
 from .questions import in_parts
@@ -43,6 +44,7 @@ def add_arguments(parser: ArgumentParser) -> None:
         help="ask so often again where no reply comes (default: 0)",
     )
     add_timeout(parser)
+    add_limits(parser)
     parser.add_argument("--json", action="store_true", help="print the reply as a line of JSON")
 
 
@@ -55,10 +57,17 @@ def run(arguments: Namespace) -> int:
     lines = EntryLines(sys.stdout, "json" if arguments.json else "text")
     missing: dict[str, list[int]] = {}
     silent: NoReplyError | None = None
-    with failures_told(), open_client(arguments, retries=arguments.retries) as controller:
+    with (
+        failures_told(),
+        open_client(
+            arguments, retries=arguments.retries, limits=limits_of(arguments)
+        ) as controller,
+    ):
         for message in messages:
             try:
                 reply = _answer(controller, message)
+            except LimitError as error:
+                raise refused(error) from None
             except EncodeError as error:
                 raise UnusableError(str(error)) from None
             except NoReplyError as error:

@@ -1,0 +1,47 @@
+"""Rule: who is told to be absent by a value is told so by one field."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from framegen.checks.fields import owned_numbers
+from framegen.checks.rule import Problem, StructureRule
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from framegen.spec import Spec
+    from framegen.yamltree import KeyPath
+
+
+def _look(spec: Spec) -> Iterator[Problem]:
+    for path, fields in owned_numbers(spec):
+        first: KeyPath | None = None
+        for name, field in fields.items():
+            marked = [key for key, named in field.values.items() if named.absent]
+            if not marked:
+                continue
+            here = (*path, name, "values", marked[0], "absent")
+            if field.counted_by is not None:
+                what = "numbers in a list have no property that could tell who is absent"
+                yield Problem(here, what, "give the list an `element` with fields", on_key=True)
+            elif "absent" in fields:
+                what = "there is a field `absent` already, and this would be called so"
+                yield Problem(here, what, "choose another name for that field", on_key=True)
+            elif first is not None:
+                what = "another field tells who is absent"
+                also = (first, "it is here")
+                yield Problem(here, what, "mark the values of one field", on_key=True, also=also)
+            else:
+                first = here
+
+
+RULE = StructureRule(
+    id="absent",
+    title="Who is told to be absent by a value is told so by one field",
+    why="Users ask an element, or a message, whether it is `absent`: one question, which has one "
+    "answer and no other field's name.",
+    bad="fields: {absent: {type: u8}, level: {values: {off: {value: 0, absent: true}}}}",
+    good="fields: {level: {values: {off: {value: 0, absent: true}}}}",
+    look=_look,
+)

@@ -1,0 +1,49 @@
+"""Rule: what an example sends is inside the limits of one device or another."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from framegen.checks.rule import LayoutRule, Problem
+from framegen.codec import NotAFrame, decode
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from framegen.layout import Layout
+    from framegen.spec import Limits
+
+
+def _look(layout: Layout) -> Iterator[Problem]:
+    for name, message in layout.messages.items():
+        for number, example in enumerate(message.message.examples if message.limited else ()):
+            try:
+                values = decode(layout, message.direction, example.hex).values
+            except NotAFrame:
+                # The rule `example` speaks of it.
+                continue
+            for path, limits in message.limited.items():
+                outer, _, inner = path.partition(".")
+                told = values[outer]
+                for item in told if isinstance(told, list) else [told]:
+                    value = item[inner] if inner else item
+                    if not _inside(limits, value):
+                        here = ("messages", name, "examples", number, "values", outer)
+                        what = f"`{inner or outer}` is {value}, outside all limits"
+                        yield Problem(here, what, "mend the example, or widen the limits")
+
+
+def _inside(limits: Limits, value: int) -> bool:
+    ranges = [limits.usual, *limits.others.values()]
+    return any(each.low <= value <= (each.high or 0) for each in ranges)
+
+
+RULE = LayoutRule(
+    id="limited-example",
+    title="What an example sends is inside the limits of one device or another",
+    why="A frame that was published for a device is one that it takes: limits that refuse it are "
+    "wrong, or forget that device.",
+    bad="level: {type: u16, limits: {usual: 0..50}}  # and an example with 100",
+    good="level: {type: u16, limits: {usual: 0..100}}  # and an example with 100",
+    look=_look,
+)

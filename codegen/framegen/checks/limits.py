@@ -1,0 +1,70 @@
+"""Rule: limits are values that the field can have, the same wherever a client has them."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from framegen.checks.fields import numbers_of
+from framegen.checks.rule import Problem, StructureRule
+from framegen.exchanges import sent_by_client
+from framegen.wiretypes import WIRE_TYPES
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from framegen.spec import Limits, NumberField, Spec
+    from framegen.values import Range
+    from framegen.yamltree import KeyPath
+
+
+def _look(spec: Spec) -> Iterator[Problem]:
+    first: tuple[KeyPath, Limits] | None = None
+    for name, message in spec.messages.items():
+        for path, field in numbers_of(("messages", name), message):
+            if field.limits is None:
+                continue
+            here = (*path, "limits")
+            if message.direction != sent_by_client(spec):
+                what = f"{name} is no message of a client's, which has nothing to refuse in it"
+                yield Problem(here, what, "leave the limits out", on_key=True)
+                continue
+            yield from _bounds((*here, "usual"), field.limits.usual, field)
+            for other, range_ in field.limits.others.items():
+                yield from _bounds((*here, "others", other), range_, field)
+            first = first or (here, field.limits)
+            if field.limits != first[1]:
+                what = "these limits are others than those above, and a client is told one pair"
+                also = (first[0], "the first are here")
+                yield Problem(here, what, "give every field the same ones", on_key=True, also=also)
+
+
+def _bounds(path: KeyPath, range_: Range, field: NumberField) -> Iterator[Problem]:
+    wire = WIRE_TYPES.get(field.type)
+    if range_.high is None:
+        yield Problem(path, f"the limits {range_} have no end", "write both ends, like 0..1000")
+        return
+    if range_.low > range_.high:
+        what = f"the limits {range_} begin above their end"
+        yield Problem(path, what, f"write {range_.high}..{range_.low}")
+        return
+    if wire is None:
+        return
+    low, high = wire.low, wire.high
+    if field.range is not None:
+        low = field.range.low
+        high = wire.high if field.range.high is None else field.range.high
+    for end in dict.fromkeys((range_.low, range_.high)):
+        if not low <= end <= high:
+            what = f"{end} is outside {low}..{high}, which the field allows"
+            yield Problem(path, what, "keep the limits inside the range of the field")
+
+
+RULE = StructureRule(
+    id="limits",
+    title="Limits are values that the field can have, the same wherever a client has them",
+    why="A client refuses what is outside: by limits that no frame can reach it refuses nothing, "
+    "and of two pairs nobody could say which one `limits=` is about.",
+    bad="level: {type: u8, limits: {usual: 0..1000}}",
+    good="level: {type: u16, limits: {usual: 0..1000}}",
+    look=_look,
+)

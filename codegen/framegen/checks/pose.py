@@ -1,0 +1,107 @@
+"""Rule: positions are read, commanded and let go by messages that speak of the same things."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from framegen.checks.rule import Problem, StructureRule
+from framegen.exchanges import arguments_of, sent_by_client
+from framegen.findings import did_you_mean
+from framegen.spec import GroupField, NumberField
+from framegen.wiretypes import WIRE_TYPES
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from framegen.spec import Message, Pose, Spec
+
+
+def _look(spec: Spec) -> Iterator[Problem]:
+    if spec.pose is None or not spec.messages:
+        return
+    found = list(_messages(spec, spec.pose))
+    yield from found
+    if found:
+        return
+    read, move, release = (
+        spec.messages[name] for name in (spec.pose.read, spec.pose.move, spec.pose.release)
+    )
+    asked = _lone_list(read)
+    told = None if asked is None else _told(spec, read, asked)
+    if asked is None or told is None:
+        what = f"{spec.pose.read} does not ask for a list of numbers alone, each with its position"
+        hint = "its reply repeats the list (`echoed`), in elements of a number and a position"
+        yield Problem(("pose", "read"), what, hint)
+        return
+    yield from _ids(spec.pose, read.fields[asked])
+    yield from _move(spec.pose.move, move, told)
+    if _lone_list(release) != asked:
+        what = f"{spec.pose.release} does not let go of a list `{asked}` alone"
+        yield Problem(("pose", "release"), what, f"{spec.pose.read} is given `{asked}`")
+
+
+def _messages(spec: Spec, pose: Pose) -> Iterator[Problem]:
+    sent = [name for name, each in spec.messages.items() if each.direction == sent_by_client(spec)]
+    for key in ("read", "move", "release"):
+        name: str = getattr(pose, key)
+        if name not in sent:
+            there = "is no message of a client's" if name in spec.messages else "is no message"
+            yield Problem(("pose", key), f"`{name}` {there}", did_you_mean(name, sent))
+    if pose.release == pose.read:
+        what = f"{pose.read} asks for positions, and cannot let go of them as well"
+        yield Problem(("pose", "release"), what, "name the message that lets go")
+
+
+def _lone_list(message: Message) -> str | None:
+    """The list of numbers that is all that a message is given."""
+    names = arguments_of(message)
+    if len(names) != 1:
+        return None
+    field = message.fields[names[0]]
+    listed = isinstance(field, NumberField) and field.counted_by is not None
+    return names[0] if listed else None
+
+
+def _told(spec: Spec, read: Message, asked: str) -> list[str] | None:
+    """The fields of an element of the reply: the number that was asked about, and its position."""
+    reply = None if read.reply is None else spec.messages.get(read.reply)
+    name, _, inner = read.echoed.get(asked, "").partition(".")
+    group = None if reply is None else reply.fields.get(name)
+    if not isinstance(group, GroupField):
+        return None
+    fields = list(group.fields)
+    return fields if len(fields) == 2 and fields[0] == inner else None
+
+
+def _ids(pose: Pose, field: NumberField | GroupField) -> Iterator[Problem]:
+    wire = WIRE_TYPES.get(getattr(field, "type", ""))
+    low, high = pose.ids.low, pose.ids.high
+    if high is None or low > high:
+        what = f"the numbers {pose.ids} have no end, or one below their beginning"
+        yield Problem(("pose", "ids"), what, "write both ends, like 1..253")
+    elif wire is not None and not wire.low <= low <= high <= wire.high:
+        what = f"{pose.ids} is more than {wire.low}..{wire.high}, which {wire.name} holds"
+        yield Problem(("pose", "ids"), what, "keep them inside the type")
+
+
+def _move(name: str, move: Message, told: list[str]) -> Iterator[Problem]:
+    given = {key: move.fields[key] for key in arguments_of(move)}
+    groups = [field for field in given.values() if isinstance(field, GroupField)]
+    if [list(group.fields) for group in groups] != [told]:
+        what = f"{name} has no list of elements with the fields {' and '.join(told)}"
+        yield Problem(("pose", "move"), what, "name them as the reply has them")
+    numbers = [field for field in given.values() if isinstance(field, NumberField)]
+    if len(numbers) != 1 or numbers[0].counted_by is not None:
+        what = f"{name} is not given one number besides the list"
+        yield Problem(("pose", "move"), what, "it has to be the milliseconds that the motion takes")
+
+
+RULE = StructureRule(
+    id="pose",
+    title="Positions are read, commanded and let go by messages that speak of the same things",
+    why="A client holds what it has read, and plays what was recorded: the numbers of a reply have "
+    "to be those that a command takes.",
+    bad="pose: {read: LampRead, move: FansSet, ...}",
+    good="pose: {read: LampsRead, move: LampsSet, ...}",
+    look=_look,
+)

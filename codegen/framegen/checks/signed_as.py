@@ -1,0 +1,57 @@
+"""Rule: a number that can be read as signed is unsigned itself, as wide, and has a name for it."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from framegen.checks.fields import owned_numbers
+from framegen.checks.rule import Problem, StructureRule
+from framegen.findings import did_you_mean
+from framegen.wiretypes import WIRE_TYPES
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from framegen.spec import NumberField, Spec
+    from framegen.yamltree import KeyPath
+
+
+def _look(spec: Spec) -> Iterator[Problem]:
+    for path, fields in owned_numbers(spec):
+        for name, field in fields.items():
+            if field.signed_as is not None:
+                here = (*path, name, "signed_as")
+                yield from _type(here, field, field.signed_as)
+                yield from _name(here, name, field, [*fields])
+
+
+def _type(path: KeyPath, field: NumberField, signed_as: str) -> Iterator[Problem]:
+    signed = [wire.name for wire in WIRE_TYPES.values() if wire.low < 0]
+    wire = WIRE_TYPES.get(field.type)
+    if signed_as not in signed:
+        yield Problem(path, f"`{signed_as}` is no signed type", did_you_mean(signed_as, signed))
+    elif wire is not None and wire.low < 0:
+        yield Problem(path, f"{wire.name} is signed already", "leave `signed_as` out")
+    elif wire is not None and wire.size != WIRE_TYPES[signed_as].size:
+        same = next(name for name in signed if WIRE_TYPES[name].size == wire.size)
+        yield Problem(path, f"{signed_as} is not as wide as {wire.name}", f"write {same}")
+
+
+def _name(path: KeyPath, name: str, field: NumberField, others: list[str]) -> Iterator[Problem]:
+    if field.counted_by is not None:
+        what = "numbers in a list have no properties that could tell them as signed"
+        yield Problem(path, what, "give the list an `element` with fields", on_key=True)
+    elif f"signed_{name}" in others:
+        what = f"there is a field `signed_{name}` already, and this would be called so"
+        yield Problem(path, what, "choose another name for that field", on_key=True)
+
+
+RULE = StructureRule(
+    id="signed-as",
+    title="A number that can be read as signed is unsigned itself, as wide, and has a name for it",
+    why="The bits are the same and only their meaning differs: `signed_position` tells what "
+    "`position` is when it wraps round below zero.",
+    bad="position: {type: u16, signed_as: i8}",
+    good="position: {type: u16, signed_as: i16}",
+    look=_look,
+)

@@ -1,0 +1,202 @@
+"""What the templates of the two clients show of a pose: three methods beside those of messages."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from framegen.exchanges import arguments_of, exchanges
+from framegen.targets.python.escape import Bracketed, literal
+from framegen.targets.python.method_view import MethodView
+from framegen.targets.python.words import range_expression
+
+if TYPE_CHECKING:
+    from framegen.exchanges import Exchange
+    from framegen.layout import Layout, MessageLayout, Repeat
+    from framegen.spec import Pose
+    from framegen.targets.python.method_view import Flavour
+
+_RAISED = "NoReplyError where no reply comes in time, and TransportError."
+
+
+@dataclass(frozen=True, slots=True)
+class PoseView:
+    """The methods of a client that read and command the positions of many."""
+
+    pose: Pose
+    layout: Layout
+    flavour: Flavour
+
+    @property
+    def entry(self) -> str:
+        """What describes it to the runtime."""
+        pose = self.pose
+        items: list[str | Bracketed] = [
+            f"read={pose.read}",
+            f"move={pose.move}",
+            f"release={pose.release}",
+            f"ids={self._ids}",
+        ]
+        names = {
+            "asked": self.asked,
+            "told": self.told.name,
+            "position": self._position,
+            "moved": self._moved.name,
+            "time": self.time,
+            "hold": pose.hold,
+            "present": pose.present,
+            "targets": pose.targets,
+        }
+        items += [f"{key}={literal(name)}" for key, name in names.items()]
+        return Bracketed("POSE: Pose = Pose(", items, ")").fitted(0)
+
+    @property
+    def read(self) -> str:
+        """The message that asks for positions."""
+        return self.pose.read
+
+    @property
+    def asked(self) -> str:
+        """The numbers that are asked about."""
+        [name] = arguments_of(self._message(self.pose.read).message)
+        return name
+
+    @property
+    def told(self) -> Repeat:
+        """The list of positions in the reply."""
+        found = self._message(self._exchange(self.pose.read).request.message.reply or "").repeat
+        if found is None:
+            raise AssertionError("the rule pose sees to that")
+        return found
+
+    @property
+    def element(self) -> str:
+        """The class of one position."""
+        return self.told.element or ""
+
+    @property
+    def time(self) -> str:
+        """The argument that says how long a motion takes."""
+        lists = [self._moved.name]
+        [name] = [
+            each
+            for each in arguments_of(self._message(self.pose.move).message)
+            if each not in lists
+        ]
+        return name
+
+    @property
+    def move_method(self) -> str:
+        """The method that commands positions."""
+        return self._exchange(self.pose.move).method.name
+
+    @property
+    def moves(self) -> str:
+        """What that method returns."""
+        return MethodView(self._exchange(self.pose.move), self.layout, self.flavour).returns
+
+    @property
+    def call(self) -> str:
+        """What sends it."""
+        given = {
+            self._moved.name: "targets",
+            self.time: self.time,
+        }
+        arguments = [
+            f"{name}={given[name]}" for name in self._exchange(self.pose.move).method.arguments
+        ]
+        before = f"return {self.flavour.wait}self.{self.move_method}("
+        return Bracketed(before, [*arguments], ")").fitted(8)
+
+    @property
+    def exchanged(self) -> str:
+        """What asks about all that was given, and has the replies."""
+        before = f"exchanged = {self.flavour.wait}self._exchanged("
+        return Bracketed(before, [self.pose.read, self.asked], ")").fitted(8)
+
+    @property
+    def hold(self) -> str:
+        """The declaration of the method that commands what it reads."""
+        given = ["self", f"{self.asked}: Iterable[int]", f"{self.time}: int = HOLD_MS"]
+        before = f"{self.flavour.define}{self.pose.hold}("
+        return Bracketed(before, given, f") -> {self.moves}:").fitted(4)
+
+    @property
+    def present(self) -> str:
+        """The declaration of the method that finds who is there."""
+        given = ["self", f"{self.asked}: Iterable[int] | None = None"]
+        before = f"{self.flavour.define}{self.pose.present}("
+        return Bracketed(before, given, ") -> tuple[int, ...]:").fitted(4)
+
+    @property
+    def targets(self) -> str:
+        """The declaration of the method that makes targets of positions."""
+        given = ["self", f"{self.told.name}: Iterable[{self.element}]"]
+        return Bracketed(f"def {self.pose.targets}(", given, ") -> list[tuple[int, int]]:").fitted(
+            4
+        )
+
+    @property
+    def hold_doc(self) -> list[str]:
+        nearest = (
+            "The nearest there is to stopping a motion where no message does that: what moves goes "
+            "back to where it was when it was read, a reply and a command ago."
+        )
+        given = (
+            f"`{self.asked}`: Those to hold; all of them must be there. `{self.time}`: How long "
+            "the way back may take, in ms."
+        )
+        return [
+            "Command the positions that are read at this moment.",
+            nearest,
+            given,
+            f"Returns what `{self.move_method}` does.",
+            f"Raises AbsentError, with nothing sent, where one is off or missing; {_RAISED}",
+        ]
+
+    @property
+    def present_doc(self) -> list[str]:
+        given = (
+            f"`{self.asked}`: Those to look for; without it, {self.pose.ids}. They are asked "
+            "about in as many requests as replies have room for."
+        )
+        return [
+            "Find out who is there, and not absent.",
+            given,
+            f"Returns their numbers, in the order asked. Silence is no answer: {_RAISED}",
+        ]
+
+    @property
+    def targets_doc(self) -> list[str]:
+        taken = (
+            "What is absent is left out. What is outside the limits of this client, or below "
+            "zero, which no command can say, is taken to the nearest position that is inside."
+        )
+        return [
+            "Make targets of positions that were read, to go back there.",
+            taken,
+            f"Returns what `{self.move_method}` takes as `{self._moved.name}`.",
+        ]
+
+    @property
+    def _ids(self) -> str:
+        high = self.pose.ids.high
+        return range_expression(range(self.pose.ids.low, (0 if high is None else high) + 1))
+
+    @property
+    def _position(self) -> str:
+        field = self.told.fields[1]
+        return f"signed_{field.name}" if field.field.signed_as else field.name
+
+    @property
+    def _moved(self) -> Repeat:
+        found = self._message(self.pose.move).repeat
+        if found is None:
+            raise AssertionError("the rule pose sees to that")
+        return found
+
+    def _message(self, name: str) -> MessageLayout:
+        return self.layout.messages[name]
+
+    def _exchange(self, name: str) -> Exchange:
+        return next(each for each in exchanges(self.layout) if each.request.name == name)

@@ -1,0 +1,50 @@
+"""Reads and holds positions, for the verbs that record and play them."""
+
+from __future__ import annotations
+
+from ..exchanges import POSE
+from ..outcome import parts_of
+from ..pose import HOLD_MS
+from .unusable import UnusableError
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Sequence
+
+    from ..client import Client
+    from ..limits import Bounds
+    from ..pose import Pose
+
+
+def the_pose() -> Pose:
+    """How positions are read and commanded. Raises UnusableError where there are none."""
+    if POSE is None:
+        raise UnusableError("this protocol has no positions to read and to command")
+    return POSE
+
+
+def find_present(controller: Client, pose: Pose) -> tuple[int, ...]:
+    """The numbers of all that are there. Raises NoReplyError."""
+    return pose.present_in(controller.request(each) for each in parts_of(pose.read, pose.ids))
+
+
+def read_targets(
+    controller: Client, pose: Pose, ids: Sequence[int], limits: Bounds | None
+) -> list[tuple[int, int]]:
+    """Where these are now, as targets. Raises AbsentError unless all are there; NoReplyError."""
+    exchanged = [(each, controller.request(each)) for each in parts_of(pose.read, ids)]
+    return pose.held(exchanged, limits)
+
+
+def hold(controller: Client, pose: Pose, ids: Sequence[int], limits: Bounds | None) -> None:
+    """Commands where these are now. Raises AbsentError, NoReplyError."""
+    targets = read_targets(controller, pose, ids, limits)
+    # As many motions as it takes: the first is on its way before the next is made.
+    for at in range(0, len(targets), pose.room):
+        controller.send(pose.motion(targets[at : at + pose.room], HOLD_MS))
+
+
+def listed(pose: Pose, ids: Iterable[int]) -> str:
+    """Some of them in words: `servo 1`, `servos 1, 2`."""
+    numbers = [str(each) for each in ids]
+    return f"{pose.noun}{'' if len(numbers) == 1 else 's'} {', '.join(numbers)}"

@@ -1,0 +1,474 @@
+"""`teach` and `play`: what they ask, what they keep, what they refuse, and what moves."""
+
+from __future__ import annotations
+
+import io
+import itertools
+import json
+import re
+import sys
+from pathlib import Path
+from tempfile import TemporaryDirectory
+from typing import TYPE_CHECKING, Any
+
+import pytest
+from busservo import ServoMove, ServoPositionsRead, ServoUnload
+from busservo.cli import main, positions
+from busservo.cli.posefile import Recorded, read_poses, write_poses
+from busservo.cli.unusable import UnusableError
+from busservo.exchanges import POSE
+from busservo_simulator import VirtualController
+from hypothesis import given
+from hypothesis import strategies as st
+
+from tests.patience import PATIENCE
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from busservo import Message
+
+PATIENT = ("--timeout", str(PATIENCE))
+
+
+@pytest.fixture
+def board() -> Iterator[VirtualController]:
+    # At the pace of the wire, as a client takes for granted: on a faster one it would be careful.
+    with VirtualController("tcp", servos=[1, 2, 3], baud=9600) as board:
+        yield board
+
+
+@pytest.fixture
+def heard(board: VirtualController) -> list[Message]:
+    """What the board has understood, in order."""
+    messages: list[Message] = []
+    accepted = board.board.accepted
+
+    def noted(message: Message) -> None:
+        messages.append(message)
+        accepted(message)
+
+    board.board.accepted = noted  # type: ignore[method-assign]
+    return messages
+
+
+@pytest.fixture
+def typed(monkeypatch: pytest.MonkeyPatch) -> Any:
+    """Has the next command read these keys."""
+    return lambda keys: monkeypatch.setattr(sys, "stdin", io.StringIO(keys))
+
+
+def poses_of(*poses: Any, **more: Any) -> str:
+    whole = {"format": "busservo poses", "version": 1, "poses": list(poses), **more}
+    return json.dumps(whole)
+
+
+def kinds(messages: list[Message]) -> list[type[Message]]:
+    return [type(each) for each in messages]
+
+
+# ------------------------------------------------------------------ teach
+
+
+def test_poses_are_recorded_at_each_enter_and_held_at_the_end(
+    board: VirtualController,
+    heard: list[Message],
+    typed: Any,
+    tmp_path: Path,
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    file = tmp_path / "poses.json"
+    typed("y\n\nwhat\n\nq\ny\n")
+    assert main(["teach", str(file), "--port", board.port, *PATIENT]) == 0
+    output, errors = capsys.readouterr()
+    assert output == "pose 1  1:500,2:500,3:500\npose 2  1:500,2:500,3:500\n"
+    assert "servos 1, 2, 3 will go limp, and what they hold up falls: hold it." in errors
+    assert "'what' is nothing that can be done here" in errors
+    assert "2 poses recorded; servos 1, 2, 3 held\n" in errors
+    assert heard[4] == ServoUnload([1, 2, 3])
+    assert heard[5:] == [
+        *(2 * [ServoPositionsRead([1, 2, 3])]),
+        ServoPositionsRead([1, 2, 3]),
+        ServoMove(time_ms=100, targets=[(1, 500), (2, 500), (3, 500)]),
+    ]
+    assert file.read_text() == (
+        '{\n  "format": "busservo poses",\n  "version": 1,\n  "poses": [\n'
+        '    {"positions": {"1": 500, "2": 500, "3": 500}},\n'
+        '    {"positions": {"1": 500, "2": 500, "3": 500}}\n  ]\n}\n'
+    )
+    assert list(tmp_path.iterdir()) == [file]
+
+
+@pytest.mark.parametrize("keys", ["", "\n", "n\n", "q\n", "no\ny\n"])
+def test_nothing_goes_limp_unless_that_is_agreed_to(
+    board: VirtualController,
+    heard: list[Message],
+    typed: Any,
+    keys: str,
+    tmp_path: Path,
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    typed(keys)
+    words = ["teach", str(tmp_path / "new"), "--port", board.port, "--ids", "1"]
+    assert main([*words, *PATIENT]) == 0
+    assert heard == []
+    assert "nothing was let go, and nothing recorded" in capsys.readouterr().err
+    assert list(tmp_path.iterdir()) == []
+
+
+@pytest.mark.parametrize(("keys", "told"), [("\n", "are limp"), ("\nq\n", "are limp")])
+def test_what_nobody_agrees_to_hold_stays_limp(
+    board: VirtualController,
+    typed: Any,
+    keys: str,
+    told: str,
+    tmp_path: Path,
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    typed(keys)
+    words = ["teach", str(tmp_path / "new"), "--port", board.port, "--yes", "--ids", "1-2"]
+    assert main([*words, *PATIENT]) == 0
+    assert f"1 pose recorded; servos 1, 2 {told}" in capsys.readouterr().err
+    assert [board.servos[each].loaded for each in (1, 2, 3)] == [False, False, True]
+
+
+def test_holding_can_be_had_without_being_asked(
+    board: VirtualController, typed: Any, tmp_path: Path
+) -> None:
+    typed("\n")
+    words = ["teach", str(tmp_path / "new"), "--port", board.port, "--yes", "--hold"]
+    assert main([*words, "--ids", "2", *PATIENT]) == 0
+    assert board.servos[2].loaded
+
+
+def test_who_does_not_answer_costs_a_pose_and_no_more(
+    board: VirtualController,
+    heard: list[Message],
+    typed: Any,
+    tmp_path: Path,
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    board.servos[2].off = True
+    typed("\nq\ny\n")
+    words = ["teach", str(tmp_path / "new"), "--port", board.port, "--yes", "--ids", "1,2,9"]
+    assert main([*words, *PATIENT]) == 0
+    errors = capsys.readouterr().err
+    assert "nothing recorded: " in errors
+    assert "are off or missing: servo_ids 2, 9" in errors
+    assert "not held: " in errors
+    assert ServoMove not in kinds(heard)
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_where_nothing_is_there_nothing_is_let_go(
+    typed: Any, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    typed("y\n")
+    with VirtualController("tcp", servos=[], baud=9600) as board:
+        assert main(["teach", str(tmp_path / "new"), "--port", board.port, *PATIENT]) == 1
+    assert capsys.readouterr().err == "no servo is there: is the supply of the servos on?\n"
+    assert main(["teach", str(tmp_path / "new"), "--port", "loop://", "--timeout", "0.05"]) == 1
+    assert "no ServoPositions came within" in capsys.readouterr().err
+
+
+def test_more_than_one_motion_moves_are_not_taught(
+    typed: Any, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    with VirtualController("tcp") as board:
+        words = ["teach", str(tmp_path / "new"), "--port", board.port, "--ids", "1-84"]
+        assert main([*words, *PATIENT]) == 2
+    assert "84 servos are more than the 83 that one motion moves" in capsys.readouterr().err
+
+
+def test_a_file_that_is_there_is_never_lost_unasked(
+    board: VirtualController,
+    heard: list[Message],
+    typed: Any,
+    tmp_path: Path,
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    file = tmp_path / "poses.json"
+    file.write_text(poses_of({"positions": {"7": 100}, "time_ms": 50, "pause_s": 0.5}))
+    before = file.read_text()
+    words = ["teach", str(file), "--port", board.port, "--yes", "--ids", "1-3", *PATIENT]
+    assert main(words) == 2
+    assert "is there already; --append records behind" in capsys.readouterr().err
+    assert (heard, file.read_text()) == ([], before)
+    typed("q\nn\n")
+    assert main([*words, "--force"]) == 0
+    assert file.read_text() == before
+    typed("\nq\nn\n")
+    assert main([*words, "--append"]) == 0
+    assert [each.positions for each in read_poses(file, POSE)] == [
+        {7: 100},
+        {1: 500, 2: 500, 3: 500},
+    ]
+    assert read_poses(file, POSE)[0] == Recorded({7: 100}, 50, 0.5)
+    typed("\nq\nn\n")
+    assert main([*words, "--force"]) == 0
+    assert [each.positions for each in read_poses(file, POSE)] == [{1: 500, 2: 500, 3: 500}]
+
+
+@pytest.mark.parametrize(
+    ("words", "told"),
+    [
+        (["--ids", "1-"], "'1-' is no number, nor two like 1-6"),
+        (["--ids", "3-1"], "3-1 is outside 0..255, or turned around"),
+        (["--ids", "256"], "256 is outside 0..255"),
+        (["--append", "--force"], "not allowed with"),
+        ([], "is a folder: name a file in it"),
+    ],
+)
+def test_teach_says_what_is_of_no_use(
+    words: list[str], told: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main(["teach", str(tmp_path), "--port", "loop://", *words]) == 2
+    assert told in capsys.readouterr().err
+
+
+def test_a_file_that_cannot_be_written_is_told_before_anything_is_let_go(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main(["teach", str(tmp_path / "no" / "new"), "--port", "loop://"]) == 2
+    assert "there is no folder" in capsys.readouterr().err
+
+
+# ------------------------------------------------------------------ play
+
+
+TWO = (
+    {"positions": {"1": 600, "2": 400}, "time_ms": 20},
+    {"positions": {"1": 500}, "pause_s": 0.01},
+)
+
+
+def test_poses_are_played_in_their_order(
+    board: VirtualController,
+    heard: list[Message],
+    tmp_path: Path,
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    file = tmp_path / "poses.json"
+    file.write_text(poses_of(*TWO))
+    words = ["--port", board.port, "--time-ms", "30", "--repeat", "2"]
+    assert main(["play", str(file), *words]) == 0
+    cycle = [
+        ServoMove(time_ms=20, targets=[(1, 600), (2, 400)]),
+        ServoMove(time_ms=30, targets=[(1, 500)]),
+    ]
+    # The last of them may be on its way yet.
+    assert heard[:3] == [*cycle, cycle[0]]
+    output, errors = capsys.readouterr()
+    times = [float(line.split()[0]) for line in output.splitlines()]
+    assert [line.split()[1:3] for line in output.splitlines()] == 2 * [["pose", "1"], ["pose", "2"]]
+    # Nothing is sent before the motion before it has had its time, and the pause after it.
+    waits = [after - before for before, after in itertools.pairwise(times)]
+    assert all(wait >= least for wait, least in zip(waits, [0.02, 0.04, 0.02], strict=True))
+    assert errors == "4 of 4 poses played\n"
+
+
+def test_what_would_be_played_is_shown_and_not_sent(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    file = tmp_path / "poses.json"
+    file.write_text(poses_of(*TWO))
+    assert main(["play", str(file), "--dry-run", "--pause", "1"]) == 0
+    output, errors = capsys.readouterr()
+    assert output.splitlines() == [
+        "    0.000000  pose 1  ServoMove time_ms=20 ms targets=1:600,2:400",
+        "    1.033542  pose 2  ServoMove time_ms=1000 ms targets=1:500",
+    ]
+    assert errors == "2 poses in 2.054 s: nothing was sent\n"
+
+
+GOOD = {"positions": {"1": 500}}
+REFUSED: list[tuple[str, str]] = [
+    ("", "line 1, column 1: it is no JSON: Expecting value"),
+    ("{\n  'format': 1}", "line 2, column 3: it is no JSON"),
+    (100_000 * "[", ": "),
+    ("[]", ": [] is no object {...}"),
+    ("{}", ": the key 'format' is missing"),
+    (poses_of(format="poses"), "format: \"poses\" is not 'busservo poses'"),
+    (poses_of(version=2), "version: 2 is no version that is known here, which is 1"),
+    (poses_of(version=True), "version: true is no version"),
+    (poses_of(poses=5), "poses: 5 is no list"),
+    (poses_of(speed=5), "there is no key 'speed'; there are format, version, poses"),
+    (poses_of(), " holds no pose"),
+    (poses_of(GOOD, []), "poses[1]: [] is no object {...}"),
+    (poses_of(GOOD, {}), "poses[1]: the key 'positions' is missing"),
+    (poses_of({**GOOD, "tiem_ms": 5}), "poses[0]: there is no key 'tiem_ms'; did you mean 'time_"),
+    (poses_of({"positions": []}), "poses[0].positions: [] is no object {...}"),
+    (poses_of({"positions": {}}), "poses[0].positions: 0 servos is outside 1..83, which one"),
+    (poses_of({"positions": dict.fromkeys(map(str, range(84)), 1)}), "84 servos is outside 1..83"),
+    (poses_of({"positions": {"one": 5}}), "poses[0].positions: 'one' is no number of a servo, suc"),
+    (poses_of({"positions": {"01": 5}}), "'01' is no number of a servo"),
+    (poses_of({"positions": {"\u0661": 5}}), "is no number of a servo"),
+    (poses_of({"positions": {"256": 5}}), "poses[0].positions.256: 256 is outside 0..255"),
+    (poses_of({"positions": {"9" * 5000: 5}}), "is no number of a servo"),
+    (poses_of({"positions": {"1": "5"}}), "positions.1: '5' is not a whole number, but a str"),
+    (poses_of({"positions": {"1": True}}), "positions.1: True is a truth value"),
+    (poses_of({"positions": {"1": 500.0}}), "positions.1: 500.0 is not a whole number"),
+    (poses_of({"positions": {"1": None}}), "positions.1: None is not a whole number"),
+    (poses_of({"positions": {"1": 65536}}), "positions.1: 65536 is outside 0..65535"),
+    (
+        poses_of(GOOD, {"positions": {"1": 500, "7": 1200}}),
+        (
+            "poses[1].positions.7: 1200 is outside the limits 0..1000; "
+            "--limits 500..2500 is for PWM servo boards, --limits none sends anything"
+        ),
+    ),
+    (
+        poses_of({"positions": {"1": 65535}}),
+        "poses[0].positions.1: 65535 is outside the limits 0..1000; --limits none sends anything",
+    ),
+    (poses_of({**GOOD, "time_ms": 65536}), "poses[0].time_ms: 65536 is outside 0..65535"),
+    (poses_of({**GOOD, "time_ms": 1.5}), "poses[0].time_ms: 1.5 is not a whole number"),
+    (poses_of({**GOOD, "pause_s": -1}), "poses[0].pause_s: -1 is no number of seconds from 0 to 3"),
+    (poses_of({**GOOD, "pause_s": float("nan")}), "poses[0].pause_s: NaN is no number of seconds"),
+    (poses_of({**GOOD, "pause_s": True}), "poses[0].pause_s: true is no number of seconds"),
+    ('{"format": 1, "format": 2}', "the key 'format' is there twice in one object"),
+    ('{"format": ' + 5000 * "9" + "}", ": "),
+]
+
+
+@pytest.mark.parametrize(("text", "told"), REFUSED, ids=lambda each: each[-60:])
+def test_a_file_is_looked_at_as_a_whole_before_the_port_is_opened(
+    text: str, told: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    file = tmp_path / "poses.json"
+    file.write_text(text, encoding="utf-8")
+    assert main(["play", str(file), "--port", "no-such-port"]) == 2
+    output, errors = capsys.readouterr()
+    assert output == ""
+    assert errors.startswith(f"busservo: error: {file}")
+    assert told in errors
+    assert len(errors) < 500
+
+
+def test_a_file_that_cannot_be_read_is_told(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    (tmp_path / "raw").write_bytes(b"\xff\x00")
+    for name in ("missing", "raw", "."):
+        assert main(["play", str(tmp_path / name), "--dry-run"]) == 2
+        assert "cannot be read: " in capsys.readouterr().err
+
+
+def test_positions_for_other_boards_are_played_where_limits_say_so(
+    board: VirtualController, heard: list[Message], tmp_path: Path
+) -> None:
+    file = tmp_path / "poses.json"
+    file.write_text(poses_of({"positions": {"1": 2500}, "time_ms": 1}, {"positions": {"1": 500}}))
+    words = ["play", str(file), "--port", board.port, "--time-ms", "1"]
+    assert main([*words, "--limits", "500..2500"]) == 0
+    assert heard[0] == ServoMove(time_ms=1, targets=[(1, 2500)])
+
+
+@pytest.mark.parametrize(
+    ("words", "told"),
+    [
+        ([], "play needs --port PORT, or --dry-run"),
+        (["--dry-run", "--repeat", "0"], "0 is below 1"),
+        (["--dry-run", "--time-ms", "70000"], "70000 is outside 0..65535 milliseconds"),
+        (["--dry-run", "--time-ms", "soon"], "'soon' is no whole number"),
+        (["--dry-run", "--pause", "nan"], "'nan' is no number of seconds from 0 to 3600"),
+        (["--dry-run", "--limits", "9..1"], "'9..1' is no LOW..HIGH: write it like 0..1000, or no"),
+        (["--dry-run", "--limits", "500"], "'500' is no LOW..HIGH"),
+    ],
+)
+def test_play_says_what_is_of_no_use(
+    words: list[str], told: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    file = tmp_path / "poses.json"
+    file.write_text(poses_of(GOOD))
+    assert main(["play", str(file), *words]) == 2
+    assert told in capsys.readouterr().err
+
+
+def test_send_refuses_what_is_outside_the_limits(
+    board: VirtualController, heard: list[Message], capsys: pytest.CaptureFixture[str]
+) -> None:
+    words = ["send", "--port", board.port, "ServoMove", "time_ms=1", "targets=1:500,2:1500"]
+    assert main(words) == 2
+    assert capsys.readouterr().err == (
+        "busservo: error: targets[1].position: 1500 is outside the limits 0..1000; "
+        "--limits 500..2500 is for PWM servo boards, --limits none sends anything\n"
+    )
+    assert heard == []
+    for limits in ("500..2500", "none"):
+        assert main([*words, "--limits", limits]) == 0
+
+
+def test_a_protocol_without_positions_says_so(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(positions, "POSE", None)
+    with pytest.raises(UnusableError, match="no positions to read"):
+        positions.the_pose()
+
+
+# ------------------------------------------------------------------ the file
+
+
+recorded = st.builds(
+    Recorded,
+    st.dictionaries(st.integers(0, 255), st.integers(0, 65535), min_size=1, max_size=83),
+    st.none() | st.integers(0, 65535),
+    st.none() | st.floats(0, 3600),
+)
+
+
+@given(st.lists(recorded, max_size=5))
+def test_what_is_written_is_read_again(poses: list[Recorded]) -> None:
+    with TemporaryDirectory() as folder:
+        file = Path(folder, "poses.json")
+        write_poses(file, poses)
+        assert read_poses(file, POSE) == poses
+        assert len(file.read_text().splitlines()) == 6 + max(1, len(poses))
+
+
+def test_a_link_stays_a_link(tmp_path: Path) -> None:
+    real, link = tmp_path / "real.json", tmp_path / "link.json"
+    real.write_text("")
+    link.symlink_to(real)
+    write_poses(link, [Recorded({1: 5})])
+    assert link.is_symlink()
+    assert read_poses(real, POSE) == [Recorded({1: 5})]
+
+
+# ------------------------------------------------------------------ as people run them
+
+if sys.platform == "linux":
+    from tests.cli.terminal import OnTerminal
+
+    # One that comes just before a program reads is seen when it has read.
+    CTRL_C, CTRL_D = b"\x03\n", b"\x04"
+
+    @pytest.mark.parametrize(
+        ("key", "status"), [(CTRL_C, 130), (CTRL_D, 0), (b"q\nn\n", 0), (b"Q\nyes\n", 0)]
+    )
+    def test_what_is_recorded_is_kept_however_it_ends(
+        board: VirtualController, key: bytes, status: int, tmp_path: Path
+    ) -> None:
+        file = tmp_path / "poses.json"
+        words = ("--ids", "1", *PATIENT)
+        with OnTerminal("teach", str(file), "--port", board.port, *words) as teach:
+            teach.wait_for(r"Let go\? \[y/N\] ")
+            teach.type(b"y\n")
+            teach.wait_for("ends: ")
+            teach.type(b"\n")
+            teach.wait_for("pose 1  1:500")
+            teach.wait_for("ends: (?s:.*)ends: ")
+            teach.type(key)
+            assert teach.end() == status
+        assert re.search("1 pose recorded; servo 1 (is limp|held)\r\n", teach.shown)
+        assert [each.positions for each in read_poses(file, POSE)] == [{1: 500}]
+
+    def test_ctrl_c_in_a_play_holds_what_moves(board: VirtualController, tmp_path: Path) -> None:
+        file = tmp_path / "poses.json"
+        file.write_text(poses_of({"positions": {"1": 1000, "2": 0}, "time_ms": 60000}))
+        with OnTerminal("play", str(file), "--port", board.port, *PATIENT) as play:
+            play.wait_for("pose 1  ServoMove")
+            play.type(CTRL_C[:1])
+            assert play.end() == 130
+        assert "servos 1, 2 held" in play.shown
+        assert "0 of 1 pose played" in play.shown
+        assert not board.servos[1].travelling or board.servos[1].target < 600
