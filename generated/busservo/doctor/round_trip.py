@@ -41,7 +41,7 @@ def _look(diagnosis: Diagnosis) -> Result:
     if all(len(trip.replies) == 1 for trip in answered):
         return unknown(
             f"{told}: this is no line of that rate, but one such as TCP, a pseudo terminal or USB",
-            "say so: baud=math.inf in Python; then replies need not be watched for coming too soon",
+            "say so: --baud inf, or baud=math.inf in Python; then no reply can come too soon",
             *early,
         )
     return failed(

@@ -9,7 +9,6 @@ import time
 from itertools import chain, repeat
 from pathlib import Path
 
-from ..protocol import BAUD
 from ..wire import Wire
 from . import link
 from .events import counted
@@ -101,7 +100,7 @@ class _Step:
         self.number = number
         self.ids = tuple(recorded.positions)
         self.seconds = time_ms / 1000 + pause
-        self.wire = Wire(BAUD).seconds(len(self.message.encode()))
+        self.wire = Wire(arguments.baud).seconds(len(self.message.encode()))
 
     def told(self, at: float) -> str:
         """The line that is printed for it."""
