@@ -27,7 +27,7 @@ from busservo.limits import Limits
 from busservo_simulator import Faults, VirtualClock, VirtualController
 
 from tests.client.virtual_line import VirtualLine
-from tests.patience import PATIENCE
+from tests.patience import LIVE
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable
@@ -322,7 +322,7 @@ def test_a_pose_that_was_read_can_be_replayed_whatever_it_holds() -> None:
 
 def test_the_same_for_asyncio() -> None:
     async def run(port: str) -> None:
-        async with busservo.open_async_controller(port, margin=PATIENCE) as controller:
+        async with busservo.open_async_controller(port, **LIVE) as controller:
             assert await controller.present_servos() == (1, 2, 3)
             await controller.hold_servos([1, 2])
             with pytest.raises(AbsentError):
