@@ -55,11 +55,28 @@ def above_zero(what: str, *, highest: float = math.inf) -> Callable[[str], float
     """
 
     def read(text: str) -> float:
-        if len(text) > _MOST_DIGITS or _DECIMAL.fullmatch(text) is None:
-            raise argparse.ArgumentTypeError(f"{text[:40]!r} is no {what}: write it like 12 or 0.5")
-        if not 0 < float(text) <= highest:
+        given = _decimal(text, what)
+        if not 0 < given <= highest:
             bound = "" if math.isinf(highest) else f" and up to {highest:g}"
             raise argparse.ArgumentTypeError(f"{text} is no {what} above 0{bound}")
-        return float(text)
+        return given
 
     return read
+
+
+def from_zero(what: str, *, highest: float) -> Callable[[str], float]:
+    """A number from 0 up to a bound, as an argument; `what` is what it is."""
+
+    def read(text: str) -> float:
+        given = _decimal(text, what)
+        if not 0 <= given <= highest:
+            raise argparse.ArgumentTypeError(f"{text} is no {what} from 0 to {highest:g}")
+        return given
+
+    return read
+
+
+def _decimal(text: str, what: str) -> float:
+    if len(text) > _MOST_DIGITS or _DECIMAL.fullmatch(text) is None:
+        raise argparse.ArgumentTypeError(f"{text[:40]!r} is no {what}: write it like 12 or 0.5")
+    return float(text)
