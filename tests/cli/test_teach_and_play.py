@@ -251,7 +251,7 @@ class Folder:
         raise IsADirectoryError(21, "Is a directory")
 
 
-def test_input_that_cannot_be_read_ends_it_and_what_is_limp_is_told(
+def test_where_nobody_can_answer_nothing_is_let_go(
     board: VirtualController,
     heard: list[Message],
     monkeypatch: pytest.MonkeyPatch,
@@ -260,11 +260,33 @@ def test_input_that_cannot_be_read_ends_it_and_what_is_limp_is_told(
 ) -> None:
     monkeypatch.setattr(sys, "stdin", Folder())
     words = ["teach", str(tmp_path / "new"), "--port", board.port, "--ids", "1", *PATIENT]
-    assert main(words) == 2
-    assert "standard input cannot be read: Is a directory" in capsys.readouterr().err
+    assert main(words) == 0
+    assert "nothing was let go" in capsys.readouterr().err
     assert heard == []
-    assert main([*words, "--yes"]) == 2
+    assert main([*words, "--yes"]) == 0
     assert "0 poses recorded; servo 1 is limp\n" in capsys.readouterr().err
+
+
+def test_what_is_limp_is_told_where_a_pose_cannot_be_written(
+    board: VirtualController,
+    monkeypatch: pytest.MonkeyPatch,
+    tmp_path: Path,
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    folder = tmp_path / "folder"
+    folder.mkdir()
+    words = ["teach", str(folder / "new"), "--port", board.port, "--ids", "1", "--yes", *PATIENT]
+
+    class Removed(io.StringIO):
+        def readline(self, *_: Any) -> Any:
+            folder.rmdir()
+            return "\n"
+
+    monkeypatch.setattr(sys, "stdin", Removed())
+    assert main(words) == 2
+    errors = capsys.readouterr().err
+    assert "0 poses recorded; servo 1 is limp\n" in errors
+    assert "new cannot be written: No such file or directory" in errors
 
 
 def test_a_file_that_cannot_be_written_is_told_before_anything_is_let_go(
@@ -415,7 +437,7 @@ def test_positions_for_other_boards_are_played_where_limits_say_so(
         (["--dry-run", "--time-ms", "70000"], "70000 is outside 0..65535 milliseconds"),
         (["--dry-run", "--time-ms", "soon"], "'soon' is no whole number"),
         (["--dry-run", "--pause", "nan"], "'nan' is no number of seconds: write it like"),
-        (["--dry-run", "--pause", "3601"], "3601 is no number of seconds from 0 to 3600"),
+        (["--dry-run", "--pause", "3601"], "3601 is not in 0..3600 seconds"),
         (["--dry-run", "--pause", "1_0"], "'1_0' is no number of seconds"),
         (["--dry-run", "--limits", "9..1"], "'9..1' is no LOW..HIGH: write it like 0..1000, or no"),
         (["--dry-run", "--limits", "500"], "'500' is no LOW..HIGH"),

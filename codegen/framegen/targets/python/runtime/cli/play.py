@@ -52,7 +52,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     )
     parser.add_argument(
         "--pause",
-        type=from_zero("number of seconds", highest=LONGEST_PAUSE),
+        type=from_zero(highest=LONGEST_PAUSE, unit="seconds"),
         default=0.0,
         metavar="S",
         help="seconds to stay at each pose, where the file does not say (default: 0)",

@@ -185,11 +185,11 @@ def _line(prompt: str) -> str | None:
     """A line that somebody types; None once there is no more."""
     print(prompt, end="", file=sys.stderr, flush=True)
     try:
-        line = sys.stdin.readline() if sys.stdin is not None else ""
+        line = sys.stdin.readline()
     except UnicodeDecodeError:
         return "?"
-    except OSError as error:
-        raise UnusableError(f"standard input cannot be read: {error.strerror or error}") from None
+    except OSError:  # it is closed: nobody types
+        line = ""
     if not line:
         print(file=sys.stderr)
     return line or None
