@@ -234,7 +234,8 @@ def test_a_file_that_is_there_is_never_lost_unasked(
         (["--ids", "3-1"], "3-1 is outside 0..255, or turned around"),
         (["--ids", "256"], "256 is outside 0..255"),
         (["--append", "--force"], "not allowed with"),
-        ([], "is a folder: name a file in it"),
+        ([], "is no file that could be written anew: name another"),
+        (["--force"], "is no file that could be written anew: name another"),
     ],
 )
 def test_teach_says_what_is_of_no_use(

@@ -162,10 +162,10 @@ class _Lesson:
 def _kept(arguments: argparse.Namespace, pose: Pose) -> list[Recorded]:
     """The poses that are to stay. Raises UnusableError where a file would be lost."""
     path: Path = arguments.file
+    if path.exists() and not path.is_file():
+        raise UnusableError(f"{path} is no file that could be written anew: name another")
     if arguments.append and path.exists():
         return read_poses(path, pose)
-    if path.is_dir():
-        raise UnusableError(f"{path} is a folder: name a file in it")
     if path.exists() and not arguments.force:
         raise UnusableError(
             f"{path} is there already; --append records behind what it holds, --force instead of it"
