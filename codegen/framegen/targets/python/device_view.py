@@ -117,5 +117,7 @@ class DeviceView:
         line = f"Report: TypeAlias = {' | '.join(names)}"
         if len(line) + 4 <= WIDTH:
             return line
-        joined = "\n        | ".join(names)
+        joined = " | ".join(names)
+        if len(joined) + 8 > WIDTH:
+            joined = "\n        | ".join(names)
         return f"Report: TypeAlias = (\n        {joined}\n    )"
