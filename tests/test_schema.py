@@ -122,6 +122,14 @@ SLIPS: list[tuple[str, Change, str]] = [
         "messages/ServoMove/fields/time_ms",
     ),
     (
+        "limits without the usual ones",
+        lambda d: d["messages"]["ServoMove"]["fields"]["targets"]["fields"]["position"][
+            "limits"
+        ].pop("usual"),
+        "messages/ServoMove/fields/targets",
+    ),
+    ("a pose without ids", lambda d: d["pose"].pop("ids"), "pose"),
+    (
         "an example without values",
         lambda d: d["messages"]["ServoMove"]["examples"][0].pop("values"),
         "messages/ServoMove/examples/0",
@@ -149,6 +157,11 @@ def test_every_number_type_is_offered() -> None:
     assert len(typed) == 5
     for model in typed:
         assert model["properties"]["type"]["enum"] == list(WIRE_TYPES)
+
+
+def test_every_signed_type_is_offered_to_read_a_number_as() -> None:
+    offered, nothing = SCHEMA["$defs"]["NumberField"]["properties"]["signed_as"]["anyOf"]
+    assert (offered["enum"], nothing) == (["i8", "i16", "i32"], {"type": "null"})
 
 
 def test_an_editor_has_something_to_say_of_every_key() -> None:

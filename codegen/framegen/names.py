@@ -61,8 +61,7 @@ LIBRARY_NAMES = _words(
     LineError Message MESSAGES Motion Noise NoReplyError NoReportError Number open_async_controller
     open_controller open_transport PortAddressError PortBusyError PortNotFoundError
     PortPermissionError Pose POSE ProtocolError Reason RECEIVED Rejects Report Run SearchStrategy
-    Sent Shape StreamDecoder Table Timed Transport
-    TransportError UNFIT UnknownFrame WriteStuckError
+    Sent Shape StreamDecoder Table Timed Transport TransportError UNFIT UnknownFrame WriteStuckError
     """
 )
 

@@ -206,8 +206,8 @@ class AsyncController(AsyncClient):
 
         Returns what `move_servos` does.
 
-        Raises AbsentError, with nothing sent, where one is off or missing; NoReplyError where no
-        reply comes in time, and TransportError.
+        Raises, with nothing sent, AbsentError where one is off or missing, LimitError where one
+        is far out; NoReplyError where no reply comes in time, and TransportError.
         """
         exchanged = await self._exchanged(ServoPositionsRead, servo_ids)
         targets = POSE.held(exchanged, self._limits)
@@ -216,9 +216,11 @@ class AsyncController(AsyncClient):
     def targets_of(self, positions: Iterable[ServoPosition]) -> list[tuple[int, int]]:
         """Make targets of positions that were read, to go back there.
 
-        What is absent is left out. What is outside the limits of this client, or below zero,
-        which no command can say, is taken to the nearest position that is inside.
+        What is absent is left out. What is read a little below zero, or a little outside the
+        limits of this client, is taken to the nearest position inside.
 
         Returns what `move_servos` takes as `targets`.
+
+        Raises LimitError for what is further out, and would be sent somewhere else.
         """
         return POSE.targets_of(positions, self._limits)

@@ -76,8 +76,6 @@ POSE: Pose = Pose(
     position="signed_position",
     moved="targets",
     time="time_ms",
-    hold="hold_servos",
-    present="present_servos",
-    targets="targets_of",
+    limits=LIMITS,
 )
 """How positions are read, commanded and let go; None where there are none."""

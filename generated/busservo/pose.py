@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+from .errors import LimitError
 from .limits import nearest
 from .link_errors import AbsentError
 
@@ -13,11 +14,14 @@ if TYPE_CHECKING:
     from typing import Any
 
     from .fields import Number
-    from .limits import Bounds
+    from .limits import Bounds, Limits
     from .message import Message
 
 HOLD_MS = 100
 """How long a motion takes, in milliseconds, that only holds what is there."""
+
+# How far outside the limits what is at its stop may be read: this part of what they allow.
+_SLACK = 20
 
 
 class Pose:
@@ -27,20 +31,18 @@ class Pose:
     `read` and `release` are given, `told` the list of positions that answers `read`, each a number
     and a position; `moved` the list that `move` is given, and `time` the milliseconds that it may
     take. `position` is the property that tells a position, below zero included. `ids` are all
-    numbers that there can be; `hold`, `present` and `targets` are methods of a controller.
+    numbers that there can be, `limits` those of the positions that are commanded.
     """
 
     __slots__ = (
         "asked",
-        "hold",
         "ids",
+        "limits",
         "move",
         "moved",
         "position",
-        "present",
         "read",
         "release",
-        "targets",
         "time",
         "told",
     )
@@ -57,9 +59,7 @@ class Pose:
         position: str,
         moved: str,
         time: str,
-        hold: str,
-        present: str,
-        targets: str,
+        limits: Limits,
     ) -> None:
         self.read = read
         self.move = move
@@ -70,9 +70,7 @@ class Pose:
         self.position = position
         self.moved = moved
         self.time = time
-        self.hold = hold
-        self.present = present
-        self.targets = targets
+        self.limits = limits
 
     @property
     def noun(self) -> str:
@@ -123,22 +121,35 @@ class Pose:
         return tuple(number for number, _ in self.there(replies))
 
     def targets_of(self, positions: Iterable[Any], limits: Bounds | None) -> list[tuple[int, int]]:
-        """Where to send those that are there, to be where they were: as near as limits allow.
+        """Where to send those that are there, to be where they were.
 
-        One that is absent is left out. One that is below zero, which no command can say, is sent to
-        the lowest position there is.
+        One that is absent is left out. One at its stop may be read a little below zero, or a little
+        outside the limits: it is sent to the nearest position inside. Raises LimitError for one
+        that is further out, and would be sent somewhere else.
         """
         bounds = (self.place.low, self.place.high) if limits is None else limits
-        return [
-            (each[0], nearest(getattr(each, self.position), bounds))
-            for each in positions
-            if not getattr(each, "absent", False)
-        ]
+        slack = (bounds[1] - bounds[0]) // _SLACK
+        targets: list[tuple[int, int]] = []
+        for at, each in enumerate(positions):
+            if getattr(each, "absent", False):
+                continue
+            number, raw = each
+            below: int = getattr(each, self.position)
+            value = below if -slack <= below < 0 else raw
+            near = nearest(value, bounds)
+            if abs(value - near) > slack:
+                path = f"{self.told}[{at}].{self.place.name}"
+                raise LimitError(path, value, bounds, self.limits.way_out(value, read=True))
+            targets.append((number, near))
+        return targets
 
     def held(
         self, exchanged: Sequence[tuple[Message, Message]], limits: Bounds | None
     ) -> list[tuple[int, int]]:
-        """What holds all that was asked about, by the replies to it. Raises AbsentError."""
+        """What holds all that was asked about, by the replies to it.
+
+        Raises AbsentError where one is not there, and LimitError where one is outside the limits.
+        """
         asked = [number for request, _ in exchanged for number in getattr(request, self.asked)]
         replies = [reply for _, reply in exchanged]
         there = self.there(replies)

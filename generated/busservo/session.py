@@ -162,8 +162,8 @@ class Session:
         if question is True and exchange.reply is None:
             raise TypeError(f"{message!r} is a command: send() sends it, and nothing answers")
         exchange.check(message)
-        check_room(message, self.largest_frame)
         LIMITS.check(message, self._limits)
+        check_room(message, self.largest_frame)
         request = Request(message, exchange, retries=retries, latest=latest)
         if self._asks_first is None:
             self._asks_first = exchange.reply is not None
@@ -562,8 +562,8 @@ class Session:
         self.counters.echoes += 1
         if self.counters.echoes == 1:
             logger.warning(
-                "%s gives back what is sent: open it with local_echo=True, or else commands that "
-                "come back look like reports",
+                "%s gives back what is sent: say so (local_echo=True, or --local-echo), or else "
+                "commands that come back look like reports",
                 self._name,
             )
 

@@ -64,11 +64,30 @@ def test_a_line_that_is_faster_than_its_rate_is_none(
     capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     line = VirtualLine(lambda _: [(0.001, BatteryVoltage(7500))])
-    client = Client(line, background=False, clock=line.clock)
-    monkeypatch.setattr(bench_line, "open_client", lambda _: client)
+    client = Client(line, background=False, clock=line.clock, settle=0)
+    monkeypatch.setattr(bench_line, "open_client", lambda *_, **__: client)
     monkeypatch.setattr(bench_line, "time", SimpleNamespace(perf_counter=line.clock))
-    assert main(["bench-line", "--port", "COM7", "-n", "3"]) == 0
-    assert "it is faster than that rate, so it is no such line" in capsys.readouterr().out
+    assert main(["bench-line", "--port", "COM7", "-n", "30"]) == 0
+    told = capsys.readouterr().out
+    assert "it is faster than that rate, so try --baud inf" in told
+    assert "too soon        3 questions had a reply that no such wire can have carried" in told
+    assert "slips" not in told
+
+
+def test_a_reply_that_comes_twice_is_named_and_not_taken_for_speed(
+    capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    reply = BatteryVoltage(7500)
+    twice: list[tuple[float, bytes | Message]] = [(0.0105, reply), (0.0107, reply)]
+    answers = iter([twice])
+    line = VirtualLine(lambda _: next(answers, twice[:1]))
+    client = Client(line, background=False, clock=line.clock, settle=0)
+    monkeypatch.setattr(bench_line, "open_client", lambda *_, **__: client)
+    monkeypatch.setattr(bench_line, "time", SimpleNamespace(perf_counter=line.clock))
+    assert main(["bench-line", "--port", "COM7", "-n", "30"]) == 0
+    told = capsys.readouterr().out
+    assert "faster" not in told
+    assert "slips           1 reply to nothing, sent twice or too late: dropped" in told
 
 
 def test_errors_are_counted_by_kind(
@@ -82,8 +101,8 @@ def test_errors_are_counted_by_kind(
         [(0.0, ServoPositions([(1, 5), (2, 6)]))],
     ]
     line = VirtualLine(lambda _: replies.pop(0))
-    client = Client(line, background=False, clock=line.clock)
-    monkeypatch.setattr(bench_line, "open_client", lambda _: client)
+    client = Client(line, background=False, clock=line.clock, settle=0)
+    monkeypatch.setattr(bench_line, "open_client", lambda *_, **__: client)
     words = ["ServoPositionsRead", "servo_ids=1,2", "-n", "5"]
     assert main(["bench-line", "--port", "COM7", *words]) == 1
     lines = capsys.readouterr().out.splitlines()

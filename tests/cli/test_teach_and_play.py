@@ -160,6 +160,23 @@ def test_who_does_not_answer_costs_a_pose_and_no_more(
     assert list(tmp_path.iterdir()) == []
 
 
+def test_what_is_far_outside_the_limits_is_not_recorded_as_if_it_were_not(
+    board: VirtualController, typed: Any, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    typed("\nq\ny\n")
+    words = ["teach", str(tmp_path / "new"), "--port", board.port, "--yes", "--ids", "1"]
+    assert main([*words, "--limits", "600..2500", *PATIENT]) == 0
+    told = (
+        "positions[0].position: 500 is outside the limits 600..2500; "
+        "--limits 0..1000 is for what is usual, --limits 500..2500 is for PWM servo boards, "
+        "--limits none sends anything\n"
+    )
+    errors = capsys.readouterr().err
+    assert f"nothing recorded: {told}" in errors
+    assert f"not held: {told}" in errors
+    assert list(tmp_path.iterdir()) == []
+
+
 def test_where_nothing_is_there_nothing_is_let_go(
     typed: Any, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:

@@ -4,8 +4,11 @@ from __future__ import annotations
 
 import asyncio
 import math
+from collections import deque
+from itertools import accumulate
 from typing import TYPE_CHECKING
 
+import busservo
 import pytest
 from busservo import (
     ActionGroupCompleted,
@@ -16,6 +19,7 @@ from busservo import (
     BatteryVoltage,
     BatteryVoltageRead,
     Controller,
+    Direction,
     DisconnectedError,
     Message,
     Run,
@@ -23,6 +27,8 @@ from busservo import (
     ServoPositionsRead,
 )
 from busservo.session import Session
+from hypothesis import given
+from hypothesis import strategies as st
 
 from tests.client.live_line import LiveLine
 from tests.client.virtual_line import VirtualLine
@@ -30,6 +36,8 @@ from tests.patience import PATIENCE
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
+
+    from busservo.request import Request
 
 MARGIN = 0.25
 FRAME = 7 / 960  # of a run, and of its report
@@ -180,6 +188,73 @@ def test_more_runs_than_are_followed_do_no_harm() -> None:
         line.receive(ActionGroupStarted(group, 1).encode(), 0.1)
     assert {run.started for run in runs} == {None, True}
     assert runs[-1].started is True
+
+
+class Board:
+    """A board that says after how many milliseconds each group has started; None for never."""
+
+    def __init__(self, delays: list[int | None]) -> None:
+        self._delays = delays
+        self._free_at = 0.0
+        self._on_the_wire: list[tuple[float, int]] = []
+
+    def hear(self, frame: bytes, at: float) -> None:
+        match busservo.decode(frame, Direction.HOST_TO_CONTROLLER):
+            case ActionGroupRun(group, times):
+                delay = self._delays[group]
+                if delay is not None:
+                    self._say(at + delay / 1000, ActionGroupStarted(group, times))
+            case ServoPositionsRead(servo_ids):
+                self._say(at, ServoPositions([(servo, 500) for servo in servo_ids]))
+
+    def _say(self, at: float, message: Message) -> None:
+        for byte in message.encode():
+            self._free_at = max(self._free_at, at) + 1 / 960
+            self._on_the_wire.append((self._free_at, byte))
+
+    def arrived(self, now: float) -> bytes:
+        data = bytes(byte for at, byte in self._on_the_wire if at <= now)
+        self._on_the_wire = [each for each in self._on_the_wire if each[0] > now]
+        return data
+
+
+@given(
+    st.lists(
+        # How much later than the one before it is asked for, how long the board takes to say so,
+        # and how many servos are asked about right behind it.
+        st.tuples(
+            st.sampled_from([0, 1, 50, 300, 600]),
+            st.none() | st.integers(0, 240),
+            st.sampled_from([0, 0, 1, 6, 84]),
+        ),
+        min_size=1,
+        max_size=6,
+    ),
+    st.integers(3, 40),
+)
+def test_what_is_said_of_runs_is_what_the_board_has_done(
+    asked: list[tuple[int, int | None, int]], step: int
+) -> None:
+    """Over a line that is read every `step` milliseconds, and has no room for all at once."""
+    line, board = seen_one(), Board([delay for _, delay, _ in asked])
+    times = accumulate(later for later, _, _ in asked)
+    waiting = deque(zip(times, range(6), (servos for _, _, servos in asked), strict=False))
+    sent: list[Request] = []
+    for now in (at / 1000 for at in range(0, 8000, step)):
+        while waiting and waiting[0][0] / 1000 <= now:
+            _, group, servos = waiting.popleft()
+            sent.append(line.submit(ActionGroupRun(group, 1)))
+            if servos:
+                line.submit(ServoPositionsRead(range(servos)))
+        for frame in line.outgoing(now):
+            board.hear(frame, line.wire.free_at)
+        line.acknowledgements.written(now)
+        if line.unwritten is not None:
+            line.written(line.unwritten, now)
+        line.receive(board.arrived(now), now)
+        line.tick(now)
+    started = [each.sent.started for each in sent if isinstance(each.sent, Run)]
+    assert started == [delay is not None for _, delay, _ in asked]
 
 
 # -------------------------------------------------------------------- both clients

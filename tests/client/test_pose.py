@@ -263,24 +263,51 @@ def test_nothing_is_sent_where_one_of_those_to_hold_is_not_there() -> None:
     assert str(refused.value) == told + "what did arrive (2) is kept in `arrived`"
 
 
-@pytest.mark.parametrize(
-    ("limits", "targets"),
-    [
-        ((0, 1000), [(1, 0), (2, 1000), (3, 500)]),
-        ((500, 2500), [(1, 500), (2, 1003), (3, 500)]),
-        (None, [(1, 0), (2, 1003), (3, 500)]),
-    ],
-)
-def test_what_is_held_or_replayed_is_inside_the_limits(
-    limits: tuple[int, int] | None, targets: list[tuple[int, int]]
+AT_THE_STOPS: list[tuple[Any, list[tuple[int, int]], list[tuple[int, int]]]] = [
+    ((0, 1000), [(1, 65531), (2, 1003), (3, 500)], [(1, 0), (2, 1000), (3, 500)]),
+    ((0, 1000), [(1, 65486), (2, 1050)], [(1, 0), (2, 1000)]),
+    ((500, 2500), [(1, 400), (2, 2600)], [(1, 500), (2, 2500)]),
+    (None, [(1, 65531), (2, 1003), (3, 40000)], [(1, 0), (2, 1003), (3, 40000)]),
+]
+
+
+@pytest.mark.parametrize(("limits", "read", "targets"), AT_THE_STOPS)
+def test_what_is_at_its_stop_is_held_and_replayed_inside_the_limits(
+    limits: Any, read: list[tuple[int, int]], targets: list[tuple[int, int]]
 ) -> None:
-    read = [(1, 65531), (2, 1003), (3, 500)]
     line = VirtualLine(answering(read))
     with client_of(line, limits=limits) as controller:
-        controller.hold_servos([1, 2, 3], time_ms=40)
+        controller.hold_servos([number for number, _ in read], time_ms=40)
         pose = ServoPositions([*read, (9, OFF)]).positions
         assert controller.targets_of(pose) == targets
     assert moves(line) == [ServoMove(time_ms=40, targets=targets)]
+
+
+@pytest.mark.parametrize(
+    ("limits", "position", "told"),
+    [
+        ((0, 1000), 1051, "limits=(500, 2500) is for PWM servo boards, limits=None for any"),
+        (
+            (0, 1000),
+            65485,
+            "positions[1].position: 65485 is outside the limits 0..1000; limits=None",
+        ),
+        ((500, 2500), 399, "limits=(0, 1000) is for what is usual, limits=None for any"),
+        ((500, 2500), 65531, "limits=None sends anything"),
+    ],
+)
+def test_what_is_far_outside_the_limits_is_not_sent_somewhere_else(
+    limits: tuple[int, int], position: int, told: str
+) -> None:
+    line = VirtualLine(answering([(1, 500), (2, position)]))
+    with client_of(line, limits=limits) as controller:
+        with pytest.raises(LimitError) as refused:
+            controller.hold_servos([1, 2])
+        with pytest.raises(LimitError):
+            controller.targets_of(ServoPositions([(1, 500), (2, position)]).positions)
+    assert str(refused.value).startswith("positions[1].position: ")
+    assert told in str(refused.value)
+    assert moves(line) == []
 
 
 def test_a_pose_that_was_read_can_be_replayed_whatever_it_holds() -> None:
@@ -310,7 +337,7 @@ def test_the_same_for_asyncio() -> None:
         async with busservo.open_async_controller(port, limits=None) as controller:
             await controller.send(MOVE_BEYOND)
 
-    with VirtualController("tcp", servos=[1, 2, 3]) as board:
+    with VirtualController("tcp", servos=[1, 2, 3], baud=9600) as board:
         asyncio.run(run(board.port))
         assert board.rejects.total == 0
 

@@ -65,7 +65,8 @@ class Board:
 
     `baud` is the pace of the line, both ways, and `thinks` the time until a reply is due. `faults`
     gives the script for the reply to a question by its number, and the first question has number
-    `first`. Bytes come to the host every `latency` seconds, as those of a USB adapter do. With
+    `first`. Bytes come to the host every `latency` seconds, as those of a USB adapter do; or a
+    frame at a time, if the adapter `gathers`: none is then torn by a machine that is busy. With
     `echo`, the host hears what it sends, as at a half-duplex adapter. Groups run for
     `group_seconds` each time; `unknown_groups` never run.
     """
@@ -77,6 +78,7 @@ class Board:
         thinks: float = 0.0,
         faults: Callable[[int], Script | None] | None = None,
         latency: float = 0.0,
+        gathers: bool = False,
         echo: bool = False,
         group_seconds: float = 0.05,
         unknown_groups: Collection[int] = (),
@@ -97,6 +99,7 @@ class Board:
         self._seconds_per_byte = BITS_PER_BYTE / baud
         self._thinks = thinks
         self._latency = latency
+        self._gathers = gathers
         self._echo = echo
         self._group_seconds = group_seconds
         self._unknown_groups = unknown_groups
@@ -191,12 +194,14 @@ class Board:
         if piece.is_report:
             self.reported.append(piece.data)
         there = at
-        if self._seconds_per_byte:
+        if self._seconds_per_byte and not self._gathers:
             for byte in piece.data:
                 self._leaves_from = max(at, self._leaves_from) + self._seconds_per_byte
                 there = self._leave(self._leaves_from, bytes([byte]))
         else:
-            there = self._leave(at, piece.data)
+            takes = len(piece.data) * self._seconds_per_byte
+            self._leaves_from = max(at, self._leaves_from) + takes
+            there = self._leave(self._leaves_from, piece.data)
         self.said.append(Said(there, piece.data))
         if in_trouble:
             self.troubles.append(there)

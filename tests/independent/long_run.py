@@ -57,6 +57,7 @@ def any_fault(random: Random) -> Script:
             faults.cut(random.randrange(1, 12)),
             faults.cut(random.choice([-1, -2, -3]), piece),
             faults.lost(random.randrange(8), random.randrange(1, 4)),
+            faults.halted(random.randrange(1, 6), random.choice([0.001, 0.01, 0.04])),
             *harmless_faults(random),
         ]
     )
@@ -65,7 +66,6 @@ def any_fault(random: Random) -> Script:
 def harmless_faults(random: Random) -> list[Script]:
     """What may happen to a reply without making it another, or none."""
     return [
-        faults.halted(random.randrange(1, 6), random.choice([0.001, 0.01])),
         faults.preceded(b"\x55\xaa"),
         faults.preceded(a_report(random), is_report=True),
         faults.followed(a_report(random), is_report=True),
@@ -160,6 +160,7 @@ def with_threads(requests: int, rounds: int, seed: int) -> None:
         for _ in range(rounds):
             list(pool.map(ask, talks))
             await_that(lambda: controller.counters.reports >= len(board.reported))
-            assert [each for talk in talks for each in talk.failed + talk.stale] == []
+            wrong = [each for talk in talks for each in talk.failed + talk.stale]
+            assert wrong == [], f"{wrong}, {controller.counters}"
             watch.end(talks, math.inf, PATIENCE, quiet=0.02)
         watch.tell()

@@ -122,6 +122,15 @@ def test_an_adapter_hands_over_what_has_come_in_its_time() -> None:
     assert (port.read(1), port.now) == (firmware.battery_reply(1), 0.016)
 
 
+def test_an_adapter_that_gathers_hands_over_a_frame_when_it_is_whole() -> None:
+    port = VirtualPort(Board(baud=9600, gathers=True, faults={1: faults.duplicated()}.get))
+    port.write(firmware.battery_question())
+    assert port.read(1) == firmware.battery_reply(1)
+    assert port.now == pytest.approx(10 * BYTE)
+    assert port.read(1) == firmware.battery_reply(1)
+    assert port.now == pytest.approx(16 * BYTE)
+
+
 def test_a_half_duplex_adapter_gives_back_what_is_sent() -> None:
     port = VirtualPort(Board(baud=9600, echo=True, thinks=0.01))
     port.write(firmware.battery_question())

@@ -1,7 +1,7 @@
 """The independent board at a pty and over TCP, in real time: threads, tasks, and cancellation.
 
-Bytes take their time at 9600 baud both ways, and every fifth reply meets a fault. No answer is
-lost here, so that no call has to wait for its time to be over, on however slow a machine.
+Frames take their time at 9600 baud both ways, and every fifth reply meets a fault. No answer is
+lost or torn here, so that no call has to wait for its time to be over, on however slow a machine.
 """
 
 from __future__ import annotations
@@ -38,7 +38,6 @@ SCRIPTS = [
     faults.preceded(b"\x55\x00\xff"),
     faults.preceded(REPORT, is_report=True),
     faults.followed(REPORT, 0.003, is_report=True),
-    faults.halted(5, 0.015),
 ]
 
 
@@ -49,7 +48,7 @@ def scripts(seed: int) -> Board:
     def script(number: int) -> Script | None:
         return random.choice(SCRIPTS) if number % 5 == 0 else None
 
-    return Board(baud=BAUD, thinks=0.002, faults=script)
+    return Board(baud=BAUD, gathers=True, thinks=0.002, faults=script)
 
 
 def settle(board: Board, controller: Controller | AsyncController) -> bool:
@@ -149,7 +148,7 @@ def test_one_task_and_twenty_more(port: type[Port]) -> None:
 @pytest.mark.parametrize("port", PORTS)
 def test_what_is_cancelled_leaves_no_reply_to_the_next(port: type[Port]) -> None:
     """A read is given up while its question is on the wire, or its reply."""
-    with port(Board(baud=BAUD, thinks=0.002)) as end:
+    with port(Board(baud=BAUD, gathers=True, thinks=0.002)) as end:
 
         async def work() -> None:
             async with open_async_controller(end.name, margin=MARGIN, settle=0) as controller:
@@ -168,7 +167,7 @@ def test_what_is_cancelled_leaves_no_reply_to_the_next(port: type[Port]) -> None
 @pytest.mark.parametrize("port", PORTS)
 def test_a_reply_meant_for_a_program_that_was_killed(port: type[Port]) -> None:
     """5000 mV for 7401: the answer to its question came 10 ms after we opened the port."""
-    with port(Board(baud=BAUD, faults={1: faults.late(0.004)}.get)) as end:
+    with port(Board(baud=BAUD, gathers=True, faults={1: faults.late(0.004)}.get)) as end:
         end.hear(firmware.battery_question())
         await_that(lambda: end.board.asked)
         with open_controller(end.name, margin=MARGIN) as controller:

@@ -30,11 +30,20 @@ HEALTHY = 8
 BOUND = 3 * (MARGIN + wire_time(SIX, BAUD))
 
 
+class Read(NamedTuple):
+    """What is read, behind how many moves, and for how long nothing is asked then."""
+
+    asked: Asked
+    moves: int
+    pause: float
+
+
 class Step(NamedTuple):
-    """What happens to the reply to the first of some reads, and how long is waited after each."""
+    """What happens to the reply to the first of some reads, and whether a group runs meanwhile."""
 
     script: Script
-    reads: list[tuple[Asked, float]]
+    reads: list[Read]
+    runs: bool
 
 
 def a_report(after: float, command: int) -> Piece:
@@ -63,14 +72,16 @@ scripts: st.SearchStrategy[Script] = st.one_of(
 )
 # Two reads are in order before anything else happens: the property tells of what one fault does.
 reads = st.lists(
-    st.tuples(
+    st.builds(
+        Read,
         st.sampled_from([None, None, SIX, (1, 2)]),
+        st.sampled_from([0, 0, 0, 1, 3]),
         st.sampled_from([0.0, 0.0, 0.0, 0.01, 0.1, 0.4]),
     ),
     min_size=3,
     max_size=5,
 )
-steps = st.lists(st.builds(Step, scripts, reads), min_size=1, max_size=4)
+steps = st.lists(st.builds(Step, scripts, reads, st.booleans()), min_size=1, max_size=4)
 
 
 @given(
@@ -91,10 +102,14 @@ def test_whatever_happens_to_the_replies(steps: list[Step], thinks: float, laten
             talk.ask(controller, None)
         for step in steps:
             script_of[board.asked + 1] = step.script
-            for asked, pause in step.reads:
-                talk.ask(controller, asked)
-                if pause:
-                    heard += [each.encode() for each in controller.reports(timeout=pause)]
+            if step.runs:
+                controller.run_action_group(8, times=2)
+            for read in step.reads:
+                for _ in range(read.moves):
+                    controller.move_servos([(servo, 500) for servo in SIX], time_ms=1000)
+                talk.ask(controller, read.asked)
+                if read.pause:
+                    heard += [each.encode() for each in controller.reports(timeout=read.pause)]
         for _ in range(3):
             talk.ask(controller, SIX)
         heard += [each.encode() for each in controller.reports(timeout=2)]

@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+import logging
 import math
 import signal
 import sys
@@ -14,6 +15,8 @@ from ..exchanges import LIMITS
 from ..link_errors import ClosedError, DisconnectedError, TransportError, WriteStuckError
 from ..protocol import BAUD
 from ..serial_port import open_transport
+from .console import visible
+from .examples import PROGRAM
 from .exits import LINE_LOST, TERMINATED
 from .numerals import above_zero, at_least
 from .unusable import LineLostError, UnusableError
@@ -93,9 +96,16 @@ def open_line(port: str, baud: float = BAUD) -> Transport:
 
 
 def open_client(
-    arguments: argparse.Namespace, *, retries: int = 0, limits: Bounds | None = LIMITS.usual
+    arguments: argparse.Namespace,
+    *,
+    retries: int = 0,
+    limits: Bounds | None = LIMITS.usual,
+    settle: float | None = None,
 ) -> Client:
     """As open_line, for a client that waits as long as the arguments say."""
+    logger = logging.getLogger(Client.__module__.rpartition(".")[0])
+    if not any(isinstance(each, _Warnings) for each in logger.handlers):
+        logger.addHandler(_Warnings(logging.WARNING))
     return Client(
         open_line(arguments.port, arguments.baud),
         baud=arguments.baud,
@@ -103,7 +113,15 @@ def open_client(
         retries=retries,
         local_echo=arguments.local_echo,
         limits=limits,
+        settle=settle,
     )
+
+
+class _Warnings(logging.Handler):
+    """Prints what the library has to say of a line as the command prints everything else."""
+
+    def emit(self, record: logging.LogRecord) -> None:
+        print(f"{PROGRAM}: {visible(record.getMessage())}", file=sys.stderr)
 
 
 @contextmanager

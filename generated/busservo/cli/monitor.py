@@ -9,6 +9,7 @@ import time
 from contextlib import closing
 from pathlib import Path
 
+from ..careful_decoder import GAP
 from ..decoder import StreamDecoder
 from ..exchanges import RECEIVED
 from ..recording_entry import SENDERS
@@ -39,8 +40,8 @@ ABOUT = """\
 One line for each frame and each piece of noise: the time, who sent it, its bytes, what they mean.
 Ctrl-C ends it, and the totals follow on the error stream. Colours are for terminals alone, and for
 nobody who has set NO_COLOR."""
-# How long a line is quiet before half a frame is given up.
-_QUIET = 0.25
+# How long to read in one piece, so that Ctrl-C is noticed on every system.
+_SLICE = 0.25
 
 
 def add_arguments(parser: ArgumentParser) -> None:
@@ -131,17 +132,17 @@ class Monitor:
 
     def watch(self, line: Transport, recorder: Recorder) -> None:
         """Reads and shows, until so many lines were shown; the totals come in any case."""
-        shown = heard = self._clock()
+        shown = self._clock()
         self._lines.begin(self._day() if self._absolute else shown)
         try:
             while self._left != 0:
-                data = line.read(_QUIET)
+                data = line.read(GAP if self._decoder.pending else _SLICE)
                 now = self._clock()
                 before = self._lines.count
                 if data:
-                    heard = now
                     self._tell(self._decoder.feed(data), recorder, now)
-                elif self._decoder.pending and now - heard >= _QUIET:
+                elif self._decoder.pending:
+                    # Found empty for so long: half a frame must not grow together with the next.
                     self._tell(self._decoder.flush(), recorder, now)
                     recorder.quiet()
                 if self._lines.count != before:

@@ -9,6 +9,7 @@ import sys
 import threading
 import time
 
+from ..careful_decoder import GAP
 from ..decoder import StreamDecoder
 from ..exchanges import RECEIVED
 from ..link_errors import TransportError
@@ -26,7 +27,7 @@ if TYPE_CHECKING:
     from ..recordings import Entry
     from ..transport import Transport
 
-# How long a line is quiet before half a frame is given up, and how long the last answer may take.
+# How long the last answer may take.
 _QUIET = 0.25
 # How long to wait in one piece, so that Ctrl-C is noticed on every system.
 _SLICE = 0.1
@@ -88,10 +89,11 @@ class Playback:
         began = time.monotonic()
         while (left := until - time.monotonic()) > 0:
             try:
-                heard, now = self._heard.get(timeout=min(left, _SLICE))
+                pause = GAP if self._decoder.pending else _SLICE
+                heard, now = self._heard.get(timeout=min(left, pause))
             except queue.Empty:
                 now = time.monotonic()
-                if self._decoder.pending and now - self._last >= _QUIET:
+                if self._decoder.pending and now - self._last >= GAP:
                     self._show(self._decoder.flush(), now)
                 if now - began >= PATIENCE:
                     self._waiting.show(f"{what} in {left:.0f} s")

@@ -8,7 +8,7 @@ import argparse
 import sys
 from pathlib import Path
 
-from ..link_errors import AbsentError, NoReplyError
+from ..link_errors import NoReplyError
 from . import link
 from .events import counted
 from .examples import PROGRAM
@@ -16,7 +16,15 @@ from .exits import DONE, INTERRUPTED, NOT_ALL
 from .limits import add_limits, limits_of
 from .link import add_port, add_timeout, failures_told, open_client
 from .posefile import Recorded, read_poses, write_poses
-from .positions import find_present, hold, listed, read_targets, the_pose
+from .positions import (
+    UNREAD,
+    find_present,
+    hold,
+    in_options,
+    listed,
+    read_targets,
+    the_pose,
+)
 from .unusable import UnusableError
 
 TYPE_CHECKING = False
@@ -132,8 +140,8 @@ class _Lesson:
                 continue
             try:
                 targets = read_targets(self._controller, self._pose, self._ids, self._limits)
-            except (AbsentError, NoReplyError) as error:
-                print(f"nothing recorded: {error}", file=sys.stderr)
+            except UNREAD as error:
+                print(f"nothing recorded: {in_options(error)}", file=sys.stderr)
                 continue
             self._poses.append(Recorded(dict(targets)))
             write_poses(self._path, self._poses)
@@ -144,8 +152,8 @@ class _Lesson:
     def _held(self) -> bool:
         try:
             hold(self._controller, self._pose, self._ids, self._limits)
-        except (AbsentError, NoReplyError) as error:
-            print(f"not held: {error}", file=sys.stderr)
+        except UNREAD as error:
+            print(f"not held: {in_options(error)}", file=sys.stderr)
             return False
         return True
 

@@ -43,11 +43,9 @@ class PoseView:
             "position": self._position,
             "moved": self._moved.name,
             "time": self.time,
-            "hold": pose.hold,
-            "present": pose.present,
-            "targets": pose.targets,
         }
         items += [f"{key}={literal(name)}" for key, name in names.items()]
+        items.append("limits=LIMITS")
         return Bracketed("POSE: Pose = Pose(", items, ")").fitted(0)
 
     @property
@@ -146,12 +144,13 @@ class PoseView:
             f"`{self.asked}`: Those to hold; all of them must be there. `{self.time}`: How long "
             "the way back may take, in ms."
         )
+        raised = "AbsentError where one is off or missing, LimitError where one is far out"
         return [
             "Command the positions that are read at this moment.",
             nearest,
             given,
             f"Returns what `{self.move_method}` does.",
-            f"Raises AbsentError, with nothing sent, where one is off or missing; {_RAISED}",
+            f"Raises, with nothing sent, {raised}; {_RAISED}",
         ]
 
     @property
@@ -169,13 +168,14 @@ class PoseView:
     @property
     def targets_doc(self) -> list[str]:
         taken = (
-            "What is absent is left out. What is outside the limits of this client, or below "
-            "zero, which no command can say, is taken to the nearest position that is inside."
+            "What is absent is left out. What is read a little below zero, or a little outside the "
+            "limits of this client, is taken to the nearest position inside."
         )
         return [
             "Make targets of positions that were read, to go back there.",
             taken,
             f"Returns what `{self.move_method}` takes as `{self._moved.name}`.",
+            "Raises LimitError for what is further out, and would be sent somewhere else.",
         ]
 
     @property

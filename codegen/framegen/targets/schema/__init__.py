@@ -62,6 +62,9 @@ def schema_text() -> str:
     for model in schema["$defs"].values():
         if "type" in model["properties"]:
             model["properties"]["type"]["enum"] = list(WIRE_TYPES)
+        if "signed_as" in model["properties"]:
+            signed = [name for name, wire in WIRE_TYPES.items() if wire.low < 0]
+            model["properties"]["signed_as"]["anyOf"][0]["enum"] = signed
     schema["$schema"] = "https://json-schema.org/draft/2020-12/schema"
     schema["title"] = "framegen spec"
     return json.dumps(_ordered(schema), indent=2, ensure_ascii=False) + "\n"

@@ -43,6 +43,8 @@ if TYPE_CHECKING:
     _Outbox: TypeAlias = SimpleQueue[bytes | Request | asyncio.Future[None] | None]
 
 logger = logging.getLogger(__package__)
+# While the loop is busy, what is due may stay so: the reading thread is not to spin meanwhile.
+_SHORTEST_READ = 0.002
 _Reply = TypeVar("_Reply", bound="Message")
 _Second = TypeVar("_Second", bound="Message")
 _Third = TypeVar("_Third", bound="Message")
@@ -94,8 +96,8 @@ class AsyncClient:
         self._loop: asyncio.AbstractEventLoop | None = None
         self._threads: list[threading.Thread] = []
         self._outbox: _Outbox = SimpleQueue()
-        # Whether the reading thread should say that time passes, besides that bytes arrive.
-        self._ticking = False
+        # When the reading thread should say, at the latest, that time has passed and nothing come.
+        self._tick_at: float | None = None
         # Until when nothing can be complete that is arriving.
         self._resting_until = float("-inf")
         self._timer: asyncio.TimerHandle | None = None
@@ -447,7 +449,7 @@ class AsyncClient:
         asked = self._session.unwritten
         if frames and asked is not None:
             self._outbox.put(asked)
-        self._ticking = self._session.tick_at is not None
+        self._tick_at = self._session.tick_at
         self._resting_until = self._session.resting_until(now)
         if self._timer is not None:
             self._timer.cancel()
@@ -563,13 +565,17 @@ class AsyncClient:
         if rest > 0:
             time.sleep(min(rest, SLICE))
         began = time.monotonic()
+        tick_at = self._tick_at
+        left = SLICE if tick_at is None else tick_at - began
         try:
-            data = line.transport.read(SLICE)
+            data = line.transport.read(min(SLICE, max(_SHORTEST_READ, left)))
             arrived = time.monotonic()
         except TransportError as error:
             _post(loop, self._lost, line, error)
             return False
-        return not (data or self._ticking) or _post(loop, self._arrived, line, data, began, arrived)
+        return not (data or tick_at is not None) or _post(
+            loop, self._arrived, line, data, began, arrived
+        )
 
 
 class _Line:

@@ -69,8 +69,8 @@ class Limits:
                 at = placed(message, path, place)
                 raise LimitError(at, values[place], bounds, self.way_out(values[place]))
 
-    def way_out(self, value: int) -> str:
-        """What to do about a value that was refused, in the words of a program."""
+    def way_out(self, value: int, *, read: bool = False) -> str:
+        """What to do about a value that was refused, or was read and cannot be sent back."""
         known = {"what is usual": self.usual, **self.others}
         takers = [
             f"limits={bounds} is for {name}"
@@ -79,8 +79,8 @@ class Limits:
         ]
         if takers:
             return f"{', '.join(takers)}, limits=None for any"
-        read = f"{self.targets}() makes targets of what was read; " if self.targets else ""
-        return f"{read}limits=None sends anything"
+        made = f"{self.targets}() makes targets of what was read; "
+        return f"{made if self.targets and not read else ''}limits=None sends anything"
 
 
 def placed(message: Message, path: str, place: int) -> str:

@@ -15,6 +15,7 @@ from ..protocol import BAUD
 from ..wire import Wire
 from . import link
 from .console import visible
+from .events import counted
 from .exits import DONE, INTERRUPTED, NOT_ALL
 from .link import add_port, add_timeout, failures_told, open_client
 from .numerals import at_least
@@ -56,7 +57,7 @@ def add_arguments(parser: ArgumentParser) -> None:
 def run(arguments: Namespace) -> int:
     """Asks, and prints what came of it, also when it ended early."""
     trips = Trips(_question(arguments), arguments.port, arguments.baud)
-    with failures_told(), open_client(arguments) as client:
+    with failures_told(), open_client(arguments, settle=0) as client:
         try:
             trips.make(client, arguments.n)
         except KeyboardInterrupt:
@@ -104,6 +105,8 @@ class Trips:
         self._taken: list[float] = []
         self._sizes: list[int] = []
         self._whole = 0.0
+        # Replies that answer nothing, and questions with one sooner than the wire allows.
+        self._unsolicited = self._impossible = 0
         self.errors: dict[str, int] = {}
 
     def make(self, client: Client, count: int) -> None:
@@ -115,6 +118,8 @@ class Trips:
                     self._make_one(client)
         finally:
             self._whole = time.perf_counter() - began
+            self._unsolicited = client.counters.unsolicited
+            self._impossible = client.counters.impossible
 
     def _make_one(self, client: Client) -> None:
         began = time.perf_counter()
@@ -145,6 +150,8 @@ class Trips:
             "asked": self._asked,
             "answered": len(taken),
             "errors": self.errors,
+            "unsolicited": self._unsolicited,
+            "impossible": self._impossible,
             "min": round(min(taken), 6) if taken else None,
             "median": round(median(taken), 6) if taken else None,
             "max": round(max(taken), 6) if taken else None,
@@ -163,18 +170,26 @@ class Trips:
         if self._taken:
             there, size = len(self._question.encode()), round(median(self._sizes))
             times = [f"{found[each] * 1000:.2f} ms" for each in ("wire", "min", "median", "max")]
-            share = found["share"] or 0.0
-            faster = "; it is faster than that rate, so it is no such line" if share > 1 else ""
+            faster = found["median"] < found["wire"]
+            hint = "; it is faster than that rate, so try --baud inf" if faster else ""
             line = "on a line that takes no time"
             rate = f"{found['per_second']:.1f} a second"
             if self._baud != math.inf:
                 line = f"at {self._baud} baud"
-                rate = f"{rate}, {share:.1%} of what the line allows"
+                rate = f"{rate}, {found['share']:.1%} of what the line allows"
             wire = f"{times[0]}: {there} bytes there and {size - there} back, {line}"
             lines += [
                 f"  the wire alone  {wire}",
                 f"  round trips     min {times[1]}, median {times[2]}, max {times[3]}",
-                f"  rate            {rate}{faster}",
+                f"  rate            {rate}{hint}",
             ]
+        if self._unsolicited:
+            slips = counted(self._unsolicited, "reply", "replies")
+            lines.append(f"  slips           {slips} to nothing, sent twice or too late: dropped")
+        if self._impossible:
+            early = counted(self._impossible, "question")
+            lines.append(
+                f"  too soon        {early} had a reply that no such wire can have carried"
+            )
         told = ", ".join(f"{number} {kind}" for kind, number in self.errors.items())
         return "\n".join([*lines, f"  errors          {told or 'none'}"])

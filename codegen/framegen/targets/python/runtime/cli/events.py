@@ -78,9 +78,9 @@ def totals(seen: Counters) -> str:
     return f"{told}, {counted(seen.noise, 'byte')} of noise{unknown}"
 
 
-def counted(number: int, noun: str) -> str:
+def counted(number: int, noun: str, plural: str = "") -> str:
     """A number of things, in words."""
-    return f"{number} {noun}" if number == 1 else f"{number} {noun}s"
+    return f"{number} {noun}" if number == 1 else f"{number} {plural or noun + 's'}"
 
 
 def _why(noise: Noise, direction: Direction | None) -> str:

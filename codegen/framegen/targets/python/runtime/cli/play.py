@@ -9,7 +9,6 @@ import time
 from itertools import chain, repeat
 from pathlib import Path
 
-from ..link_errors import AbsentError, NoReplyError
 from ..wire import Wire
 from . import link
 from .events import counted
@@ -18,7 +17,7 @@ from .limits import add_limits, limits_of
 from .link import add_port, add_timeout, failures_told, open_client
 from .numerals import at_least
 from .posefile import LONGEST_PAUSE, check_limits, read_poses
-from .positions import hold, listed, the_pose
+from .positions import UNREAD, hold, in_options, listed, the_pose
 from .unusable import UnusableError
 from .values import fields_as_text
 from .waiting import shown_waiting
@@ -125,8 +124,9 @@ def _play(
         ids = tuple(dict.fromkeys(each for step in steps for each in step.ids))
         try:
             hold(controller, pose, ids, limits)
-        except (AbsentError, NoReplyError) as error:
-            print(f"\nthe motion under way goes on to its end: {error}", file=sys.stderr)
+        except UNREAD as error:
+            told = f"the motion under way goes on to its end: {in_options(error)}"
+            print(f"\n{told}", file=sys.stderr)
         else:
             print(f"\n{listed(pose, ids)} held", file=sys.stderr)
         return INTERRUPTED

@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+from ..errors import LimitError
 from ..exchanges import POSE
+from ..link_errors import AbsentError, NoReplyError
 from ..outcome import parts_of
 from ..pose import HOLD_MS
+from .limits import refused
 from .unusable import UnusableError
 
 TYPE_CHECKING = False
@@ -14,6 +17,9 @@ if TYPE_CHECKING:
     from ..client import Client
     from ..limits import Bounds
     from ..pose import Pose
+
+# What keeps positions from being read, and is over at the next attempt.
+UNREAD = (AbsentError, LimitError, NoReplyError)
 
 
 def the_pose() -> Pose:
@@ -31,13 +37,13 @@ def find_present(controller: Client, pose: Pose) -> tuple[int, ...]:
 def read_targets(
     controller: Client, pose: Pose, ids: Sequence[int], limits: Bounds | None
 ) -> list[tuple[int, int]]:
-    """Where these are now, as targets. Raises AbsentError unless all are there; NoReplyError."""
+    """Where these are now, as targets. Raises one of UNREAD unless all are there."""
     exchanged = [(each, controller.request(each)) for each in parts_of(pose.read, ids)]
     return pose.held(exchanged, limits)
 
 
 def hold(controller: Client, pose: Pose, ids: Sequence[int], limits: Bounds | None) -> None:
-    """Commands where these are now. Raises AbsentError, NoReplyError."""
+    """Commands where these are now. Raises one of UNREAD."""
     targets = read_targets(controller, pose, ids, limits)
     # As many motions as it takes: the first is on its way before the next is made.
     for at in range(0, len(targets), pose.room):
@@ -48,3 +54,8 @@ def listed(pose: Pose, ids: Iterable[int]) -> str:
     """Some of them in words: `servo 1`, `servos 1, 2`."""
     numbers = [str(each) for each in ids]
     return f"{pose.noun}{'' if len(numbers) == 1 else 's'} {', '.join(numbers)}"
+
+
+def in_options(error: Exception) -> str:
+    """What went wrong, in the words of the command line."""
+    return str(refused(error) if isinstance(error, LimitError) else error)
