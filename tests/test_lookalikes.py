@@ -1,7 +1,9 @@
 """The library names the protocols that are easily taken for it: by their frames, in any company."""
 
+from pathlib import Path
+
 import pytest
-from busservo import lookalikes, strategies
+from busservo import Message, lookalikes, strategies
 from framegen.layout import Layout
 from framegen.lookalikes import recognise
 from framegen.targets.python.library_view import LibraryView
@@ -53,7 +55,7 @@ def test_the_frames_of_a_look_alike_are_recognised(data: bytes, title: str | Non
 
 
 @given(st.lists(strategies.messages(), max_size=5))
-def test_what_is_of_this_protocol_is_never_taken_for_another(messages: list) -> None:
+def test_what_is_of_this_protocol_is_never_taken_for_another(messages: list[Message]) -> None:
     assert lookalikes.recognise(b"".join(message.encode() for message in messages)) is None
 
 
@@ -72,7 +74,7 @@ def test_the_generator_recognises_the_same(data: bytes, title: str) -> None:
     assert found.lookalike.title == lookalikes.recognise(data) == title
 
 
-def test_another_protocol_has_look_alikes_of_its_own(tmp_path) -> None:
+def test_another_protocol_has_look_alikes_of_its_own(tmp_path: Path) -> None:
     layout = layout_of(data_of(DEMO))
     with library(files_of(data_of(DEMO)), tmp_path) as made:
         found = __import__(f"{made.__name__}.lookalikes", fromlist=["recognise"])

@@ -9,7 +9,7 @@ import json
 import os
 import sys
 import time
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any, cast
 
 import pytest
 from busservo import (
@@ -28,6 +28,7 @@ from busservo.cli.unusable import UnusableError
 from busservo.cli.waiting import Waiting
 
 if TYPE_CHECKING:
+    from io import TextIOWrapper
     from pathlib import Path
 
 
@@ -348,7 +349,7 @@ def test_a_recording_whose_end_does_not_fit_is_told(tmp_path: Path) -> None:
     recorder = Recorder(tmp_path / "line.hex")
     assert recorder._file is not None
     recorder._file._file.close()
-    recorder._file._file = FullDisk()
+    recorder._file._file = cast("TextIOWrapper[Any]", FullDisk())
     with pytest.raises(UnusableError, match=r"line\.hex.*No space left"), recorder:
         pass
     # What went wrong before it is what is told.

@@ -13,10 +13,14 @@ from .lines import in_line, time_of_day
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
-    from collections.abc import Iterator
-    from typing import Any, TextIO
+    from collections.abc import Callable, Iterator
+    from typing import Any, TextIO, TypeVar
 
+    from ..direction import Direction
+    from ..message import Message
     from ..recordings import Entry
+
+    _Said = TypeVar("_Said")
 
 COLUMNS = ("offset", "time", "from", "direction", "message", "or", "fields", "hex", "reason")
 # What a recording says again and again is put in words once, as long as it is not too much.
@@ -34,11 +38,12 @@ class EntryLines:
         self._times = times or "zero"
         self._last = 0.0
         self._with_time = self._with_day = self._count = 0
-        self._said: dict[tuple[object, ...], str] = {}
-        self._rows = csv.DictWriter(screen, COLUMNS, lineterminator="\r\n")
+        self._said: dict[tuple[object, ...], Any] = {}
+        # Text streams end lines as the system does.
+        self._rows = csv.writer(screen, lineterminator="\n")
         self._say = {"text": self._as_text, "json": self._as_json, "csv": self._as_row}[form]
         if form == "csv":
-            self._rows.writeheader()
+            self._rows.writerow(COLUMNS)
 
     def show(self, entry: Entry) -> None:
         """Prints an entry; whoever waits for it flushes."""
@@ -79,22 +84,19 @@ class EntryLines:
         self._screen.write(f'{{"offset": {entry.offset}{when}, {rest}\n')
 
     def _as_row(self, entry: Entry, time: float | None) -> None:
-        record = as_record(entry.event, entry.direction)
-        row: dict[str, Any] = {name: record[name] for name in COLUMNS if name in record}
-        row |= {"offset": entry.offset, "time": "" if time is None else f"{time:.6f}"}
-        row["hex"] = record.get("hex", record.get("noise"))
-        if "fields" in record:
-            row |= {"fields": json.dumps(record["fields"]), "or": " ".join(record.get("or", ()))}
-        self._rows.writerow(row)
+        when = "" if time is None else f"{time:.6f}"
+        self._rows.writerow([entry.offset, when, *self._remembered(entry, _as_cells)])
 
-    def _remembered(self, entry: Entry, say: Any) -> str:
+    def _remembered(
+        self, entry: Entry, say: Callable[[Message | Noise, Direction | None], _Said]
+    ) -> _Said:
         event = entry.event
         key: tuple[object, ...]
         if isinstance(event, Noise):
             key = (type(event), event.data, event.reason, entry.sender)
         else:
             key = (event.encode(), entry.sender)
-        said = self._said.get(key)
+        said: _Said | None = self._said.get(key)
         if said is None:
             if len(self._said) >= _REMEMBERED:
                 self._said.clear()
@@ -102,5 +104,14 @@ class EntryLines:
         return said
 
 
-def _as_json(event: Any, direction: Any) -> str:
+def _as_json(event: Message | Noise, direction: Direction | None) -> str:
     return json.dumps(as_record(event, direction))[1:]
+
+
+def _as_cells(event: Message | Noise, direction: Direction | None) -> list[str]:
+    record = as_record(event, direction)
+    if isinstance(event, Noise):
+        return [record["from"], "", "", "", "", record["noise"], record["reason"]]
+    named = [record["from"], record["direction"], record["message"]]
+    others, fields = " ".join(record.get("or", ())), json.dumps(record["fields"])
+    return [*named, others, fields, record["hex"], ""]

@@ -24,9 +24,11 @@ VERBS = {
 EXAMPLES = {
     "decode": (
         ("busservo decode 55 55 08 03 01 E8 03 01 20 03", "bytes in hex, however they are written"),
-        ("busservo decode line.bin", "a recording, raw or in hex"),
+        ("busservo decode line.bin", "a recording, hex or raw bytes"),
         ("busservo decode --direction host -", "what arrives on standard input"),
         ("busservo decode --json line.bin", "a line of JSON for each message and noise"),
+        ("busservo decode -t absolute line.hex", "a recording, with the time of day"),
+        ("busservo decode --csv line.hex", "a row for each, for a spreadsheet"),
     ),
     "encode": (
         (
@@ -56,12 +58,12 @@ EXAMPLES = {
     "doctor": (
         ("busservo doctor", "the port that is plugged in, and the board behind it"),
         ("busservo doctor --port COM7", "this port"),
-        ("busservo doctor --port COM7 --move 1", "also whether servo 1 moves; asks first"),
         (
             'busservo doctor --port COM7 --board "LSC-32, V1.3" --report line.hex',
             "a report to be sent in",
         ),
         ("busservo doctor --port COM7 --json", "for a program to read"),
+        ("busservo doctor --port COM7 --move 1", "also whether that moves; asks first"),
     ),
     "monitor": (
         ("busservo monitor --port COM7", "every frame and all noise"),

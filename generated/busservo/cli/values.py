@@ -10,6 +10,7 @@ from .unusable import UnusableError
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
+    from collections.abc import Iterator
     from typing import Any
 
     from ..fields import Items, Number
@@ -18,16 +19,24 @@ if TYPE_CHECKING:
 
 def fields_as_json(message: Message) -> dict[str, Any]:
     """The fields by name; each element of a list as a mapping of its own fields."""
-    return {name: _plain(getattr(message, name)) for name in message.__match_args__}
+    items = message.SHAPE.items
+    fields = {}
+    for name in message.__match_args__:
+        if items is None or items.name != name:
+            fields[name] = getattr(message, name)
+        elif items.element is None:
+            fields[name] = [*message.SHAPE.listed(message.encode())]
+        else:
+            names = [field.name for field in items.fields]
+            fields[name] = [dict(zip(names, each, strict=True)) for each in _listed(message)]
+    return fields
 
 
-def _plain(value: Any) -> Any:
-    if not isinstance(value, tuple):
-        return value
-    names: tuple[str, ...] | None = getattr(value, "__match_args__", None)
-    if names is not None:
-        return dict(zip(names, value, strict=True))
-    return [_plain(item) for item in value]
+def _listed(message: Message) -> Iterator[tuple[int, ...]]:
+    """The elements of a list as plain numbers: many times as fast as one by one."""
+    items = message.SHAPE.items
+    numbers = iter(message.SHAPE.listed(message.encode()))
+    return zip(*[numbers] * len(items.fields if items else ()), strict=True)
 
 
 def fields_as_text(message: Message) -> str:
@@ -35,16 +44,13 @@ def fields_as_text(message: Message) -> str:
     items = message.SHAPE.items
     shown: list[str] = []
     for name in message.__match_args__:
-        value = getattr(message, name)
         if items is not None and items.name == name:
-            shown.append(f"{name}={','.join(_element_as_text(items, item) for item in value)}")
+            elements = [":".join(map(str, each)) for each in _listed(message)]
+            shown.append(f"{name}={','.join(elements)}")
         else:
-            shown.append(f"{name}={_number_as_text(_number(message.SHAPE.numbers, name), value)}")
+            number = _number(message.SHAPE.numbers, name)
+            shown.append(f"{name}={_number_as_text(number, getattr(message, name))}")
     return " ".join(shown)
-
-
-def _element_as_text(items: Items, item: Any) -> str:
-    return str(item) if items.element is None else ":".join(str(part) for part in item)
 
 
 def _number(numbers: tuple[Number, ...], name: str) -> Number:

@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+import math
 import time
 from pathlib import Path
 
@@ -65,6 +66,11 @@ class Diagnosis:
         self.strange: list[Noise] = []
         self._clock = clock
         self._open = opener or (lambda name, rate: open_transport(name, baud=rate))
+
+    @property
+    def stated(self) -> str:
+        """The rate that the line is said to have, in words."""
+        return "no rate" if math.isinf(self.baud) else f"{self.baud:g} baud"
 
     @property
     def adapter(self) -> str:

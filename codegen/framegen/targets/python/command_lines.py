@@ -22,9 +22,11 @@ def decode_examples(layout: Layout) -> list[str]:
     hex_ = frame.hex(" ").upper()
     examples = [
         (f"{program} decode {hex_}", "bytes in hex, however they are written"),
-        (f"{program} decode line.bin", "a recording, raw or in hex"),
+        (f"{program} decode line.bin", "a recording, hex or raw bytes"),
         (f"{program} decode --direction {sender} -", "what arrives on standard input"),
         (f"{program} decode --json line.bin", "a line of JSON for each message and noise"),
+        (f"{program} decode -t absolute line.hex", "a recording, with the time of day"),
+        (f"{program} decode --csv line.hex", "a row for each, for a spreadsheet"),
     ]
     return _pairs(examples)
 
@@ -53,7 +55,6 @@ def line_examples(layout: Layout) -> dict[str, list[str]]:
         "doctor": [
             ("", "the port that is plugged in, and the board behind it"),
             ("--port COM7", "this port"),
-            ("--port COM7 --move 1", "also whether servo 1 moves; asks first"),
             ('--port COM7 --board "LSC-32, V1.3" --report line.hex', "a report to be sent in"),
             ("--port COM7 --json", "for a program to read"),
         ],
@@ -82,6 +83,7 @@ def line_examples(layout: Layout) -> dict[str, list[str]]:
         ],
     }
     if layout.spec.pose is not None:
+        lines["doctor"].append(("--port COM7 --move 1", "also whether that moves; asks first"))
         lines |= {
             "play": [
                 ("poses.json --dry-run", "what would be sent, and when"),

@@ -8,7 +8,7 @@ from .protocol import BODY_AT, COMMAND_AT, HEADER, LENGTH_AT, UNCOUNTED, read_co
 
 TYPE_CHECKING = False  # typing alone would double the time that the import takes
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Iterator
+    from collections.abc import Iterable
     from typing import TypeAlias
 
     from .message import Message
@@ -29,7 +29,7 @@ class Table(dict[bytes, "Entry | None"]):
     because two directions share it or a field has a range of its own.
     """
 
-    __slots__ = ("kinds", "largest", "waits")
+    __slots__ = ("_legal", "kinds", "largest", "waits")
 
     def __init__(self, kinds: Iterable[type[Message]]) -> None:
         super().__init__()
@@ -38,23 +38,32 @@ class Table(dict[bytes, "Entry | None"]):
             self.kinds.setdefault(kind.COMMAND, []).append(kind)
         # The beginnings of frames that were seen, and the size at which more can be told of each.
         self.waits: dict[bytes, int] = {}
+        # What may follow each legal head that was seen; of these, there are not many.
+        self._legal: dict[bytes, tuple[Entry, ...]] = {}
         self.largest = max(kind.LENGTHS[-1] for kind in kinds) + UNCOUNTED
 
     def __missing__(self, head: bytes) -> Entry | None:
-        entries = [*self.entries(head)]
+        entries = self.entries(head)
         if len(entries) != 1 or entries[0][-1].SHAPE.narrowed:
             return None
         (self[head],) = entries
         return entries[0]
 
-    def entries(self, head: bytes) -> Iterator[Entry]:
+    def entries(self, head: bytes) -> tuple[Entry, ...]:
         """What may follow `head`; where two directions share it, the first of them comes first."""
-        if len(head) < BODY_AT or not head.startswith(HEADER):
-            return
-        length = read_length(head)
-        for kind in self.kinds.get(read_command(head), ()):
-            if length in kind.LENGTHS:
-                yield length + UNCOUNTED, *kind.SHAPE.count_bytes(length), kind
+        found = self._legal.get(head)
+        if found is None:
+            if len(head) < BODY_AT or not head.startswith(HEADER):
+                return ()
+            length = read_length(head)
+            found = tuple(
+                (length + UNCOUNTED, *kind.SHAPE.count_bytes(length), kind)
+                for kind in self.kinds.get(read_command(head), ())
+                if length in kind.LENGTHS
+            )
+            if found:
+                self._legal[head] = found
+        return found
 
     def may_have(self, length: int) -> bool:
         """Whether some frame could have this length, if its command were not known."""

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import time
 from pathlib import Path
 
@@ -63,6 +64,11 @@ class Diagnosis:
         self.strange: list[Noise] = []
         self._clock = clock
         self._open = opener or (lambda name, rate: open_transport(name, baud=rate))
+
+    @property
+    def stated(self) -> str:
+        """The rate that the line is said to have, in words."""
+        return "no rate" if math.isinf(self.baud) else f"{self.baud:g} baud"
 
     @property
     def adapter(self) -> str:

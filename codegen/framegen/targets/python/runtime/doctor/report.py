@@ -58,7 +58,7 @@ def _about(diagnosis: Diagnosis, board: str) -> list[str]:
         f"board: {board or 'not told'}",
         f"adapter: {_blinded(diagnosis.adapter, diagnosis) or 'not known'}",
         f"host: {system}, Python {platform.python_version()}, pyserial {pyserial}",
-        f"line: {_kind_of(diagnosis.port)}, {diagnosis.baud:g} baud",
+        f"line: {_kind_of(diagnosis.port)}, {diagnosis.stated}",
     ]
 
 
