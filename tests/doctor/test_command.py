@@ -126,6 +126,14 @@ def test_a_report_is_a_recording_that_says_what_was_found(
         assert each in decoded
 
 
+def test_a_report_says_at_which_rate_each_question_was_asked(tmp_path: Path) -> None:
+    with board_with(Faults(dropped=1.0)) as board:
+        told = report_of(diagnosis_of(board), tmp_path / "report.hex")
+    opened = [line for line in told.splitlines() if line.startswith("# opened, at ")]
+    rates = (9600, 115200, 57600, 38400, 19200, 4800, 9600)
+    assert opened == [f"# opened, at {rate} baud" for rate in rates]
+
+
 def test_a_report_tells_nothing_of_its_sender(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

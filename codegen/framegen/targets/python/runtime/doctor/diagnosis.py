@@ -87,6 +87,7 @@ class Diagnosis:
         self.close()
         rate = self.baud if baud is None else baud
         transport = Guarded(self._open(self.port, rate))
+        self.log.append((self._clock(), None, b"", f"opened, at {rate:g} baud"))
         self.probe = Probe(
             transport, baud=rate, margin=self.margin, clock=self._clock, log=self.log
         )

@@ -1,4 +1,4 @@
-"""Check: something is there behind the board, such as servos, and tells its position."""
+"""Check: something is there behind the board, and tells its position."""
 
 from __future__ import annotations
 

@@ -43,7 +43,10 @@ class Report:
         self._file.begin(_kind_of(diagnosis.port))
         began = diagnosis.log[0][0] if diagnosis.log else 0.0
         for at, sender, data, what in diagnosis.log:
-            self._file.write(data, at - began, sender or NOISE, what)
+            if data:
+                self._file.write(data, at - began, sender or NOISE, what)
+            else:
+                self._file.note(what)
         self._file.close()
 
 
