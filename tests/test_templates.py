@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 from framegen.targets.docs import _html_environment, _markdown_environment
-from framegen.targets.python import _environment
+from framegen.targets.python import _SHARED, _environment
 from framegen.targets.python.library_view import LibraryView
 from framegen.targets.templates import environment
 from jinja2 import StrictUndefined, UndefinedError, nodes
@@ -112,8 +112,7 @@ def test_every_emitted_module_is_a_template_or_a_runtime_file() -> None:
     templates = {t.relative_to(TARGET / "templates").as_posix()[:-6] for t in TEMPLATES}
     runtime = {r.relative_to(TARGET / "runtime").as_posix() for r in RUNTIME}
     assert templates & runtime == set()
-    # What framegen itself reads hex with, the library has, too: tests/test_hextext.py.
-    assert emitted == templates | runtime | {"hextext.py", "py.typed", "vectors.json"}
+    assert emitted == templates | runtime | {*_SHARED} | {"py.typed", "vectors.json"}
 
 
 @pytest.mark.parametrize("path", SOURCES, ids=lambda path: path.relative_to(CODEGEN).as_posix())

@@ -1,10 +1,11 @@
-r"""Hex as people paste it: `55 55 02 07`, `0x55, 0x55`, `\x55\x55`, `55550207`, over any lines.
+"""Hex as people paste it: `55 55 02 07`, `0x55, 0x55`, `55550207`, over any lines.
 
 Between bytes may stand blanks, commas, colons, semicolons, dashes and underscores, and comments
-from a `#` to the end of the line. A byte is two digits, with `0x` or `\x` before it or not; behind
-one of these, a single digit at the end of a word is a byte, too. Nothing else is hex.
+from a `#` to the end of the line. A byte is two digits, with `0x` before it, or the backslash and x
+of strings in C and Python, or neither; behind one of these, a single digit at the end of a word is
+a byte, too. Nothing else is hex.
 
-This is copied into every library, and the script of the decoder's page says the same.
+The Python target copies this into each library, and the script of the decoder's page says the same.
 """
 
 from __future__ import annotations

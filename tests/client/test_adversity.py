@@ -108,7 +108,7 @@ def test_pulled_in_the_middle_of_a_reply_with_asyncio(board: VirtualController) 
     board.faults = Faults(hang_up=1)
 
     async def work() -> None:
-        async with open_async_controller(board.port, margin=BOUND) as controller:
+        async with open_async_controller(board.port, **LIVE) as controller:
             asking = [asyncio.ensure_future(controller.read_battery_voltage()) for _ in range(5)]
             with bounded():
                 for each in asking:
@@ -287,7 +287,7 @@ def test_a_flood_of_reports_hides_no_reply_and_is_counted(board: VirtualControll
 
 def test_a_flood_of_reports_hides_no_reply_with_asyncio(board: VirtualController) -> None:
     async def work() -> None:
-        async with open_async_controller(board.port, margin=BOUND, report_limit=64) as controller:
+        async with open_async_controller(board.port, **LIVE, report_limit=64) as controller:
             counters = controller.counters
             with flooded(board, controller) as said, bounded():
                 for _ in range(10):
@@ -354,7 +354,7 @@ def test_close_ends_what_waits_on_a_live_line(board: VirtualController) -> None:
 
 def test_what_is_cancelled_leaves_a_live_line_usable(board: VirtualController) -> None:
     async def work() -> None:
-        async with open_async_controller(board.port, margin=BOUND) as controller:
+        async with open_async_controller(board.port, **LIVE) as controller:
             for turn in range(20):
                 asking = asyncio.ensure_future(controller.read_servo_positions([1, 2]))
                 moving = asyncio.ensure_future(controller.move_servos([(1, 500)], 0))

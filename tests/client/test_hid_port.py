@@ -137,7 +137,7 @@ def test_a_session_by_usb_hid(library: Library, port: str) -> None:
 
 def test_a_session_by_usb_hid_with_asyncio(library: Library) -> None:
     async def work() -> None:
-        async with open_async_controller("hid://", margin=PATIENCE) as controller:
+        async with open_async_controller("hid://", **LIVE) as controller:
             assert await controller.read_battery_voltage() == 7500
             with pytest.raises(EncodeError, match="room for 19 of 20"):
                 await controller.move_servos([(each, 500) for each in range(20)], time_ms=0)

@@ -188,9 +188,9 @@ def test_a_socket_sends_small_frames_at_once(tcp: tuple[str, list[socket.socket]
 
 def test_a_session_with_asyncio(board: PtyBoard) -> None:
     async def work() -> None:
-        async with open_async_controller(board.port, margin=PATIENCE) as controller:
+        async with open_async_controller(board.port, **LIVE) as controller:
             assert await controller.read_battery_voltage() == 7500
-        awaited = await open_async_controller(board.port, margin=PATIENCE)
+        awaited = await open_async_controller(board.port, **LIVE)
         assert await awaited.read_servo_positions([3]) == ((3, 30),)
         await awaited.close()
         with pytest.raises(PortNotFoundError):
