@@ -46,7 +46,7 @@ _GUIDES = sorted({*(ROOT / "docs").glob("*.md")} - {_GUIDE})
 PAGES = [ROOT / "README.md", ROOT / "CONTRIBUTING.md", *_GUIDES]
 
 # A page need not say that the machine on which it is tried may be busy.
-PATIENT = {"margin": PATIENCE}
+PATIENT = {"margin": PATIENCE, "settle": 0}
 PATIENT_WORDS = {verb: ["--timeout", str(PATIENCE)] for verb in ("send", "bench-line", "doctor")}
 
 _NEEDED = ("spec", "generated", "codegen", "docs", "tests/captures")

@@ -2,14 +2,27 @@
 
 from __future__ import annotations
 
+import math
 import time
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, TypedDict
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
 # Far more than anything takes. What comes ends the wait, so that only a failure costs as much.
 PATIENCE = 60.0
+
+
+class Line(TypedDict):
+    """What a client is told of its line."""
+
+    margin: float
+    baud: float
+    settle: float
+
+
+# A board in this process or on this machine, behind no wire: it may be slow, and never too fast.
+LIVE: Line = {"margin": PATIENCE, "baud": math.inf, "settle": 0}
 
 
 def await_that(true: Callable[[], object]) -> None:

@@ -52,7 +52,7 @@ VIRTUAL["longest_delay"] = 0.4
 BOTH = {"fewer": 0.05, "absent": 0.05, "unasked": 0.2}
 # What a round may leave behind: caches that grow by a little, and never by a message each.
 SPARE_BLOCKS = 2000
-# Fewer do not even fill what is kept on purpose: the board's journal, the latest reports.
+# Fewer do not even fill what is kept on purpose: the board's log, the latest reports.
 ENOUGH = 50_000
 
 

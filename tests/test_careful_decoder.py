@@ -75,6 +75,17 @@ def test_all_holes_in_all_replies_lose_that_reply_alone() -> None:
                 assert messages(careful(line, flushed=True)) == [follows], (torn, follows, lost)
 
 
+@pytest.mark.parametrize(
+    "follows", [[ActionGroupStopped()], [REPORT], [ActionGroupStopped(), REPORT]]
+)
+@pytest.mark.parametrize("part", range(8))
+def test_frames_that_fill_a_hole_to_the_byte_are_found(follows: list[Message], part: int) -> None:
+    filling = b"".join(each.encode() for each in follows) + REPORT.encode()[:part]
+    torn = ServoPositions([(servo, 500) for servo in range(1, 7)]).encode()
+    line = torn[: -len(filling)] + filling + REPORT.encode()[part:]
+    assert messages(careful(line, flushed=True)) == [*follows, REPORT]
+
+
 @pytest.mark.parametrize("message", MESSAGES, ids=repr)
 def test_a_message_alone_is_told_at_once_or_when_the_line_is_quiet(message: Message) -> None:
     assert careful(message.encode(), flushed=True) == [message]

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import io
+import json
 import os
 import re
 import subprocess
@@ -220,6 +221,17 @@ BUSSERVO = [
     ["replay", "log.hex", "--dry-run", "--speed", HOSTILE],
     ["bench-line", "--port", HOSTILE],
     ["bench-line", *LINE, HOSTILE],
+    ["doctor", "--port", HOSTILE],
+    ["doctor", "--port", HOSTILE, "--json"],
+    ["doctor", "--report", f"{HOSTILE}/report"],
+    ["teach", "pose.json", "--port", HOSTILE],
+    ["teach", f"{HOSTILE}/pose.json", *LINE],
+    ["teach", "hostile", *LINE],
+    ["teach", "pose.json", *LINE, "--ids", HOSTILE],
+    ["play", HOSTILE, "--dry-run"],
+    ["play", "hostile", "--dry-run"],
+    ["play", "pose.json", "--dry-run"],
+    ["play", "pose.json", "--dry-run", "--pause", HOSTILE],
     ["ports", HOSTILE],
     ["simulate", HOSTILE],
     ["simulate", "--link", f"{HOSTILE}/link"],
@@ -269,6 +281,8 @@ def _hostile_files(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     log = "55 55 02 07  # 0.0 s, host: a\n"
     (tmp_path / "log.hex").write_text(log, encoding="utf-8")
     (tmp_path / "hostile").write_text(f"{log}zz # 0.1 s, \x1b[2J\x9b: b\n", encoding="utf-8")
+    pose = json.dumps({HOSTILE: [{HOSTILE: HOSTILE}], "poses": [{HOSTILE: 1}]})
+    (tmp_path / "pose.json").write_text(pose, encoding="utf-8")
     spec = (ROOT / "spec" / "busservo.yaml").read_text(encoding="utf-8")
     for name, value in {
         f"{HOSTILE}.yaml": "u17",

@@ -3,6 +3,7 @@
 import doctest
 import importlib
 import itertools
+import json
 import re
 import shutil
 import subprocess
@@ -827,6 +828,20 @@ def test_every_verb_of_a_library_has_help(many: Path, name: str) -> None:
     )
     *_, last = done.stdout.splitlines()
     assert last == "[]"
+
+
+@pytest.mark.parametrize("name", ["kiln", "bare"])
+def test_the_doctor_of_a_library_finds_its_way_without_a_board(many: Path, name: str) -> None:
+    words = [name, "doctor", "--port", "loop://", "--timeout", "0.01", "--json"]
+    done = subprocess.run(
+        [sys.executable, "-m", *words], cwd=many, capture_output=True, encoding="utf-8", check=False
+    )
+    assert done.returncode in {0, 1}, done.stderr
+    states = {each["check"]: each["state"] for each in map(json.loads, done.stdout.splitlines())}
+    assert states["opening"] == "passed"
+    # A protocol without a question that has no fields has nothing to ask of any board.
+    assert states["rate"] in {"failed", "unknown"}
+    assert states["reply"] == "unknown"
 
 
 @pytest.mark.parametrize(

@@ -48,6 +48,11 @@ class CarefulDecoder:
         self._told: list[Message | Noise] = []
 
     @property
+    def doubted(self) -> Message | None:
+        """The message that is held back, if there is one."""
+        return self._doubted
+
+    @property
     def pending(self) -> int:
         """How many bytes are held back."""
         if self._doubted is not None:
@@ -101,15 +106,26 @@ class CarefulDecoder:
     def _sifted(self, events: list[Message | Noise]) -> list[Message | Noise]:
         """The events, up to a message that is in doubt; what follows that is looked at again."""
         for number, event in enumerate(events):
-            if isinstance(event, Noise) or not self._doubt(event):
+            if isinstance(event, Noise) or not (self._is_torn(event) or self._doubt(event)):
                 continue
             rest = b"".join(
                 each.data if isinstance(each, Noise) else each.encode()
                 for each in events[number + 1 :]
             )
             rest += self._decoder.held
-            return [*events[:number], *(self.feed(rest) if rest else ())]
+            found = [] if self._doubted is not None else self._refuted(event)
+            return [*events[:number], *found, *(self.feed(rest) if rest else ())]
         return events
+
+    def _is_torn(self, message: Message) -> bool:
+        """Whether a message ends in whole frames, which have filled its hole."""
+        frame = message.encode()
+        for at in _beginnings(frame):
+            self._rival, self._rival_at = StreamDecoder(self._direction), at
+            self._told = self._rival.feed(frame[at:])
+            if self._told and not any(isinstance(event, Noise) for event in self._told):
+                return True
+        return False
 
     def _doubt(self, message: Message) -> bool:
         """Holds a message back if a frame may begin in its last bytes."""

@@ -34,6 +34,7 @@ from __future__ import annotations
 import logging
 from collections import deque
 from copy import copy
+from functools import partial
 from typing import TYPE_CHECKING
 
 from .acknowledgements import Acknowledgements
@@ -50,6 +51,8 @@ from .room import check_room
 from .wire import Wire
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from .limits import Bounds
     from .message import Message
     from .tap import Tap
@@ -130,6 +133,8 @@ class Session:
         # The kinds of replies of which one was overdue, and has not come at all.
         self._never_came: set[type[Message]] = set()
         self._heard_at = float("-inf")
+        # When the message came that the decoder is in doubt of.
+        self._doubted_at = float("-inf")
         # When this line was opened, and whether the first request on it was a question.
         self._opened_at = now
         self._asks_first: bool | None = None
@@ -226,7 +231,7 @@ class Session:
                 self._echo_lost(request)
             for request in came:
                 self._echo_came(request)
-        self._take_in(self._decoder.feed(data), now)
+        self._decode(partial(self._decoder.feed, data), now)
 
     def tick(self, now: float) -> None:
         """Takes in that it is `now`, and that all which arrived before has been received."""
@@ -441,6 +446,15 @@ class Session:
         self._settled = True
         return frame
 
+    def _decode(self, step: Callable[[], list[Message | Noise]], now: float) -> None:
+        """Takes in what the decoder tells; a message that it doubted is older than `now`."""
+        doubted, events = self._decoder.doubted, step()
+        if doubted is not None and events and events[0] is doubted:
+            self._take_in([events.pop(0)], self._doubted_at)
+        if self._decoder.doubted is not doubted:
+            self._doubted_at = now
+        self._take_in(events, now)
+
     def _take_in(self, events: list[Message | Noise], now: float) -> None:
         for event in events:
             if self._tap is not None:
@@ -520,6 +534,7 @@ class Session:
             # Which of the attempts it answers, nobody knows: the others may be answered yet.
             self._expect_late(type(reply), asked.attempts - 1, asked, asked.deadline)
         if self._echo is not None and self._echo.expects(asked):
+            self._echo.forget(asked)
             asked.finish(error=self._no_echo(asked, "a reply came, and not what it answers"))
         else:
             asked.finish(reply=reply)

@@ -17,7 +17,7 @@ from busservo.device import Device
 
 from busservo_simulator.action_group import stored_groups
 from busservo_simulator.battery import Battery
-from busservo_simulator.journal import Journal
+from busservo_simulator.event_log import EventLog
 from busservo_simulator.performance import Performance
 from busservo_simulator.servo import Servo
 
@@ -67,7 +67,7 @@ class Board(Device):
         self.speeds: dict[int, int] = {}
         self.battery = Battery(battery_mv, self._travelling)
         self.start_report = start_report
-        self.journal = Journal()
+        self.event_log = EventLog()
         self.heard = 0
         self.led_stays_on = False
         self.beeps = 0
@@ -214,4 +214,4 @@ class Board(Device):
         return servo.servo_id, absent if servo.off else servo.position
 
     def _log(self, who: str, what: str) -> None:
-        self.journal.add(self.now, who, what)
+        self.event_log.add(self.now, who, what)

@@ -42,16 +42,16 @@ def _run(arguments: argparse.Namespace) -> int:
         host = console.visible(arguments.host)
         print(f"{PROGRAM}: the network reaches it at {host}", file=sys.stderr)
     with _ended_by_signals() as ended, _opened(arguments) as board:
-        journal = board.board.journal
+        log = board.board.event_log
         named = threading.Event()
         if not arguments.quiet:
-            journal.listener = _printer(named, ended)
+            log.listener = _printer(named, ended)
         print(console.visible(board.port), flush=True)
         named.set()
         # In slices: on Windows a wait without end cannot be interrupted.
         while not ended.is_set():
             ended.wait(0.5)
-        journal.listener = None
+        log.listener = None
         print(f"{board.accepted} messages, {board.rejects.total} rejected", file=sys.stderr)
     return 0
 

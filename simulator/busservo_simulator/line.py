@@ -81,7 +81,7 @@ class Line:
         if known == self._host_baud:
             return
         self._host_baud = known
-        self.board.journal.add(
+        self.board.event_log.add(
             self.board.now, "line", f"the host is at {known:g} baud, the board at {self.baud:g}"
         )
 

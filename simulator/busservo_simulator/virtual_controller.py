@@ -24,8 +24,8 @@ if TYPE_CHECKING:
     from busservo_simulator.action_group import ActionGroup
     from busservo_simulator.battery import Battery
     from busservo_simulator.clock import Clock
+    from busservo_simulator.event_log import EventLog
     from busservo_simulator.faults import Faults
-    from busservo_simulator.journal import Journal
     from busservo_simulator.port_end import PortEnd
     from busservo_simulator.servo import Servo
 
@@ -169,10 +169,10 @@ class VirtualController:
         return self.board.heard
 
     @property
-    def log(self) -> Journal:
+    def log(self) -> EventLog:
         """What happened, in lines."""
         self._nudge()
-        return self.board.journal
+        return self.board.event_log
 
     # ---------------------------------------------------------------- what a test can do
 

@@ -140,7 +140,7 @@ def test_silence_alone_gives_no_times(capsys: pytest.CaptureFixture[str]) -> Non
         (["-n", "0"], "argument -n: 0 is below 1"),
         (
             ["--timeout", "4000"],
-            "argument --timeout: 4000 is no number of seconds above 0 and up to 3600",
+            "argument --timeout: 4000 is not above 0 and up to 3600 seconds",
         ),
     ],
 )

@@ -172,11 +172,11 @@ def test_silence_is_told_from_success(capsys: pytest.CaptureFixture[str]) -> Non
         ),
         (
             ["send", "--port", "loop://", "BatteryVoltageRead", "--timeout", "0"],
-            "argument --timeout: 0 is no number of seconds above 0 and up to 3600",
+            "argument --timeout: 0 is not above 0 and up to 3600 seconds",
         ),
         (
             ["send", "--port", "loop://", "BatteryVoltageRead", "--timeout", "inf"],
-            "argument --timeout: inf is no number of seconds above 0 and up to 3600",
+            "argument --timeout: inf is not above 0 and up to 3600 seconds",
         ),
         (
             ["send", "--port", "loop://", "BatteryVoltageRead", "--timeout", "nan"],

@@ -255,7 +255,7 @@ def test_raw_sends_every_byte_whoever_sent_it(log: Path) -> None:
         ("55 55 04 0F 4C 1D", [], "holds nothing to send; it holds 1 frame of controller"),
         ("", [], "holds nothing to send; it holds nothing at all"),
         ("zz", ["--format", "hex"], "line.hex, line 1: no hex: 'z' in 'zz'"),
-        (hexed(ASK), ["--speed", "0"], "argument --speed: 0 is no number above 0"),
+        (hexed(ASK), ["--speed", "0"], "argument --speed: 0 is not above 0"),
         (hexed(ASK), ["--speed", "nan"], "argument --speed: 'nan' is no number"),
         (hexed(ASK), ["--speed", "fast"], "argument --speed: 'fast' is no number"),
         (hexed(ASK), ["--raw", "--skip-noise"], "not allowed with argument"),

@@ -230,10 +230,12 @@ def test_a_file_that_is_there_is_never_lost_unasked(
     ("words", "told"),
     [
         (["--ids", "1-"], "'1-' is no number, nor two like 1-6"),
+        (["--ids", "\u0661"], "is no number, nor two like 1-6"),
         (["--ids", "3-1"], "3-1 is outside 0..255, or turned around"),
         (["--ids", "256"], "256 is outside 0..255"),
         (["--append", "--force"], "not allowed with"),
-        ([], "is a folder: name a file in it"),
+        ([], "is no file that could be written anew: name another"),
+        (["--force"], "is no file that could be written anew: name another"),
     ],
 )
 def test_teach_says_what_is_of_no_use(
@@ -241,6 +243,51 @@ def test_teach_says_what_is_of_no_use(
 ) -> None:
     assert main(["teach", str(tmp_path), "--port", "loop://", *words]) == 2
     assert told in capsys.readouterr().err
+
+
+class Folder:
+    """What a program has for its input that was given a folder."""
+
+    def readline(self) -> str:
+        raise IsADirectoryError(21, "Is a directory")
+
+
+def test_where_nobody_can_answer_nothing_is_let_go(
+    board: VirtualController,
+    heard: list[Message],
+    monkeypatch: pytest.MonkeyPatch,
+    tmp_path: Path,
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    monkeypatch.setattr(sys, "stdin", Folder())
+    words = ["teach", str(tmp_path / "new"), "--port", board.port, "--ids", "1", *PATIENT]
+    assert main(words) == 0
+    assert "nothing was let go" in capsys.readouterr().err
+    assert heard == []
+    assert main([*words, "--yes"]) == 0
+    assert "0 poses recorded; servo 1 is limp\n" in capsys.readouterr().err
+
+
+def test_what_is_limp_is_told_where_a_pose_cannot_be_written(
+    board: VirtualController,
+    monkeypatch: pytest.MonkeyPatch,
+    tmp_path: Path,
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    folder = tmp_path / "folder"
+    folder.mkdir()
+    words = ["teach", str(folder / "new"), "--port", board.port, "--ids", "1", "--yes", *PATIENT]
+
+    class Removed(io.StringIO):
+        def readline(self, *_: Any) -> Any:
+            folder.rmdir()
+            return "\n"
+
+    monkeypatch.setattr(sys, "stdin", Removed())
+    assert main(words) == 2
+    errors = capsys.readouterr().err
+    assert "0 poses recorded; servo 1 is limp\n" in errors
+    assert "new cannot be written: No such file or directory" in errors
 
 
 def test_a_file_that_cannot_be_written_is_told_before_anything_is_let_go(
@@ -296,6 +343,8 @@ def test_what_would_be_played_is_shown_and_not_sent(
         "    1.033542  pose 2  ServoMove time_ms=1000 ms targets=1:500",
     ]
     assert errors == "2 poses in 2.054 s: nothing was sent\n"
+    assert main(["play", str(file), "--dry-run", "--baud", "inf"]) == 0
+    assert capsys.readouterr().err == "2 poses in 1.030 s: nothing was sent\n"
 
 
 GOOD = {"positions": {"1": 500}}
@@ -388,9 +437,12 @@ def test_positions_for_other_boards_are_played_where_limits_say_so(
         (["--dry-run", "--repeat", "0"], "0 is below 1"),
         (["--dry-run", "--time-ms", "70000"], "70000 is outside 0..65535 milliseconds"),
         (["--dry-run", "--time-ms", "soon"], "'soon' is no whole number"),
-        (["--dry-run", "--pause", "nan"], "'nan' is no number of seconds from 0 to 3600"),
+        (["--dry-run", "--pause", "nan"], "'nan' is no number of seconds: write it like"),
+        (["--dry-run", "--pause", "3601"], "3601 is not in 0..3600 seconds"),
+        (["--dry-run", "--pause", "1_0"], "'1_0' is no number of seconds"),
         (["--dry-run", "--limits", "9..1"], "'9..1' is no LOW..HIGH: write it like 0..1000, or no"),
         (["--dry-run", "--limits", "500"], "'500' is no LOW..HIGH"),
+        (["--dry-run", "--limits", "1_0..2_0"], "is no LOW..HIGH"),
     ],
 )
 def test_play_says_what_is_of_no_use(

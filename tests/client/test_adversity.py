@@ -42,7 +42,7 @@ from serial.tools import list_ports
 from serial.tools.list_ports_common import ListPortInfo
 
 from tests.client.rfc2217_server import Rfc2217Server
-from tests.patience import PATIENCE, await_that
+from tests.patience import LIVE, PATIENCE, await_that
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -89,7 +89,7 @@ def again(controller: Controller) -> None:
 
 def test_pulled_in_the_middle_of_a_reply(board: VirtualController) -> None:
     board.faults = Faults(hang_up=1)
-    with open_controller(board.port, margin=BOUND) as controller:
+    with open_controller(board.port, **LIVE) as controller:
         with bounded(), pytest.raises(DisconnectedError, match=r"was lost .*; see to the cable"):
             controller.read_battery_voltage()
         with pytest.raises(DisconnectedError):
@@ -108,7 +108,7 @@ def test_pulled_in_the_middle_of_a_reply_with_asyncio(board: VirtualController) 
     board.faults = Faults(hang_up=1)
 
     async def work() -> None:
-        async with open_async_controller(board.port, margin=BOUND) as controller:
+        async with open_async_controller(board.port, **LIVE) as controller:
             asking = [asyncio.ensure_future(controller.read_battery_voltage()) for _ in range(5)]
             with bounded():
                 for each in asking:
@@ -143,7 +143,7 @@ def test_a_connection_that_is_reset_in_the_middle_of_a_reply() -> None:
     thread.start()
     url = f"socket://127.0.0.1:{listener.getsockname()[1]}"
     with (
-        open_controller(url, margin=BOUND) as controller,
+        open_controller(url, **LIVE) as controller,
         bounded(),
         pytest.raises(DisconnectedError),
     ):
@@ -223,7 +223,7 @@ def test_a_board_that_reboots_is_silent_and_then_back_by_itself(board: VirtualCo
 
 
 def test_a_board_whose_port_goes_away_while_it_reboots(board: VirtualController) -> None:
-    with open_controller(board.port, margin=BOUND) as controller:
+    with open_controller(board.port, **LIVE) as controller:
         heard: list[object] = []
         controller.on_report(heard.append)
         board.report(ActionGroupStopped())
@@ -271,7 +271,7 @@ def flooded(
 
 
 def test_a_flood_of_reports_hides_no_reply_and_is_counted(board: VirtualController) -> None:
-    with open_controller(board.port, margin=BOUND, report_limit=64) as controller:
+    with open_controller(board.port, **LIVE, report_limit=64) as controller:
         counters = controller.counters
         with flooded(board, controller) as said:
             with bounded():
@@ -287,7 +287,7 @@ def test_a_flood_of_reports_hides_no_reply_and_is_counted(board: VirtualControll
 
 def test_a_flood_of_reports_hides_no_reply_with_asyncio(board: VirtualController) -> None:
     async def work() -> None:
-        async with open_async_controller(board.port, margin=BOUND, report_limit=64) as controller:
+        async with open_async_controller(board.port, **LIVE, report_limit=64) as controller:
             counters = controller.counters
             with flooded(board, controller) as said, bounded():
                 for _ in range(10):
@@ -336,7 +336,7 @@ def test_a_board_that_sends_nonsense_alone_ends_in_an_error_with_asyncio(
 
 def test_close_ends_what_waits_on_a_live_line(board: VirtualController) -> None:
     board.faults = Faults(dropped=1)
-    controller = open_controller(board.port, margin=BOUND)
+    controller = open_controller(board.port, **LIVE)
     with ThreadPoolExecutor(4) as pool, bounded():
         asking = [pool.submit(controller.read_battery_voltage) for _ in range(2)]
         listening = pool.submit(lambda: list(controller.reports()))
@@ -354,7 +354,7 @@ def test_close_ends_what_waits_on_a_live_line(board: VirtualController) -> None:
 
 def test_what_is_cancelled_leaves_a_live_line_usable(board: VirtualController) -> None:
     async def work() -> None:
-        async with open_async_controller(board.port, margin=BOUND) as controller:
+        async with open_async_controller(board.port, **LIVE) as controller:
             for turn in range(20):
                 asking = asyncio.ensure_future(controller.read_servo_positions([1, 2]))
                 moving = asyncio.ensure_future(controller.move_servos([(1, 500)], 0))
@@ -377,7 +377,7 @@ def test_a_port_over_rfc_2217() -> None:
     with (
         VirtualController("pty") as board,
         Rfc2217Server(board.port) as server,
-        open_controller(server.url, margin=BOUND) as controller,
+        open_controller(server.url, **LIVE) as controller,
     ):
         assert controller.read_battery_voltage() == 7500
         # 255 is an escape to that protocol.
@@ -401,7 +401,7 @@ def test_a_port_by_what_is_plugged_in(
     plugged.description = "USB Serial CH340"
     monkeypatch.setattr(list_ports, "comports", lambda: [plugged])
     monkeypatch.setattr(list_ports, "grep", lambda regexp: iter([plugged] * ("CH340" in regexp)))
-    with open_controller("hwgrep://CH340", margin=BOUND) as controller:
+    with open_controller("hwgrep://CH340", **LIVE) as controller:
         assert controller.read_battery_voltage() == 7500
     with pytest.raises(PortNotFoundError, match=f"these exist: {plugged.device}"):
         open_controller("hwgrep://FTDI")
@@ -412,7 +412,7 @@ def test_a_port_by_the_name_that_windows_would_give_it(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.chdir(tmp_path)
-    with VirtualController("pty", link="COM7"), open_controller("COM7", margin=BOUND) as controller:
+    with VirtualController("pty", link="COM7"), open_controller("COM7", **LIVE) as controller:
         assert controller.read_battery_voltage() == 7500
 
 

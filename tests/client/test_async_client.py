@@ -34,7 +34,7 @@ from busservo import (
 )
 
 from tests.client.live_line import LiveLine, answered
-from tests.patience import PATIENCE
+from tests.patience import LIVE, PATIENCE
 
 if TYPE_CHECKING:
     from collections.abc import Coroutine
@@ -67,7 +67,7 @@ def test_the_methods_of_the_spec() -> None:
     line = LiveLine()
 
     async def work() -> None:
-        async with AsyncController(line, margin=PATIENCE) as controller:
+        async with AsyncController(line, **LIVE) as controller:
             await controller.move_servos([(1, 800), (9, 800)], time_ms=800)
             await controller.run_action_group(8, times=1)
             await controller.stop_action_group()
@@ -119,7 +119,7 @@ def test_a_cancelled_question_leaves_the_line_usable() -> None:
     line = LiveLine(late)
 
     async def work() -> None:
-        async with AsyncController(line, margin=PATIENCE) as controller:
+        async with AsyncController(line, **LIVE) as controller:
             task = asyncio.ensure_future(controller.read_battery_voltage())
             while not asked:
                 await asyncio.sleep(0)
@@ -147,7 +147,7 @@ def test_no_reply_and_too_little_of_one() -> None:
             with pytest.raises(NoReplyError) as late:
                 await controller.read_battery_voltage()
             assert 0.05 <= late.value.waited < PATIENCE
-        async with AsyncController(LiveLine(partly), margin=PATIENCE) as controller:
+        async with AsyncController(LiveLine(partly), **LIVE) as controller:
             with pytest.raises(IncompleteReplyError) as caught:
                 await controller.read_servo_positions([1, 2])
             assert caught.value.missing == (2,)
@@ -166,7 +166,7 @@ def test_waiting_for_a_group_to_end() -> None:
         return answered(message)
 
     async def work() -> None:
-        async with AsyncController(LiveLine(board), margin=PATIENCE) as controller:
+        async with AsyncController(LiveLine(board), **LIVE) as controller:
             heard: list[Message] = []
             controller.on_report(heard.append)
             await controller.run_action_group(8, times=1)
@@ -209,7 +209,7 @@ def test_unplugged_while_questions_are_under_way() -> None:
     line = LiveLine(silent)
 
     async def work() -> None:
-        async with AsyncController(line, margin=PATIENCE) as controller:
+        async with AsyncController(line, **LIVE) as controller:
             tasks = [asyncio.ensure_future(controller.read_battery_voltage()) for _ in range(5)]
             waiting = asyncio.ensure_future(
                 controller.wait_for(ActionGroupStopped, timeout=PATIENCE)
@@ -228,7 +228,7 @@ def test_unplugged_while_questions_are_under_way() -> None:
 
 def test_close_ends_the_waits_of_other_tasks() -> None:
     async def work() -> None:
-        controller = AsyncController(LiveLine(silent), margin=PATIENCE)
+        controller = AsyncController(LiveLine(silent), **LIVE)
         asking = asyncio.ensure_future(controller.read_battery_voltage())
         await asyncio.sleep(0.02)
         await asyncio.gather(controller.close(), controller.close())
@@ -256,7 +256,7 @@ def test_a_transport_that_breaks_its_word_ends_in_an_error() -> None:
             raise KeyError(timeout)
 
     async def work() -> None:
-        async with AsyncController(Broken(), margin=PATIENCE) as controller:
+        async with AsyncController(Broken(), **LIVE) as controller:
             with pytest.raises(TransportError, match="mend the transport"):
                 await controller.read_battery_voltage()
 
@@ -269,7 +269,7 @@ def test_every_frame_is_logged_and_traced(tmp_path: Path, caplog: pytest.LogCapt
     caplog.set_level(logging.DEBUG, "busservo")
 
     async def work() -> None:
-        async with AsyncController(line, margin=PATIENCE, trace=trace) as controller:
+        async with AsyncController(line, **LIVE, trace=trace) as controller:
             line.say(ActionGroupStopped())
             assert await controller.read_battery_voltage() == 7500
             await controller.stop_action_group()
@@ -289,7 +289,7 @@ def test_every_frame_is_logged_and_traced(tmp_path: Path, caplog: pytest.LogCapt
 
 def test_nothing_is_logged_unless_asked_for(caplog: pytest.LogCaptureFixture) -> None:
     async def work() -> None:
-        async with AsyncController(LiveLine(), margin=PATIENCE) as controller:
+        async with AsyncController(LiveLine(), **LIVE) as controller:
             await controller.read_battery_voltage()
 
     run(work())
@@ -370,7 +370,7 @@ def test_a_callback_that_fails_hurts_nobody_else_and_ends_when_told(
 
 def test_a_client_belongs_to_the_loop_in_which_it_was_first_used() -> None:
     async def work() -> None:
-        async with AsyncController(LiveLine(), margin=PATIENCE) as controller:
+        async with AsyncController(LiveLine(), **LIVE) as controller:
 
             def elsewhere() -> None:
                 with pytest.raises(RuntimeError, match="belongs to another event loop"):
@@ -389,12 +389,12 @@ def test_a_question_of_one_request_names_what_its_reply_lacks() -> None:
         return [ServoPositions([(2, 20)])]
 
     async def work() -> None:
-        async with AsyncController(LiveLine(partly), margin=PATIENCE) as controller:
+        async with AsyncController(LiveLine(partly), **LIVE) as controller:
             with pytest.raises(IncompleteReplyError) as caught:
                 await controller._ask(ServoPositionsRead([1, 2, 3]), ServoPositions)
             assert caught.value.missing == (1, 3)
             assert caught.value.arrived == ((2, 20),)
-        async with AsyncController(LiveLine(), margin=PATIENCE) as controller:
+        async with AsyncController(LiveLine(), **LIVE) as controller:
             with pytest.raises(TypeError, match="is answered by BatteryVoltage"):
                 await controller._ask(BatteryVoltageRead(), ServoPositions)
 

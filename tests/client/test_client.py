@@ -39,7 +39,7 @@ from busservo import (
 
 from tests.client.live_line import LiveLine, answered
 from tests.client.virtual_line import VirtualLine
-from tests.patience import PATIENCE, await_that
+from tests.patience import LIVE, PATIENCE, await_that
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -338,7 +338,7 @@ def test_a_report_reaches_a_callback_while_nobody_asks() -> None:
 
 def test_unplugged_while_a_question_is_under_way() -> None:
     line = LiveLine(lambda _: [])
-    with Controller(line, margin=PATIENCE) as controller:
+    with Controller(line, **LIVE) as controller:
         timer = threading.Timer(0.05, line.unplug)
         timer.start()
         with pytest.raises(DisconnectedError, match="plug it in again"):
@@ -352,7 +352,7 @@ def test_unplugged_while_a_question_is_under_way() -> None:
 
 def test_reconnecting_is_explicit() -> None:
     line = LiveLine()
-    with Controller(line, margin=PATIENCE) as controller:
+    with Controller(line, **LIVE) as controller:
         line.unplug()
         with pytest.raises(DisconnectedError):
             controller.wait_for(ActionGroupStopped, timeout=PATIENCE)
@@ -366,7 +366,7 @@ def test_reconnecting_is_explicit() -> None:
 
 def test_close_ends_the_waits_of_other_threads() -> None:
     line = LiveLine(lambda _: [])
-    controller = Controller(line, margin=PATIENCE)
+    controller = Controller(line, **LIVE)
     with ThreadPoolExecutor(3) as pool:
         asking = pool.submit(controller.read_battery_voltage)
         listening = pool.submit(lambda: list(controller.reports()))

@@ -28,7 +28,7 @@ from busservo_simulator import VirtualController
 
 from tests.client.live_line import LiveLine, answered
 from tests.client.virtual_line import VirtualLine
-from tests.patience import PATIENCE, await_that
+from tests.patience import LIVE, PATIENCE, await_that
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
@@ -151,7 +151,7 @@ def test_a_controller_that_is_not_open_yet_says_how_to_open_it() -> None:
 
 def test_a_client_that_is_forgotten_says_so_and_gives_everything_back(tmp_path: Path) -> None:
     line, trace = LiveLine(), tmp_path / "line.log"
-    controller = Controller(line, margin=PATIENCE, trace=trace)
+    controller = Controller(line, **LIVE, trace=trace)
     assert controller.read_battery_voltage() == 7500
     assert len(own_threads()) == 1
     # Wherever the last one to hold it is, that thread is told, not this one: it warns there.
@@ -214,7 +214,7 @@ def test_what_could_not_be_made_has_nothing_to_give_back() -> None:
 
 def test_no_thread_is_left_behind() -> None:
     for _ in range(10):
-        with Controller(LiveLine(), margin=PATIENCE) as controller:
+        with Controller(LiveLine(), **LIVE) as controller:
             controller.read_battery_voltage()
     await_that(lambda: not own_threads())
 
@@ -241,7 +241,7 @@ def test_a_command_that_the_port_does_not_take_fails_at_once_with_asyncio() -> N
 
 def test_a_question_that_the_port_does_not_take_fails_at_once_with_asyncio() -> None:
     async def work() -> None:
-        async with AsyncController(Refusing(), margin=PATIENCE) as controller:
+        async with AsyncController(Refusing(), **LIVE) as controller:
             began = time.monotonic()
             with pytest.raises(DisconnectedError, match="takes no bytes"):
                 await controller.read_battery_voltage()
@@ -278,7 +278,7 @@ class Broken(LiveLine):
 
 
 def test_a_transport_with_a_bug_ends_in_an_error_that_says_so() -> None:
-    with Controller(Broken(), margin=PATIENCE) as controller:
+    with Controller(Broken(), **LIVE) as controller:
         for _ in range(3):
             with pytest.raises(TransportError, match=r"failed .*KeyError.*; mend the transport"):
                 controller.read_battery_voltage()
@@ -293,7 +293,7 @@ def test_what_a_transport_says_of_being_closed_is_no_bug(caplog: pytest.LogCaptu
                 raise ValueError("file descriptor cannot be a negative integer (-1)") from None
 
     for _ in range(3):
-        with Controller(Touchy(), margin=PATIENCE) as controller:
+        with Controller(Touchy(), **LIVE) as controller:
             assert controller.read_battery_voltage() == 7500
     assert caplog.records == []
 
@@ -397,7 +397,7 @@ def test_nothing_of_the_last_frame_is_cut_off(via: Literal["memory", "tcp"]) -> 
 
 def test_a_line_that_does_not_come_back_says_why_until_it_does() -> None:
     line = Unplugged()
-    with Controller(line, margin=PATIENCE) as controller:
+    with Controller(line, **LIVE) as controller:
         line.unplug()
         for _ in range(2):
             with pytest.raises(PortNotFoundError, match="plug it in"):
@@ -412,7 +412,7 @@ def test_a_line_that_does_not_come_back_says_why_until_it_does_with_asyncio() ->
     line = Unplugged()
 
     async def work() -> None:
-        async with AsyncController(line, margin=PATIENCE) as controller:
+        async with AsyncController(line, **LIVE) as controller:
             line.unplug()
             for _ in range(2):
                 with pytest.raises(PortNotFoundError, match="plug it in"):
@@ -462,7 +462,7 @@ class Held(Counted):
 def test_threads_that_reconnect_at_once_open_the_port_once() -> None:
     Counted.open = 0
     line = Counted()
-    with Controller(line, margin=PATIENCE) as controller, ThreadPoolExecutor(8) as pool:
+    with Controller(line, **LIVE) as controller, ThreadPoolExecutor(8) as pool:
         line.unplug()
         list(pool.map(lambda _: controller.reconnect(), range(8)))
         assert controller.read_battery_voltage() == 7500
@@ -476,7 +476,7 @@ def test_tasks_that_reconnect_at_once_open_the_port_once() -> None:
     line = Counted()
 
     async def work() -> None:
-        async with AsyncController(line, margin=PATIENCE) as controller:
+        async with AsyncController(line, **LIVE) as controller:
             line.unplug()
             await asyncio.gather(*(controller.reconnect() for _ in range(20)))
             assert await controller.read_battery_voltage() == 7500
@@ -506,7 +506,7 @@ def test_opening_again_that_is_cancelled_leaves_no_port_open() -> None:
     line = Held()
 
     async def work() -> None:
-        async with AsyncController(line, margin=PATIENCE) as controller:
+        async with AsyncController(line, **LIVE) as controller:
             again = asyncio.ensure_future(controller.reconnect())
             while not line.begun.is_set():
                 await asyncio.sleep(0.001)
@@ -526,7 +526,7 @@ def test_opening_again_that_is_cancelled_leaves_no_port_open() -> None:
 def test_reconnecting_from_within_a_callback() -> None:
     line = LiveLine()
     done = threading.Event()
-    with Controller(line, margin=PATIENCE) as controller:
+    with Controller(line, **LIVE) as controller:
 
         def again(_: object) -> None:
             controller.reconnect()
@@ -608,7 +608,7 @@ def test_the_end_of_a_read_of_the_line_before_does_not_end_the_new_one(
 ) -> None:
     monkeypatch.setattr("busservo.client.GRACE", 0.02)
     line = Stuck()
-    with Controller(line, margin=PATIENCE) as controller:
+    with Controller(line, **LIVE) as controller:
         controller.reconnect()
         line.let_go.set()
         await_that(lambda: len(own_threads()) == 1)
@@ -622,7 +622,7 @@ def test_the_end_of_a_read_of_the_line_before_does_not_end_the_new_one_with_asyn
     line = Stuck()
 
     async def work() -> None:
-        async with AsyncController(line, margin=PATIENCE) as controller:
+        async with AsyncController(line, **LIVE) as controller:
             await controller.reconnect()
             line.let_go.set()
             await_that(lambda: len(own_threads()) == 2)

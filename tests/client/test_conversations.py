@@ -35,6 +35,8 @@ if TYPE_CHECKING:
 
     from busservo import Message
 
+    from tests.patience import Line
+
 WAYS = ["memory", "tcp"] if sys.platform == "win32" else ["memory", "tcp", "pty"]
 MARGIN = 0.25
 # A reply may come long after its request has timed out, but not so late that nobody could tell it
@@ -151,10 +153,16 @@ def board_at(way: str, folder: Path, faults: Faults) -> Iterator[tuple[VirtualCo
         yield board, Ledger(board)
 
 
+def line_at(way: str) -> Line:
+    """What is said of the line: the truth, that it takes no time; or over TCP, that it is slow."""
+    baud = 9600 if way == "tcp" else math.inf
+    return {"margin": LIVE_MARGIN, "baud": baud, "settle": 0}
+
+
 def opened(board: VirtualController, way: str) -> Controller:
     if way == "memory":
-        return Controller(board.transport, margin=LIVE_MARGIN)
-    return open_controller(board.port, margin=LIVE_MARGIN)
+        return Controller(board.transport, **line_at(way))
+    return open_controller(board.port, **line_at(way))
 
 
 @pytest.mark.parametrize("kind", FAULTS)
@@ -178,9 +186,9 @@ def test_over_a_live_line_with_asyncio(way: str, kind: str, tmp_path: Path) -> N
 
         async def work() -> None:
             async with (
-                AsyncController(board.transport, margin=LIVE_MARGIN)
+                AsyncController(board.transport, **line_at(way))
                 if way == "memory"
-                else open_async_controller(board.port, margin=LIVE_MARGIN)
+                else open_async_controller(board.port, **line_at(way))
             ) as controller:
                 await converse_async(controller, ledger, seed, 30)
                 if kind == "mixed":
@@ -206,9 +214,9 @@ def test_a_hundred_tasks_share_a_line_with_faults(way: str, tmp_path: Path) -> N
 
         async def work() -> None:
             async with (
-                AsyncController(board.transport, margin=LIVE_MARGIN)
+                AsyncController(board.transport, **line_at(way))
                 if way == "memory"
-                else open_async_controller(board.port, margin=LIVE_MARGIN)
+                else open_async_controller(board.port, **line_at(way))
             ) as controller:
                 talks = (converse_async(controller, ledger, seed, 1) for seed in range(100))
                 await asyncio.gather(*talks)

@@ -13,7 +13,7 @@ from busservo import AsyncController, Controller
 from busservo.exchanges import EXCHANGES
 
 from tests.client.live_line import LiveLine
-from tests.patience import PATIENCE
+from tests.patience import LIVE
 
 if TYPE_CHECKING:
     from busservo.exchange import Exchange
@@ -30,7 +30,7 @@ def examples(client: type, exchange: Exchange) -> list[doctest.Example]:
 
 @pytest.mark.parametrize("exchange", METHODS)
 def test_the_examples_of_the_client_for_threads(exchange: Exchange) -> None:
-    with Controller(LiveLine(), margin=PATIENCE) as controller:
+    with Controller(LiveLine(), **LIVE) as controller:
         names: dict[str, Any] = {"controller": controller}
         for example in examples(Controller, exchange):
             if example.want:
@@ -42,7 +42,7 @@ def test_the_examples_of_the_client_for_threads(exchange: Exchange) -> None:
 @pytest.mark.parametrize("exchange", METHODS)
 def test_the_examples_of_the_client_for_asyncio(exchange: Exchange) -> None:
     async def run() -> None:
-        async with AsyncController(LiveLine(), margin=PATIENCE) as controller:
+        async with AsyncController(LiveLine(), **LIVE) as controller:
             names: dict[str, Any] = {"controller": controller}
             for example in examples(AsyncController, exchange):
                 flags = ast.PyCF_ALLOW_TOP_LEVEL_AWAIT

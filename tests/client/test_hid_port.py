@@ -33,7 +33,7 @@ from busservo.hid_port import HidPort, open_hid
 from busservo.noise import Noise
 
 from tests.client.live_line import answered
-from tests.patience import PATIENCE
+from tests.patience import LIVE, PATIENCE
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -126,7 +126,7 @@ def library(monkeypatch: pytest.MonkeyPatch) -> Iterator[Library]:
 
 @pytest.mark.parametrize("port", ["hid://", "HID://0483:5750", "hid:///dev/null"])
 def test_a_session_by_usb_hid(library: Library, port: str) -> None:
-    with open_controller(port, margin=PATIENCE) as controller:
+    with open_controller(port, **LIVE) as controller:
         assert controller.read_battery_voltage() == 7500
         assert controller.read_servo_positions([1, 2]) == ((1, 10), (2, 20))
         sent = controller.move_servos([(1, 800)], time_ms=0)
@@ -137,7 +137,7 @@ def test_a_session_by_usb_hid(library: Library, port: str) -> None:
 
 def test_a_session_by_usb_hid_with_asyncio(library: Library) -> None:
     async def work() -> None:
-        async with open_async_controller("hid://", margin=PATIENCE) as controller:
+        async with open_async_controller("hid://", **LIVE) as controller:
             assert await controller.read_battery_voltage() == 7500
             with pytest.raises(EncodeError, match="room for 19 of 20"):
                 await controller.move_servos([(each, 500) for each in range(20)], time_ms=0)
@@ -150,7 +150,7 @@ def test_a_frame_that_no_report_holds_is_refused_and_the_line_lives_on(library: 
         "targets: the frame has 67 bytes, and this line carries 64 at once: room for 19 of 20",
         "servo_ids: the frame has 65 bytes, and this line carries 64 at once: room for 59 of 60",
     )
-    with open_controller("hid://", margin=PATIENCE) as controller:
+    with open_controller("hid://", **LIVE) as controller:
         with pytest.raises(EncodeError) as caught:
             controller.move_servos([(each, 500) for each in range(20)], time_ms=0)
         assert str(caught.value) == told[0]
@@ -256,7 +256,7 @@ def test_closing_ends_a_read_in_another_thread() -> None:
 
 
 def test_the_same_board_is_opened_again(library: Library) -> None:
-    with open_controller("hid://", margin=PATIENCE) as controller:
+    with open_controller("hid://", **LIVE) as controller:
         library.devices[0].lost = True
         with pytest.raises(DisconnectedError):
             controller.stop_action_group()

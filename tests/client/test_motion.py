@@ -22,7 +22,7 @@ from busservo_simulator import VirtualClock, VirtualController
 
 from tests.client.live_line import LiveLine
 from tests.client.virtual_line import VirtualLine
-from tests.patience import PATIENCE
+from tests.patience import LIVE, PATIENCE
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -149,7 +149,7 @@ def test_closing_in_another_thread_ends_the_wait() -> None:
 
 
 def test_a_motion_is_waited_for_while_others_talk() -> None:
-    with ThreadPoolExecutor() as pool, Controller(LiveLine(), margin=PATIENCE) as controller:
+    with ThreadPoolExecutor() as pool, Controller(LiveLine(), **LIVE) as controller:
         motions = [controller.move_servos([(servo, 800)], 50) for servo in range(1, 5)]
         waiting = [pool.submit(motion.wait) for motion in motions]
         assert controller.read_battery_voltage() == 7500
@@ -198,7 +198,7 @@ def test_a_motion_is_waited_for_in_a_task() -> None:
     line = LiveLine()
 
     async def work() -> None:
-        async with AsyncController(line, margin=PATIENCE) as controller:
+        async with AsyncController(line, **LIVE) as controller:
             began = asyncio.get_running_loop().time()
             motion = await controller.move_servos([(1, 800)], time_ms=50)
             assert isinstance(motion, AsyncMotion)
@@ -259,7 +259,7 @@ def test_in_a_task_a_line_that_is_lost_or_closed_ends_the_wait(latest: bool) -> 
 
 def test_a_wait_that_is_cancelled_leaves_the_line_usable() -> None:
     async def work() -> None:
-        async with AsyncController(LiveLine(), margin=PATIENCE) as controller:
+        async with AsyncController(LiveLine(), **LIVE) as controller:
             motion = await controller.move_servos([(1, 800)], LONG)
             with pytest.raises(asyncio.TimeoutError):
                 await asyncio.wait_for(motion.wait(), 0.01)

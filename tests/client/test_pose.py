@@ -27,7 +27,7 @@ from busservo.limits import Limits
 from busservo_simulator import Faults, VirtualClock, VirtualController
 
 from tests.client.virtual_line import VirtualLine
-from tests.patience import PATIENCE
+from tests.patience import LIVE
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable
@@ -263,6 +263,16 @@ def test_nothing_is_sent_where_one_of_those_to_hold_is_not_there() -> None:
     assert str(refused.value) == told + "what did arrive (2) is kept in `arrived`"
 
 
+def test_more_than_one_frame_moves_are_held_by_none() -> None:
+    line = VirtualLine(answering([(number, 500) for number in range(84)]))
+    with (
+        client_of(line) as controller,
+        pytest.raises(EncodeError, match=r"84 items is outside 1\.\.83"),
+    ):
+        controller.hold_servos(range(84))
+    assert moves(line) == []
+
+
 AT_THE_STOPS: list[tuple[Any, list[tuple[int, int]], list[tuple[int, int]]]] = [
     ((0, 1000), [(1, 65531), (2, 1003), (3, 500)], [(1, 0), (2, 1000), (3, 500)]),
     ((0, 1000), [(1, 65486), (2, 1050)], [(1, 0), (2, 1000)]),
@@ -322,7 +332,7 @@ def test_a_pose_that_was_read_can_be_replayed_whatever_it_holds() -> None:
 
 def test_the_same_for_asyncio() -> None:
     async def run(port: str) -> None:
-        async with busservo.open_async_controller(port, margin=PATIENCE) as controller:
+        async with busservo.open_async_controller(port, **LIVE) as controller:
             assert await controller.present_servos() == (1, 2, 3)
             await controller.hold_servos([1, 2])
             with pytest.raises(AbsentError):

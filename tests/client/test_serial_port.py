@@ -37,7 +37,7 @@ from busservo.rejects import Rejects
 from busservo.serial_port import SerialPort
 
 from tests.client.live_line import answered
-from tests.patience import PATIENCE
+from tests.patience import LIVE, PATIENCE
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
@@ -140,7 +140,7 @@ def tcp() -> Iterator[tuple[str, list[socket.socket]]]:
 
 
 def test_a_session_over_a_pseudo_terminal(board: PtyBoard) -> None:
-    with open_controller(board.port, margin=PATIENCE) as controller:
+    with open_controller(board.port, **LIVE) as controller:
         assert controller.read_battery_voltage() == 7500
         assert controller.read_servo_positions([1, 2]) == ((1, 10), (2, 20))
         board.write(ActionGroupStopped().encode())
@@ -149,7 +149,7 @@ def test_a_session_over_a_pseudo_terminal(board: PtyBoard) -> None:
 
 
 def test_a_session_over_a_socket(tcp: tuple[str, list[socket.socket]]) -> None:
-    with open_controller(tcp[0], margin=PATIENCE) as controller:
+    with open_controller(tcp[0], **LIVE) as controller:
         assert controller.read_battery_voltage() == 7500
         assert controller.read_servo_positions([1, 2]) == ((1, 10), (2, 20))
 
@@ -188,9 +188,9 @@ def test_a_socket_sends_small_frames_at_once(tcp: tuple[str, list[socket.socket]
 
 def test_a_session_with_asyncio(board: PtyBoard) -> None:
     async def work() -> None:
-        async with open_async_controller(board.port, margin=PATIENCE) as controller:
+        async with open_async_controller(board.port, **LIVE) as controller:
             assert await controller.read_battery_voltage() == 7500
-        awaited = await open_async_controller(board.port, margin=PATIENCE)
+        awaited = await open_async_controller(board.port, **LIVE)
         assert await awaited.read_servo_positions([3]) == ((3, 30),)
         await awaited.close()
         with pytest.raises(PortNotFoundError):
@@ -207,7 +207,7 @@ def test_a_port_of_pyserial_that_answers_itself() -> None:
 
 
 def test_exclusive_unless_told_otherwise(board: PtyBoard) -> None:
-    with open_controller(board.port, margin=PATIENCE) as first:
+    with open_controller(board.port, **LIVE) as first:
         with pytest.raises(PortBusyError, match="it is in use; close the other program"):
             open_controller(board.port)
         assert first.read_battery_voltage() == 7500
@@ -298,7 +298,7 @@ def test_permission_denied_comes_with_advice(monkeypatch: pytest.MonkeyPatch) ->
 
 def test_unplugged_in_the_middle_of_a_reply(board: PtyBoard) -> None:
     board.mute = True
-    with open_controller(board.port, margin=PATIENCE) as controller:
+    with open_controller(board.port, **LIVE) as controller:
 
         def half() -> None:
             board.heard.wait(PATIENCE)
@@ -318,7 +318,7 @@ def test_unplugged_in_the_middle_of_a_reply(board: PtyBoard) -> None:
 
 def test_hung_up_by_the_other_end(tcp: tuple[str, list[socket.socket]]) -> None:
     url, accepted = tcp
-    with open_controller(url, margin=PATIENCE) as controller:
+    with open_controller(url, **LIVE) as controller:
         assert controller.read_battery_voltage() == 7500
         accepted[0].shutdown(socket.SHUT_RDWR)
         with pytest.raises(DisconnectedError):
@@ -326,7 +326,7 @@ def test_hung_up_by_the_other_end(tcp: tuple[str, list[socket.socket]]) -> None:
 
 
 def test_reconnecting_to_the_same_port(board: PtyBoard) -> None:
-    with open_controller(board.port, margin=PATIENCE) as controller:
+    with open_controller(board.port, **LIVE) as controller:
         controller.reconnect()
         assert controller.read_battery_voltage() == 7500
 
@@ -400,7 +400,7 @@ def test_a_port_is_given_back_where_no_controller_can_be_made_of_it(board: PtyBo
 
     asyncio.run(work())
     # Nobody has it: it can be had exclusively.
-    with open_controller(board.port, margin=PATIENCE) as controller:
+    with open_controller(board.port, **LIVE) as controller:
         assert controller.read_battery_voltage() == 7500
 
 

@@ -49,11 +49,14 @@ def test_what_failed_comes_with_what_to_do_next(capsys: pytest.CaptureFixture[st
     assert "unknown  rate         not looked at: see the check `opening`\n" in output
 
 
-def test_json_has_a_line_for_each_check(capsys: pytest.CaptureFixture[str]) -> None:
+def test_json_has_a_line_for_each_check(
+    capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(doctor, "CHECKS", CHECKS[:7])
     with VirtualController("tcp") as board:
         assert main(["doctor", "--port", board.port, "--json", *PATIENT]) == 0
     records = [json.loads(line) for line in capsys.readouterr().out.splitlines()]
-    assert [record["check"] for record in records] == [check.id for check in CHECKS]
+    assert [record["check"] for record in records] == [check.id for check in CHECKS[:7]]
     assert all(
         [*record] == ["check", "title", "state", "seen", "bytes", "next"] for record in records
     )
@@ -70,10 +73,11 @@ def test_a_line_that_is_lost_has_a_status_of_its_own(capsys: pytest.CaptureFixtu
 @pytest.mark.parametrize(
     ("words", "told"),
     [
+        (["--move", "254", "--yes"], "--move 254: servos have numbers from 1 to 253"),
         (["--move", "x"], "argument --move: 'x' is no whole number"),
         (["--move", "1"], "--move asks first, and nobody is there to answer: say --yes"),
         (["--baud", "0"], "argument --baud: 0 is below 1"),
-        (["--timeout", "-1"], "argument --timeout: -1 is not above 0"),
+        (["--timeout", "-1"], "argument --timeout: -1 is no number of seconds above 0"),
         (["--report", "/no/such/folder/x"], "/no/such/folder/x cannot be written: No such file"),
     ],
 )
@@ -122,11 +126,19 @@ def test_a_report_is_a_recording_that_says_what_was_found(
         assert each in decoded
 
 
+def test_a_report_says_at_which_rate_each_question_was_asked(tmp_path: Path) -> None:
+    with board_with(Faults(dropped=1.0)) as board:
+        told = report_of(diagnosis_of(board), tmp_path / "report.hex")
+    opened = [line for line in told.splitlines() if line.startswith("# opened, at ")]
+    rates = (9600, 115200, 57600, 38400, 19200, 4800, 9600)
+    assert opened == [f"# opened, at {rate} baud" for rate in rates]
+
+
 def test_a_report_tells_nothing_of_its_sender(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """No serial number, no name of a port, which may hold one, and no path of a home."""
-    home = "/home/ada.lovelace"
+    home = "/users/ada.lovelace"
     monkeypatch.setattr(Path, "home", lambda: Path(home))
     secret = ADAPTER._replace(name="/dev/cu.usbserial-A50285BI", product="FT232R A50285BI")
     for port in (f"{home}/board", secret.name, None):

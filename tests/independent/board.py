@@ -193,18 +193,24 @@ class Board:
         """Puts bytes on the wire, behind those that it carries."""
         if piece.is_report:
             self.reported.append(piece.data)
-        there = at
-        if self._seconds_per_byte and not self._gathers:
-            for byte in piece.data:
-                self._leaves_from = max(at, self._leaves_from) + self._seconds_per_byte
-                there = self._leave(self._leaves_from, bytes([byte]))
-        else:
-            takes = len(piece.data) * self._seconds_per_byte
-            self._leaves_from = max(at, self._leaves_from) + takes
-            there = self._leave(self._leaves_from, piece.data)
+        there = self._carry(piece.data[: piece.size], at) if piece.pause else at
+        there = self._carry(piece.data[piece.size :], there + piece.pause)
         self.said.append(Said(there, piece.data))
         if in_trouble:
             self.troubles.append(there)
+
+    def _carry(self, data: bytes, at: float) -> float:
+        """Gives when these bytes are with the host."""
+        if self._seconds_per_byte and not self._gathers:
+            pieces = [bytes([byte]) for byte in data]
+        else:
+            pieces = [data]
+        there = at
+        for piece in pieces:
+            takes = len(piece) * self._seconds_per_byte
+            self._leaves_from = max(at, self._leaves_from) + takes
+            there = self._leave(self._leaves_from, piece)
+        return there
 
     def _leave(self, at: float, data: bytes) -> float:
         """Gives when these bytes are with the host."""

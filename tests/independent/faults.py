@@ -15,11 +15,16 @@ if TYPE_CHECKING:
 
 
 class Piece(NamedTuple):
-    """Bytes that are sent `after` so many seconds; a report is noted by the board as sent."""
+    """Bytes that are sent `after` so many seconds; a report is noted by the board as sent.
+
+    Behind its first `size` bytes, if there is a `pause`, nothing is sent for so long.
+    """
 
     after: float
     data: bytes
     is_report: bool = False
+    size: int = 0
+    pause: float = 0.0
 
 
 def whole(reply: bytes) -> list[Piece]:
@@ -88,5 +93,5 @@ def followed(data: bytes, after: float = 0.0, *, is_report: bool = False) -> Scr
 
 
 def halted(size: int, pause: float) -> Script:
-    """The reply comes in two pieces, with a pause between them."""
-    return lambda reply: [Piece(0.0, reply[:size]), Piece(pause, reply[size:])]
+    """The reply comes in two pieces, with a pause between them, in which nothing else comes."""
+    return lambda reply: [Piece(0.0, reply, size=size, pause=pause)]

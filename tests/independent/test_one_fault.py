@@ -147,20 +147,8 @@ def test_after_any_fault_the_second_next_read_is_right(read: str, name: str) -> 
 HEADERS = {"every high byte": 0x5500, "some a header": 0x5550}
 
 
-OF_DOUBT = pytest.mark.xfail(reason="one in doubt is taken to have come when it is believed")
-
-
 @pytest.mark.parametrize("numbers", HEADERS)
-@pytest.mark.parametrize(
-    ("read", "name"),
-    [
-        pytest.param(
-            *each,
-            marks=[OF_DOUBT] if each[0] == "battery" and each[1].startswith("duplicated") else [],
-        )
-        for each in all_faults()
-    ],
-)
+@pytest.mark.parametrize(("read", "name"), all_faults())
 def test_after_any_fault_in_replies_that_end_in_headers(read: str, name: str, numbers: str) -> None:
     script = (FAULTS | OF_POSITIONS)[name]
     for bench in BENCHES[1::2]:
@@ -204,7 +192,6 @@ def test_what_is_cut_off_is_not_made_whole_by_a_report(gap: float) -> None:
     assert run.talk.calls[FAULTY - 1].number is None
 
 
-@pytest.mark.xfail(reason="a report that fills the hole to the byte is dropped with the reply")
 @pytest.mark.parametrize("report", [STOPPED, REPORT])
 def test_a_report_that_fills_what_is_missing_is_no_part_of_the_reply(report: bytes) -> None:
     run = Run(SIX, faults.cut(-len(report), later(0.0, report)), Bench())

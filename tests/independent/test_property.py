@@ -64,7 +64,7 @@ scripts: st.SearchStrategy[Script] = st.one_of(
     st.just(faults.dropped),
     st.builds(faults.cut, st.integers(0, 22)),
     # Where more is missing, a whole report may hide in what seems a reply: see test_one_fault.
-    st.builds(faults.cut, st.integers(-3, -1), reports),
+    st.builds(faults.cut, st.integers(-12, -1), reports),
     st.builds(faults.lost, st.integers(0, 8), st.integers(1, 3)),
     st.builds(faults.lost, st.integers(0, 8), st.integers(1, 3), reports),
     st.builds(faults.preceded, noise),

@@ -292,7 +292,7 @@ def test_what_is_said_to_nobody_is_lost(board: VirtualController, host: Host) ->
     again = Host(board.open())
     assert again.ask(BatteryVoltageRead()) == BatteryVoltage(7500)
     assert again.transport.read(1.0) == b""
-    assert len(board.board.journal) == len([*board.board.journal]) > 0
+    assert len(board.board.event_log) == len([*board.board.event_log]) > 0
 
 
 def test_no_bytes_take_no_time() -> None:

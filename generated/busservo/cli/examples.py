@@ -58,12 +58,12 @@ EXAMPLES = {
     "doctor": (
         ("busservo doctor", "the port that is plugged in, and the board behind it"),
         ("busservo doctor --port COM7", "this port"),
-        ("busservo doctor --port COM7 --move 1", "also whether servo 1 moves; asks first"),
         (
             'busservo doctor --port COM7 --board "LSC-32, V1.3" --report line.hex',
             "a report to be sent in",
         ),
         ("busservo doctor --port COM7 --json", "for a program to read"),
+        ("busservo doctor --port COM7 --move 1", "also whether that moves; asks first"),
     ),
     "monitor": (
         ("busservo monitor --port COM7", "every frame and all noise"),

@@ -48,18 +48,33 @@ def at_least(lowest: int) -> Callable[[str], int]:
     return read
 
 
-def above_zero(what: str, *, highest: float = math.inf) -> Callable[[str], float]:
-    """A number above 0 and up to a bound, as an argument; inf only where there is none.
-
-    `what` is what it is: a number of seconds.
-    """
+def above_zero(*, highest: float = math.inf, unit: str = "") -> Callable[[str], float]:
+    """A number above 0 and up to a bound, as an argument; inf only where there is none."""
 
     def read(text: str) -> float:
-        if len(text) > _MOST_DIGITS or _DECIMAL.fullmatch(text) is None:
-            raise argparse.ArgumentTypeError(f"{text[:40]!r} is no {what}: write it like 12 or 0.5")
-        if not 0 < float(text) <= highest:
-            bound = "" if math.isinf(highest) else f" and up to {highest:g}"
-            raise argparse.ArgumentTypeError(f"{text} is no {what} above 0{bound}")
-        return float(text)
+        given = _decimal(text, unit)
+        if not 0 < given <= highest:
+            bound = "" if math.isinf(highest) else f" and up to {highest:g} {unit}".rstrip()
+            raise argparse.ArgumentTypeError(f"{text} is not above 0{bound}")
+        return given
 
     return read
+
+
+def from_zero(*, highest: float, unit: str) -> Callable[[str], float]:
+    """A number from 0 up to a bound, as an argument."""
+
+    def read(text: str) -> float:
+        given = _decimal(text, unit)
+        if not 0 <= given <= highest:
+            raise argparse.ArgumentTypeError(f"{text} is not in 0..{highest:g} {unit}")
+        return given
+
+    return read
+
+
+def _decimal(text: str, unit: str) -> float:
+    if len(text) > _MOST_DIGITS or _DECIMAL.fullmatch(text) is None:
+        what = f"number of {unit}" if unit else "number"
+        raise argparse.ArgumentTypeError(f"{text[:40]!r} is no {what}: write it like 12 or 0.5")
+    return float(text)

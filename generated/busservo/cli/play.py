@@ -5,20 +5,18 @@
 from __future__ import annotations
 
 import argparse
-import math
 import sys
 import time
 from itertools import chain, repeat
 from pathlib import Path
 
-from ..protocol import BAUD
 from ..wire import Wire
 from . import link
 from .events import counted
 from .exits import DONE, INTERRUPTED
 from .limits import add_limits, limits_of
 from .link import add_port, add_timeout, failures_told, open_client
-from .numerals import at_least
+from .numerals import at_least, from_zero, whole
 from .posefile import LONGEST_PAUSE, check_limits, read_poses
 from .positions import UNREAD, hold, in_options, listed, the_pose
 from .unusable import UnusableError
@@ -56,7 +54,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     )
     parser.add_argument(
         "--pause",
-        type=_pause,
+        type=from_zero(highest=LONGEST_PAUSE, unit="seconds"),
         default=0.0,
         metavar="S",
         help="seconds to stay at each pose, where the file does not say (default: 0)",
@@ -103,7 +101,7 @@ class _Step:
         self.number = number
         self.ids = tuple(recorded.positions)
         self.seconds = time_ms / 1000 + pause
-        self.wire = Wire(BAUD).seconds(len(self.message.encode()))
+        self.wire = Wire(arguments.baud).seconds(len(self.message.encode()))
 
     def told(self, at: float) -> str:
         """The line that is printed for it."""
@@ -148,21 +146,10 @@ def _wait(until: float) -> None:
 def _time(text: str) -> int:
     bounds = the_pose().duration
     try:
-        given = int(text)
-    except ValueError:
-        raise argparse.ArgumentTypeError(f"{text!r} is no whole number") from None
+        given = whole(text)
+    except ValueError as error:
+        raise argparse.ArgumentTypeError(str(error)) from None
     if not bounds.low <= given <= bounds.high:
         told = f"{given} is outside {bounds.low}..{bounds.high} milliseconds"
-        raise argparse.ArgumentTypeError(told)
-    return given
-
-
-def _pause(text: str) -> float:
-    try:
-        given = float(text)
-    except ValueError:
-        given = math.nan
-    if not 0 <= given <= LONGEST_PAUSE:
-        told = f"{text!r} is no number of seconds from 0 to {LONGEST_PAUSE:g}"
         raise argparse.ArgumentTypeError(told)
     return given

@@ -15,6 +15,7 @@ from .examples import PROGRAM
 from .exits import DONE, INTERRUPTED, NOT_ALL
 from .limits import add_limits, limits_of
 from .link import add_port, add_timeout, failures_told, open_client
+from .numerals import whole
 from .posefile import Recorded, read_poses, write_poses
 from .positions import (
     UNREAD,
@@ -109,24 +110,25 @@ class _Lesson:
         self._limits = limits
 
     def give(self, *, hold_after: bool) -> int:
-        """Lets go, and records until the end is asked for."""
-        code = DONE
-        limp = f"{listed(self._pose, self._ids)} {'is' if len(self._ids) == 1 else 'are'} limp"
+        """Lets go, and records until the end is asked for; says in any case what is limp now."""
+        who = listed(self._pose, self._ids)
+        left = f"{who} {'is' if len(self._ids) == 1 else 'are'} limp"
         self._controller.send(self._pose.letting_go(self._ids))
         try:
             asked = self._record()
             ending = "Hold everything where it is now?"
             if (hold_after or (asked and _agreed(ending))) and self._held():
-                limp = f"{listed(self._pose, self._ids)} held"
+                left = f"{who} held"
         except KeyboardInterrupt:
             print(file=sys.stderr)
-            code = INTERRUPTED
-        recorded = len(self._poses) - self._before
-        print(f"{counted(recorded, 'pose')} recorded; {limp}", file=sys.stderr)
-        if recorded:
-            told = f"`{PROGRAM} play {self._path} --dry-run` shows what would be sent"
-            print(told, file=sys.stderr)
-        return code
+            return INTERRUPTED
+        finally:
+            recorded = len(self._poses) - self._before
+            print(f"{counted(recorded, 'pose')} recorded; {left}", file=sys.stderr)
+            if recorded:
+                told = f"`{PROGRAM} play {self._path} --dry-run` shows what would be sent"
+                print(told, file=sys.stderr)
+        return DONE
 
     def _record(self) -> bool:
         """Records at each Enter; whether the end was asked for, and not just the input over."""
@@ -143,8 +145,9 @@ class _Lesson:
             except UNREAD as error:
                 print(f"nothing recorded: {in_options(error)}", file=sys.stderr)
                 continue
-            self._poses.append(Recorded(dict(targets)))
-            write_poses(self._path, self._poses)
+            pose = Recorded(dict(targets))
+            write_poses(self._path, [*self._poses, pose])
+            self._poses.append(pose)
             shown = ",".join(f"{number}:{position}" for number, position in targets)
             print(f"pose {len(self._poses)}  {shown}", flush=True)
         return False
@@ -161,10 +164,10 @@ class _Lesson:
 def _kept(arguments: argparse.Namespace, pose: Pose) -> list[Recorded]:
     """The poses that are to stay. Raises UnusableError where a file would be lost."""
     path: Path = arguments.file
+    if path.exists() and not path.is_file():
+        raise UnusableError(f"{path} is no file that could be written anew: name another")
     if arguments.append and path.exists():
         return read_poses(path, pose)
-    if path.is_dir():
-        raise UnusableError(f"{path} is a folder: name a file in it")
     if path.exists() and not arguments.force:
         raise UnusableError(
             f"{path} is there already; --append records behind what it holds, --force instead of it"
@@ -184,9 +187,11 @@ def _line(prompt: str) -> str | None:
     """A line that somebody types; None once there is no more."""
     print(prompt, end="", file=sys.stderr, flush=True)
     try:
-        line = sys.stdin.readline() if sys.stdin is not None else ""
+        line = sys.stdin.readline()
     except UnicodeDecodeError:
         return "?"
+    except OSError:  # it is closed: nobody types
+        line = ""
     if not line:
         print(file=sys.stderr)
     return line or None
@@ -199,11 +204,13 @@ def _numbers(text: str) -> tuple[int, ...]:
     for part in text.split(","):
         first, dash, last = part.partition("-")
         try:
-            low, high = int(first), int(last if dash else first)
+            low, high = whole(first), whole(last if dash else first)
         except ValueError:
-            raise argparse.ArgumentTypeError(f"{part!r} is no number, nor two like 1-6") from None
+            raise argparse.ArgumentTypeError(
+                f"{part[:40]!r} is no number, nor two like 1-6"
+            ) from None
         if not pose.item.low <= low <= high <= pose.item.high:
             bounds = f"{pose.item.low}..{pose.item.high}"
-            raise argparse.ArgumentTypeError(f"{part} is outside {bounds}, or turned around")
+            raise argparse.ArgumentTypeError(f"{part[:40]} is outside {bounds}, or turned around")
         found |= dict.fromkeys(range(low, high + 1))
     return tuple(found)

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 def _look(diagnosis: Diagnosis) -> Result:
     error = diagnosis.error
     if error is None:
-        return passed(f"{diagnosis.port} is open, at {diagnosis.baud:g} baud")
+        return passed(f"{diagnosis.port} is open, at {diagnosis.stated}")
     return failed(f"{error.port}: {error.happened}", error.advice)
 
 

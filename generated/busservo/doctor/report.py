@@ -45,7 +45,10 @@ class Report:
         self._file.begin(_kind_of(diagnosis.port))
         began = diagnosis.log[0][0] if diagnosis.log else 0.0
         for at, sender, data, what in diagnosis.log:
-            self._file.write(data, at - began, sender or NOISE, what)
+            if data:
+                self._file.write(data, at - began, sender or NOISE, what)
+            else:
+                self._file.note(what)
         self._file.close()
 
 
@@ -60,7 +63,7 @@ def _about(diagnosis: Diagnosis, board: str) -> list[str]:
         f"board: {board or 'not told'}",
         f"adapter: {_blinded(diagnosis.adapter, diagnosis) or 'not known'}",
         f"host: {system}, Python {platform.python_version()}, pyserial {pyserial}",
-        f"line: {_kind_of(diagnosis.port)}, {diagnosis.baud:g} baud",
+        f"line: {_kind_of(diagnosis.port)}, {diagnosis.stated}",
     ]
 
 

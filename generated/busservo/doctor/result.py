@@ -22,14 +22,18 @@ class Result(NamedTuple):
 
 def passed(seen: str, *evidence: bytes) -> Result:
     """All is as it should be."""
-    return Result(PASSED, seen, evidence[:_MOST])
+    return Result(PASSED, seen, _first(evidence))
 
 
 def failed(seen: str, advice: str, *evidence: bytes) -> Result:
     """Something is not as it should be; `advice` says what to do."""
-    return Result(FAILED, seen, evidence[:_MOST], advice)
+    return Result(FAILED, seen, _first(evidence), advice)
 
 
 def unknown(seen: str, advice: str = "", *evidence: bytes) -> Result:
     """It could not be told, or it is as it should be for some boards only."""
-    return Result(UNKNOWN, seen, evidence[:_MOST], advice)
+    return Result(UNKNOWN, seen, _first(evidence), advice)
+
+
+def _first(evidence: tuple[bytes, ...]) -> tuple[bytes, ...]:
+    return tuple(dict.fromkeys(filter(None, evidence)))[:_MOST]

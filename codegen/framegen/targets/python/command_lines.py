@@ -55,7 +55,6 @@ def line_examples(layout: Layout) -> dict[str, list[str]]:
         "doctor": [
             ("", "the port that is plugged in, and the board behind it"),
             ("--port COM7", "this port"),
-            ("--port COM7 --move 1", "also whether servo 1 moves; asks first"),
             ('--port COM7 --board "LSC-32, V1.3" --report line.hex', "a report to be sent in"),
             ("--port COM7 --json", "for a program to read"),
         ],
@@ -84,6 +83,7 @@ def line_examples(layout: Layout) -> dict[str, list[str]]:
         ],
     }
     if layout.spec.pose is not None:
+        lines["doctor"].append(("--port COM7 --move 1", "also whether that moves; asks first"))
         lines |= {
             "play": [
                 ("poses.json --dry-run", "what would be sent, and when"),

@@ -114,8 +114,10 @@ class DeviceView:
     def report_type(self) -> str:
         """The type of anything that it sends."""
         names = self.reports or ["Message"]
-        line = f"Report: TypeAlias = {' | '.join(names)}"
+        joined = " | ".join(names)
+        line = f"Report: TypeAlias = {joined}"
         if len(line) + 4 <= WIDTH:
             return line
-        joined = "\n        | ".join(names)
+        if len(joined) + 8 > WIDTH:
+            joined = "\n        | ".join(names)
         return f"Report: TypeAlias = (\n        {joined}\n    )"

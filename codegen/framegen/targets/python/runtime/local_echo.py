@@ -66,6 +66,10 @@ class LocalEcho:
             data = data[at + len(frame) :]
         return others + data, came, lost
 
+    def forget(self, request: Request) -> None:
+        """No longer expects the echo of a request."""
+        self._expected = deque(each for each in self._expected if each[0] is not request)
+
     def expire(self, now: float) -> tuple[bytes, list[Request]]:
         """What was held back in vain, and the requests whose echo should have come by now."""
         lost: list[Request] = []

@@ -10,6 +10,7 @@ from ..doctor.diagnosis import Diagnosis
 from ..doctor.move import STEP, move_check
 from ..doctor.report import Report
 from ..doctor.result import FAILED, PASSED, STATES, UNKNOWN
+from ..exchanges import POSE
 from ..octets import spaced
 from . import link
 from .colour import painted, takes_colour
@@ -28,13 +29,15 @@ if TYPE_CHECKING:
 
     from ..doctor.check import Check
     from ..doctor.result import Result
+    from ..pose import Pose
     from ..transport import Transport
 
 ENDS = link.ENDS | {NOT_ALL: "a check has failed"}
 ABOUT = """\
-Looks at ports, permissions, the rate, the replies and their times, and the servos, in the order of
-the guide to troubleshooting. Each line says `passed`, `failed` or `unknown`, what was seen, the
-bytes that show it, and what to do next. It only reads; --move asks before it moves anything."""
+Looks at ports, permissions, the rate, the replies, their times, and what is there behind the board,
+in the order of the guide to troubleshooting. Each line says `passed`, `failed` or `unknown`, what
+was seen, the bytes that show it, and what to do next. It only reads; --move asks before it moves
+anything."""
 _COLOURS = {PASSED: "green", FAILED: "red", UNKNOWN: "yellow"}
 
 
@@ -42,13 +45,10 @@ def add_arguments(parser: ArgumentParser) -> None:
     """Declares the arguments of the verb."""
     add_port(parser, required=False)
     add_timeout(parser)
-    parser.add_argument(
-        "--move",
-        type=at_least(0),
-        metavar="ID",
-        help=f"also move this servo by {STEP} steps and back; asks first",
-    )
-    parser.add_argument("--yes", action="store_true", help="do not ask before --move")
+    if POSE is not None:
+        told = f"also move this {POSE.noun} by {STEP} steps and back; asks first"
+        parser.add_argument("--move", type=at_least(0), metavar="ID", help=told)
+        parser.add_argument("--yes", action="store_true", help="do not ask before --move")
     parser.add_argument(
         "--report", metavar="FILE", help="write a recording of it all, to be sent to others"
     )
@@ -61,9 +61,9 @@ def add_arguments(parser: ArgumentParser) -> None:
 def run(arguments: Namespace) -> int:
     """Makes the checks, prints what each has found, and writes the report."""
     checks = [*CHECKS]
-    if arguments.move is not None:
-        _confirm(arguments)
-        checks.append(move_check(arguments.move))
+    if POSE is not None and arguments.move is not None:
+        _confirm(arguments, POSE)
+        checks.append(move_check(arguments.move, POSE))
     report = None if arguments.report is None else _report(arguments.report)
     diagnosis = Diagnosis(
         arguments.port,
@@ -102,13 +102,16 @@ def _open(port: str, baud: float) -> Transport:
     return open_line(port, baud)
 
 
-def _confirm(arguments: Namespace) -> None:
-    """Asks whether a servo may be moved. Raises UnusableError where it may not."""
+def _confirm(arguments: Namespace, pose: Pose) -> None:
+    """Asks whether something may be moved. Raises UnusableError where it may not."""
+    if arguments.move not in pose.ids:
+        told = f"{pose.noun}s have numbers from {pose.ids[0]} to {pose.ids[-1]}"
+        raise UnusableError(f"--move {arguments.move}: {told}")
     if arguments.yes:
         return
     if not sys.stdin.isatty():
         raise UnusableError("--move asks first, and nobody is there to answer: say --yes")
-    told = f"servo {arguments.move} will move by {STEP} steps and back; keep clear of it"
+    told = f"{pose.noun} {arguments.move} will move by {STEP} steps and back; keep clear of it"
     print(f"{told}. Go on? [y/N] ", end="", file=sys.stderr, flush=True)
     if sys.stdin.readline().strip().lower() not in {"y", "yes"}:
         raise UnusableError("nothing was moved, and nothing looked at")
@@ -146,7 +149,7 @@ def _as_text(check: Check, result: Result) -> str:
     if takes_colour(sys.stdout):
         state = painted(state, _COLOURS[result.state])
     lines = [f"{state} {check.id:12} {visible(result.seen)}"]
-    lines += [f"{'':8} {'bytes':>12} {spaced(each)}" for each in result.evidence if each]
+    lines += [f"{'':8} {'bytes':>12} {spaced(each)}" for each in result.evidence]
     if result.advice:
         lines.append(f"{'':8} {'next':>12} {visible(result.advice)}")
     return "\n".join(lines)

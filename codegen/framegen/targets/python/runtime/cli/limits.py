@@ -5,6 +5,7 @@ from __future__ import annotations
 import argparse
 
 from ..exchanges import LIMITS
+from .numerals import whole
 from .unusable import UnusableError
 
 TYPE_CHECKING = False
@@ -62,10 +63,12 @@ def _limits(text: str) -> Bounds | None:
         return None
     low, dots, high = text.partition("..")
     try:
-        bounds = int(low), int(high)
+        bounds = whole(low), whole(high)
     except ValueError:
         bounds = 1, 0
     if not dots or bounds[0] > bounds[1]:
         usual = "" if LIMITS.usual is None else f"like {_written(LIMITS.usual)}"
-        raise argparse.ArgumentTypeError(f"{text!r} is no LOW..HIGH: write it {usual}, or {_ANY}")
+        raise argparse.ArgumentTypeError(
+            f"{text[:40]!r} is no LOW..HIGH: write it {usual}, or {_ANY}"
+        )
     return bounds

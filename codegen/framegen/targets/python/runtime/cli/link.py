@@ -73,7 +73,7 @@ def add_timeout(parser: argparse.ArgumentParser) -> None:
     """Declares the option that says how long an answer may take."""
     parser.add_argument(
         "--timeout",
-        type=above_zero("number of seconds", highest=_LONGEST),
+        type=above_zero(highest=_LONGEST, unit="seconds"),
         default=MARGIN,
         metavar="S",
         help="seconds that the board may take for an answer, besides those on the wire "

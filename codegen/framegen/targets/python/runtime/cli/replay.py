@@ -48,7 +48,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add_port(parser, required=False, client=False)
     parser.add_argument(
         "--speed",
-        type=above_zero("number"),
+        type=above_zero(),
         default=1.0,
         metavar="X",
         help="so many times as fast as it was recorded; inf: as fast as the line can (default: 1)",

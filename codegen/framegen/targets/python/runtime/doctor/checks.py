@@ -11,10 +11,10 @@ from . import (
     opening,
     permission,
     port_listed,
+    present,
     rate,
     reply,
     round_trip,
-    servo,
     silence,
 )
 from .result import FAILED, failed, unknown
@@ -38,7 +38,7 @@ CHECKS: tuple[Check, ...] = (
     echo.CHECK,
     reply.CHECK,
     round_trip.CHECK,
-    servo.CHECK,
+    present.CHECK,
     look_alike.CHECK,
 )
 

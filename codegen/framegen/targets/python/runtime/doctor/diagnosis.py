@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import time
 from pathlib import Path
 
@@ -65,6 +66,11 @@ class Diagnosis:
         self._open = opener or (lambda name, rate: open_transport(name, baud=rate))
 
     @property
+    def stated(self) -> str:
+        """The rate that the line is said to have, in words."""
+        return "no rate" if math.isinf(self.baud) else f"{self.baud:g} baud"
+
+    @property
     def adapter(self) -> str:
         """What is plugged in, by VID:PID and product; empty where that is not known."""
         port = self.port or ""
@@ -81,6 +87,7 @@ class Diagnosis:
         self.close()
         rate = self.baud if baud is None else baud
         transport = Guarded(self._open(self.port, rate))
+        self.log.append((self._clock(), None, b"", f"opened, at {rate:g} baud"))
         self.probe = Probe(
             transport, baud=rate, margin=self.margin, clock=self._clock, log=self.log
         )

@@ -1,68 +1,70 @@
-"""Check, for those who ask for it: a servo goes where it is sent, and back."""
+"""Check, for those who ask for it: something goes where it is sent, and back."""
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
-from .. import exchanges
+from ..exchanges import LIMITS
 from .check import Check
+from .present import ask_patiently
 from .result import failed, passed, unknown
 
+TYPE_CHECKING = False
 if TYPE_CHECKING:
-    from typing import Any
-
+    from ..pose import Pose
     from .diagnosis import Diagnosis
     from .result import Result
 
-_POSE: Any = getattr(exchanges, "POSE", None)
-_LIMITS: Any = getattr(exchanges, "LIMITS", None)
-# How far, how long that may take, and how long a servo may take besides.
+# How far, how long that may take, and how long it may take besides.
 STEP = 20
 _MILLISECONDS = 500
 _AFTER = 0.5
 
 
-def move_check(servo: int) -> Check:
-    """The check that moves this servo a little, and back to where it was."""
-    return Check("move", f"servo {servo} moves", ("opening",), lambda each: _look(each, servo))
+def move_check(number: int, pose: Pose) -> Check:
+    """The check that moves one of them a little, and back to where it was."""
+    title = f"{pose.noun} {number} moves"
+    return Check("move", title, ("opening",), lambda each: _Motion(each, number, pose).look())
 
 
-def _look(diagnosis: Diagnosis, servo: int) -> Result:
-    if _POSE is None:
-        return unknown("the protocol does not say how servos are moved")
-    began = _position(diagnosis, servo)
-    if began is None:
-        return failed(f"servo {servo} tells no position, so it was not moved", "see `servos`")
-    bounds = None if _LIMITS is None else _LIMITS.usual
-    if bounds is not None and not bounds[0] <= began <= bounds[1]:
-        told = f"servo {servo} is at {began}, outside {bounds[0]}..{bounds[1]}: it was not moved"
-        return unknown(told, "turn it by hand into its range")
-    step = STEP if bounds is None or began + STEP <= bounds[1] else -STEP
-    reached = _moved(diagnosis, servo, began + step)
-    ended = _moved(diagnosis, servo, began)
-    told = f"servo {servo} was at {began}, was sent to {began + step}, and was then at {reached}"
-    if reached is None or abs(reached - began - step) > STEP // 2:
-        advice = "see to the supply of the servos, which USB is not, and that nothing holds it"
-        return failed(told, advice)
-    if ended is None or abs(ended - began) > STEP // 2:
-        return failed(f"{told}; sent back, it is at {ended}", "see that nothing holds it")
-    return passed(f"{told}; sent back, it is at {ended}")
+class _Motion:
+    """There and back, with a look at where it is before, between and after."""
 
+    def __init__(self, diagnosis: Diagnosis, number: int, pose: Pose) -> None:
+        self._diagnosis = diagnosis
+        self._number = number
+        self._pose = pose
+        self._name = f"{pose.noun} {number}"
 
-def _moved(diagnosis: Diagnosis, servo: int, position: int) -> int | None:
-    """Where a servo is after it was sent somewhere."""
-    probe = diagnosis.connected()
-    probe.tell(_POSE.move(**{_POSE.time: _MILLISECONDS, _POSE.moved: [(servo, position)]}))
-    probe.listen(_MILLISECONDS / 1000 + _AFTER)
-    return _position(diagnosis, servo)
+    def look(self) -> Result:
+        """Moves it, if it says where it is and that is within the limits."""
+        began = self._position()
+        if began is None:
+            told = f"{self._name} tells no position, so it was not moved"
+            return failed(told, "see the check `present`")
+        low, high = LIMITS.usual or (self._pose.place.low, self._pose.place.high)
+        if not low <= began <= high:
+            told = f"{self._name} is at {began}, outside {low}..{high}, so it was not moved"
+            return unknown(told, "turn it into that range by hand")
+        target = began + STEP if began + STEP <= high else began - STEP
+        reached, ended = self._moved(target), self._moved(began)
+        told = f"{self._name} was at {began}, was sent to {target}, and was then at {reached}"
+        if reached is None or abs(reached - target) > STEP // 2:
+            advice = "see to its supply, which USB is not, and that nothing holds it"
+            return failed(told, advice)
+        told += f"; sent back, it is at {ended}"
+        if ended is None or abs(ended - began) > STEP // 2:
+            return failed(told, "see that nothing holds it")
+        return passed(told)
 
+    def _moved(self, target: int) -> int | None:
+        """Where it is after it was sent somewhere."""
+        probe = self._diagnosis.connected()
+        probe.tell(self._pose.motion([(self._number, target)], _MILLISECONDS))
+        probe.listen(_MILLISECONDS / 1000 + _AFTER)
+        return self._position()
 
-def _position(diagnosis: Diagnosis, servo: int) -> int | None:
-    """Where a servo is; None where it does not say."""
-    for _ in range(3):
-        trip = diagnosis.connected().ask(_POSE.read(**{_POSE.asked: [servo]}))
-        for _, reply in trip.replies[:1]:
-            for each in _POSE.there([reply]):
-                position: int = getattr(each, _POSE.position)
-                return position
-    return None
+    def _position(self) -> int | None:
+        """Where it is; None where it does not say."""
+        request = self._pose.read(**{self._pose.asked: [self._number]})
+        reply = ask_patiently(self._diagnosis, request)
+        found = [] if reply is None else self._pose.there([reply])
+        return int(getattr(found[0], self._pose.position)) if found else None

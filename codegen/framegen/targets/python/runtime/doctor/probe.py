@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from ..transport import Transport
     from .trip import Pieces, TimedEvent
 
-    # The time, the sender or None for noise, the bytes, and what they are.
+    # The time, the sender or None for noise, the bytes, and what they are; without bytes, a note.
     Entry = tuple[float, str | None, bytes, str]
 
 # A pause in what comes that ends it: above what USB adapters keep bytes back for.

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import sys
 from pathlib import Path
 
@@ -43,9 +44,11 @@ def _look(diagnosis: Diagnosis) -> Result:
 
 def _answered(diagnosis: Diagnosis, question: Message) -> Result:
     """It answers at the rate that it should: if that is one."""
-    stated = f"{diagnosis.baud:g} baud"
+    stated = diagnosis.stated
     port = diagnosis.port or ""
     reply = diagnosis.trips[-1].replies[0][1].encode()
+    if math.isinf(diagnosis.baud):
+        return passed("it answers, on a line that you say has no rate", reply)
     if _has_no_rate(port):
         return unknown(f"it answers, over a line that has no rate of its own ({port})", "", reply)
     if not _is_pseudo_terminal(port):
@@ -74,8 +77,8 @@ def _searched(diagnosis: Diagnosis, question: Message) -> Result:
             diagnosis.strange += [each for trip in diagnosis.trips for each in trip.noise]
             diagnosis.trips = [trip]
             return failed(
-                f"{asked} at {diagnosis.baud:g} baud, but is at {rate}",
-                f"set the board to {diagnosis.baud:g} baud, or say --baud {rate} "
+                f"{asked} at {diagnosis.stated}, but is at {rate}",
+                f"set the board to {diagnosis.stated}, or say --baud {rate} "
                 f"(baud={rate} in Python)",
                 trip.replies[0][1].encode(),
             )

@@ -16,14 +16,15 @@ _ASKED = 10
 # After so many questions without a reply, the next would not be answered either.
 _SILENCES = 3
 
+# What may be wrong, and what to do; the first explains those behind it.
 _ADVICE = {
-    "was not answered": "see to the supply of the board and to loose plugs; retries=2 asks again",
-    "was answered by bytes that are no reply": "see to loose plugs and the grounds, and compare "
-    "the bytes with the reference: the board may be another, or speak another edition",
-    "was answered too late": "give the board more time: --timeout 2 (margin=2 in Python)",
-    "was answered more than once": "see that no other program or host asks on the same line; the "
+    "answered too late": "give the board more time: --timeout 2 (margin=2 in Python)",
+    "answered more than once": "see that no other program or host asks on the same line; the "
     "library returns one of such replies, and counts the others",
-    "was answered with noise around it": "see to the grounds, the supply and the length of cables",
+    "answered by bytes that are no reply": "see to loose plugs and the grounds, and compare the "
+    "bytes with the reference: the board may be another, or speak another edition",
+    "not answered": "see to the supply of the board and to loose plugs; retries=2 asks again",
+    "answered with noise around it": "see to the grounds, the supply and the length of cables",
 }
 
 
@@ -48,10 +49,10 @@ def _look(diagnosis: Diagnosis) -> Result:
         last = diagnosis.trips[-1].replies[0][1]
         told = f"{asked} of {asked} questions were answered, each by one whole reply: {last!r}"
         return passed(told, last.encode())
-    told = "; ".join(f"{len(trips)} of {asked} {what}" for what, trips in troubles.items())
+    told = ", ".join(f"{len(trips)} {what}" for what, trips in troubles.items())
     worst = next(what for what in _ADVICE if what in troubles)
     shown = [trip.received for trips in troubles.values() for trip in trips if trip.received]
-    return failed(told, _ADVICE[worst], *shown)
+    return failed(f"of {asked} questions {told}", _ADVICE[worst], *shown)
 
 
 def _longest(diagnosis: Diagnosis, trip: Trip) -> float:
@@ -65,13 +66,13 @@ def _trouble(trip: Trip, longest: float) -> str:
     """What is wrong with the answer to a question; empty for nothing."""
     if not trip.replies:
         if trip.noise:
-            return "was answered by bytes that are no reply"
-        return "was not answered"
+            return "answered by bytes that are no reply"
+        return "not answered"
     if len(trip.replies) > 1:
-        return "was answered more than once"
+        return "answered more than once"
     if trip.replies[0][0] > longest:
-        return "was answered too late"
-    return "was answered with noise around it" if trip.noise else ""
+        return "answered too late"
+    return "answered with noise around it" if trip.noise else ""
 
 
 CHECK = Check("reply", "each question is answered by one whole reply", ("opening",), _look)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from statistics import median
 
 from .check import Check
@@ -14,7 +15,6 @@ if TYPE_CHECKING:
 
 
 def _look(diagnosis: Diagnosis) -> Result:
-    single = [trip for trip in diagnosis.trips if len(trip.replies) == 1]
     answered = [trip for trip in diagnosis.trips if trip.replies]
     if not answered:
         return unknown("there was no reply to measure: see the check `rate`")
@@ -26,6 +26,8 @@ def _look(diagnosis: Diagnosis) -> Result:
         taken.append(seconds)
         if seconds < probe.wire.least(len(trip.question.encode()) + len(reply.encode())):
             early.append(reply.encode())
+    if math.isinf(probe.baud):
+        return passed(f"the median of {len(taken)} is {median(taken) * 1000:.2f} ms")
     sizes = len(answered[0].question.encode()) + len(answered[0].replies[0][1].encode())
     wire = f"{probe.wire.seconds(sizes) * 1000:.2f} ms, which {sizes} bytes take at {probe.baud:g}"
     told = (
@@ -33,10 +35,11 @@ def _look(diagnosis: Diagnosis) -> Result:
     )
     if not early:
         return passed(told)
-    if len(early) == len(answered) == len(single):
+    # Where a reply to an earlier question was taken for another's, that one's own is left over.
+    if all(len(trip.replies) == 1 for trip in answered):
         return unknown(
             f"{told}: this is no line of that rate, but one such as TCP, a pseudo terminal or USB",
-            "say so: baud=math.inf in Python; then replies need not be watched for coming too soon",
+            "say so: --baud inf, or baud=math.inf in Python; then no reply can come too soon",
             *early,
         )
     return failed(

@@ -13,7 +13,7 @@ LOGGER = logging.getLogger("busservo_simulator")
 KEPT = 10_000
 
 
-class Journal:
+class EventLog:
     """The last lines, oldest first; each goes to the log of the same name too, at INFO."""
 
     def __init__(self) -> None:

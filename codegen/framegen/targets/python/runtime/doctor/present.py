@@ -1,0 +1,72 @@
+"""Check: something is there behind the board, and tells its position."""
+
+from __future__ import annotations
+
+from ..exchanges import EXCHANGES, POSE
+from .check import Check
+from .rate import PATIENCE
+from .result import failed, passed, unknown
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from ..message import Message
+    from ..pose import Pose
+    from .diagnosis import Diagnosis
+    from .probe import Probe
+    from .result import Result
+
+# One reply may be lost on any line: whether each comes is for another check to say.
+_TRIES = 3
+# How many are asked about at once where the line carries no long frames.
+_FEW = 16
+
+
+def _look(diagnosis: Diagnosis) -> Result:
+    if POSE is None:
+        return unknown("the protocol does not say how positions are read")
+    if not any(trip.replies for trip in diagnosis.trips):
+        return unknown("there is no reply to anything: see the check `rate`")
+    replies: list[Message] = []
+    for request in _requests(diagnosis.connected(), POSE):
+        reply = ask_patiently(diagnosis, request)
+        if reply is None:
+            ids = getattr(request, POSE.asked)
+            return failed(
+                f"the question about {POSE.noun}s {ids[0]} to {ids[-1]} was not answered, though "
+                f"asked {_TRIES} times",
+                "see the check `reply`; if that has passed, the board may be of a kind that does "
+                "not know this question",
+                *(trip.received for trip in diagnosis.trips[-_TRIES:] if trip.received),
+            )
+        replies.append(reply)
+    frames = [reply.encode() for reply in replies]
+    there = POSE.present_in(replies)
+    absent = sum(len(getattr(reply, POSE.told)) for reply in replies) - len(there)
+    told = f"{POSE.noun}s that are there: {', '.join(map(str, there)) or 'none'}"
+    told += f"; told to be absent: {absent}" if absent else ""
+    if not there:
+        advice = f"see to the supply of the {POSE.noun}s, which USB is not, and to their cables"
+        return failed(told, advice, *frames)
+    return passed(told, *frames)
+
+
+def ask_patiently(diagnosis: Diagnosis, request: Message) -> Message | None:
+    """The first reply to a question, asked a few times; None where none comes."""
+    for _ in range(_TRIES):
+        trip = diagnosis.connected().ask(request, patience=PATIENCE)
+        diagnosis.trips.append(trip)
+        if trip.replies:
+            return trip.replies[0][1]
+    return None
+
+
+def _requests(probe: Probe, pose: Pose) -> list[Message]:
+    """Questions about all that there can be, in parts that this line carries."""
+    most = EXCHANGES[pose.read].most or len(pose.ids)
+    if probe.largest_frame is not None:
+        most = min(most, _FEW)
+    parts = (pose.ids[at : at + most] for at in range(0, len(pose.ids), most))
+    return [pose.read(**{pose.asked: [*part]}) for part in parts]
+
+
+CHECK = Check("present", "something is there behind the board", ("opening",), _look)
