@@ -304,6 +304,8 @@ class Session:
             # The board may answer yet, on the line that is opened next.
             self._remember(request, request.deadline)
             request.finish(error=error)
+        # A frame that had begun to arrive will never end, and belongs in the trace.
+        self._flush()
 
     def refuse_questions(self, error: Exception) -> None:
         """Ends what waits for replies, and leaves the commands that are still to be sent."""

@@ -1,5 +1,6 @@
 """What a client and a monitor record: what it looks like, and that nothing recorded is lost."""
 
+import math
 import os
 import re
 import stat
@@ -8,7 +9,7 @@ from collections.abc import Callable
 from pathlib import Path
 
 import pytest
-from busservo import Controller, NoReplyError, open_controller
+from busservo import ActionGroupStopped, Controller, NoReplyError, open_controller
 from busservo.cli import main
 from busservo.cli.recorder import Recorder
 from busservo.recording_file import RecordingFile
@@ -101,6 +102,20 @@ def test_a_recording_says_when_it_began_and_when_the_line_fell_silent(tmp_path: 
     assert [re.sub(r"\d\.\d{6} s", "T s", each) for each in lines] == [
         "55 55 02 0F  # T s, host: BatteryVoltageRead()",
         "55 55 05 08  # T s, noise: too short",
+        "# quiet",
+    ]
+
+
+def test_what_has_begun_to_arrive_when_it_is_closed_is_recorded(tmp_path: Path) -> None:
+    line, path = VirtualLine(), tmp_path / "line.hex"
+    with Controller(
+        line, trace=path, background=False, clock=line.clock, baud=math.inf, settle=0
+    ) as controller:
+        line.say(ActionGroupStopped().encode() + bytes.fromhex("55 55 04"))
+        assert controller.wait_for(ActionGroupStopped, timeout=1.0) == ActionGroupStopped()
+    assert [re.sub(r"\d\.\d{6} s", "T s", each) for each in path.read_text().splitlines()[1:]] == [
+        "55 55 02 07  # T s, controller: ActionGroupStopped()",
+        "55 55 04  # T s, noise: too short",
         "# quiet",
     ]
 
