@@ -75,7 +75,7 @@ class Watch:
         assert session.idle
         # Another thread may have a report in hand, for callbacks.
         await_that(lambda: not session.news)
-        assert len(session._overdue) < THREADS
+        assert len(session._late) < THREADS
         assert session.reports.take() is None
         assert session.counters.lost_reports == 0
         assert ledger.board.rejects.total == 0

@@ -41,6 +41,7 @@ from .acknowledgements import Acknowledgements
 from .careful_decoder import GAP, CarefulDecoder
 from .counters import LineCounters
 from .exchanges import EXCHANGES, LIMITS, RECEIVED
+from .late_replies import LateReplies
 from .link_errors import EchoError, NoReplyError
 from .local_echo import EchoWatch, LocalEcho
 from .noise import Noise
@@ -48,6 +49,7 @@ from .pace import Pace
 from .reports import ReportLog
 from .request import Request, Sent
 from .room import check_room
+from .settling import Settling
 from .wire import Wire
 
 if TYPE_CHECKING:
@@ -67,19 +69,6 @@ _LATENCY = 0.25
 # How long a port may take to accept a frame: longer than it takes until it is said to be stuck.
 _WRITING = 1.5
 _REPLIES = frozenset(each.reply for each in EXCHANGES.values() if each.reply is not None)
-
-
-class _Overdue:
-    """Replies of one kind that may still come although nobody waits for them any more."""
-
-    __slots__ = ("count", "kind", "owed", "until")
-
-    def __init__(self, kind: type[Message], count: int, until: float, *, owed: bool = True) -> None:
-        self.kind = kind
-        self.count = count
-        self.until = until
-        # Whether the board owes them, or there is only a doubt whether there are any.
-        self.owed = owed
 
 
 class Session:
@@ -106,8 +95,6 @@ class Session:
     ) -> None:
         if not margin > 0:
             raise ValueError(f"the margin is {margin!r}, and must be above 0 seconds")
-        if settle is not None and not settle >= 0:
-            raise ValueError(f"settle is {settle!r}, and must be 0 seconds or more, or None")
         self.wire = Wire(baud)
         self.counters = LineCounters()
         self.reports = ReportLog(report_limit)
@@ -120,7 +107,7 @@ class Session:
         self._limits = limits
         self._name = name
         self._tap = tap
-        self._settle = settle
+        self._settling = Settling(settle, now)
         self._pace = Pace()
         self._echo = LocalEcho() if local_echo else None
         self._echo_watch = EchoWatch()
@@ -129,16 +116,10 @@ class Session:
         self._asked: Request | None = None
         # The reply to what is asked that has come last, and when, until it is believed or not.
         self._held: tuple[Message, float] | None = None
-        self._overdue: list[_Overdue] = []
-        # The kinds of replies of which one was overdue, and has not come at all.
-        self._never_came: set[type[Message]] = set()
+        self._late = LateReplies()
         self._heard_at = float("-inf")
         # When the message came that the decoder is in doubt of.
         self._doubted_at = float("-inf")
-        # When this line was opened, and whether the first request on it was a question.
-        self._opened_at = now
-        self._asks_first: bool | None = None
-        self._settled = False
 
     @property
     def idle(self) -> bool:
@@ -170,8 +151,7 @@ class Session:
         LIMITS.check(message, self._limits)
         check_room(message, self.largest_frame)
         request = Request(message, exchange, retries=retries, latest=latest)
-        if self._asks_first is None:
-            self._asks_first = exchange.reply is not None
+        self._settling.submitted(question=exchange.reply is not None)
         if latest:
             self._replace(message)
         self._queue.append(request)
@@ -190,7 +170,7 @@ class Session:
 
     def outgoing(self, now: float) -> list[bytes]:
         """The frames to write now, in order. Those of requests are then under way."""
-        self._forget_overdue(now)
+        self._late.forget(now)
         frames: list[bytes] = []
         while now >= self.wire.free_at - _AHEAD:
             request = self._next(now)
@@ -224,6 +204,7 @@ class Session:
         if not data:
             return
         self._heard_at = max(self._heard_at, now)
+        self._settling.heard()
         self.acknowledgements.delay(len(data))
         if self._echo is not None:
             data, came, lost = self._echo.take_out(data)
@@ -243,7 +224,7 @@ class Session:
             self._take_in(self._decoder.feed(held), self._heard_at)
             for request in lost:
                 self._echo_lost(request)
-        self._forget_overdue(now)
+        self._late.forget(now)
         asked = self._asked
         if asked is not None and self._held is not None and now >= self._held_until(asked):
             self._decide(asked, now)
@@ -259,8 +240,8 @@ class Session:
         free = self.wire.free_at - _AHEAD
         if self._next(now) is not None:
             return free
-        settled = [each.until for each in self._overdue if each.until > now]
-        settled += [at for request in self._queue if (at := self._settled_at(request)) > now]
+        times = [*self._late.ends(), *(self._settled_at(request) for request in self._queue)]
+        settled = [at for at in times if at > now]
         # A question waits for the one before it, whose end brings the driver back here anyway.
         return max(free, min(settled)) if settled and self._asked is None else None
 
@@ -280,7 +261,7 @@ class Session:
         if self._echo is not None and self._echo.due is not None:
             times.append(self._echo.due)
         if self._queue:
-            times += [each.until for each in self._overdue]
+            times += self._late.ends()
         return min(times, default=None)
 
     def resting_until(self, now: float) -> float:
@@ -321,9 +302,7 @@ class Session:
         self._pace = Pace()
         self.acknowledgements.restart()
         self.wire.clear()
-        self._opened_at = now
-        self._asks_first = None
-        self._settled = False
+        self._settling.begin(now)
         self._heard_at = float("-inf")
 
     def _expire(self, asked: Request, now: float) -> None:
@@ -385,13 +364,10 @@ class Session:
 
     def _settled_at(self, request: Request) -> float:
         """Until when a question is not asked, because replies to others may come first."""
-        quiet = self._asks_first is False and self._heard_at == float("-inf")
-        if self._settled or quiet or request.exchange.reply is None:
+        if request.exchange.reply is None:
             return float("-inf")
-        if self._settle is not None:
-            return self._opened_at + self._settle
         size = len(request.message.encode()) + request.exchange.reply_size(request.message)
-        return self._opened_at + self.wire.seconds(size) + min(self._margin, _LATENCY)
+        return self._settling.until(self.wire.seconds(size) + min(self._margin, _LATENCY))
 
     def _next(self, now: float) -> Request | None:
         """The first in the queue that may go now."""
@@ -400,9 +376,7 @@ class Session:
             if reply is None:
                 return request
             # A further attempt takes its own late reply gladly.
-            unsettled = not request.attempts and any(
-                each.kind is reply and each.until > now for each in self._overdue
-            )
+            unsettled = not request.attempts and self._late.awaited(reply, now)
             if self._asked is None and not unsettled and now >= self._settled_at(request):
                 return request
         return None
@@ -438,12 +412,11 @@ class Session:
             # A further attempt takes its own late reply gladly.
             request.left_soonest = self.wire.free_soonest
             request.counted = self.counters.snapshot()
-            request.after_lost = request.exchange.reply in self._never_came
-            self._never_came -= {request.exchange.reply}
+            request.after_lost = self._late.take_missing(request.exchange.reply)
         answer = self.wire.seconds(request.exchange.reply_size(request.message))
         request.deadline = request.left_at + answer + self._margin
         self._asked = request
-        self._settled = True
+        self._settling.asked()
         return frame
 
     def _decode(self, step: Callable[[], list[Message | Noise]], now: float) -> None:
@@ -506,7 +479,7 @@ class Session:
         later = self._pace.answered_in_time(type(reply), self._delay(asked, reply, at), step)
         if later > 0 and step > 0:
             until = at + later + self.wire.seconds(len(reply.encode()))
-            self._overdue.append(_Overdue(type(reply), 1, until, owed=False))
+            self._late.expect(type(reply), 1, until, owed=False)
 
     def _decide(self, asked: Request, now: float) -> None:
         """Believes the reply that is held, or not, since no other has come."""
@@ -543,12 +516,7 @@ class Session:
         """Drops a reply that answers nothing."""
         self._pace.surplus()
         self._drop(message, "it answers nothing that is asked")
-        for each in self._overdue:
-            if each.kind is type(message):
-                each.count -= 1
-                if not each.count:
-                    self._overdue.remove(each)
-                return
+        self._late.came(type(message))
 
     def _drop(self, message: Message, why: str) -> None:
         self.counters.unsolicited += 1
@@ -595,21 +563,14 @@ class Session:
         reply, _ = self._held
         self._asked = self._held = None
         self._drop(reply, "what it may answer was given up")
-        self._overdue.append(_Overdue(type(reply), request.attempts, until, owed=False))
+        self._late.expect(type(reply), request.attempts, until, owed=False)
 
     def _remember(self, request: Request, since: float) -> None:
         if request.attempts and request.exchange.reply is not None:
             self._expect_late(request.exchange.reply, request.attempts, request, since)
 
     def _expect_late(self, kind: type[Message], count: int, request: Request, since: float) -> None:
-        until = since + (request.deadline - request.left_at)
-        self._overdue.append(_Overdue(kind, count, until))
-
-    def _forget_overdue(self, now: float) -> None:
-        """No longer waits for replies that have not come for too long, though they may yet."""
-        gone = [each for each in self._overdue if each.until <= now]
-        self._never_came.update(each.kind for each in gone if each.owed)
-        self._overdue = [each for each in self._overdue if each.until > now]
+        self._late.expect(kind, count, since + (request.deadline - request.left_at))
 
     def _replace(self, message: Message) -> None:
         """Takes out what waits and would be undone by `message`: the same, for no other servos."""
