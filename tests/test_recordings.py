@@ -160,7 +160,7 @@ def test_who_sent_what_either_end_may_have_sent_can_be_said() -> None:
         ("55\n55  # 0 s, host: a\n", "line 2: it has a time and a sender, and the lines before it"),
         ("55  # 0 s, host: a\n5G  # 0 s, host: a\n", "line 2: no hex: 'G' in '5G' is no hex digit"),
         ("5G  # 0 s, host: a\n", "line 1: no hex: 'G' in '5G' is no hex digit"),
-        ("55 55\n02 # comment\n 0 \n", "line 3: no hex: '0' is half a byte; did you mean 00?; if "),
+        ("55 55\n02 # comment\n 0 \n", "line 3: no hex: '0' is half a byte; did you mean 00?; raw"),
         (f"55  # 0 s, host: {LONGEST_LINE * 'a'}\n", "line 1: it has more than 65536 characters"),
         (
             f"55  # 0 s, host: a\n{LONGEST_LINE * '5'}5\n",

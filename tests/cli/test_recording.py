@@ -92,6 +92,15 @@ def test_the_times_and_the_senders_of_a_recording_are_kept(
     ]
 
 
+def test_each_of_several_recordings_has_a_time_of_its_own(
+    log: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    log.write_text(CUT_OFF + CUT_OFF.replace("2026", "2027", 1))
+    assert main(["decode", str(log), "-t", "delta"]) == 0
+    times = [line.split()[0] for line in capsys.readouterr().out.splitlines()]
+    assert times == 2 * ["0.250000", "0.125000", "0.875000", "0.750000", "0.500000", "0.250000"]
+
+
 def test_json_and_csv_say_the_same(log: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["decode", str(log), "--json"]) == 0
     records = [json.loads(line) for line in capsys.readouterr().out.splitlines()]
@@ -198,7 +207,7 @@ def test_what_is_hex_at_first_and_then_is_not_is_refused(
     assert main(["decode", str(log)]) == 2
     told = capsys.readouterr().err
     assert told.startswith(f"busservo: error: {log}, line 2: no hex: '\\x00'")
-    assert told.endswith("if these are raw bytes, read them as raw\n")
+    assert told.endswith("raw bytes need --format raw, in Python form='raw'\n")
     assert main(["decode", str(log), "--format", "raw", "--strict"]) == 1
 
 

@@ -36,6 +36,7 @@ class EntryLines:
     def __init__(self, screen: TextIO, form: str, times: str | None = None) -> None:
         self._screen = screen
         self._times = times or "zero"
+        self._began: float | None = None
         self._last = 0.0
         self._with_time = self._with_day = self._count = 0
         self._said: dict[tuple[object, ...], Any] = {}
@@ -63,6 +64,8 @@ class EntryLines:
             return None
         self._with_time += 1
         if self._times == "delta":
+            if entry.began != self._began:  # one recording behind the other
+                self._began, self._last = entry.began, 0.0
             now, self._last = now - self._last, now
         elif self._times == "absolute" and entry.began is not None:
             self._with_day += 1

@@ -27,6 +27,9 @@ QUIET = "# quiet"
 # What stands in the place of the sender: bytes that are no message, and what either end may send.
 NOISE, EITHER = "noise", "either"
 
+# No child has the file, and Windows leaves the ends of lines to Python.
+_FLAGS: int = getattr(os, "O_CLOEXEC", 0) | getattr(os, "O_BINARY", 0)
+
 
 class RecordingFile:
     """A recording in the making. Raises OSError where the file cannot be written.
@@ -37,7 +40,7 @@ class RecordingFile:
 
     def __init__(self, path: str | PathLike[str]) -> None:
         # Not emptied by opening it, so that nothing is lost before it has been looked at.
-        handle = os.open(path, os.O_WRONLY | os.O_CREAT | getattr(os, "O_CLOEXEC", 0), 0o666)
+        handle = os.open(path, os.O_WRONLY | os.O_CREAT | _FLAGS, 0o666)
         held = os.fstat(handle)
         if stat.S_ISREG(held.st_mode) and held.st_size:
             os.close(handle)

@@ -159,4 +159,6 @@ def _hex(text: Iterable[str], decoder: StreamDecoder) -> Iterator[list[Message |
 
 
 def _slip(error: HexError, line: int) -> RecordingError:
-    return RecordingError(f"line {line}: {error}; if these are raw bytes, read them as raw")
+    return RecordingError(
+        f"line {line}: {error}; raw bytes need --format raw, in Python form='raw'"
+    )
