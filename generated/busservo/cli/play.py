@@ -80,7 +80,7 @@ def run(arguments: argparse.Namespace) -> int:
     if arguments.dry_run:
         at = 0.0
         for step in chain.from_iterable(repeat(steps, arguments.repeat)):
-            print(step.told(at))
+            print(step.told(at), flush=True)
             at += step.wire + step.seconds
         total = counted(len(steps) * arguments.repeat, "pose")
         print(f"{total} in {at:.3f} s: nothing was sent", file=sys.stderr)
