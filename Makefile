@@ -12,6 +12,8 @@ IN := $(VENV)/bin
 READY := $(VENV)/.ready-$(GROUP)
 BENCH_VENV := .tools/bench
 MUTATION_VENV := .tools/mutation
+# How many tests run at once. Many only wait, so more than there are cores; 0 is one after another.
+WORKERS = 4
 # Which mutants: make mutants ONLY='busservo.octets.*'
 ONLY =
 
@@ -25,10 +27,10 @@ all: $(READY)  ## Check the spec, generate everything, decode a recorded noisy l
 	$(IN)/python examples/virtual_arm.py
 
 test: $(READY)  ## Run every test
-	$(IN)/python -m pytest
+	$(IN)/python -m pytest -n $(WORKERS)
 
 quick: $(READY)  ## Run every test with fewer examples, and without a browser
-	HYPOTHESIS_PROFILE=quick $(IN)/python -m pytest -q --ignore=tests/docs/test_browser.py
+	HYPOTHESIS_PROFILE=quick $(IN)/python -m pytest -q -n $(WORKERS) --ignore=tests/docs/test_browser.py
 
 coverage: $(READY)  ## Measure which lines and branches the quick tests reach, commands included
 	$(IN)/coverage erase
