@@ -263,13 +263,19 @@ class Session:
         return min(times, default=None)
 
     def resting_until(self, now: float) -> float:
-        """Until when nothing can be complete, since the rest of a frame takes its time on the wire.
+        """Until when a reader may sleep, since the rest of a reply takes its time on the wire.
 
-        A reader that sleeps so long misses nothing: a gap is noticed no later for it.
+        It misses nothing: the reply is not complete before, a report may wait for so long, and a
+        gap is noticed no later for it.
         """
-        if not self._decoder.pending or self._pace.fast:
+        pending = self._decoder.pending
+        if not pending or self._pace.fast:
             return now
-        arriving = self.wire.least(self._decoder.missing - 1)
+        missing = self._decoder.missing
+        if self._asked is not None:
+            reply = self._asked.exchange.reply_size(self._asked.message)
+            missing = max(missing, reply - pending)
+        arriving = self.wire.least(missing - 1)
         return max(now, min(self._heard_at + arriving, self._heard_at + GAP))
 
     def fail(self, error: Exception) -> None:
