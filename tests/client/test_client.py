@@ -327,6 +327,19 @@ def test_eight_threads_share_a_controller() -> None:
     assert line.drained == len(line.received) == 640
 
 
+def test_a_report_reaches_a_callback_while_somebody_waits_for_another() -> None:
+    line = LiveLine()
+    heard: list[Message] = []
+    with Controller(line, **LIVE) as controller, ThreadPoolExecutor(1) as pool:
+        controller.on_report(heard.append)
+        waiting = pool.submit(controller.wait_for, ActionGroupCompleted, timeout=PATIENCE)
+        line.say(ActionGroupStarted(8, 1))
+        await_that(lambda: heard == [ActionGroupStarted(8, 1)])
+        assert not waiting.done()
+        line.say(ActionGroupCompleted(8, 1))
+        assert waiting.result(PATIENCE) == ActionGroupCompleted(8, 1)
+
+
 def test_a_report_reaches_a_callback_while_nobody_asks() -> None:
     line = LiveLine()
     with Controller(line) as controller:

@@ -116,7 +116,13 @@ class Client:
         )
         self._session.largest_frame = self._transport.largest_frame
         # Held for every touch of the session, never for a read; told whenever anything changed.
-        self._changed = threading.Condition(threading.Lock())
+        self._lock = threading.Lock()
+        self._changed = threading.Condition(self._lock)
+        # Each question is waited for on a condition of its own: nobody wakes for another's reply.
+        self._asking: list[threading.Condition] = []
+        # How many wait, and so read; the listener, which reads for nobody, waits for its turn.
+        self._waiters = 0
+        self._idle = threading.Condition(self._lock)
         self._reading = False
         self._failure: TransportError | None = None
         self._callbacks: list[Callable[[Message], object]] = []
@@ -420,10 +426,11 @@ class Client:
             request = self._session.submit(
                 message, question=retries is not None, retries=retries or 0
             )
-            request.notify = self._changed.notify_all
+            answered = threading.Condition(self._lock)
+            request.notify = answered.notify
             try:
                 while not request.done:
-                    self._wait(None)
+                    self._wait(None, answered)
             finally:
                 self._session.cancel(request)
             failure = self._failure
@@ -439,16 +446,23 @@ class Client:
     @contextmanager
     def _waiting(self) -> Iterator[None]:
         """Around whatever calls `_wait`: in the end somebody else must read. With the lock held."""
+        self._waiters += 1
         try:
             yield
         finally:
-            if not self._reading:
-                self._changed.notify()
+            self._waiters -= 1
+            self._hand_over()
 
-    def _wait(self, until: float | None) -> None:
+    def _hand_over(self) -> None:
+        """Wakes one of those who wait, to read for all, unless somebody does."""
+        if not self._reading:
+            next(iter(self._asking), self._changed).notify()
+
+    def _wait(self, until: float | None, answered: threading.Condition | None = None) -> None:
         """Lets something happen: sends what is due, then reads or lets another thread read.
 
         Comes back soon, whether or not anything did. The lock is held, and let go meanwhile.
+        `answered` is told when the question that is waited for is over.
         """
         if self._send_due():
             return
@@ -457,7 +471,14 @@ class Client:
         times = [now + longest, self._session.send_at(now), until]
         pause = max(0.0, min(time for time in times if time is not None) - now)
         if self._reading:
-            self._changed.wait(pause)
+            if answered is None:
+                self._changed.wait(pause)
+                return
+            self._asking.append(answered)
+            try:
+                answered.wait(pause)
+            finally:
+                self._asking.remove(answered)
             return
         tick_at = self._session.tick_at
         if tick_at is not None:
@@ -495,6 +516,7 @@ class Client:
         self._session.tick(began)
         if self._session.counters.reports != reports:
             self._changed.notify_all()
+            self._idle.notify()
         # Whoever asks next need not be waited for.
         self._send_due()
 
@@ -586,12 +608,18 @@ class Client:
 
     def _listen_once(self) -> bool:
         """Reads if nobody else does, so that reports are heard and late commands sent."""
-        with self._changed, self._waiting():
+        with self._changed:
             if self._closing or self._failure is not None:
                 return False
             if self._listener is not threading.current_thread():
                 return False  # it has reconnected, from within a callback, and has a successor
-            self._wait(None)
+            if self._waiters:
+                self._idle.wait(SLICE)
+            else:
+                try:
+                    self._wait(None)
+                finally:
+                    self._hand_over()
         self._tell()
         return True
 
