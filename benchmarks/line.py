@@ -2,7 +2,8 @@
 
     python -m benchmarks.line [--reads N] [--rounds N] [--via pty|tcp]
 
-A virtual controller lets bytes through at the pace of the wire, both ways. A read is a request of
+A virtual controller, in a process of its own, lets bytes through at the pace of the wire, both
+ways. Besides the time of a read, it tells the processor time that it costs. A read is a request of
 11 bytes and a reply of 23, so 34 bytes of ten bits: 35.4 ms at 9600 baud, and no client that asks
 one thing at a time can be faster. The share is of that rate. On a busy
 machine the pacing itself is late: pyserial alone, which decodes nothing, shows by how much. `xarm`,
@@ -15,15 +16,23 @@ import argparse
 import asyncio
 import importlib.util
 import os
+import subprocess
+import sys
 import tempfile
 import time
+from concurrent.futures import ThreadPoolExecutor
+from contextlib import contextmanager
+from functools import partial
 from pathlib import Path
 from statistics import median
+from typing import TYPE_CHECKING, NamedTuple
 
 import busservo
 import serial
 from busservo.protocol import BAUD, BITS_PER_BYTE
-from busservo_simulator import VirtualController
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterator
 
 SERVOS = [1, 2, 3, 4, 5, 6]
 BYTES = len(busservo.ServoPositionsRead(SERVOS).encode()) + len(
@@ -32,45 +41,67 @@ BYTES = len(busservo.ServoPositionsRead(SERVOS).encode()) + len(
 BEST = BYTES * BITS_PER_BYTE / BAUD
 
 
-def with_nothing(port: str, reads: int) -> float:
-    """Seconds a read, by pyserial alone: what this machine allows at this moment."""
+class Taken(NamedTuple):
+    """What one read takes, in seconds: of the clock, and of the processor."""
+
+    time: float
+    cpu: float
+
+
+class Watch:
+    """Measures from when it is made."""
+
+    def __init__(self) -> None:
+        self._time, self._cpu = time.perf_counter(), time.process_time()
+
+    def each(self, reads: int) -> Taken:
+        """What each of so many reads has taken."""
+        taken, cpu = time.perf_counter() - self._time, time.process_time() - self._cpu
+        return Taken(taken / reads, cpu / reads)
+
+
+def with_nothing(port: str, reads: int) -> Taken:
+    """A read, by pyserial alone: what this machine allows at this moment."""
     request = busservo.ServoPositionsRead(SERVOS).encode()
     with serial.serial_for_url(port, BAUD, timeout=1) as line:
         line.write(request)
         line.read(BYTES - len(request))
-        began = time.perf_counter()
+        watch = Watch()
         for _ in range(reads):
             line.write(request)
             line.read(BYTES - len(request))
-        return (time.perf_counter() - began) / reads
+        return watch.each(reads)
 
 
-def with_threads(port: str, reads: int) -> float:
-    """Seconds a read, by the client for threads."""
-    with busservo.open_controller(port) as controller:
+def with_threads(port: str, reads: int, threads: int = 1) -> Taken:
+    """A read, by the client for threads; or by several that share one."""
+    with busservo.open_controller(port) as controller, ThreadPoolExecutor(threads) as pool:
         controller.read_servo_positions(SERVOS)
-        began = time.perf_counter()
-        for _ in range(reads):
-            controller.read_servo_positions(SERVOS)
-        return (time.perf_counter() - began) / reads
+        watch = Watch()
+        if threads == 1:
+            for _ in range(reads):
+                controller.read_servo_positions(SERVOS)
+        else:
+            list(pool.map(lambda _: controller.read_servo_positions(SERVOS), range(reads)))
+        return watch.each(reads)
 
 
-def with_asyncio(port: str, reads: int) -> float:
-    """Seconds a read, by the client for asyncio."""
+def with_asyncio(port: str, reads: int) -> Taken:
+    """A read, by the client for asyncio."""
 
-    async def measure() -> float:
+    async def measure() -> Taken:
         async with busservo.open_async_controller(port) as controller:
             await controller.read_servo_positions(SERVOS)
-            began = time.perf_counter()
+            watch = Watch()
             for _ in range(reads):
                 await controller.read_servo_positions(SERVOS)
-            return (time.perf_counter() - began) / reads
+            return watch.each(reads)
 
     return asyncio.run(measure())
 
 
-def with_xarm(port: str, reads: int) -> float:
-    """Seconds a read, by the client `xarm`, which takes ports by the name of COM alone."""
+def with_xarm(port: str, reads: int) -> Taken:
+    """A read, by the client `xarm`, which takes ports by the name of COM alone."""
     import xarm  # noqa: PLC0415 - a peer, and not installed by everybody
 
     before = Path.cwd()
@@ -85,20 +116,36 @@ def with_xarm(port: str, reads: int) -> float:
     # It waits a second for each answer: few of them tell as much as many.
     reads = min(reads, 3)
     try:
-        began = time.perf_counter()
+        watch = Watch()
         for _ in range(reads):
             arm.getPosition(servos)
-        return (time.perf_counter() - began) / reads
+        return watch.each(reads)
     finally:
         arm._device.close()
 
 
-CONTENDERS = {
+CONTENDERS: dict[str, Callable[[str, int], Taken]] = {
     "pyserial alone": with_nothing,
     "Controller": with_threads,
+    "eight threads": partial(with_threads, threads=8),
     "AsyncController": with_asyncio,
     "xarm": with_xarm,
 }
+
+
+@contextmanager
+def board(via: str) -> Iterator[str]:
+    """A virtual controller in a process of its own: the name of its port."""
+    command = [sys.executable, "-m", "busservo_simulator", "--baud", "--quiet"]
+    command += ["--tcp", "0"] if via == "tcp" else []
+    with subprocess.Popen(
+        command, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True
+    ) as process:
+        try:
+            assert process.stdout is not None
+            yield process.stdout.readline().strip()
+        finally:
+            process.terminate()
 
 
 def main() -> None:
@@ -116,16 +163,17 @@ def main() -> None:
         del able["xarm"]
         print("xarm: not installed")
     print(f"the line alone: {BEST * 1000:.2f} ms a read, {1 / BEST:.2f} reads a second")
-    taken: dict[str, list[float]] = {name: [] for name in able}
+    taken: dict[str, list[Taken]] = {name: [] for name in able}
     for _ in range(arguments.rounds):
         for name, measure in able.items():
-            with VirtualController(via=arguments.via, baud=BAUD) as board:
-                taken[name].append(measure(board.port, arguments.reads))
+            with board(arguments.via) as port:
+                taken[name].append(measure(port, arguments.reads))
     for name, rounds in taken.items():
-        middle = median(rounds)
+        times = [each.time for each in rounds]
+        middle, cpu = median(times), median(each.cpu for each in rounds)
         print(
             f"{name:16} {middle * 1000:8.2f} ms a read, {BEST / middle:6.1%} of the line's rate "
-            f"({BEST / max(rounds):.1%} to {BEST / min(rounds):.1%})"
+            f"({BEST / max(times):.1%} to {BEST / min(times):.1%}), {cpu * 1000:.2f} ms of CPU"
         )
 
 
