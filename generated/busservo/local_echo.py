@@ -98,27 +98,31 @@ class EchoWatch:
     """
 
     def __init__(self) -> None:
-        self._frame = b""
+        # What was sent last, and what of it would be a sign: all, or nothing.
+        self._sent = self._sign = b""
         self._noise = b""
 
     def sent(self, frame: bytes) -> None:
         """Takes note that a frame has been sent."""
         self._noise = b""
+        if frame == self._sent:
+            return  # the same question, again and again
+        self._sent = frame
         try:
             decode(frame, RECEIVED)
         except DecodeError:
-            self._frame = frame
+            self._sign = frame
         else:
-            self._frame = b""
+            self._sign = b""
 
     def comes_back(self, noise: bytes) -> bool:
         """Whether the frame that was sent last is in the noise that has come since."""
-        if not self._frame:
+        if not self._sign:
             return False
-        self._noise = (self._noise + noise)[-4 * len(self._frame) :]
-        if self._frame not in self._noise:
+        self._noise = (self._noise + noise)[-4 * len(self._sign) :]
+        if self._sign not in self._noise:
             return False
-        self._frame = self._noise = b""
+        self._noise = b""
         return True
 
 

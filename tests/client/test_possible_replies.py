@@ -301,6 +301,31 @@ def test_a_foreign_reply_in_the_time_of_the_right_one_makes_one_read_stale_and_n
     assert request.reply == BatteryVoltage(10)
 
 
+def test_the_right_reply_has_as_long_as_the_slowest_of_the_latest() -> None:
+    line, now = session(), 0.0
+    for number, latency in enumerate([0.02, 0.035, 0.02, 0.03, 0.025]):
+        request = ask(line, now)
+        now += TRIP + latency
+        say(line, now, BatteryVoltage(number))
+        assert request.done
+    ask(line, now)
+    early = now + TRIP + 0.002
+    say(line, early, BatteryVoltage(1))
+    line.submit(BatteryVoltageRead())
+    at = line.send_at(early)
+    assert at is not None
+    assert at >= now + TRIP + 0.035
+
+
+@pytest.mark.parametrize(("in_time", "believed"), [(7, True), (8, False)])
+def test_a_line_keeps_its_rate_after_eight_questions_in_a_row(in_time: int, believed: bool) -> None:
+    line = session()
+    answered(line, 0.0, 1, TOO_SOON)
+    for number in range(in_time):
+        answered(line, 1.0 + number, 7500)
+    assert (answered(line, 20.0, 2, TOO_SOON).reply is not None) is believed
+
+
 def test_a_board_that_is_quick_for_once_costs_a_moment_and_nothing_else() -> None:
     line, latency = session(), 0.02
     now = slow_board(line, latency, 8)
