@@ -168,8 +168,8 @@ def test_a_line_is_fast_after_three_questions_with_one_impossible_reply_each() -
     assert line.counters.impossible == 3
 
 
-@pytest.mark.parametrize("between", ["in time", "not at all", "twice"])
-def test_three_in_a_row_are_three_in_a_row(between: str) -> None:
+@pytest.mark.parametrize(("between", "more"), [("in time", 2), ("not at all", 2), ("twice", 1)])
+def test_three_in_a_row_are_three_in_a_row(between: str, more: int) -> None:
     line = session()
     answered(line, 0.0, 1, 0.001)
     answered(line, 1.0, 2, 0.001)
@@ -177,14 +177,19 @@ def test_three_in_a_row_are_three_in_a_row(between: str) -> None:
         answered(line, 2.0, 3)
     else:
         ask(line, 2.0)
-        if between == "twice":
+        if between == "twice":  # the second of which is one reply again
             say(line, 2.001, BatteryVoltage(3))
             say(line, 2.002, BatteryVoltage(3))
         settle(line)
-    assert not answered(line, 4.0, 4, 0.001).error
-    request = ask(line, 5.0)
-    say(line, 5.001, BatteryVoltage(5))
+    for number in range(more):
+        assert not answered(line, 4.0 + number, 4, 0.001).error
+    request = ask(line, 8.0)
+    say(line, 8.001, BatteryVoltage(5))
     assert not request.done
+    settle(line)
+    request = ask(line, 9.0)
+    say(line, 9.001, BatteryVoltage(6))
+    assert request.done
 
 
 def test_a_surplus_reply_ends_what_was_learnt() -> None:
