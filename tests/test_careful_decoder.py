@@ -113,6 +113,31 @@ def test_what_follows_refutes_a_doubt_as_soon_as_it_can() -> None:
     assert decoder.feed(b"\x07") == [ActionGroupStopped()]
 
 
+@pytest.mark.parametrize(
+    "message",
+    [
+        ServoPositions([(1, 0x5555), (2, 500)]),
+        ServoPositions([(1, 0x5555), (2, 0x5555), (3, 500)]),
+        ServoPositions([(0x55, 0x0255), (7, 500)]),
+    ],
+    ids=repr,
+)
+def test_a_header_in_the_middle_of_a_message_is_no_reason_to_wait(message: Message) -> None:
+    assert careful(message.encode()) == [message]
+
+
+def test_how_much_is_held_and_how_much_is_missing() -> None:
+    decoder = CarefulDecoder(RECEIVED)
+    assert (decoder.pending, decoder.missing) == (0, 1)
+    decoder.feed(ServoPositions([(1, 500), (2, 500)]).encode()[:5])
+    assert (decoder.pending, decoder.missing) == (5, 6)
+    decoder.flush()
+    decoder.feed(BatteryVoltage(0x5555).encode())
+    assert (decoder.pending, decoder.missing) == (6, 1)
+    decoder.feed(b"\x55")
+    assert (decoder.pending, decoder.missing) == (7, 1)
+
+
 def test_a_doubt_that_stays_is_no_message() -> None:
     """A second hole: whether the reply was whole cannot be told any more."""
     decoder = CarefulDecoder(RECEIVED)

@@ -253,3 +253,15 @@ def test_all_that_others_send_comes_through_however_it_is_cut(
     assert found == b"".join(others[: len(sent) + 1])
     assert came == requests
     assert echo.due is None
+
+
+def test_what_is_forgotten_is_no_longer_expected_and_everything_else_is() -> None:
+    echo = LocalEcho()
+    first, second = request(ActionGroupStop()), request(BatteryVoltageRead())
+    for each in (first, second):
+        echo.sent(each, each.message.encode(), 1.0)
+    echo.forget(first)
+    assert not echo.expects(first)
+    assert echo.expects(second)
+    frames = ActionGroupStop().encode() + BatteryVoltageRead().encode()
+    assert echo.take_out(frames) == (ActionGroupStop().encode(), [second], [])
