@@ -201,9 +201,10 @@ def test_a_report_like_a_command_is_no_sign_of_an_echo(message: Message) -> None
         assert controller.counters.echoes == 0
 
 
-def test_noise_is_no_echo() -> None:
+@pytest.mark.parametrize("message", [ServoMove(0, [(1, 500)]), ActionGroupStop()])
+def test_noise_is_no_echo(message: Message) -> None:
     with virtual(lambda _: [(0.01, b"\x00\x55\x55\x02")], local_echo=False) as controller:
-        controller.move_servos([(1, 500)], time_ms=0)
+        controller.send(message)
         assert list(controller.reports(timeout=1)) == []
         assert controller.counters.echoes == 0
         assert controller.counters.noise == 4
