@@ -49,6 +49,7 @@ class Request:
         "message",
         "notify",
         "reply",
+        "reply_size",
         "retries",
         "sent",
         "sent_at",
@@ -60,6 +61,8 @@ class Request:
     ) -> None:
         self.message = message
         self.exchange = exchange
+        # How many bytes its reply can have at most; 0 where there is none.
+        self.reply_size = exchange.reply_size(message)
         self.retries = retries
         # Whether it gives way to a newer one of its kind.
         self.latest = latest

@@ -34,7 +34,6 @@ from __future__ import annotations
 import logging
 from collections import deque
 from copy import copy
-from functools import partial
 from typing import TYPE_CHECKING
 
 from .acknowledgements import Acknowledgements
@@ -53,8 +52,6 @@ from .settling import Settling
 from .wire import Wire
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
-
     from .limits import Bounds
     from .message import Message
     from .tap import Tap
@@ -104,6 +101,8 @@ class Session:
         # The longest frame that the line carries; None for any.
         self.largest_frame: int | None = None
         self._margin = margin
+        # How long a board takes at most until it begins to answer.
+        self._latency = min(margin, _LATENCY)
         self._limits = limits
         self._name = name
         self._tap = tap
@@ -212,7 +211,7 @@ class Session:
                 self._echo_lost(request)
             for request in came:
                 self._echo_came(request)
-        self._decode(partial(self._decoder.feed, data), now)
+        self._decode(data, now)
 
     def tick(self, now: float) -> None:
         """Takes in that it is `now`, and that all which arrived before has been received."""
@@ -221,7 +220,8 @@ class Session:
             self._flush()
         if self._echo is not None:
             held, lost = self._echo.expire(now)
-            self._take_in(self._decoder.feed(held), self._heard_at)
+            if held:
+                self._decode(held, self._heard_at)
             for request in lost:
                 self._echo_lost(request)
         self._late.forget(now)
@@ -275,8 +275,7 @@ class Session:
             return now
         missing = self._decoder.missing
         if self._asked is not None:
-            reply = self._asked.exchange.reply_size(self._asked.message)
-            missing = max(missing, reply - pending)
+            missing = max(missing, self._asked.reply_size - pending)
         arriving = self.wire.least(missing - 1)
         return max(now, min(self._heard_at + arriving, self._heard_at + GAP))
 
@@ -361,8 +360,8 @@ class Session:
 
     def _held_until(self, asked: Request) -> float:
         """Until when another reply may take the place of the one that is held."""
-        reply = self.wire.seconds(asked.exchange.reply_size(asked.message))
-        return self._unless_arriving(asked.left_at + reply + min(self._margin, _LATENCY))
+        reply = self.wire.seconds(asked.reply_size)
+        return self._unless_arriving(asked.left_at + reply + self._latency)
 
     def _unless_arriving(self, until: float) -> float:
         """A time that is up; a little later where a frame is just arriving."""
@@ -372,8 +371,8 @@ class Session:
         """Until when a question is not asked, because replies to others may come first."""
         if request.exchange.reply is None:
             return float("-inf")
-        size = len(request.message.encode()) + request.exchange.reply_size(request.message)
-        return self._settling.until(self.wire.seconds(size) + min(self._margin, _LATENCY))
+        size = len(request.message.encode()) + request.reply_size
+        return self._settling.until(self.wire.seconds(size) + self._latency)
 
     def _next(self, now: float) -> Request | None:
         """The first in the queue that may go now."""
@@ -399,7 +398,7 @@ class Session:
         if request.exchange.reports:
             self.reports.caused(request.message, request.exchange.reports)
         if self._echo is not None:
-            until = request.left_at + min(self._margin, _LATENCY)
+            until = request.left_at + self._latency
             self._echo.sent(request, frame, until)
         else:
             self._echo_watch.sent(frame)
@@ -419,15 +418,15 @@ class Session:
             request.left_soonest = self.wire.free_soonest
             request.counted = self.counters.snapshot()
             request.after_lost = self._late.take_missing(request.exchange.reply)
-        answer = self.wire.seconds(request.exchange.reply_size(request.message))
+        answer = self.wire.seconds(request.reply_size)
         request.deadline = request.left_at + answer + self._margin
         self._asked = request
         self._settling.asked()
         return frame
 
-    def _decode(self, step: Callable[[], list[Message | Noise]], now: float) -> None:
+    def _decode(self, data: bytes, now: float) -> None:
         """Takes in what the decoder tells; a message that it doubted is older than `now`."""
-        doubted, events = self._decoder.doubted, step()
+        doubted, events = self._decoder.doubted, self._decoder.feed(data)
         if doubted is not None and events and events[0] is doubted:
             self._take_in([events.pop(0)], self._doubted_at)
         if self._decoder.doubted is not doubted:

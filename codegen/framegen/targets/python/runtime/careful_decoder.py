@@ -70,12 +70,10 @@ class CarefulDecoder:
         self._later += data
         self._told += self._rival.feed(data)
         if self._next_begins() < len(doubted.encode()):
-            whole = any(not isinstance(event, Noise) for event in self._told)
-            return self._refuted(doubted) if whole else []
+            return self._refuted(doubted) if self._has_told_a_message() else []
         # What follows goes on with no frame: the one that is held was whole.
         later = self._later
-        self._doubted, self._later = None, b""
-        self._decoder = StreamDecoder(self._direction)
+        self._believe()
         return [doubted, *self.feed(later)]
 
     def flush(self) -> list[Message | Noise]:
@@ -90,9 +88,13 @@ class CarefulDecoder:
         if self._later:
             self._told += self._rival.flush()
             return self._refuted(doubted)
-        self._doubted = None
-        self._decoder = StreamDecoder(self._direction)
+        self._believe()
         return [doubted]
+
+    def _believe(self) -> None:
+        """Lets go of the message that is held, which was whole: what follows it begins anew."""
+        self._doubted, self._later = None, b""
+        self._decoder = StreamDecoder(self._direction)
 
     def __copy__(self) -> CarefulDecoder:
         other = CarefulDecoder(self._direction)
@@ -117,25 +119,32 @@ class CarefulDecoder:
 
     def _is_torn(self, message: Message) -> bool:
         """Whether a message ends in whole frames, which have filled its hole."""
-        frame = message.encode()
-        for at in _beginnings(frame):
-            self._rival, self._rival_at = StreamDecoder(self._direction), at
-            self._told = self._rival.feed(frame[at:])
-            if self._told and not any(isinstance(event, Noise) for event in self._told):
-                return True
-        return False
+        return any(
+            self._told and not any(isinstance(event, Noise) for event in self._told)
+            for _ in self._rivals(message)
+        )
 
     def _doubt(self, message: Message) -> bool:
         """Holds a message back if a frame may begin in its last bytes."""
+        size = len(message.encode())
+        if not any(
+            not self._has_told_a_message() and self._next_begins() < size
+            for _ in self._rivals(message)
+        ):
+            return False
+        self._doubted, self._later = message, b""
+        return True
+
+    def _rivals(self, message: Message) -> Iterator[int]:
+        """Reads anew from each place in a message where another may begin, one after the other."""
         frame = message.encode()
         for at in _beginnings(frame):
             self._rival, self._rival_at = StreamDecoder(self._direction), at
             self._told = self._rival.feed(frame[at:])
-            whole = any(not isinstance(event, Noise) for event in self._told)
-            if not whole and self._next_begins() < len(frame):
-                self._doubted, self._later = message, b""
-                return True
-        return False
+            yield at
+
+    def _has_told_a_message(self) -> bool:
+        return any(not isinstance(event, Noise) for event in self._told)
 
     def _next_begins(self) -> int:
         """At which byte, from the first of the message that is doubted, the next frame begins.
