@@ -117,8 +117,10 @@ class Client:
             now=clock(),
         )
         self._session.largest_frame = self._transport.largest_frame
-        # Held for every touch of the session, never for a read; told whenever anything changed.
+        # Held for every touch of the session, never for a read. Entered itself, not by one of the
+        # conditions: Ctrl-C between getting it and being told so would keep it for ever.
         self._lock = threading.Lock()
+        # Told whenever anything changed.
         self._changed = threading.Condition(self._lock)
         # Each question is waited for on a condition of its own: nobody wakes for another's reply.
         self._asking: list[threading.Condition] = []
@@ -215,7 +217,7 @@ class Client:
         """
         while True:
             until = None if timeout is None else self._clock() + timeout
-            with self._changed, self._waiting():
+            with self._lock, self._waiting():
                 report = self._session.reports.take()
                 while report is None and not self._closing:
                     self._check()
@@ -235,11 +237,11 @@ class Client:
         this client. What it raises is logged, and hurts nobody else. As many reports as are kept
         wait for a callback that is slow; then the oldest of them are dropped.
         """
-        with self._changed:
+        with self._lock:
             self._callbacks.append(callback)
 
         def stop() -> None:
-            with self._changed:
+            with self._lock:
                 if callback in self._callbacks:
                     self._callbacks.remove(callback)
 
@@ -281,7 +283,7 @@ class Client:
         """
         wanted = Wanted(kind, fields)
         began = self._clock()
-        with self._changed, self._waiting():
+        with self._lock, self._waiting():
             log = self._session.reports
             asked_at = log.next_number
             since = log.since(wanted)
@@ -306,7 +308,7 @@ class Client:
         Questions of other threads end with ClosedError. May be called again, and by several threads
         at once: each of them returns once the line is closed.
         """
-        with self._changed:
+        with self._lock:
             closer, self._closing = self._closer, True
             if closer is None:
                 self._closer = threading.current_thread()
@@ -332,7 +334,7 @@ class Client:
             if self._transport is not before and self._failure is None:
                 return
             reopen = self._transport.reopen
-            with self._changed:
+            with self._lock:
                 if self._closing:
                     raise self._closed()
                 lost = TransportError(self._name, "the line is being opened again", "ask again")
@@ -344,7 +346,7 @@ class Client:
             except TransportError as error:
                 self._failure = error
                 raise
-            with self._changed:
+            with self._lock:
                 if self._closing:
                     transport.close()
                     raise self._closed()
@@ -369,13 +371,13 @@ class Client:
 
     def _live(self, until: float | None) -> None:
         """Lets time pass, until then or for a moment less. Raises TransportError."""
-        with self._changed, self._waiting():
+        with self._lock, self._waiting():
             self._check()
             self._wait(until)
         self._tell()
 
     def _submit_latest(self, message: Message) -> Request:
-        with self._changed:
+        with self._lock:
             self._check()
             request = self._session.submit(message, question=False, latest=True)
             # Whoever waits for it must hear that it has been sent or replaced.
@@ -423,7 +425,7 @@ class Client:
 
     def _done(self, message: Message, retries: int | None) -> Request:
         """Submits a message, a command where `retries` is None, and waits until it is done."""
-        with self._changed, self._waiting():
+        with self._lock, self._waiting():
             self._check()
             request = self._session.submit(
                 message, question=retries is not None, retries=retries or 0
@@ -495,7 +497,7 @@ class Client:
         # Bytes that come one by one are not worth waking up for, each by itself.
         rest = self._session.resting_until(began) - began if self._real_time else 0.0
         self._reading = True
-        self._changed.release()
+        self._lock.release()
         try:
             if rest > 0:
                 time.sleep(min(rest, timeout))
@@ -506,7 +508,7 @@ class Client:
         except TransportError as error:
             failure = error
         finally:
-            self._changed.acquire()
+            self._lock.acquire()
             self._reading = False
         if transport is not self._transport:
             return
@@ -540,7 +542,7 @@ class Client:
 
     def _end(self) -> None:
         try:
-            with self._changed:
+            with self._lock:
                 self._session.refuse_questions(self._closed())
                 self._changed.notify_all()
                 self._drain()
@@ -553,7 +555,7 @@ class Client:
             # Whatever interrupts the wait, the port is given back.
             self._transport.close()
             self._stop_listening()
-            with self._changed:
+            with self._lock:
                 self._session.fail(self._closed())
                 self._changed.notify_all()
             self._tap.close()
@@ -588,7 +590,7 @@ class Client:
     def _tell(self) -> None:
         """Calls the callbacks for the reports that have come, unless another thread does."""
         while True:
-            with self._changed:
+            with self._lock:
                 if self._telling or not self._session.news:
                     return
                 report = self._session.news.popleft()
@@ -598,7 +600,7 @@ class Client:
                 for callback in callbacks:
                     _call(callback, report)
             finally:
-                with self._changed:
+                with self._lock:
                     self._telling = False
 
     def _listen(self) -> None:
@@ -610,7 +612,7 @@ class Client:
 
     def _listen_once(self) -> bool:
         """Reads if nobody else does, so that reports are heard and late commands sent."""
-        with self._changed:
+        with self._lock:
             if self._closing or self._failure is not None:
                 return False
             if self._listener is not threading.current_thread():

@@ -21,7 +21,7 @@ from busservo_simulator import VirtualController
 from hypothesis import given
 from hypothesis import strategies as st
 
-from tests.patience import PATIENCE
+from tests.patience import PATIENCE, await_that
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -536,6 +536,7 @@ if sys.platform == "linux":
         file.write_text(poses_of({"positions": {"1": 1000, "2": 0}, "time_ms": 60000}))
         with OnTerminal("play", str(file), "--port", board.port, *PATIENT) as play:
             play.wait_for("pose 1  ServoMove")
+            await_that(lambda: board.servos[1].travelling)
             play.type(CTRL_C[:1])
             assert play.end() == 130
         assert "servos 1, 2 held" in play.shown
