@@ -10,11 +10,11 @@ from types import ModuleType
 from typing import Any, TypeAlias
 
 from framegen.checks import check
-from framegen.layout import Layout, derive
-from framegen.load import Loaded, load, read_source
-from framegen.source import Source
+from framegen.language.load import Loaded, load, read_source
+from framegen.model.layout import Layout, derive
+from framegen.reading.source import Source
+from framegen.reading.yamltree import Unusable, read_tree
 from framegen.targets import python, vectors
-from framegen.yamltree import Unusable, read_tree
 
 ROOT = Path(__file__).parent.parent
 BUSSERVO = ROOT / "spec" / "busservo.yaml"

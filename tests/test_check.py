@@ -11,12 +11,12 @@ from typing import TYPE_CHECKING, Any
 import pytest
 from framegen import checks
 from framegen.checks import LAYOUT_RULES, READING_RULES, STRUCTURE_RULES, check
-from framegen.findings import Finding, did_you_mean
-from framegen.layout import derive
-from framegen.load import MAX_BYTES, load, read_source
-from framegen.lookalikes import recognise
-from framegen.source import Source, Span
-from framegen.yamltree import Unusable
+from framegen.language.load import MAX_BYTES, load, read_source
+from framegen.model.layout import derive
+from framegen.model.lookalikes import recognise
+from framegen.reading.findings import Finding, did_you_mean
+from framegen.reading.source import Source, Span
+from framegen.reading.yamltree import Unusable
 from hypothesis import given, settings
 from hypothesis import strategies as st
 

@@ -15,7 +15,7 @@ from framegen.checks import LAYOUT_RULES, READING_RULES, STRUCTURE_RULES
 from framegen.cli import VERBS, main
 from framegen.console import INTERRUPTED, READER_GONE
 from framegen.project import default_spec, project_root
-from framegen.yamltree import Unusable
+from framegen.reading.yamltree import Unusable
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
@@ -436,7 +436,7 @@ def test_what_runs_no_verb_imports_nothing_heavy(words: list[str]) -> None:
         "import sys\n"
         "from framegen.cli import main\n"
         f"main({words!r})\n"
-        "heavy = {'yaml', 'pydantic', 'jinja2', 'framegen.spec'} & set(sys.modules)\n"
+        "heavy = {'yaml', 'pydantic', 'jinja2', 'framegen.language.spec'} & set(sys.modules)\n"
         "sys.exit(f'imported {heavy}' if heavy else 0)"
     )
     result = subprocess.run(

@@ -12,10 +12,10 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 import pytest
 from busservo.exchanges import EXCHANGES
 from framegen.checks import check
-from framegen.exchanges import STEPS_PER_SECOND, exchanges
-from framegen.layout import derive
-from framegen.load import load
-from framegen.source import Source
+from framegen.language.load import load
+from framegen.model.exchanges import STEPS_PER_SECOND, exchanges
+from framegen.model.layout import derive
+from framegen.reading.source import Source
 
 from tests.specimens import BUSSERVO, Data, data_of, layout_of
 

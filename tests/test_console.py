@@ -19,7 +19,7 @@ import pytest
 from busservo.cli import console as library_console
 from framegen import console
 from framegen.console import Screen, visible
-from framegen.text import first_invisible
+from framegen.reading.text import first_invisible
 from hypothesis import example, given
 from hypothesis import strategies as st
 from serial.tools.list_ports_common import ListPortInfo

@@ -14,10 +14,11 @@ from types import ModuleType
 from typing import Any
 
 import pytest
-from framegen import codec, wiretypes
-from framegen.codec import NotAFrame
-from framegen.layout import Layout, MessageLayout, Repeat, WireField
-from framegen.wiretypes import WIRE_TYPES, WireType
+from framegen.language import wiretypes
+from framegen.language.wiretypes import WIRE_TYPES, WireType
+from framegen.model import codec
+from framegen.model.codec import NotAFrame
+from framegen.model.layout import Layout, MessageLayout, Repeat, WireField
 from hypothesis import given
 from hypothesis import strategies as st
 

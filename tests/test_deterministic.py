@@ -8,10 +8,10 @@ from functools import cache
 from pathlib import Path
 
 import pytest
-from framegen.layout import derive
-from framegen.load import load, read_source
+from framegen.language.load import load, read_source
+from framegen.model.layout import derive
+from framegen.reading.source import Source
 from framegen.render import TARGETS, render
-from framegen.source import Source
 
 ROOT = Path(__file__).parent.parent
 SPEC_PAGE = "docs/reference/spec.html"
@@ -25,8 +25,8 @@ DIGESTS = """
 import sys
 from hashlib import sha256
 from pathlib import Path
-from framegen.layout import derive
-from framegen.load import load, read_source
+from framegen.model.layout import derive
+from framegen.language.load import load, read_source
 from framegen.render import render
 
 for name in sys.argv[1:]:

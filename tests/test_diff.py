@@ -9,7 +9,7 @@ from typing import Any
 import pytest
 from framegen.cli import main
 from framegen.comparison import KINDS, differences
-from framegen.layout import Layout, derive
+from framegen.model.layout import Layout, derive
 
 from tests.specimens import BUSSERVO, DEMO, Data, Steps, data_of, loaded_of, renamed, yaml_of
 

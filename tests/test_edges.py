@@ -12,9 +12,9 @@ from busservo import (
     StreamDecoder,
 )
 from busservo.table import worded
-from framegen.codec import NotAFrame, decode, describe_range, encode
-from framegen.layout import derive
-from framegen.values import Citation, Direction
+from framegen.language.values import Citation, Direction
+from framegen.model.codec import NotAFrame, decode, describe_range, encode
+from framegen.model.layout import derive
 
 from tests.cases import CASES
 from tests.specimens import BUSSERVO, DEMO, data_of, layout_of, loaded_of

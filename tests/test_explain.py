@@ -4,13 +4,13 @@ import json
 from pathlib import Path
 
 import pytest
-from framegen import codec
 from framegen.cli import main
 from framegen.explain import Explanation, Reading, Refusal, Row, explain
 from framegen.explain_text import as_json, as_text
-from framegen.layout import Layout, derive
-from framegen.load import load, read_source
-from framegen.values import Direction
+from framegen.language.load import load, read_source
+from framegen.language.values import Direction
+from framegen.model import codec
+from framegen.model.layout import Layout, derive
 from hypothesis import given, settings
 from hypothesis import strategies as st
 

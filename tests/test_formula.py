@@ -1,7 +1,7 @@
 """Length rules: read, shown, compared and solved both ways."""
 
 import pytest
-from framegen.formula import Formula, parse_formula
+from framegen.language.formula import Formula, parse_formula
 from hypothesis import given
 from hypothesis import strategies as st
 

@@ -16,8 +16,8 @@ from typing import Any, TypeAlias
 
 import pytest
 from framegen.names import LIBRARY_NAMES, PYTHON_BUILTINS, PYTHON_CLASSES, PYTHON_KEYWORDS
+from framegen.reading.text import is_invisible
 from framegen.targets.python.escape import comment, docstring, literal, prose
-from framegen.text import is_invisible
 from hypothesis import given
 from hypothesis import strategies as st
 

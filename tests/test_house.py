@@ -9,8 +9,8 @@ from pathlib import Path
 import busservo
 import framegen
 import pytest
-from framegen.layout import derive
-from framegen.load import load, read_source
+from framegen.language.load import load, read_source
+from framegen.model.layout import derive
 from framegen.render import render
 from framegen.writer import changes
 

@@ -3,11 +3,11 @@
 from typing import Any, NamedTuple
 
 import pytest
-from framegen.codec import NotAFrame, Unencodable, decode, describe_range, encode
-from framegen.facts import NoSuchFact, look_up
-from framegen.layout import Layout, MessageLayout, derive_frame, part_size
-from framegen.spec import Concern, Spec
-from framegen.values import Direction
+from framegen.language.spec import Concern, Spec
+from framegen.language.values import Direction
+from framegen.model.codec import NotAFrame, Unencodable, decode, describe_range, encode
+from framegen.model.facts import NoSuchFact, look_up
+from framegen.model.layout import Layout, MessageLayout, derive_frame, part_size
 from hypothesis import given
 from hypothesis import strategies as st
 

@@ -4,8 +4,8 @@ from pathlib import Path
 
 import pytest
 from busservo import Message, lookalikes, strategies
-from framegen.layout import Layout
-from framegen.lookalikes import recognise
+from framegen.model.layout import Layout
+from framegen.model.lookalikes import recognise
 from framegen.targets.python.library_view import LibraryView
 from hypothesis import given
 from hypothesis import strategies as st

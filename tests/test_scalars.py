@@ -5,8 +5,8 @@ from typing import Any
 
 import pytest
 import yaml
-from framegen.scalars import Ambiguous, resolve
-from framegen.text import first_invisible, is_invisible
+from framegen.reading.scalars import Ambiguous, resolve
+from framegen.reading.text import first_invisible, is_invisible
 from hypothesis import given
 from hypothesis import strategies as st
 

@@ -8,11 +8,11 @@ from typing import Any
 
 import pytest
 from framegen.cli import main
-from framegen.load import read_source
-from framegen.spec import Spec
+from framegen.language.load import read_source
+from framegen.language.spec import Spec
+from framegen.language.wiretypes import WIRE_TYPES
+from framegen.reading.yamltree import read_tree
 from framegen.targets.schema import _KEYWORDS, schema_text
-from framegen.wiretypes import WIRE_TYPES
-from framegen.yamltree import read_tree
 from jsonschema import Draft202012Validator
 
 ROOT = Path(__file__).parent.parent

@@ -12,8 +12,8 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 
 import pytest
 from framegen.checks import check
-from framegen.load import load, read_source
-from framegen.source import Source
+from framegen.language.load import load, read_source
+from framegen.reading.source import Source
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator

@@ -5,7 +5,7 @@ from decimal import Decimal
 from typing import Any
 
 import pytest
-from framegen.values import Citation, Direction, Method, Range, Scale, parse_hex, to_hex
+from framegen.language.values import Citation, Direction, Method, Range, Scale, parse_hex, to_hex
 from hypothesis import given
 from hypothesis import strategies as st
 

@@ -10,11 +10,11 @@ import pytest
 from framegen import writer
 from framegen.checks import check
 from framegen.cli import main
-from framegen.layout import derive
-from framegen.load import load, read_source
+from framegen.language.load import load, read_source
+from framegen.model.layout import derive
+from framegen.reading.yamltree import Unusable
 from framegen.render import Rendered, render
 from framegen.writer import Change, changes, write
-from framegen.yamltree import Unusable
 
 Capture: TypeAlias = "pytest.CaptureFixture[str]"
 Snapshot: TypeAlias = "dict[str, bytes | None]"

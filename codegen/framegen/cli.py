@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Protocol, cast
 
 from framegen import __version__, console
 from framegen.console import UNUSABLE, visible
-from framegen.findings import did_you_mean
+from framegen.reading.findings import did_you_mean
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
@@ -81,7 +81,7 @@ def _run(words: Sequence[str]) -> int:
 
 def _run_verb(name: str, words: Sequence[str]) -> int:
     # Only now: --version and a mistyped verb wait for neither YAML nor pydantic.
-    from framegen.yamltree import Unusable  # noqa: PLC0415
+    from framegen.reading.yamltree import Unusable  # noqa: PLC0415
 
     verb = _verb(name)
     parser = console.Parser(

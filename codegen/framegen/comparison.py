@@ -5,15 +5,15 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Literal, TypeAlias
 
-from framegen.exchanges import method_of, sent_by_client
-from framegen.spec import ConstantPart, GroupField, IdPart, LengthPart
-from framegen.values import Direction, to_hex
+from framegen.language.spec import ConstantPart, GroupField, IdPart, LengthPart
+from framegen.language.values import Direction, to_hex
+from framegen.model.exchanges import method_of, sent_by_client
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator, Mapping
 
-    from framegen.layout import Layout, MessageLayout, Repeat, WireField
-    from framegen.spec import FramePart, Limits, Link, Message, Pose
+    from framegen.language.spec import FramePart, Limits, Link, Message, Pose
+    from framegen.model.layout import Layout, MessageLayout, Repeat, WireField
 
 Breaks: TypeAlias = Literal["wire", "programs", "nothing"]
 

@@ -8,16 +8,16 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from framegen.codec import UNKNOWN_COMMAND, NotAFrame, decode, read_number
-from framegen.layout import part_size
-from framegen.lookalikes import recognise
-from framegen.spec import BodyPart, ConstantPart, IdPart, LengthPart
+from framegen.language.spec import BodyPart, ConstantPart, IdPart, LengthPart
+from framegen.model.codec import UNKNOWN_COMMAND, NotAFrame, decode, read_number
+from framegen.model.layout import part_size
+from framegen.model.lookalikes import recognise
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
 
-    from framegen.layout import Layout, MessageLayout, WireField
-    from framegen.values import Direction
+    from framegen.language.values import Direction
+    from framegen.model.layout import Layout, MessageLayout, WireField
 
 # So many of the frames inside other bytes are told.
 _MOST_WITHIN = 8

@@ -6,7 +6,7 @@ from itertools import groupby
 from textwrap import fill
 from typing import TYPE_CHECKING, Any
 
-from framegen.values import to_hex
+from framegen.language.values import to_hex
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence

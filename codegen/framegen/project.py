@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from framegen.yamltree import Unusable
+from framegen.reading.yamltree import Unusable
 
 FOLDER = "spec"
 

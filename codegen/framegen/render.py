@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING
 from framegen.targets import docs, python, schema, vectors
 
 if TYPE_CHECKING:
-    from framegen.layout import Layout
-    from framegen.source import Source
+    from framegen.model.layout import Layout
+    from framegen.reading.source import Source
 
 TARGETS = (docs, python, schema, vectors)
 

@@ -10,7 +10,7 @@ from io import StringIO
 from typing import TYPE_CHECKING, Literal
 
 from framegen.console import visible
-from framegen.yamltree import Unusable
+from framegen.reading.yamltree import Unusable
 
 if TYPE_CHECKING:
     from collections.abc import Iterator

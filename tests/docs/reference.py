@@ -10,9 +10,9 @@ from html.parser import HTMLParser
 from pathlib import Path, PurePosixPath
 from typing import Any
 
-from framegen.layout import Layout, derive
-from framegen.load import load, read_source
-from framegen.source import Source
+from framegen.language.load import load, read_source
+from framegen.model.layout import Layout, derive
+from framegen.reading.source import Source
 from framegen.targets import docs
 
 ROOT = Path(__file__).parent.parent.parent

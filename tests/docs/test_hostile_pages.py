@@ -6,9 +6,9 @@ from typing import Any
 
 import pytest
 from framegen.checks import check
-from framegen.load import load
+from framegen.language.load import load
+from framegen.reading.yamltree import read_tree
 from framegen.targets.docs.escape import linked, script_json
-from framegen.yamltree import read_tree
 
 from tests.docs.reference import Page, Reference, reference, reference_of, respelled
 

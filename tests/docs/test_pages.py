@@ -6,9 +6,9 @@ import sys
 from pathlib import Path
 
 import pytest
+from framegen.language.values import to_hex
+from framegen.reading.yamltree import read_tree
 from framegen.render import render
-from framegen.values import to_hex
-from framegen.yamltree import read_tree
 
 from tests.docs.reference import ROOT, SPECS, Reference, reference, reference_of, respelled
 

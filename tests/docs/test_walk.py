@@ -3,7 +3,7 @@
 from pathlib import Path
 
 import pytest
-from framegen.layout import derive
+from framegen.model.layout import derive
 from framegen.targets.docs.drawing import interruption
 from framegen.targets.docs.lessons import lessons
 from framegen.targets.docs.walk import Walk, walk

@@ -4,14 +4,14 @@ import re
 from typing import get_args
 
 import pytest
-from framegen import spec
 from framegen.checks import check
 from framegen.explain import explain
-from framegen.layout import derive
-from framegen.load import load
+from framegen.language import spec
+from framegen.language.load import load
+from framegen.language.wiretypes import WIRE_TYPES
+from framegen.model.layout import derive
+from framegen.reading.source import Source
 from framegen.render import render
-from framegen.source import Source
-from framegen.wiretypes import WIRE_TYPES
 from pydantic import BaseModel
 
 from tests.docs.reference import ROOT

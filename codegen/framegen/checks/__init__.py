@@ -46,13 +46,13 @@ from framegen.checks import (
     value_range,
 )
 from framegen.checks.reading import READING_RULES
-from framegen.findings import in_order
-from framegen.layout import derive
+from framegen.model.layout import derive
+from framegen.reading.findings import in_order
 
 if TYPE_CHECKING:
     from framegen.checks.rule import LayoutRule, StructureRule
-    from framegen.findings import Finding
-    from framegen.load import Loaded
+    from framegen.language.load import Loaded
+    from framegen.reading.findings import Finding
 
 STRUCTURE_RULES: tuple[StructureRule, ...] = (
     unknown_type.RULE,

@@ -9,8 +9,8 @@ from framegen.checks.rule import Problem, StructureRule
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from framegen.spec import Spec
-    from framegen.values import Range
+    from framegen.language.spec import Spec
+    from framegen.language.values import Range
 
 
 def _look(spec: Spec) -> Iterator[Problem]:

@@ -5,15 +5,15 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from framegen.checks.rule import Problem, StructureRule
-from framegen.findings import did_you_mean
-from framegen.spec import GroupField, NumberField
-from framegen.wiretypes import WIRE_TYPES
+from framegen.language.spec import GroupField, NumberField
+from framegen.language.wiretypes import WIRE_TYPES
+from framegen.reading.findings import did_you_mean
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from framegen.spec import AnyField, Message, Spec
-    from framegen.yamltree import KeyPath
+    from framegen.language.spec import AnyField, Message, Spec
+    from framegen.reading.yamltree import KeyPath
 
 
 def _look(spec: Spec) -> Iterator[Problem]:

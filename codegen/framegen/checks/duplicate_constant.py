@@ -5,13 +5,13 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from framegen.checks.rule import Problem, StructureRule
-from framegen.spec import GroupField
+from framegen.language.spec import GroupField
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from framegen.spec import NumberField, Spec
-    from framegen.yamltree import KeyPath
+    from framegen.language.spec import NumberField, Spec
+    from framegen.reading.yamltree import KeyPath
 
 # What every message class has already.
 _ATTRIBUTES = frozenset(["VENDOR_NAME", "COMMAND", "DIRECTION", "LENGTHS", "SHAPE"])

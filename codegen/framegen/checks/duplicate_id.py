@@ -9,8 +9,8 @@ from framegen.checks.rule import Problem, StructureRule
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from framegen.spec import Spec
-    from framegen.values import Direction
+    from framegen.language.spec import Spec
+    from framegen.language.values import Direction
 
 
 def _look(spec: Spec) -> Iterator[Problem]:

@@ -5,14 +5,14 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from framegen.checks.rule import Problem, StructureRule
+from framegen.language.spec import GroupField
 from framegen.names import LIBRARY_NAMES, PYTHON_CLASSES
-from framegen.spec import GroupField
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from framegen.spec import Spec
-    from framegen.yamltree import KeyPath
+    from framegen.language.spec import Spec
+    from framegen.reading.yamltree import KeyPath
 
 _LIBRARY = {name.lower(): name for name in LIBRARY_NAMES}
 

@@ -5,14 +5,14 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from framegen.checks.rule import Problem, StructureRule
-from framegen.exchanges import paths_of
-from framegen.findings import did_you_mean
+from framegen.model.exchanges import paths_of
+from framegen.reading.findings import did_you_mean
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from framegen.spec import Message, Spec
-    from framegen.yamltree import KeyPath
+    from framegen.language.spec import Message, Spec
+    from framegen.reading.yamltree import KeyPath
 
 
 def _look(spec: Spec) -> Iterator[Problem]:

@@ -5,12 +5,12 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from framegen.checks.rule import Problem, StructureRule
-from framegen.spec import GroupField
+from framegen.language.spec import GroupField
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from framegen.spec import Spec
+    from framegen.language.spec import Spec
 
 
 def _look(spec: Spec) -> Iterator[Problem]:

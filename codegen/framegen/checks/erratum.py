@@ -5,13 +5,13 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from framegen.checks.rule import LayoutRule, Problem
-from framegen.codec import NotAFrame
-from framegen.facts import Fact, NoSuchFact, look_up
+from framegen.model.codec import NotAFrame
+from framegen.model.facts import Fact, NoSuchFact, look_up
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from framegen.layout import Layout
+    from framegen.model.layout import Layout
 
 
 def _look(layout: Layout) -> Iterator[Problem]:

@@ -5,15 +5,15 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from framegen.checks.rule import LayoutRule, Problem
-from framegen.codec import NotAFrame, decode, encode
-from framegen.values import to_hex
+from framegen.language.values import to_hex
+from framegen.model.codec import NotAFrame, decode, encode
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from framegen.layout import Layout, MessageLayout
-    from framegen.spec import Example
-    from framegen.yamltree import KeyPath
+    from framegen.language.spec import Example
+    from framegen.model.layout import Layout, MessageLayout
+    from framegen.reading.yamltree import KeyPath
 
 
 def _look(layout: Layout) -> Iterator[Problem]:

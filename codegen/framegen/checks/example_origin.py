@@ -9,7 +9,7 @@ from framegen.checks.rule import Problem, StructureRule
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from framegen.spec import Spec
+    from framegen.language.spec import Spec
 
 
 def _look(spec: Spec) -> Iterator[Problem]:

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from framegen.spec import GroupField
+from framegen.language.spec import GroupField
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from framegen.spec import Message, NumberField, Spec
-    from framegen.yamltree import KeyPath
+    from framegen.language.spec import Message, NumberField, Spec
+    from framegen.reading.yamltree import KeyPath
 
 
 def numbers(spec: Spec) -> Iterator[tuple[KeyPath, NumberField]]:

@@ -7,12 +7,12 @@ from typing import TYPE_CHECKING
 
 from framegen.checks.frames import part_problems
 from framegen.checks.rule import Problem, StructureRule
-from framegen.spec import AddressPart, BodyPart, ChecksumPart, ConstantPart
+from framegen.language.spec import AddressPart, BodyPart, ChecksumPart, ConstantPart
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from framegen.spec import Spec
+    from framegen.language.spec import Spec
 
 
 def _look(spec: Spec) -> Iterator[Problem]:

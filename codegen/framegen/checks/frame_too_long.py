@@ -6,16 +6,16 @@ from typing import TYPE_CHECKING
 
 from framegen.checks import count_bounds, counted_by, empty_group, frame_parts, unknown_type
 from framegen.checks.rule import Problem, StructureRule
-from framegen.layout import derive_frame
-from framegen.spec import GroupField, NumberField
-from framegen.wiretypes import WIRE_TYPES
+from framegen.language.spec import GroupField, NumberField
+from framegen.language.wiretypes import WIRE_TYPES
+from framegen.model.layout import derive_frame
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from framegen.layout import FrameLayout
-    from framegen.spec import AnyField, Message, Spec
-    from framegen.yamltree import KeyPath
+    from framegen.language.spec import AnyField, Message, Spec
+    from framegen.model.layout import FrameLayout
+    from framegen.reading.yamltree import KeyPath
 
 # Without these there is no size to reckon with.
 _FIRST = (unknown_type, frame_parts, counted_by, count_bounds, empty_group)

@@ -5,15 +5,15 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from framegen.checks.rule import Problem
-from framegen.findings import did_you_mean
-from framegen.spec import BodyPart, ChecksumPart, LengthPart
-from framegen.wiretypes import WIRE_TYPES
+from framegen.language.spec import BodyPart, ChecksumPart, LengthPart
+from framegen.language.wiretypes import WIRE_TYPES
+from framegen.reading.findings import did_you_mean
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from framegen.spec import FramePart
-    from framegen.yamltree import KeyPath
+    from framegen.language.spec import FramePart
+    from framegen.reading.yamltree import KeyPath
 
 
 def part_problems(path: KeyPath, frame: dict[str, FramePart]) -> Iterator[Problem]:

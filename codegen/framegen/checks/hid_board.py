@@ -6,12 +6,12 @@ from typing import TYPE_CHECKING
 
 from framegen.checks import frame_parts, unknown_type
 from framegen.checks.rule import Problem, StructureRule
-from framegen.layout import derive_frame
+from framegen.model.layout import derive_frame
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from framegen.spec import Spec
+    from framegen.language.spec import Spec
 
 
 def _look(spec: Spec) -> Iterator[Problem]:

@@ -5,14 +5,14 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from framegen.checks.rule import Problem, StructureRule
-from framegen.spec import IdPart
-from framegen.wiretypes import WIRE_TYPES
+from framegen.language.spec import IdPart
+from framegen.language.wiretypes import WIRE_TYPES
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from framegen.spec import Spec
-    from framegen.yamltree import KeyPath
+    from framegen.language.spec import Spec
+    from framegen.reading.yamltree import KeyPath
 
 
 def _look(spec: Spec) -> Iterator[Problem]:

@@ -6,19 +6,19 @@ import re
 from typing import TYPE_CHECKING
 
 from framegen.checks.rule import Problem, StructureRule
+from framegen.language.spec import GroupField, NumberField
 from framegen.names import (
     ELEMENT_ATTRIBUTES,
     MESSAGE_ATTRIBUTES,
     PYTHON_BUILTINS,
     PYTHON_KEYWORDS,
 )
-from framegen.spec import GroupField, NumberField
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from framegen.spec import Message, Spec
-    from framegen.yamltree import KeyPath
+    from framegen.language.spec import Message, Spec
+    from framegen.reading.yamltree import KeyPath
 
 _PASCAL = re.compile(r"[A-Z][A-Za-z0-9]*")
 _SNAKE = re.compile(r"[a-z][a-z0-9]*(?:_[a-z0-9]+)*")

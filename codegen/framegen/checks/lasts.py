@@ -5,15 +5,15 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from framegen.checks.rule import Problem, StructureRule
-from framegen.exchanges import STEPS_PER_SECOND, arguments_of, sent_by_client
-from framegen.findings import did_you_mean
-from framegen.spec import NumberField
-from framegen.wiretypes import WIRE_TYPES
+from framegen.language.spec import NumberField
+from framegen.language.wiretypes import WIRE_TYPES
+from framegen.model.exchanges import STEPS_PER_SECOND, arguments_of, sent_by_client
+from framegen.reading.findings import did_you_mean
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from framegen.spec import Message, Spec
+    from framegen.language.spec import Message, Spec
 
 # What a client adds to the arguments of the method.
 _ADDED = "latest"

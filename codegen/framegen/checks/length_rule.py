@@ -9,7 +9,7 @@ from framegen.checks.rule import LayoutRule, Problem
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from framegen.layout import Layout, MessageLayout
+    from framegen.model.layout import Layout, MessageLayout
 
 
 def _look(layout: Layout) -> Iterator[Problem]:

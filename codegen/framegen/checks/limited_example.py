@@ -5,13 +5,13 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from framegen.checks.rule import LayoutRule, Problem
-from framegen.codec import NotAFrame, decode
+from framegen.model.codec import NotAFrame, decode
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from framegen.layout import Layout
-    from framegen.spec import Limits
+    from framegen.language.spec import Limits
+    from framegen.model.layout import Layout
 
 
 def _look(layout: Layout) -> Iterator[Problem]:

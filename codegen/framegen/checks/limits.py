@@ -6,15 +6,15 @@ from typing import TYPE_CHECKING
 
 from framegen.checks.fields import numbers_of
 from framegen.checks.rule import Problem, StructureRule
-from framegen.exchanges import sent_by_client
-from framegen.wiretypes import WIRE_TYPES
+from framegen.language.wiretypes import WIRE_TYPES
+from framegen.model.exchanges import sent_by_client
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from framegen.spec import Limits, NumberField, Spec
-    from framegen.values import Range
-    from framegen.yamltree import KeyPath
+    from framegen.language.spec import Limits, NumberField, Spec
+    from framegen.language.values import Range
+    from framegen.reading.yamltree import KeyPath
 
 
 def _look(spec: Spec) -> Iterator[Problem]:

@@ -5,12 +5,12 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from framegen.checks.rule import LayoutRule, Problem
-from framegen.lookalikes import recognise
+from framegen.model.lookalikes import recognise
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from framegen.layout import Layout
+    from framegen.model.layout import Layout
 
 
 def _look(layout: Layout) -> Iterator[Problem]:

@@ -6,15 +6,15 @@ import re
 from typing import TYPE_CHECKING
 
 from framegen.checks.rule import Problem, StructureRule
-from framegen.exchanges import arguments_of, method_of, sent_by_client
-from framegen.findings import did_you_mean
+from framegen.model.exchanges import arguments_of, method_of, sent_by_client
 from framegen.names import CLIENT_ATTRIBUTES, PYTHON_KEYWORDS
+from framegen.reading.findings import did_you_mean
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from framegen.spec import Message, Spec
-    from framegen.yamltree import KeyPath
+    from framegen.language.spec import Message, Spec
+    from framegen.reading.yamltree import KeyPath
 
 _SNAKE = re.compile(r"[a-z][a-z0-9]*(?:_[a-z0-9]+)*")
 

@@ -6,13 +6,13 @@ from typing import TYPE_CHECKING
 
 from framegen.checks.fields import numbers
 from framegen.checks.rule import Problem, StructureRule
-from framegen.wiretypes import WIRE_TYPES
+from framegen.language.wiretypes import WIRE_TYPES
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from framegen.spec import NumberField, Spec
-    from framegen.yamltree import KeyPath
+    from framegen.language.spec import NumberField, Spec
+    from framegen.reading.yamltree import KeyPath
 
 
 def _look(spec: Spec) -> Iterator[Problem]:

@@ -5,15 +5,15 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from framegen.checks.rule import Problem, StructureRule
-from framegen.exchanges import arguments_of, sent_by_client
-from framegen.findings import did_you_mean
-from framegen.spec import GroupField, NumberField
-from framegen.wiretypes import WIRE_TYPES
+from framegen.language.spec import GroupField, NumberField
+from framegen.language.wiretypes import WIRE_TYPES
+from framegen.model.exchanges import arguments_of, sent_by_client
+from framegen.reading.findings import did_you_mean
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from framegen.spec import Message, Pose, Spec
+    from framegen.language.spec import Message, Pose, Spec
 
 
 def _look(spec: Spec) -> Iterator[Problem]:

@@ -9,8 +9,8 @@ from framegen.checks.rule import Problem, StructureRule
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from framegen.spec import Spec
-    from framegen.yamltree import KeyPath
+    from framegen.language.spec import Spec
+    from framegen.reading.yamltree import KeyPath
 
 
 def _look(spec: Spec) -> Iterator[Problem]:

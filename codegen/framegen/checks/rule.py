@@ -5,15 +5,15 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from framegen.findings import Finding, Related
-from framegen.yamltree import dotted
+from framegen.reading.findings import Finding, Related
+from framegen.reading.yamltree import dotted
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
 
-    from framegen.layout import Layout
-    from framegen.spec import Spec
-    from framegen.yamltree import KeyPath, Tree
+    from framegen.language.spec import Spec
+    from framegen.model.layout import Layout
+    from framegen.reading.yamltree import KeyPath, Tree
 
 
 @dataclass(frozen=True, slots=True)

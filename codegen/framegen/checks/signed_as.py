@@ -6,14 +6,14 @@ from typing import TYPE_CHECKING
 
 from framegen.checks.fields import owned_numbers
 from framegen.checks.rule import Problem, StructureRule
-from framegen.findings import did_you_mean
-from framegen.wiretypes import WIRE_TYPES
+from framegen.language.wiretypes import WIRE_TYPES
+from framegen.reading.findings import did_you_mean
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from framegen.spec import NumberField, Spec
-    from framegen.yamltree import KeyPath
+    from framegen.language.spec import NumberField, Spec
+    from framegen.reading.yamltree import KeyPath
 
 
 def _look(spec: Spec) -> Iterator[Problem]:

@@ -5,15 +5,15 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from framegen.checks.rule import LayoutRule, Problem
-from framegen.codec import NotAFrame
-from framegen.facts import NoSuchFact, look_up
+from framegen.model.codec import NotAFrame
+from framegen.model.facts import NoSuchFact, look_up
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from framegen.layout import Layout
-    from framegen.spec import Concern
-    from framegen.yamltree import KeyPath
+    from framegen.language.spec import Concern
+    from framegen.model.layout import Layout
+    from framegen.reading.yamltree import KeyPath
 
 
 def _look(layout: Layout) -> Iterator[Problem]:

@@ -7,14 +7,14 @@ from typing import TYPE_CHECKING, Any
 from pydantic import BaseModel
 
 from framegen.checks.rule import Problem, StructureRule
-from framegen.findings import did_you_mean
-from framegen.values import Citation
+from framegen.language.values import Citation
+from framegen.reading.findings import did_you_mean
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from framegen.spec import Spec
-    from framegen.yamltree import KeyPath
+    from framegen.language.spec import Spec
+    from framegen.reading.yamltree import KeyPath
 
 
 def _look(spec: Spec) -> Iterator[Problem]:

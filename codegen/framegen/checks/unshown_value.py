@@ -6,14 +6,14 @@ from typing import TYPE_CHECKING
 
 from framegen.checks.fields import numbers_of
 from framegen.checks.rule import LayoutRule, Problem
-from framegen.codec import NotAFrame, decode
-from framegen.wiretypes import WIRE_TYPES
+from framegen.language.wiretypes import WIRE_TYPES
+from framegen.model.codec import NotAFrame, decode
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from framegen.layout import Layout, MessageLayout
-    from framegen.yamltree import KeyPath
+    from framegen.model.layout import Layout, MessageLayout
+    from framegen.reading.yamltree import KeyPath
 
 _HINT = "add an example with it; it may be `constructed`"
 

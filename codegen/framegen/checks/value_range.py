@@ -6,12 +6,12 @@ from typing import TYPE_CHECKING
 
 from framegen.checks.fields import numbers
 from framegen.checks.rule import Problem, StructureRule
-from framegen.wiretypes import WIRE_TYPES
+from framegen.language.wiretypes import WIRE_TYPES
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from framegen.spec import Spec
+    from framegen.language.spec import Spec
 
 
 def _look(spec: Spec) -> Iterator[Problem]:

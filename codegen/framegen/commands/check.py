@@ -12,8 +12,8 @@ from framegen.wording import counted
 if TYPE_CHECKING:
     from argparse import ArgumentParser, Namespace
 
-    from framegen.findings import Finding
-    from framegen.load import Loaded
+    from framegen.language.load import Loaded
+    from framegen.reading.findings import Finding
 
 SUMMARY = "Look for everything that is wrong with a spec, its examples and errata included."
 EXAMPLES = (

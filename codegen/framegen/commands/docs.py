@@ -35,7 +35,7 @@ def run(arguments: Namespace) -> int:
 
     from framegen.checks import check  # noqa: PLC0415
     from framegen.commands.spec_argument import read_spec  # noqa: PLC0415
-    from framegen.layout import derive  # noqa: PLC0415
+    from framegen.model.layout import derive  # noqa: PLC0415
     from framegen.targets import docs  # noqa: PLC0415
 
     loaded = read_spec(arguments.spec)

@@ -6,14 +6,14 @@ import json
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from framegen.findings import did_you_mean
 from framegen.hextext import HexError, read_hex
+from framegen.reading.findings import did_you_mean
 
 if TYPE_CHECKING:
     from argparse import ArgumentParser, Namespace
 
-    from framegen.layout import Layout
-    from framegen.values import Direction
+    from framegen.language.values import Direction
+    from framegen.model.layout import Layout
 
 # Enough of a text to find a place by; a long paste is cut around it.
 _SHOWN = 30
@@ -44,7 +44,7 @@ def run(arguments: Namespace) -> int:
     from framegen.commands.spec_argument import read_layout  # noqa: PLC0415
     from framegen.explain import explain  # noqa: PLC0415
     from framegen.explain_text import as_json, as_text  # noqa: PLC0415
-    from framegen.yamltree import Unusable  # noqa: PLC0415
+    from framegen.reading.yamltree import Unusable  # noqa: PLC0415
 
     spec, words = None, arguments.words
     if _is_spec(words[0]):
@@ -89,7 +89,7 @@ def _is_spec(word: str) -> bool:
 
 def _directions(layout: Layout, sender: str | None) -> list[Direction]:
     """Pick the directions of one sender, or all of them. Raises Unusable."""
-    from framegen.yamltree import Unusable  # noqa: PLC0415
+    from framegen.reading.yamltree import Unusable  # noqa: PLC0415
 
     if sender is None:
         return layout.directions

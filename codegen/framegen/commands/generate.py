@@ -36,7 +36,7 @@ def run(arguments: Namespace) -> int:
     """Check the spec, render it, and bring the disk to agree. 1 for findings, or with --check."""
     from framegen.checks import check  # noqa: PLC0415
     from framegen.commands.spec_argument import read_spec  # noqa: PLC0415
-    from framegen.layout import derive  # noqa: PLC0415
+    from framegen.model.layout import derive  # noqa: PLC0415
     from framegen.project import default_spec, project_root  # noqa: PLC0415
     from framegen.render import render  # noqa: PLC0415
     from framegen.writer import changes, write  # noqa: PLC0415

@@ -27,8 +27,8 @@ def add_arguments(parser: ArgumentParser) -> None:
 def run(arguments: Namespace) -> int:
     """Print the rules, or one of them. Raises Unusable for a rule that there is not."""
     from framegen.checks import LAYOUT_RULES, READING_RULES, STRUCTURE_RULES  # noqa: PLC0415
-    from framegen.findings import did_you_mean  # noqa: PLC0415
-    from framegen.yamltree import Unusable  # noqa: PLC0415
+    from framegen.reading.findings import did_you_mean  # noqa: PLC0415
+    from framegen.reading.yamltree import Unusable  # noqa: PLC0415
 
     every: tuple[AnyRule, ...] = (*READING_RULES, *STRUCTURE_RULES, *LAYOUT_RULES)
     rules = {rule.id: rule for rule in every}

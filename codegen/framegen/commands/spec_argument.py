@@ -5,17 +5,17 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from framegen.checks import check
-from framegen.layout import derive
-from framegen.load import load, read_source
+from framegen.language.load import load, read_source
+from framegen.model.layout import derive
 from framegen.project import default_spec
+from framegen.reading.yamltree import Unusable
 from framegen.wording import counted
-from framegen.yamltree import Unusable
 
 if TYPE_CHECKING:
     from pathlib import Path
 
-    from framegen.layout import Layout
-    from framegen.load import Loaded
+    from framegen.language.load import Loaded
+    from framegen.model.layout import Layout
 
 
 def read_spec(file: Path | None) -> Loaded:

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 
 from markupsafe import Markup
 
+from framegen.reading.yamltree import read_tree
 from framegen.targets.docs.data import protocol_data
 from framegen.targets.docs.escape import (
     Safe,
@@ -23,15 +24,14 @@ from framegen.targets.docs.escape import (
 )
 from framegen.targets.docs.site import SiteView
 from framegen.targets.templates import environment
-from framegen.yamltree import read_tree
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from jinja2 import Environment
 
-    from framegen.layout import Layout
-    from framegen.source import Source
+    from framegen.model.layout import Layout
+    from framegen.reading.source import Source
 
 FOLDER = "docs/reference"
 

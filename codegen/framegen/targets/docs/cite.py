@@ -6,9 +6,9 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from framegen.spec import Spec
-    from framegen.values import Citation
-    from framegen.yamltree import KeyPath, Tree
+    from framegen.language.spec import Spec
+    from framegen.language.values import Citation
+    from framegen.reading.yamltree import KeyPath, Tree
 
 
 @dataclass(frozen=True, slots=True)

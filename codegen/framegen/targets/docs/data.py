@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from framegen.layout import Repeat, part_size
-from framegen.spec import BodyPart
+from framegen.language.spec import BodyPart
+from framegen.model.layout import Repeat, part_size
 
 if TYPE_CHECKING:
-    from framegen.layout import Layout, MessageLayout, WireField
+    from framegen.model.layout import Layout, MessageLayout, WireField
 
 
 def protocol_data(layout: Layout) -> dict[str, Any]:

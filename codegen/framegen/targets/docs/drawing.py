@@ -6,8 +6,8 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from framegen.layout import Layout
-    from framegen.values import Direction
+    from framegen.language.values import Direction
+    from framegen.model.layout import Layout
 
 _WIDTH = 360
 _MARGIN = 48

@@ -5,16 +5,16 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+from framegen.language.values import to_hex
 from framegen.targets.docs.cite import CiteView, Lines, cite_view, lines_of
 from framegen.targets.docs.strip import Cell, frame_strip
-from framegen.values import to_hex
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from framegen.layout import Layout, MessageLayout
-    from framegen.spec import Example
-    from framegen.yamltree import Tree
+    from framegen.language.spec import Example
+    from framegen.model.layout import Layout, MessageLayout
+    from framegen.reading.yamltree import Tree
 
 
 @dataclass(frozen=True, slots=True)

@@ -5,14 +5,14 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from framegen.spec import NumberField
+from framegen.language.spec import NumberField
 from framegen.targets.docs.cite import CiteView, Lines, cite_view, lines_of
 from framegen.targets.docs.strip import repeated
 
 if TYPE_CHECKING:
-    from framegen.layout import Layout, MessageLayout, WireField
-    from framegen.spec import GroupField
-    from framegen.yamltree import KeyPath, Tree
+    from framegen.language.spec import GroupField
+    from framegen.model.layout import Layout, MessageLayout, WireField
+    from framegen.reading.yamltree import KeyPath, Tree
 
 
 @dataclass(frozen=True, slots=True)

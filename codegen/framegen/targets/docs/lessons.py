@@ -5,14 +5,14 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from framegen.codec import COUNT_MISMATCH, Unencodable, encode
+from framegen.model.codec import COUNT_MISMATCH, Unencodable, encode
 from framegen.targets.docs.walk import Walk, walk
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from framegen.layout import Layout, MessageLayout
-    from framegen.values import Direction
+    from framegen.language.values import Direction
+    from framegen.model.layout import Layout, MessageLayout
 
 # Lists longer than this make no good picture.
 _LONGEST_LIST = 8

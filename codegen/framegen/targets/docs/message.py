@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING
 
-from framegen.codec import describe_range
+from framegen.model.codec import describe_range
 from framegen.targets.docs.cite import CiteView, Lines, cite_view, lines_of
 from framegen.targets.docs.drawing import Drawing, drawing
 from framegen.targets.docs.escape import paragraphs
@@ -17,9 +17,9 @@ from framegen.targets.docs.strip import Cell, pattern_strip
 from framegen.targets.docs.timing import milliseconds
 
 if TYPE_CHECKING:
-    from framegen.layout import Layout, MessageLayout
-    from framegen.spec import Message
-    from framegen.yamltree import Tree
+    from framegen.language.spec import Message
+    from framegen.model.layout import Layout, MessageLayout
+    from framegen.reading.yamltree import Tree
 
 
 @dataclass(frozen=True)

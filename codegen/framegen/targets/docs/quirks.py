@@ -5,18 +5,18 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
-from framegen.codec import NotAFrame, decode
-from framegen.formula import Formula
-from framegen.lookalikes import recognise
+from framegen.language.formula import Formula
+from framegen.language.values import to_hex
+from framegen.model.codec import NotAFrame, decode
+from framegen.model.lookalikes import recognise
 from framegen.targets.docs.cite import CiteView, Lines, cite_view, lines_of
 from framegen.targets.docs.escape import paragraphs
 from framegen.targets.docs.strip import Cell, given_strip, parts_strip
-from framegen.values import to_hex
 
 if TYPE_CHECKING:
-    from framegen.layout import Layout
-    from framegen.spec import Concern, Lookalike
-    from framegen.yamltree import Tree
+    from framegen.language.spec import Concern, Lookalike
+    from framegen.model.layout import Layout
+    from framegen.reading.yamltree import Tree
 
 
 @dataclass(frozen=True, slots=True)

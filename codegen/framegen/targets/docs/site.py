@@ -25,10 +25,10 @@ from framegen.targets.docs.strip import Cell, parts_strip
 from framegen.targets.docs.timing import RoundTrip, Timing, bytes_a_second, round_trips, timings
 
 if TYPE_CHECKING:
-    from framegen.layout import Layout
-    from framegen.source import Source
-    from framegen.spec import HidBoard, Protocol, Release, Reserved, SourceDocument
-    from framegen.yamltree import Tree
+    from framegen.language.spec import HidBoard, Protocol, Release, Reserved, SourceDocument
+    from framegen.model.layout import Layout
+    from framegen.reading.source import Source
+    from framegen.reading.yamltree import Tree
 
 
 @dataclass(frozen=True, slots=True)

@@ -4,14 +4,14 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from framegen.language.values import to_hex
 from framegen.targets.python.escape import Bracketed
 from framegen.targets.python.message_view import MessageView
 from framegen.targets.python.words import direction_member
-from framegen.values import to_hex
 
 if TYPE_CHECKING:
-    from framegen.layout import Layout, MessageLayout
-    from framegen.spec import Example
+    from framegen.language.spec import Example
+    from framegen.model.layout import Layout, MessageLayout
 
 
 def sending(layout: Layout, message: MessageLayout, example: Example) -> str:

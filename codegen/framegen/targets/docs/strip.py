@@ -6,16 +6,16 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from framegen.explain import explain
-from framegen.layout import part_size
-from framegen.spec import BodyPart, ConstantPart, IdPart, LengthPart
-from framegen.values import to_hex
+from framegen.language.spec import BodyPart, ConstantPart, IdPart, LengthPart
+from framegen.language.values import to_hex
+from framegen.model.layout import part_size
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from framegen.explain import Row
-    from framegen.layout import Layout, MessageLayout, Repeat, WireField
-    from framegen.spec import FramePart
+    from framegen.language.spec import FramePart
+    from framegen.model.layout import Layout, MessageLayout, Repeat, WireField
 
 # More elements of a list than this are not shown one by one.
 _MOST_CELLS = 64

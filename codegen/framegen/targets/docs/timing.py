@@ -10,7 +10,7 @@ from framegen.wording import counted
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from framegen.layout import Layout, MessageLayout
+    from framegen.model.layout import Layout, MessageLayout
 
 
 @dataclass(frozen=True, slots=True)

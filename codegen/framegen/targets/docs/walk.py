@@ -8,7 +8,8 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
-from framegen.codec import (
+from framegen.language.values import to_hex
+from framegen.model.codec import (
     BAD_HEADER,
     COUNT_MISMATCH,
     LENGTH_MISMATCH,
@@ -20,12 +21,11 @@ from framegen.codec import (
     describe_range,
     read_number,
 )
-from framegen.values import to_hex
 from framegen.wording import counted
 
 if TYPE_CHECKING:
-    from framegen.layout import Layout, MessageLayout
-    from framegen.values import Direction
+    from framegen.language.values import Direction
+    from framegen.model.layout import Layout, MessageLayout
 
 
 @dataclass(frozen=True, slots=True)

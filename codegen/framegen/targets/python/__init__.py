@@ -16,8 +16,8 @@ from framegen.targets.templates import environment
 if TYPE_CHECKING:
     from jinja2 import Environment
 
-    from framegen.layout import Layout
-    from framegen.source import Source
+    from framegen.model.layout import Layout
+    from framegen.reading.source import Source
 
 _HERE = Path(__file__).parent
 # What framegen and a library have in common is written once: where it is copied to.

@@ -8,7 +8,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, ClassVar
 
-from framegen.exchanges import STEPS_PER_SECOND, exchanges, sent_by_client
+from framegen.model.exchanges import STEPS_PER_SECOND, exchanges, sent_by_client
 from framegen.targets.python.escape import Bracketed, literal
 from framegen.targets.python.exports import relative_import
 from framegen.targets.python.method_view import Flavour, MethodView
@@ -16,9 +16,9 @@ from framegen.targets.python.pose_view import PoseView
 from framegen.targets.python.words import direction_member
 
 if TYPE_CHECKING:
-    from framegen.exchanges import Exchange
-    from framegen.layout import Layout
-    from framegen.values import Range
+    from framegen.language.values import Range
+    from framegen.model.exchanges import Exchange
+    from framegen.model.layout import Layout
 
 _SHARED = (
     "Each method sends one message. What they share is explained at {}: {}, deadlines, reports, "

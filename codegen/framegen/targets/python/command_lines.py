@@ -4,15 +4,15 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from framegen.exchanges import exchanges
+from framegen.model.exchanges import exchanges
 from framegen.targets.python.escape import Bracketed, literal
 from framegen.targets.python.message_view import MessageView
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
-    from framegen.layout import Layout
-    from framegen.spec import Example
+    from framegen.language.spec import Example
+    from framegen.model.layout import Layout
 
 
 def decode_examples(layout: Layout) -> list[str]:

@@ -5,14 +5,14 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from framegen.exchanges import snake_case
+from framegen.model.exchanges import snake_case
 from framegen.targets.python.escape import WIDTH, Bracketed
 from framegen.targets.python.exports import relative_import
 from framegen.targets.python.words import direction_member
 
 if TYPE_CHECKING:
-    from framegen.layout import Layout, MessageLayout
-    from framegen.values import Direction
+    from framegen.language.values import Direction
+    from framegen.model.layout import Layout, MessageLayout
 
 
 @dataclass(frozen=True, slots=True)

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from textwrap import wrap
 from typing import TYPE_CHECKING
 
-from framegen.text import is_invisible
+from framegen.reading.text import is_invisible
 
 if TYPE_CHECKING:
     from collections.abc import Sequence

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from framegen.spec import IdPart, LengthPart
+from framegen.language.spec import IdPart, LengthPart
 from framegen.targets.python.command_lines import (
     decode_examples,
     encode_examples,
@@ -18,10 +18,10 @@ from framegen.targets.python.message_view import MessageView
 from framegen.targets.python.words import direction_member, struct_order
 
 if TYPE_CHECKING:
-    from framegen.layout import Layout
-    from framegen.spec import Link
+    from framegen.language.spec import Link
+    from framegen.language.values import Direction
+    from framegen.model.layout import Layout
     from framegen.targets.python.list_view import ListView
-    from framegen.values import Direction
 
 
 @dataclass(frozen=True, slots=True)

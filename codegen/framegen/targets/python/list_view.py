@@ -5,8 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from framegen.exchanges import snake_case
-from framegen.layout import Repeat, WireField
+from framegen.model.exchanges import snake_case
+from framegen.model.layout import Repeat, WireField
 from framegen.targets.python.escape import WIDTH, Bracketed, lines, literal
 from framegen.targets.python.number_view import AbsentView, NumberView, absent_view
 from framegen.targets.python.words import range_expression, struct_order
@@ -14,7 +14,7 @@ from framegen.targets.python.words import range_expression, struct_order
 if TYPE_CHECKING:
     from typing import Any
 
-    from framegen.spec import Spec
+    from framegen.language.spec import Spec
 
 _COLUMNS_FOR = "For arrays and plots of a recording: several times as fast as"
 

@@ -5,14 +5,14 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from framegen.layout import part_size
-from framegen.spec import BodyPart, ChecksumPart, ConstantPart, IdPart, LengthPart
+from framegen.language.spec import BodyPart, ChecksumPart, ConstantPart, IdPart, LengthPart
+from framegen.model.layout import part_size
 from framegen.targets.python.escape import Bracketed, literal
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
-    from framegen.spec import FramePart, Lookalike, Spec
+    from framegen.language.spec import FramePart, Lookalike, Spec
 
 _Place = tuple[int, int]
 

@@ -5,9 +5,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from framegen.codec import describe_range
-from framegen.exchanges import snake_case
-from framegen.layout import Repeat, WireField
+from framegen.model.codec import describe_range
+from framegen.model.exchanges import snake_case
+from framegen.model.layout import Repeat, WireField
 from framegen.names import PYTHON_BUILTINS, PYTHON_KEYWORDS
 from framegen.targets.python.escape import Bracketed, literal, session
 from framegen.targets.python.list_view import ListView, given
@@ -17,9 +17,9 @@ from framegen.targets.python.words import direction_member, range_expression
 if TYPE_CHECKING:
     from typing import Any
 
-    from framegen.layout import Layout, MessageLayout
-    from framegen.spec import Example
-    from framegen.values import Citation
+    from framegen.language.spec import Example
+    from framegen.language.values import Citation
+    from framegen.model.layout import Layout, MessageLayout
 
 # What the function of a strategy cannot be called.
 _TAKEN_FUNCTIONS = {"messages", "noise", "noisy_streams", "st", *PYTHON_KEYWORDS, *PYTHON_BUILTINS}

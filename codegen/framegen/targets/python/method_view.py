@@ -5,14 +5,14 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from framegen.layout import Repeat, WireField
+from framegen.model.layout import Repeat, WireField
 from framegen.targets.python.escape import Bracketed, session
 from framegen.targets.python.list_view import ListView, given
 from framegen.targets.python.number_view import NumberView
 
 if TYPE_CHECKING:
-    from framegen.exchanges import Exchange
-    from framegen.layout import Layout
+    from framegen.model.exchanges import Exchange
+    from framegen.model.layout import Layout
 
 _HANDED_OVER = (
     "Returns once the frame is handed over; `delay` of the result is in how many seconds it will "

@@ -5,12 +5,12 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+from framegen.language.wiretypes import WIRE_TYPES
 from framegen.targets.python.escape import Bracketed, literal
-from framegen.wiretypes import WIRE_TYPES
 
 if TYPE_CHECKING:
-    from framegen.layout import WireField
-    from framegen.spec import Spec
+    from framegen.language.spec import Spec
+    from framegen.model.layout import WireField
 
 
 @dataclass(frozen=True, slots=True)

@@ -5,15 +5,15 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from framegen.exchanges import arguments_of, exchanges
+from framegen.model.exchanges import arguments_of, exchanges
 from framegen.targets.python.escape import Bracketed, literal
 from framegen.targets.python.method_view import MethodView
 from framegen.targets.python.words import range_expression
 
 if TYPE_CHECKING:
-    from framegen.exchanges import Exchange
-    from framegen.layout import Layout, MessageLayout, Repeat
-    from framegen.spec import Pose
+    from framegen.language.spec import Pose
+    from framegen.model.exchanges import Exchange
+    from framegen.model.layout import Layout, MessageLayout, Repeat
     from framegen.targets.python.method_view import Flavour
 
 _RAISED = "NoReplyError where no reply comes in time, and TransportError."

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from framegen.values import Direction
+    from framegen.language.values import Direction
 
 
 def range_expression(numbers: range) -> str:

@@ -9,15 +9,15 @@ from __future__ import annotations
 import json
 from typing import TYPE_CHECKING, Any
 
-from framegen.spec import Spec
-from framegen.wiretypes import WIRE_TYPES
-from framegen.yamltree import Unusable
+from framegen.language.spec import Spec
+from framegen.language.wiretypes import WIRE_TYPES
+from framegen.reading.yamltree import Unusable
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from framegen.layout import Layout
-    from framegen.source import Source
+    from framegen.model.layout import Layout
+    from framegen.reading.source import Source
 
 _KEYWORDS = (
     "$schema",

@@ -10,16 +10,16 @@ import json
 from typing import TYPE_CHECKING, Any
 
 from framegen import __version__
-from framegen.codec import NotAFrame, decode, encode
-from framegen.layout import Repeat
-from framegen.values import to_hex
+from framegen.language.values import to_hex
+from framegen.model.codec import NotAFrame, decode, encode
+from framegen.model.layout import Repeat
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from framegen.layout import Layout, MessageLayout, WireField
-    from framegen.source import Source
-    from framegen.values import Direction
+    from framegen.language.values import Direction
+    from framegen.model.layout import Layout, MessageLayout, WireField
+    from framegen.reading.source import Source
 
 
 def render(source: Source, layout: Layout) -> dict[str, str]:

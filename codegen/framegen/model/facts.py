@@ -6,14 +6,14 @@ import json
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
-from framegen.codec import decode, read_number
-from framegen.findings import did_you_mean
-from framegen.formula import Formula, parse_formula
-from framegen.spec import GroupField
+from framegen.language.formula import Formula, parse_formula
+from framegen.language.spec import GroupField
+from framegen.model.codec import decode, read_number
+from framegen.reading.findings import did_you_mean
 
 if TYPE_CHECKING:
-    from framegen.layout import Layout, MessageLayout, WireField
-    from framegen.spec import Concern, Message
+    from framegen.language.spec import Concern, Message
+    from framegen.model.layout import Layout, MessageLayout, WireField
 
 
 class NoSuchFact(ValueError):  # noqa: N818 - says what the fact is

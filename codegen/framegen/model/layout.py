@@ -10,15 +10,15 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING
 
-from framegen.formula import Formula
-from framegen.spec import ConstantPart, GroupField, IdPart, LengthPart
-from framegen.wiretypes import WIRE_TYPES, WireType
+from framegen.language.formula import Formula
+from framegen.language.spec import ConstantPart, GroupField, IdPart, LengthPart
+from framegen.language.wiretypes import WIRE_TYPES, WireType
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from framegen.spec import FramePart, Limits, Link, Message, NumberField, Spec
-    from framegen.values import Direction
+    from framegen.language.spec import FramePart, Limits, Link, Message, NumberField, Spec
+    from framegen.language.values import Direction
 
 
 @dataclass(frozen=True)

@@ -5,11 +5,11 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from framegen.layout import part_size
-from framegen.spec import BodyPart, ChecksumPart, ConstantPart, IdPart, LengthPart
+from framegen.language.spec import BodyPart, ChecksumPart, ConstantPart, IdPart, LengthPart
+from framegen.model.layout import part_size
 
 if TYPE_CHECKING:
-    from framegen.spec import FramePart, Lookalike, Spec
+    from framegen.language.spec import FramePart, Lookalike, Spec
 
 
 @dataclass(frozen=True, slots=True)

@@ -10,13 +10,13 @@ import re
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from framegen.spec import GroupField
-from framegen.values import Method
+from framegen.language.spec import GroupField
+from framegen.language.values import Method
 
 if TYPE_CHECKING:
-    from framegen.layout import Layout, MessageLayout, Repeat, WireField
-    from framegen.spec import Message, Spec
-    from framegen.values import Direction
+    from framegen.language.spec import Message, Spec
+    from framegen.language.values import Direction
+    from framegen.model.layout import Layout, MessageLayout, Repeat, WireField
 
 # How many of each unit of time make a second.
 STEPS_PER_SECOND = {"s": 1, "ms": 1000}

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator
 
-    from framegen.source import Source, Span
+    from framegen.reading.source import Source, Span
 
 
 @dataclass(frozen=True, slots=True)

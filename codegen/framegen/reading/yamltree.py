@@ -11,10 +11,10 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 
 import yaml
 
-from framegen.findings import Finding, Related
-from framegen.scalars import Ambiguous, resolve
-from framegen.source import Source, Span
-from framegen.text import first_invisible
+from framegen.reading.findings import Finding, Related
+from framegen.reading.scalars import Ambiguous, resolve
+from framegen.reading.source import Source, Span
+from framegen.reading.text import first_invisible
 
 if TYPE_CHECKING:
     from collections.abc import Iterator

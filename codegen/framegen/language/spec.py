@@ -12,10 +12,10 @@ from typing import Annotated, Any, Literal, TypeAlias
 from pydantic import BaseModel, ConfigDict, Discriminator, StrictBool, StrictInt, Tag
 from pydantic import Field as Key
 
-from framegen.formula import Formula, parse_formula
-from framegen.notation import Notation
-from framegen.values import Citation, Direction, Method, Range, Scale, parse_hex
-from framegen.wiretypes import WIRE_TYPES
+from framegen.language.formula import Formula, parse_formula
+from framegen.language.notation import Notation
+from framegen.language.values import Citation, Direction, Method, Range, Scale, parse_hex
+from framegen.language.wiretypes import WIRE_TYPES
 
 Cite: TypeAlias = Annotated[Citation, Notation("a citation", "vendor, section 1.1", Citation.parse)]
 Hex: TypeAlias = Annotated[bytes, Notation("hex", "55 55 02 07", parse_hex)]

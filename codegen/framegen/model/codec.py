@@ -10,8 +10,8 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from framegen.layout import Layout, MessageLayout, Repeat, WireField
-    from framegen.values import Direction
+    from framegen.language.values import Direction
+    from framegen.model.layout import Layout, MessageLayout, Repeat, WireField
 
 # The reasons for which bytes are no frame. Every target and the test vectors use these words.
 TOO_SHORT = "too short"

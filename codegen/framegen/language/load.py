@@ -9,10 +9,10 @@ from typing import TYPE_CHECKING, Any, get_args
 from pydantic import BaseModel, ValidationError
 
 from framegen.console import visible
-from framegen.findings import Finding, did_you_mean
-from framegen.source import Source
-from framegen.spec import Spec
-from framegen.yamltree import KeyPath, Tree, Unusable, dotted, read_tree
+from framegen.language.spec import Spec
+from framegen.reading.findings import Finding, did_you_mean
+from framegen.reading.source import Source
+from framegen.reading.yamltree import KeyPath, Tree, Unusable, dotted, read_tree
 
 if TYPE_CHECKING:
     from collections.abc import Iterator

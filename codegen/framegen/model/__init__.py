@@ -1,0 +1,1 @@
+"""What follows from a spec: roles, places, sizes, exchanges; and the reference codec."""
