@@ -9,9 +9,9 @@ from pathlib import Path
 from types import ModuleType
 from typing import Any, TypeAlias
 
-from framegen.checks import check
-from framegen.language.load import Loaded, load, read_source
-from framegen.model.layout import Layout, derive
+from framegen.compile import Compiled, compile_spec
+from framegen.language.load import read_source
+from framegen.model.model import Model
 from framegen.reading.source import Source
 from framegen.reading.yamltree import Unusable, read_tree
 from framegen.targets import python, vectors
@@ -56,34 +56,31 @@ def _escaped(character: str) -> str:
     return f"\\u{code:04x}" if code < 0x10000 else f"\\U{code:08x}"
 
 
-def loaded_of(data: Data, name: str = "made_up.yaml") -> Loaded:
+def compiled_of(data: Data, name: str = "made_up.yaml") -> Compiled:
     """The spec that `data` says, by way of its text. Raises Unusable."""
-    return load(Source(name, yaml_of(data)))
+    return compile_spec(Source(name, yaml_of(data)))
 
 
 def rules_broken(data: Data) -> list[str]:
     """The rules that a spec breaks, or `unusable` for one that cannot be read at all."""
     try:
-        return [finding.rule for finding in check(loaded_of(data))]
+        return [finding.rule for finding in compiled_of(data).findings]
     except Unusable:
         return ["unusable"]
 
 
-def layout_of(data: Data) -> Layout:
-    """The layout of a spec without findings."""
-    loaded = loaded_of(data)
-    assert [finding.message for finding in check(loaded)] == []
-    assert loaded.spec is not None
-    return derive(loaded.spec)
+def layout_of(data: Data) -> Model:
+    """What follows from a spec without findings."""
+    compiled = compiled_of(data)
+    assert [finding.message for finding in compiled.findings] == []
+    return compiled.model
 
 
 def files_of(data: Data, name: str = "made_up.yaml") -> dict[str, str]:
     """The library and the vectors of a spec without findings; its schema says nothing of it."""
-    loaded = loaded_of(data, name)
-    assert [finding.message for finding in check(loaded)] == []
-    assert loaded.spec is not None
-    layout = derive(loaded.spec)
-    return python.render(loaded.source, layout) | vectors.render(loaded.source, layout)
+    compiled = compiled_of(data, name)
+    assert [finding.message for finding in compiled.findings] == []
+    return python.render(compiled, {}) | vectors.render(compiled, {})
 
 
 def leaves(value: Any, path: Steps = ()) -> Iterator[tuple[Steps, str]]:

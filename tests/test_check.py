@@ -10,9 +10,10 @@ from typing import TYPE_CHECKING, Any
 
 import pytest
 from framegen import checks
-from framegen.checks import LAYOUT_RULES, READING_RULES, STRUCTURE_RULES, check
+from framegen.checks import RULES
+from framegen.checks.reading import READING_RULES
+from framegen.compile import compile_spec
 from framegen.language.load import MAX_BYTES, load, read_source
-from framegen.model.layout import derive
 from framegen.model.lookalikes import recognise
 from framegen.reading.findings import Finding, did_you_mean
 from framegen.reading.source import Source, Span
@@ -21,10 +22,10 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from tests.patience import PATIENCE
-from tests.specimens import BUSSERVO, DEMO, data_of, loaded_of
+from tests.specimens import BUSSERVO, DEMO, compiled_of, data_of
 
 if TYPE_CHECKING:
-    from framegen.checks.rule import LayoutRule, ReadingRule, StructureRule
+    from framegen.checks.rule import AnyRule
 
     from tests.specimens import Steps
 
@@ -32,11 +33,7 @@ ROOT = Path(__file__).parent.parent
 SPECS = ROOT / "tests" / "specs"
 BAD = sorted((SPECS / "bad").glob("*.yaml"))
 GOOD = [ROOT / "spec" / "busservo.yaml", SPECS / "demo.yaml"]
-RULES: list[StructureRule | LayoutRule | ReadingRule] = [
-    *READING_RULES,
-    *STRUCTURE_RULES,
-    *LAYOUT_RULES,
-]
+FILED = [rule for rule in RULES if rule not in READING_RULES]
 
 EXPECT = "# expect: "
 
@@ -44,7 +41,7 @@ EXPECT = "# expect: "
 def said_of(source: Source) -> list[str]:
     """Findings as `rule line:column: message`, and a refusal as `unusable: message`."""
     try:
-        findings = check(load(source))
+        findings = compile_spec(source).findings
     except Unusable as refusal:
         if refusal.finding is None:
             return [f"unusable: {refusal}"]
@@ -64,7 +61,7 @@ def more_of(source: Source) -> list[str]:
 
 def findings_of(source: Source) -> list[Finding]:
     try:
-        return check(load(source))
+        return compile_spec(source).findings
     except Unusable as refusal:
         return [] if refusal.finding is None else [refusal.finding]
 
@@ -77,7 +74,7 @@ def expected_of(source: Source) -> list[str]:
 
 def only_finding(name: str) -> tuple[Source, Finding]:
     source = Source(f"{name}.yaml", (SPECS / "bad" / f"{name}.yaml").read_text(encoding="utf-8"))
-    [finding] = check(load(source))
+    [finding] = compile_spec(source).findings
     return source, finding
 
 
@@ -117,18 +114,18 @@ def test_every_rule_has_a_bad_spec_named_after_it() -> None:
 
 
 def test_a_spec_that_yaml_readers_disagree_on_is_not_read_further() -> None:
-    loaded = load(read_source(SPECS / "bad" / "yaml-ambiguous-float.yaml"))
-    assert loaded.spec is None
-    assert [finding.rule for finding in loaded.findings] == ["yaml-ambiguous"]
+    compiled = compile_spec(read_source(SPECS / "bad" / "yaml-ambiguous-float.yaml"))
+    assert compiled.read is None
+    assert [finding.rule for finding in compiled.findings] == ["yaml-ambiguous"]
 
 
 @pytest.mark.parametrize("slip", ["", "\nnothing: known"], ids=["good", "bad"])
 def test_what_is_loaded_keeps_its_text_and_its_places(slip: str) -> None:
     source = Source("demo.yaml", GOOD[1].read_text(encoding="utf-8") + slip)
-    loaded = load(source)
-    assert loaded.source is source
-    assert loaded.tree.key_at(("protocol",)).line > 1
-    assert (loaded.spec is None) == bool(slip)
+    compiled = compile_spec(source)
+    assert compiled.source is source
+    assert compiled.tree.key_at(("protocol",)).line > 1
+    assert (compiled.read is None) == bool(slip)
 
 
 def test_aliases_that_multiply_cost_no_time() -> None:
@@ -142,7 +139,9 @@ def test_an_example_that_would_be_encoded_otherwise_is_found(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     monkeypatch.setattr(checks.example, "encode", lambda *_: b"\x55")
-    messages = {finding.message for finding in check(load(read_source(SPECS / "demo.yaml")))}
+    messages = {
+        finding.message for finding in compile_spec(read_source(SPECS / "demo.yaml")).findings
+    }
     assert messages == {"its values encode to 55, which is not this"}
 
 
@@ -208,7 +207,7 @@ def test_what_does_not_fit_the_language_is_told_in_its_words(
     for step in path[:-1]:
         around = around[step]
     around[path[-1]] = value
-    finding = loaded_of(data).findings[0]
+    finding = compiled_of(data).findings[0]
     assert (finding.message, finding.hint) == (said, hint)
     steps = [f"[{step}]" if isinstance(step, int) else f".{step}" for step in path]
     assert f".{finding.path}".startswith("".join(steps))
@@ -217,7 +216,7 @@ def test_what_does_not_fit_the_language_is_told_in_its_words(
 def test_a_key_that_is_no_number_is_told_once_however_its_value_looks() -> None:
     data = data_of(DEMO)
     data["lookalikes"]["old_stations"]["commands"] = {"lit": {"what": "It shines."}}
-    found = [(f.path, f.message) for f in loaded_of(data).findings]
+    found = [(f.path, f.message) for f in compiled_of(data).findings]
     path = "lookalikes.old_stations.commands.lit"
     assert found[0] == (path, "a whole number is expected here, not `lit`")
     assert {each for each, _ in found} == {path}
@@ -227,7 +226,7 @@ def test_a_key_that_is_no_number_is_told_once_however_its_value_looks() -> None:
 
 
 @pytest.mark.parametrize("rule", RULES, ids=lambda rule: rule.id)
-def test_a_rule_says_what_it_is_for(rule: StructureRule | LayoutRule | ReadingRule) -> None:
+def test_a_rule_says_what_it_is_for(rule: AnyRule) -> None:
     assert re.fullmatch(r"[a-z]+(?:-[a-z]+)*", rule.id)
     assert rule.title
     assert not rule.title.endswith(".")
@@ -242,8 +241,8 @@ def test_no_two_rules_share_an_id() -> None:
     assert sorted(set(ids)) == sorted(ids)
 
 
-@pytest.mark.parametrize("rule", [*STRUCTURE_RULES, *LAYOUT_RULES], ids=lambda rule: rule.id)
-def test_a_rule_is_a_file_of_its_own(rule: StructureRule | LayoutRule) -> None:
+@pytest.mark.parametrize("rule", FILED, ids=lambda rule: rule.id)
+def test_a_rule_is_a_file_of_its_own(rule: AnyRule) -> None:
     module = getattr(checks, rule.id.replace("-", "_"))
     assert module.RULE is rule
 
@@ -293,7 +292,7 @@ def test_a_finding_repeats_no_more_of_a_value_than_can_be_read(
     text = BUSSERVO.read_text(encoding="utf-8")
     assert found in text
     source = Source("long.yaml", text.replace(found, f'{key} "{value}"', 1))
-    findings = check(load(source))
+    findings = compile_spec(source).findings
     assert rule in {finding.rule for finding in findings}
     assert max(len(finding.render(source)) for finding in findings) < 2000
 
@@ -351,7 +350,7 @@ def test_where_nothing_is_known_nothing_is_guessed() -> None:
 def test_findings_come_from_the_top_of_the_file_down() -> None:
     text = (SPECS / "demo.yaml").read_text(encoding="utf-8")
     broken = text.replace("cite: manual, section 2\n", "cite: manaul, section 2\n")
-    findings = check(load(Source("demo.yaml", broken)))
+    findings = compile_spec(Source("demo.yaml", broken)).findings
     assert len(findings) > 1
     assert [f.span for f in findings] == sorted(f.span for f in findings)
 
@@ -387,7 +386,7 @@ def test_a_lookalike_is_recognised(
 
 @pytest.mark.parametrize(("order", "size"), [("big", "00 01"), ("little", "01 00")])
 def test_a_lookalike_is_cut_into_its_parts_in_the_byte_order(order: str, size: str) -> None:
-    spec = loaded_of({**data_of(DEMO), "byte_order": order}).spec
+    spec = compiled_of({**data_of(DEMO), "byte_order": order}).read
     assert spec is not None
     found = recognise(spec, bytes.fromhex(f"C3 5A A5 21 {size} FF"))
     assert found is not None
@@ -418,7 +417,7 @@ def test_a_file_that_is_no_spec_is_refused(tmp_path: Path, data: bytes, refusal:
     file = tmp_path / "spec.yaml"
     file.write_bytes(data)
     with pytest.raises(Unusable, match=re.escape(refusal)):
-        check(load(read_source(file)))
+        compile_spec(read_source(file))
 
 
 def test_a_file_that_is_not_there_is_refused(tmp_path: Path) -> None:
@@ -567,14 +566,14 @@ def survives(text: str) -> None:
     """Checks `text`, shows what is found, and derives what is clean: no step may raise."""
     source = Source("spec.yaml", text)
     try:
-        loaded = load(source)
-        findings = check(loaded)
+        compiled = compile_spec(source)
+        findings = compiled.findings
     except Unusable as refusal:
         findings = [] if refusal.finding is None else [refusal.finding]
     else:
-        assert findings or loaded.spec is not None
-        if loaded.spec is not None and not findings:
-            assert all(message.counts for message in derive(loaded.spec).messages.values())
+        assert findings or compiled.read is not None
+        if compiled.read is not None and not findings:
+            assert all(message.counts for message in compiled.model.messages.values())
     for finding in findings:
         assert finding.render(source)
 
@@ -683,4 +682,4 @@ def test_any_frame_with_any_fields_is_checked_without_a_crash(
 def test_a_value_of_another_kind_is_told_by_its_kind(key: str, said: object, told: str) -> None:
     data = data_of(BUSSERVO)
     data["messages"]["ServoMove"]["examples"][0]["values"][key] = said
-    assert [finding.message for finding in check(loaded_of(data))][:1] == [told]
+    assert [finding.message for finding in compiled_of(data).findings][:1] == [told]

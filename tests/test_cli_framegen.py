@@ -7,11 +7,12 @@ import os
 import subprocess
 import sys
 from pathlib import Path
-from typing import TYPE_CHECKING, TypeAlias
+from typing import TypeAlias
 
 import pytest
 from framegen import __version__
-from framegen.checks import LAYOUT_RULES, READING_RULES, STRUCTURE_RULES
+from framegen.checks import RULES
+from framegen.checks.rule import AnyRule
 from framegen.cli import VERBS, main
 from framegen.console import INTERRUPTED, READER_GONE
 from framegen.project import default_spec, project_root
@@ -21,16 +22,11 @@ from hypothesis import strategies as st
 
 from tests.patience import PATIENCE
 
-if TYPE_CHECKING:
-    from framegen.checks.rule import LayoutRule, ReadingRule, StructureRule
-
 Capture: TypeAlias = "pytest.CaptureFixture[str]"
-AnyRule: TypeAlias = "ReadingRule | StructureRule | LayoutRule"
 
 ROOT = Path(__file__).parent.parent
 SPEC = ROOT / "spec" / "busservo.yaml"
 STOP = "55 55 02 07"
-RULES: tuple[AnyRule, ...] = (*READING_RULES, *STRUCTURE_RULES, *LAYOUT_RULES)
 
 
 @pytest.fixture(autouse=True)
@@ -230,7 +226,7 @@ def test_an_empty_spec_gets_a_hint(tmp_path: Path, capsys: Capture) -> None:
     assert error == (
         f"framegen: error: {file.as_posix()}: the file is empty, where a spec is a mapping of keys"
     )
-    assert hint.startswith("  hint: begin with `framegen: 1`")
+    assert hint.startswith("  hint: begin with `framegen: 2`")
 
 
 def test_a_spec_with_findings_explains_nothing(misspelt: Path, capsys: Capture) -> None:
@@ -319,7 +315,7 @@ def test_two_specs_leave_a_choice(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: Capture
 ) -> None:
     monkeypatch.chdir(project(tmp_path / "here", "b.yaml", "a.yaml"))
-    assert main(["check"]) == 2
+    assert main(["explain", "55"]) == 2
     assert capsys.readouterr().err == (
         "framegen: error: there are 2 specs to choose from: a.yaml, b.yaml\n"
         "  hint: name the one you mean, such as spec/a.yaml\n"

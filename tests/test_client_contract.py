@@ -11,10 +11,8 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 
 import pytest
 from busservo.exchanges import EXCHANGES
-from framegen.checks import check
-from framegen.language.load import load
-from framegen.model.exchanges import STEPS_PER_SECOND, exchanges
-from framegen.model.layout import derive
+from framegen.compile import compile_spec
+from framegen.model.exchanges import STEPS_PER_SECOND
 from framegen.reading.source import Source
 
 from tests.specimens import BUSSERVO, Data, data_of, layout_of
@@ -68,8 +66,8 @@ TREE = data_of(BUSSERVO)
 
 def said_by(data: Data) -> dict[str, Row] | None:
     """What a spec says of its requests; None where `framegen check` objects to it."""
-    loaded = load(Source("changed.yaml", json.dumps(data)))
-    if check(loaded) or loaded.spec is None:
+    compiled = compile_spec(Source("changed.yaml", json.dumps(data)))
+    if compiled.findings or compiled.spec is None:
         return None
     return {
         each.request.name: (
@@ -80,7 +78,7 @@ def said_by(data: Data) -> dict[str, Row] | None:
             each.reports,
             each.echoed,
         )
-        for each in exchanges(derive(loaded.spec))
+        for each in compiled.model.exchanges
     }
 
 
@@ -93,7 +91,7 @@ def results_of(data: Data) -> dict[str, Any]:
             if each.lasts is None
             else (each.lasts.name, STEPS_PER_SECOND[each.lasts.field.unit]),
         )
-        for each in exchanges(layout_of(data))
+        for each in layout_of(data).exchanges
         if each.acknowledged is not None or each.lasts is not None
     }
 
@@ -123,7 +121,7 @@ def test_the_library_does_what_the_table_says() -> None:
 
 
 def test_what_a_reply_has_room_for() -> None:
-    rooms = {each.request.name: each.most for each in exchanges(layout_of(TREE)) if each.most}
+    rooms = {each.request.name: each.most for each in layout_of(TREE).exchanges if each.most}
     assert rooms == {"ServoPositionsRead": 84}
 
 

@@ -18,7 +18,8 @@ from framegen.language import wiretypes
 from framegen.language.wiretypes import WIRE_TYPES, WireType
 from framegen.model import codec
 from framegen.model.codec import NotAFrame
-from framegen.model.layout import Layout, MessageLayout, Repeat, WireField
+from framegen.model.layout import MessageLayout, Repeat, WireField
+from framegen.model.model import Model
 from hypothesis import given
 from hypothesis import strategies as st
 
@@ -84,8 +85,8 @@ def values_of(message: MessageLayout) -> st.SearchStrategy[dict[str, Any]]:
     )
 
 
-def frames(layout: Layout = LAYOUT) -> st.SearchStrategy[tuple[MessageLayout, dict[str, Any]]]:
-    return st.sampled_from(list(layout.messages.values())).flatmap(
+def frames(model: Model = LAYOUT) -> st.SearchStrategy[tuple[MessageLayout, dict[str, Any]]]:
+    return st.sampled_from(list(model.messages.values())).flatmap(
         lambda message: st.tuples(st.just(message), values_of(message))
     )
 
@@ -136,10 +137,10 @@ def outcome_here(data: bytes, direction: Any) -> tuple[Any, ...]:
     return type(message).__name__, said_by(message)
 
 
-def outcome_there(data: bytes, direction: str, layout: Layout = LAYOUT) -> tuple[Any, ...]:
-    [way] = [way for way in layout.directions if way.key == direction]
+def outcome_there(data: bytes, direction: str, model: Model = LAYOUT) -> tuple[Any, ...]:
+    [way] = [way for way in model.directions if way.key == direction]
     try:
-        decoded = codec.decode(layout, way, data)
+        decoded = codec.decode(model, way, data)
     except NotAFrame as error:
         return error.reason, error.offset
     return decoded.layout.name, arguments(decoded.values)

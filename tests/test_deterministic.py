@@ -8,10 +8,11 @@ from functools import cache
 from pathlib import Path
 
 import pytest
-from framegen.language.load import load, read_source
-from framegen.model.layout import derive
+from framegen.compile import compile_spec
+from framegen.language.load import read_source
 from framegen.reading.source import Source
-from framegen.render import TARGETS, render
+from framegen.render import render, snippets
+from framegen.targets.table import TARGETS
 
 ROOT = Path(__file__).parent.parent
 SPEC_PAGE = "docs/reference/spec.html"
@@ -25,13 +26,13 @@ DIGESTS = """
 import sys
 from hashlib import sha256
 from pathlib import Path
-from framegen.model.layout import derive
-from framegen.language.load import load, read_source
+from framegen.compile import compile_spec
+from framegen.language.load import read_source
 from framegen.render import render
 
 for name in sys.argv[1:]:
-    loaded = load(read_source(Path(name)))
-    for path, text in render(loaded.source, derive(loaded.spec)).files.items():
+    compiled = compile_spec(read_source(Path(name)))
+    for path, text in render(compiled).files.items():
         print(sha256(text.encode()).hexdigest(), path)
 """
 
@@ -138,38 +139,33 @@ def test_the_committed_output_comes_out_of_this_python() -> None:
 def test_rendering_twice_gives_the_same_and_touches_no_disk(
     name: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    loaded = load(read_source(SPECS[name]))
-    assert loaded.spec is not None
+    compiled = compile_spec(read_source(SPECS[name]))
     monkeypatch.chdir(tmp_path)
-    first = render(loaded.source, derive(loaded.spec))
-    assert render(loaded.source, derive(loaded.spec)) == first
+    first = render(compiled)
+    assert render(compiled) == first
     assert list(tmp_path.iterdir()) == []
 
 
 @pytest.mark.parametrize("name", SPECS)
 def test_no_file_tells_where_when_or_by_whom_it_was_made(name: str) -> None:
-    loaded = load(read_source(SPECS[name]))
-    assert loaded.spec is not None
+    compiled = compile_spec(read_source(SPECS[name]))
     forbidden = [str(ROOT), str(Path.home()) + os.sep, sys.prefix, os.sep + "home" + os.sep]
-    for path, text in render(loaded.source, derive(loaded.spec)).files.items():
+    for path, text in render(compiled).files.items():
         assert [word for word in forbidden if word in text] == [], path
 
 
 @pytest.mark.parametrize("name", SPECS)
 def test_every_file_ends_in_one_line_feed_and_holds_nothing_unseen(name: str) -> None:
-    loaded = load(read_source(SPECS[name]))
-    assert loaded.spec is not None
-    for path, text in render(loaded.source, derive(loaded.spec)).files.items():
+    compiled = compile_spec(read_source(SPECS[name]))
+    for path, text in render(compiled).files.items():
         assert text == "" or (text.endswith("\n") and not text.endswith("\n\n")), path
         assert text.replace("\n", "").isprintable(), path
         assert [line for line in text.split("\n") if line != line.rstrip()] == [], path
 
 
 def test_no_two_targets_write_the_same_file() -> None:
-    loaded = load(read_source(SPECS["greenhouse"]))
-    assert loaded.spec is not None
-    layout = derive(loaded.spec)
-    paths = [path for target in TARGETS for path in target.render(loaded.source, layout)]
+    compiled = compile_spec(read_source(SPECS["greenhouse"]))
+    paths = [path for target in TARGETS for path in target.render(compiled, snippets())]
     assert len(paths) == len(set(paths))
 
 
@@ -178,9 +174,7 @@ def test_a_comment_in_the_spec_changes_its_digest_and_nothing_else() -> None:
     commented = Source(source.name, source.text + "# a comment\n")
     files = []
     for each in (source, commented):
-        spec = load(each).spec
-        assert spec is not None
-        rendered = render(each, derive(spec))
+        rendered = render(compile_spec(each))
         assert rendered.digest == each.digest
         # One page shows the spec itself, comments and all.
         told = {path: text for path, text in rendered.files.items() if path != SPEC_PAGE}

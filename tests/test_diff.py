@@ -9,17 +9,17 @@ from typing import Any
 import pytest
 from framegen.cli import main
 from framegen.comparison import KINDS, differences
-from framegen.model.layout import Layout, derive
+from framegen.model.model import Model, derive
 
-from tests.specimens import BUSSERVO, DEMO, Data, Steps, data_of, loaded_of, renamed, yaml_of
+from tests.specimens import BUSSERVO, DEMO, Data, Steps, compiled_of, data_of, renamed, yaml_of
 
 SPECS = {"busservo": data_of(BUSSERVO), "greenhouse": data_of(DEMO)}
 GONE = "(gone)"
 
 
-def derived(data: Data) -> Layout:
+def derived(data: Data) -> Model:
     """The layout of a spec that need not agree with itself: one fact is changed at a time."""
-    spec = loaded_of(data).spec
+    spec = compiled_of(data).read
     assert spec is not None
     return derive(spec)
 
@@ -161,6 +161,14 @@ CASES: list[tuple[Data, Data, list[str]]] = [
             ),
             "nothing messages.TextShow: words: is said otherwise",
             "nothing protocol: words: is said otherwise",
+        ],
+    ),
+    (
+        SERVO,
+        with_(SERVO, "endpoints", dict(reversed(SERVO["endpoints"].items()))),
+        [
+            "programs endpoints: client-changed: host became controller",
+            "nothing endpoints: words: is said otherwise",
         ],
     ),
     # ------------------------------------------------------------------ messages

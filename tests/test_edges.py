@@ -14,10 +14,10 @@ from busservo import (
 from busservo.table import worded
 from framegen.language.values import Citation, Direction
 from framegen.model.codec import NotAFrame, decode, describe_range, encode
-from framegen.model.layout import derive
+from framegen.model.model import derive
 
 from tests.cases import CASES
-from tests.specimens import BUSSERVO, DEMO, data_of, layout_of, loaded_of
+from tests.specimens import BUSSERVO, DEMO, compiled_of, data_of, layout_of
 
 
 @pytest.mark.parametrize(
@@ -65,7 +65,7 @@ def test_each_field_of_an_element_stands_behind_the_one_before() -> None:
     message = data["messages"]["ServoPositions"]
     message["fields"]["positions"]["fields"]["load"] = {"type": "u8", "about": "Its load."}
     message["length"] = "4 * servo_count + 3"
-    spec = loaded_of(data).spec
+    spec = compiled_of(data).read
     assert spec is not None
     repeat = derive(spec).messages["ServoPositions"].repeat
     assert repeat is not None

@@ -10,7 +10,7 @@ from framegen.explain_text import as_json, as_text
 from framegen.language.load import load, read_source
 from framegen.language.values import Direction
 from framegen.model import codec
-from framegen.model.layout import Layout, derive
+from framegen.model.model import Model, derive
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
@@ -19,7 +19,7 @@ BUSSERVO = ROOT / "spec" / "busservo.yaml"
 DEMO = ROOT / "tests" / "specs" / "demo.yaml"
 
 
-def layout_of(file: Path) -> Layout:
+def layout_of(file: Path) -> Model:
     spec = load(read_source(file)).spec
     assert spec is not None
     return derive(spec)
@@ -30,8 +30,8 @@ GREENHOUSE = layout_of(DEMO)
 HOST, CONTROLLER = LAYOUT.directions
 
 
-def explained(hex_text: str, layout: Layout = LAYOUT) -> Explanation:
-    return explain(layout, bytes.fromhex(hex_text), layout.directions)
+def explained(hex_text: str, model: Model = LAYOUT) -> Explanation:
+    return explain(model, bytes.fromhex(hex_text), model.directions)
 
 
 def hints(explanation: Explanation) -> list[str]:
@@ -233,9 +233,9 @@ EXAMPLES = [
 ]
 
 
-@pytest.mark.parametrize(("layout", "name", "data"), EXAMPLES)
-def test_every_byte_of_an_example_is_explained(layout: Layout, name: str, data: bytes) -> None:
-    explanation = explain(layout, data, layout.directions)
+@pytest.mark.parametrize(("model", "name", "data"), EXAMPLES)
+def test_every_byte_of_an_example_is_explained(model: Model, name: str, data: bytes) -> None:
+    explanation = explain(model, data, model.directions)
     (reading,) = (each for each in explanation.readings if each.message == name)
     assert rows_cover(reading.rows, data)
     assert reading.rows[-1].end == len(data)
@@ -243,12 +243,12 @@ def test_every_byte_of_an_example_is_explained(layout: Layout, name: str, data: 
     assert explanation.hints == ()
 
 
-@pytest.mark.parametrize(("layout", "name", "data"), EXAMPLES)
-def test_every_value_of_an_example_is_shown(layout: Layout, name: str, data: bytes) -> None:
-    message = layout.messages[name]
-    (reading,) = explain(layout, data, [message.direction]).readings
+@pytest.mark.parametrize(("model", "name", "data"), EXAMPLES)
+def test_every_value_of_an_example_is_shown(model: Model, name: str, data: bytes) -> None:
+    message = model.messages[name]
+    (reading,) = explain(model, data, [message.direction]).readings
     values = {row.path: row.value for row in reading.rows}
-    for field, value in codec.decode(layout, message.direction, data).values.items():
+    for field, value in codec.decode(model, message.direction, data).values.items():
         if not isinstance(value, list):
             assert values[field] == value
             continue
@@ -260,14 +260,12 @@ def test_every_value_of_an_example_is_shown(layout: Layout, name: str, data: byt
                 assert values[f"{field}[{index}].{inner}"] == number
 
 
-@pytest.mark.parametrize(("layout", "name", "data"), EXAMPLES)
-def test_a_frame_cut_short_is_explained_up_to_the_cut(
-    layout: Layout, name: str, data: bytes
-) -> None:
-    direction = layout.messages[name].direction
-    (whole,) = explain(layout, data, [direction]).readings
+@pytest.mark.parametrize(("model", "name", "data"), EXAMPLES)
+def test_a_frame_cut_short_is_explained_up_to_the_cut(model: Model, name: str, data: bytes) -> None:
+    direction = model.messages[name].direction
+    (whole,) = explain(model, data, [direction]).readings
     for size in range(len(data)):
-        (refusal,) = explain(layout, data[:size], [direction]).refusals
+        (refusal,) = explain(model, data[:size], [direction]).refusals
         assert (refusal.reason, refusal.offset) == (codec.TOO_SHORT, size)
         paths = [row.path for row in refusal.rows]
         assert paths == [row.path for row in whole.rows if row.end <= size]
@@ -528,25 +526,25 @@ def damaged(draw: st.DrawFn) -> bytes:
     layout=st.sampled_from([LAYOUT, GREENHOUSE]),
     data=st.one_of(st.binary(min_size=1, max_size=40), damaged()),
 )
-def test_any_bytes_are_explained(layout: Layout, data: bytes) -> None:
-    explanation = explain(layout, data, layout.directions)
+def test_any_bytes_are_explained(model: Model, data: bytes) -> None:
+    explanation = explain(model, data, model.directions)
     page, values = as_text(explanation), as_json(explanation)
     outcomes: list[Reading | Refusal] = [*explanation.readings, *explanation.refusals]
-    assert {outcome.direction for outcome in outcomes} == set(layout.directions)
+    assert {outcome.direction for outcome in outcomes} == set(model.directions)
     assert all(rows_cover(outcome.rows, data) for outcome in outcomes)
     assert all(
         row.end <= refusal.offset for refusal in explanation.refusals for row in refusal.rows
     )
     for hint in explanation.hints:
-        assert not hint.frame or explain(layout, hint.frame, layout.directions).readings
+        assert not hint.frame or explain(model, hint.frame, model.directions).readings
     assert json.loads(json.dumps(values)) == values
     assert bool(explanation.readings) != page.startswith(("These ", "This "))
-    assert bool(explanation.readings) == any(legal(layout, data, way) for way in layout.directions)
+    assert bool(explanation.readings) == any(legal(model, data, way) for way in model.directions)
 
 
-def legal(layout: Layout, data: bytes, direction: Direction) -> bool:
+def legal(model: Model, data: bytes, direction: Direction) -> bool:
     try:
-        codec.decode(layout, direction, data)
+        codec.decode(model, direction, data)
     except codec.NotAFrame:
         return False
     return True

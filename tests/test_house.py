@@ -9,8 +9,8 @@ from pathlib import Path
 import busservo
 import framegen
 import pytest
-from framegen.language.load import load, read_source
-from framegen.model.layout import derive
+from framegen.compile import compile_spec
+from framegen.language.load import read_source
 from framegen.render import render
 from framegen.writer import changes
 
@@ -110,9 +110,8 @@ def test_there_is_one_version() -> None:
 
 
 def test_everything_under_generated_is_what_the_generator_makes() -> None:
-    loaded = load(read_source(SPEC))
-    assert loaded.spec is not None
-    rendered = render(loaded.source, derive(loaded.spec))
+    compiled = compile_spec(read_source(SPEC))
+    rendered = render(compiled)
     assert [(change.path, change.why) for change in changes(ROOT, rendered)] == []
     on_disk = {name for name in TEXTS if name.startswith("generated/")}
     assert on_disk <= set(rendered.files)

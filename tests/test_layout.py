@@ -7,7 +7,8 @@ from framegen.language.spec import Concern, Spec
 from framegen.language.values import Direction
 from framegen.model.codec import NotAFrame, Unencodable, decode, describe_range, encode
 from framegen.model.facts import NoSuchFact, look_up
-from framegen.model.layout import Layout, MessageLayout, derive_frame, part_size
+from framegen.model.layout import MessageLayout, derive_frame, part_size
+from framegen.model.model import Model
 from hypothesis import given
 from hypothesis import strategies as st
 
@@ -205,7 +206,7 @@ def test_each_legal_length_has_one_count_and_each_count_one_length(message: Mess
     )
 
 
-def _layout_of(message: MessageLayout) -> Layout:
+def _layout_of(message: MessageLayout) -> Model:
     [layout] = [each for each in LAYOUTS.values() if message in each.messages.values()]
     return layout
 

@@ -4,8 +4,8 @@ from pathlib import Path
 
 import pytest
 from busservo import Message, lookalikes, strategies
-from framegen.model.layout import Layout
 from framegen.model.lookalikes import recognise
+from framegen.model.model import Model
 from framegen.targets.python.library_view import LibraryView
 from hypothesis import given
 from hypothesis import strategies as st
@@ -59,10 +59,10 @@ def test_what_is_of_this_protocol_is_never_taken_for_another(messages: list[Mess
     assert lookalikes.recognise(b"".join(message.encode() for message in messages)) is None
 
 
-def examples(layout: Layout) -> list[tuple[bytes, str]]:
+def examples(model: Model) -> list[tuple[bytes, str]]:
     return [
         (example.hex, each.title)
-        for each in layout.spec.lookalikes.values()
+        for each in model.spec.lookalikes.values()
         for example in each.examples
     ]
 

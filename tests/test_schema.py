@@ -83,7 +83,7 @@ Change = Callable[[dict[str, Any]], object]
 SLIPS: list[tuple[str, Change, str]] = [
     ("a key that there is not", lambda d: d.update(mesages={}), ""),
     ("a missing key", lambda d: d.pop("link"), ""),
-    ("a later language", lambda d: d.update(framegen=2), "framegen"),
+    ("a later language", lambda d: d.update(framegen=3), "framegen"),
     ("a misspelt byte order", lambda d: d.update(byte_order="litle"), "byte_order"),
     ("a misspelt parity", lambda d: d["link"].update(parity="non"), "link/parity"),
     ("a rate of zero", lambda d: d["link"].update(baud=0), "link/baud"),

@@ -7,13 +7,14 @@ from typing import TYPE_CHECKING, Literal, TypeAlias
 
 from framegen.language.spec import ConstantPart, GroupField, IdPart, LengthPart
 from framegen.language.values import Direction, to_hex
-from framegen.model.exchanges import method_of, sent_by_client
+from framegen.model.exchanges import method_of
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator, Mapping
 
     from framegen.language.spec import FramePart, Limits, Link, Message, Pose
-    from framegen.model.layout import Layout, MessageLayout, Repeat, WireField
+    from framegen.model.layout import MessageLayout, Repeat, WireField
+    from framegen.model.model import Model
 
 Breaks: TypeAlias = Literal["wire", "programs", "nothing"]
 
@@ -30,6 +31,7 @@ KINDS: dict[str, Breaks] = {
     "version": "nothing",
     "library-renamed": "programs",
     "endpoint-renamed": "programs",
+    "client-changed": "programs",
     "message-added": "nothing",
     "message-removed": "wire",
     "message-renamed": "programs",
@@ -96,7 +98,7 @@ class Difference:
         return f"{self.old} is gone" if self.new is None else f"{self.old} became {self.new}"
 
 
-def differences(old: Layout, new: Layout) -> list[Difference]:
+def differences(old: Model, new: Model) -> list[Difference]:
     """All that changed from one edition to the next, in the order of the new spec."""
     return [
         *_line(old, new),
@@ -106,14 +108,17 @@ def differences(old: Layout, new: Layout) -> list[Difference]:
     ]
 
 
-def _line(old: Layout, new: Layout) -> Iterator[Difference]:
+def _line(old: Model, new: Model) -> Iterator[Difference]:
     """What all messages share: the library, the ends, the link and the envelope of a frame."""
     was, now = old.spec, new.spec
     versions = was.protocol.version, now.protocol.version
     yield from _changed("version", "protocol.version", *versions)
     yield from _changed("library-renamed", "protocol.name", was.protocol.name, now.protocol.name)
-    for one, other in _renamed_ends(old, new).items():
+    ends = _renamed_ends(old, new)
+    for one, other in ends.items():
         yield from _changed("endpoint-renamed", f"endpoints.{other}", one, other)
+    client = ends.get(old.roles.client, old.roles.client)
+    yield from _changed("client-changed", "endpoints", client, new.roles.client)
     for name in ("baud", "data_bits", "parity", "stop_bits"):
         settings = getattr(was.link, name), getattr(now.link, name)
         yield from _changed("link", f"link.{name}", *settings)
@@ -135,7 +140,7 @@ def _hid(old: Link, new: Link) -> Iterator[Difference]:
     yield from (Difference("hid-removed", path, ids) for ids in was if ids not in now)
 
 
-def _messages(old: Layout, new: Layout) -> Iterator[Difference]:
+def _messages(old: Model, new: Model) -> Iterator[Difference]:
     ends = _renamed_ends(old, new)
     names = _renamed(
         {name: _identity(message, ends) for name, message in old.messages.items()},
@@ -157,17 +162,13 @@ def _messages(old: Layout, new: Layout) -> Iterator[Difference]:
         yield from _changed("message-reply", f"{path}.reply", reply, message.message.reply)
         yield from _fields(f"{path}.fields", was.numbers, message.numbers, message)
         yield from _list(f"{path}.fields", was.repeat, message.repeat)
-        if was.direction == sent_by_client(old.spec) and _is_sent(new, message):
+        if was.direction == old.roles.sent and message.direction == new.roles.sent:
             yield from _method(f"{path}.method", was, message)
             yield from _result(path, was, message, names)
         yield from _told(path, was.message, message.message)
     for name, message in before.items():
         if name not in new.messages:
             yield Difference("message-removed", f"messages.{message.name}", message.name)
-
-
-def _is_sent(layout: Layout, message: MessageLayout) -> bool:
-    return message.direction == sent_by_client(layout.spec)
 
 
 def _method(path: str, old: MessageLayout, new: MessageLayout) -> Iterator[Difference]:
@@ -350,7 +351,7 @@ def _prose(message: Message) -> dict[object, object]:
     return said
 
 
-def _said_of_all(old: Layout, new: Layout) -> Iterator[Difference]:
+def _said_of_all(old: Model, new: Model) -> Iterator[Difference]:
     """What is said of no message alone."""
     was, now = (
         {
@@ -393,7 +394,7 @@ def _renamed_fields(old: tuple[WireField, ...], new: tuple[WireField, ...]) -> d
     return _renamed(*places)
 
 
-def _renamed_ends(old: Layout, new: Layout) -> dict[str, str]:
+def _renamed_ends(old: Model, new: Model) -> dict[str, str]:
     places = ({name: at for at, name in enumerate(each.spec.endpoints)} for each in (old, new))
     return _renamed(*places)
 

@@ -17,7 +17,8 @@ if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
 
     from framegen.language.values import Direction
-    from framegen.model.layout import Layout, MessageLayout, WireField
+    from framegen.model.layout import MessageLayout, WireField
+    from framegen.model.model import Model
 
 # So many of the frames inside other bytes are told.
 _MOST_WITHIN = 8
@@ -84,24 +85,24 @@ class Explanation:
     hints: tuple[Hint, ...]
 
 
-def explain(layout: Layout, data: bytes, directions: Sequence[Direction]) -> Explanation:
+def explain(model: Model, data: bytes, directions: Sequence[Direction]) -> Explanation:
     """Explain `data` as one frame sent in any of `directions`."""
-    outcomes = [_outcome(layout, data, direction) for direction in directions]
+    outcomes = [_outcome(model, data, direction) for direction in directions]
     readings = tuple(outcome for outcome in outcomes if isinstance(outcome, Reading))
     refusals = [outcome for outcome in outcomes if isinstance(outcome, Refusal)]
     refusals.sort(key=_distance)
-    hints = () if readings else tuple(dict.fromkeys(_hints(layout, data, refusals)))
-    return Explanation(layout.spec.protocol.title, data, readings, tuple(refusals), hints)
+    hints = () if readings else tuple(dict.fromkeys(_hints(model, data, refusals)))
+    return Explanation(model.spec.protocol.title, data, readings, tuple(refusals), hints)
 
 
-def _outcome(layout: Layout, data: bytes, direction: Direction) -> Reading | Refusal:
-    rows = tuple(_rows(layout, direction, data))
+def _outcome(model: Model, data: bytes, direction: Direction) -> Reading | Refusal:
+    rows = tuple(_rows(model, direction, data))
     try:
-        message = decode(layout, direction, data).layout
+        message = decode(model, direction, data).layout
     except NotAFrame as error:
         right = tuple(row for row in rows if row.end <= error.offset)
         return Refusal(direction, error.reason, error.offset, error.expected, right)
-    facts = tuple(_facts(layout, message, data))
+    facts = tuple(_facts(model, message, data))
     return Reading(message.name, direction, message.message.summary, rows, facts)
 
 
@@ -110,22 +111,22 @@ def _distance(refusal: Refusal) -> tuple[bool, int]:
     return refusal.reason == UNKNOWN_COMMAND, -len(refusal.rows)
 
 
-def _rows(layout: Layout, direction: Direction, data: bytes) -> Iterator[Row]:
+def _rows(model: Model, direction: Direction, data: bytes) -> Iterator[Row]:
     """Name the bytes as far as they make sense: parts, then the fields of a known command."""
-    frame = layout.frame
+    frame = model.frame
     if len(data) < frame.body_at:
         message = None
     else:
-        message = layout.sent(direction).get(read_number(layout, data, frame.id_at, frame.id.size))
+        message = model.sent(direction).get(read_number(model, data, frame.id_at, frame.id.size))
     at = 0
-    for name, part in layout.spec.frame.items():
+    for name, part in model.spec.frame.items():
         if isinstance(part, BodyPart):
             continue
         size = part_size(part)
         piece = data[at : at + size]
         if len(piece) < size:
             return
-        value = None if isinstance(part, ConstantPart) else read_number(layout, data, at, size)
+        value = None if isinstance(part, ConstantPart) else read_number(model, data, at, size)
         meaning = part.about
         if isinstance(part, LengthPart) and message is not None:
             formula = message.formula
@@ -135,12 +136,12 @@ def _rows(layout: Layout, direction: Direction, data: bytes) -> Iterator[Row]:
         yield Row(at, piece, name, value, "" if value is None else str(value), meaning)
         at += size
     if message is not None:
-        yield from _field_rows(layout, message, data)
+        yield from _field_rows(model, message, data)
 
 
-def _field_rows(layout: Layout, message: MessageLayout, data: bytes) -> Iterator[Row]:
-    frame = layout.frame
-    length = read_number(layout, data, frame.length_at, frame.length.size)
+def _field_rows(model: Model, message: MessageLayout, data: bytes) -> Iterator[Row]:
+    frame = model.frame
+    length = read_number(model, data, frame.length_at, frame.length.size)
     if length not in message.lengths:
         return
     count = message.formula.count_at(length) or 0
@@ -148,7 +149,7 @@ def _field_rows(layout: Layout, message: MessageLayout, data: bytes) -> Iterator
         piece = data[offset : offset + field.wire.size]
         if len(piece) < field.wire.size:
             return
-        value = read_number(layout, data, offset, field.wire.size, signed=field.wire.low < 0)
+        value = read_number(model, data, offset, field.wire.size, signed=field.wire.low < 0)
         if not field.low <= value <= field.high or (message.counts_with(field) and value != count):
             return
         text, meaning = _said(field, value)
@@ -171,16 +172,16 @@ def _named(message: MessageLayout) -> str:
     return f"{message.name}, {vendor_name} to the vendor" if vendor_name else message.name
 
 
-def _facts(layout: Layout, message: MessageLayout, data: bytes) -> Iterator[tuple[str, str]]:
+def _facts(model: Model, message: MessageLayout, data: bytes) -> Iterator[tuple[str, str]]:
     said = message.message
     if said.deprecated:
         yield "deprecated", said.deprecated
-    kind = layout.kind(message.name)
+    kind = model.kind(message.name)
     if kind in ("command", "query"):
         yield "reply", said.reply or "none is due"
     if said.reports:
         yield "reported by", ", ".join(said.reports)
-    others = layout.spec.messages.items()
+    others = model.spec.messages.items()
     answers = [name for name, other in others if other.reply == message.name]
     if answers:
         yield "answers", ", ".join(answers)
@@ -191,34 +192,34 @@ def _facts(layout: Layout, message: MessageLayout, data: bytes) -> Iterator[tupl
         if example.hex == data:
             cite = "" if example.cite is None else f" ({example.cite})"
             yield "example", f"{example.title}{cite}"
-    source = layout.spec.sources.get(said.cite.source)
+    source = model.spec.sources.get(said.cite.source)
     yield "source", str(said.cite) if source is None else f"{said.cite} ({source.title})"
 
 
-def _hints(layout: Layout, data: bytes, refusals: Sequence[Refusal]) -> Iterator[Hint]:
+def _hints(model: Model, data: bytes, refusals: Sequence[Refusal]) -> Iterator[Hint]:
     """Guess what the bytes are instead."""
-    otherwise = _names(layout, layout.directions, data)
+    otherwise = _names(model, model.directions, data)
     if otherwise:
         yield Hint(f"sent the other way, they are {otherwise}")
         return
-    found = recognise(layout.spec, data)
+    found = recognise(model.spec, data)
     if found is not None and found.lookalike.frame is not None:
         title, about = found.lookalike.title, " ".join(found.lookalike.about.split())
         yield Hint(f"this looks like a frame of {_the(title)}. {about}")
-    within = list(_frames_within(layout, data))
+    within = list(_frames_within(model, data))
     if not within:
-        yield from _command_hints(layout, data, refusals)
-    yield from _length_hints(layout, data, refusals)
+        yield from _command_hints(model, data, refusals)
+    yield from _length_hints(model, data, refusals)
     yield from within
 
 
-def _command_hints(layout: Layout, data: bytes, refusals: Sequence[Refusal]) -> Iterator[Hint]:
+def _command_hints(model: Model, data: bytes, refusals: Sequence[Refusal]) -> Iterator[Hint]:
     """Say what an unknown command means elsewhere, or why it is kept free."""
-    spec = layout.spec
+    spec = model.spec
     unknown = [refusal for refusal in refusals if refusal.reason == UNKNOWN_COMMAND]
     if not unknown:
         return
-    code = read_number(layout, data, layout.frame.id_at, layout.frame.id.size)
+    code = read_number(model, data, model.frame.id_at, model.frame.id.size)
     for lookalike in spec.lookalikes.values():
         if lookalike.frame is None and code in lookalike.commands:
             yield Hint(f"in {_the(lookalike.title)}, {code} {lookalike.commands[code]}")
@@ -233,19 +234,19 @@ def _the(title: str) -> str:
     return f"the {title.removeprefix('The ')}"
 
 
-def _length_hints(layout: Layout, data: bytes, refusals: Sequence[Refusal]) -> Iterator[Hint]:
+def _length_hints(model: Model, data: bytes, refusals: Sequence[Refusal]) -> Iterator[Hint]:
     """Try the length that as many bytes should have."""
-    frame = layout.frame
+    frame = model.frame
     length = len(data) - frame.uncounted
     if length not in range(frame.length.high + 1) or len(data) < frame.body_at:
         return
     size = frame.length.size
     mended = (
         data[: frame.length_at]
-        + length.to_bytes(size, layout.spec.byte_order)
+        + length.to_bytes(size, model.spec.byte_order)
         + data[frame.length_at + size :]
     )
-    names = _names(layout, [refusal.direction for refusal in refusals], mended)
+    names = _names(model, [refusal.direction for refusal in refusals], mended)
     if names:
         yield Hint(
             f"{len(data)} bytes have a {frame.length_name} of {length}; with that they are {names}",
@@ -253,13 +254,13 @@ def _length_hints(layout: Layout, data: bytes, refusals: Sequence[Refusal]) -> I
         )
 
 
-def _frames_within(layout: Layout, data: bytes) -> Iterator[Hint]:
+def _frames_within(model: Model, data: bytes) -> Iterator[Hint]:
     """Look for whole frames among the bytes, from the first byte on."""
     found = at = 0
-    while at + layout.frame.body_at <= len(data):
-        size = _claimed_size(layout, data, at)
+    while at + model.frame.body_at <= len(data):
+        size = _claimed_size(model, data, at)
         piece = data[at : at + size]
-        names = _names(layout, layout.directions, piece)
+        names = _names(model, model.directions, piece)
         if not names:
             at += 1
             continue
@@ -271,23 +272,23 @@ def _frames_within(layout: Layout, data: bytes) -> Iterator[Hint]:
         at += size
 
 
-def _claimed_size(layout: Layout, data: bytes, at: int) -> int:
+def _claimed_size(model: Model, data: bytes, at: int) -> int:
     """Tell how many bytes a frame that begins at `at` says that it has."""
-    frame = layout.frame
-    return frame.uncounted + read_number(layout, data, at + frame.length_at, frame.length.size)
+    frame = model.frame
+    return frame.uncounted + read_number(model, data, at + frame.length_at, frame.length.size)
 
 
-def _names(layout: Layout, directions: Sequence[Direction], data: bytes) -> str:
+def _names(model: Model, directions: Sequence[Direction], data: bytes) -> str:
     """Name the messages that `data` is, one a direction at most; nothing where it is none."""
     return " or ".join(
         f"{name} ({direction})"
         for direction in directions
-        if (name := _name(layout, direction, data)) is not None
+        if (name := _name(model, direction, data)) is not None
     )
 
 
-def _name(layout: Layout, direction: Direction, data: bytes) -> str | None:
+def _name(model: Model, direction: Direction, data: bytes) -> str | None:
     try:
-        return decode(layout, direction, data).layout.name
+        return decode(model, direction, data).layout.name
     except NotAFrame:
         return None

@@ -5,13 +5,13 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from framegen.targets import docs, python, schema, vectors
+from framegen.targets.table import TARGETS
 
 if TYPE_CHECKING:
-    from framegen.model.layout import Layout
-    from framegen.reading.source import Source
+    from collections.abc import Iterable
 
-TARGETS = (docs, python, schema, vectors)
+    from framegen.compile import Compiled
+    from framegen.targets.target import Snippets, Target
 
 
 @dataclass(frozen=True, slots=True)
@@ -23,10 +23,16 @@ class Rendered:
     digest: str
 
 
-def render(source: Source, layout: Layout) -> Rendered:
-    """Everything that all targets make of a spec. Touches no disk."""
+def render(compiled: Compiled, targets: Iterable[Target] = TARGETS) -> Rendered:
+    """Everything that the targets make of a spec. Raises Unusable where it has findings."""
     files: dict[str, str] = {}
-    for target in TARGETS:
-        files |= target.render(source, layout)
-    folders = (f"generated/{layout.spec.protocol.name}", docs.FOLDER)
-    return Rendered(dict(sorted(files.items())), folders, source.digest)
+    folders: list[str] = []
+    for target in targets:
+        files |= target.render(compiled, snippets())
+        folders += target.folders(compiled.model)
+    return Rendered(dict(sorted(files.items())), tuple(folders), compiled.source.digest)
+
+
+def snippets() -> Snippets:
+    """How each target that is a language shows an example, by its name."""
+    return {target.name: target.snippet for target in TARGETS if target.snippet is not None}

@@ -24,7 +24,7 @@ def library(name: str, folder: Path) -> ModuleType:
     if name == "busservo":
         return import_module("busservo")
     site = reference(name)
-    for path, text in python.render(site.source, site.layout).items():
+    for path, text in python.render(site.compiled, {}).items():
         file = folder / path
         file.parent.mkdir(parents=True, exist_ok=True)
         file.write_text(text, encoding="utf-8")
@@ -37,7 +37,7 @@ def library(name: str, folder: Path) -> ModuleType:
 
 def vectors_of(site: Reference) -> dict[str, Any]:
     """The test vectors of a reference, as they are published."""
-    (text,) = vectors.render(site.source, site.layout).values()
+    (text,) = vectors.render(site.compiled, {}).values()
     document: dict[str, Any] = json.loads(text)
     return document
 
@@ -70,7 +70,7 @@ def noisy_lines(site: Reference, seed: int, number: int) -> list[bytes]:
     chance = random.Random(seed)  # noqa: S311 - the same noise in every run
     frames = [bytes.fromhex(each["hex"]) for each in vectors_of(site)["valid"]]
     frames = [frame for frame in frames if len(frame) < 60]
-    return [_line(chance, frames, site.layout.frame.header) for _ in range(number)]
+    return [_line(chance, frames, site.model.frame.header) for _ in range(number)]
 
 
 def _line(chance: random.Random, frames: list[bytes], header: bytes) -> bytes:

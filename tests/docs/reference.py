@@ -8,12 +8,16 @@ from dataclasses import dataclass, field
 from functools import cache
 from html.parser import HTMLParser
 from pathlib import Path, PurePosixPath
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
-from framegen.language.load import load, read_source
-from framegen.model.layout import Layout, derive
+from framegen.compile import Compiled, compile_spec
+from framegen.language.load import read_source
 from framegen.reading.source import Source
+from framegen.render import snippets
 from framegen.targets import docs
+
+if TYPE_CHECKING:
+    from framegen.model.model import Model
 
 ROOT = Path(__file__).parent.parent.parent
 SPECS = {
@@ -106,10 +110,19 @@ class Page(HTMLParser):
 class Reference:
     """All files of one reference, by their path below its root."""
 
-    source: Source
-    layout: Layout
+    compiled: Compiled
     files: dict[str, str]
     pages: dict[str, Page]
+
+    @property
+    def source(self) -> Source:
+        """The text of its spec."""
+        return self.compiled.source
+
+    @property
+    def model(self) -> Model:
+        """What follows from it."""
+        return self.compiled.model
 
     def markdown(self) -> dict[str, str]:
         """The files of the Markdown twin."""
@@ -118,15 +131,13 @@ class Reference:
 
 def reference_of(source: Source) -> Reference:
     """Render the reference of a spec that has no findings."""
-    spec = load(source).spec
-    assert spec is not None
-    layout = derive(spec)
+    compiled = compile_spec(source)
     files = {
         path.removeprefix(f"{docs.FOLDER}/"): text
-        for path, text in docs.render(source, layout).items()
+        for path, text in docs.render(compiled, snippets()).items()
     }
     pages = {path: Page(path, text) for path, text in files.items() if path.endswith(".html")}
-    return Reference(source, layout, files, pages)
+    return Reference(compiled, files, pages)
 
 
 def respelled(data: dict[str, Any]) -> Source:

@@ -199,7 +199,7 @@ def test_the_decoder_shows_frames_noise_and_unknown_frames(visit: Visit) -> None
 
 def test_noisy_streams_are_decoded_as_python_decodes_them(visit: Visit) -> None:
     tab = visit.open("decoder.html")
-    ways = [None, *(way.key for way in SITE.layout.directions)]
+    ways = [None, *(way.key for way in SITE.model.directions)]
     lines = [(line, way) for line in noisy_lines(SITE, 17, 400) for way in ways]
     answers = tab.evaluate(
         """(lines) => lines.map(([text, way]) => codec.decodeStream(parseHex(text), way).map(

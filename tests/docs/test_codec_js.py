@@ -40,7 +40,7 @@ const answers = questions.map(({ ask, hex: text, direction, message, fields }) =
 console.log(JSON.stringify(answers));
 """
 
-WAYS = {name: [way.key for way in reference(name).layout.directions] for name in SPECS}
+WAYS = {name: [way.key for way in reference(name).model.directions] for name in SPECS}
 
 
 def ask(name: str, questions: list[dict[str, Any]]) -> list[Any]:

@@ -5,8 +5,7 @@ import re
 from typing import Any
 
 import pytest
-from framegen.checks import check
-from framegen.language.load import load
+from framegen.compile import compile_spec
 from framegen.reading.yamltree import read_tree
 from framegen.targets.docs.escape import linked, script_json
 
@@ -56,7 +55,7 @@ def hostile(payload: str) -> Reference:
     # The field that it names has a unit of time, and no other text.
     del spoilt["messages"]["ServoMove"]["lasts"]
     source = respelled(spoilt)
-    assert [finding.rule for finding in check(load(source))] == []
+    assert [finding.rule for finding in compile_spec(source).findings] == []
     return reference_of(source)
 
 

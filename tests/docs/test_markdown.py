@@ -48,7 +48,7 @@ def test_tables_have_as_many_cells_in_every_row(name: str, path: str) -> None:
 @pytest.mark.parametrize("name", SPECS)
 def test_every_page_of_a_message_has_a_twin(name: str) -> None:
     site = reference(name)
-    for message in site.layout.messages.values():
+    for message in site.model.messages.values():
         text = site.files[f"messages/{message.name}.md"]
         assert text.count("\n# ") == 1
         assert markdown(message.message.summary) in text

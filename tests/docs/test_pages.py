@@ -13,7 +13,7 @@ from framegen.render import render
 from tests.docs.reference import ROOT, SPECS, Reference, reference, reference_of, respelled
 
 EVERY = [(name, path) for name in SPECS for path in reference(name).pages]
-MESSAGES = [(name, message) for name in SPECS for message in reference(name).layout.messages]
+MESSAGES = [(name, message) for name in SPECS for message in reference(name).model.messages]
 
 
 @pytest.fixture(params=SPECS)
@@ -64,7 +64,7 @@ def test_the_footer_pins_the_spec(name: str, path: str) -> None:
     site = reference(name)
     footer = site.pages[path].text.partition("<footer>")[2]
     assert site.source.digest in footer
-    assert f"spec version {site.layout.spec.protocol.version}" in footer
+    assert f"spec version {site.model.spec.protocol.version}" in footer
 
 
 def test_what_runs_is_what_the_policy_of_the_page_allows(site: Reference) -> None:
@@ -96,8 +96,8 @@ def test_style_and_scripts_keep_within_their_bounds() -> None:
 @pytest.mark.parametrize(("name", "message"), MESSAGES)
 def test_a_message_has_a_page_with_all_that_the_spec_says(name: str, message: str) -> None:
     site = reference(name)
-    layout = site.layout.messages[message]
-    said, spec = layout.message, site.layout.spec
+    layout = site.model.messages[message]
+    said, spec = layout.message, site.model.spec
     page = site.pages[f"messages/{message}.html"]
     words = " ".join(page.words.split())
     for text in [
@@ -121,7 +121,7 @@ def test_a_message_has_a_page_with_all_that_the_spec_says(name: str, message: st
 @pytest.mark.parametrize(("name", "message"), MESSAGES)
 def test_every_field_has_an_anchor_and_what_the_spec_says_of_it(name: str, message: str) -> None:
     site = reference(name)
-    layout = site.layout.messages[message]
+    layout = site.model.messages[message]
     page = site.pages[f"messages/{message}.html"]
     words = " ".join(page.words.split())
     repeat = layout.repeat
@@ -165,7 +165,7 @@ def test_every_example_is_there_twice_and_can_be_copied(name: str, message: str)
     for path in (f"messages/{message}.html", "examples.html"):
         page = site.pages[path]
         copied = [given["data-copy"] for tag, given in page.tags if tag == "button"]
-        for example in site.layout.messages[message].message.examples:
+        for example in site.model.messages[message].message.examples:
             assert example.title in page.words
             assert to_hex(example.hex) in copied
             assert f'bytes.fromhex("{to_hex(example.hex)}")' in copied
@@ -188,7 +188,7 @@ def test_requests_and_replies_are_paired() -> None:
     assert places == sorted(places)
 
 
-@pytest.mark.parametrize("message", reference("busservo").layout.messages)
+@pytest.mark.parametrize("message", reference("busservo").model.messages)
 def test_the_python_of_a_message_runs(message: str) -> None:
     site = reference("busservo")
     (snippet,) = site.pages[f"messages/{message}.html"].python
@@ -202,7 +202,7 @@ def test_the_python_of_a_message_runs(message: str) -> None:
     assert done.returncode == 0, done.stderr
     promised = [line.partition("# ")[2] for line in snippet.splitlines() if "# " in line]
     assert [line for line in promised if line not in done.stdout.splitlines()] == []
-    receives = site.layout.messages[message].direction.sender != "host"
+    receives = site.model.messages[message].direction.sender != "host"
     assert bool(done.stdout) == receives
     assert f"```python\n{snippet}```" in site.files[f"messages/{message}.md"]
 
@@ -213,12 +213,12 @@ def test_the_python_of_a_message_runs(message: str) -> None:
 def test_the_index_lists_every_message_by_code(site: Reference) -> None:
     rows = [given for tag, given in site.pages["index.html"].tags if tag == "tr" and given]
     found = [(row["data-codes"].split()[0], row["data-words"].split()[0]) for row in rows]
-    messages = sorted(site.layout.messages.values(), key=lambda message: message.id)
+    messages = sorted(site.model.messages.values(), key=lambda message: message.id)
     assert found == [(str(message.id), message.name.lower()) for message in messages]
 
 
 def test_errata_look_alikes_and_history_are_told(site: Reference) -> None:
-    spec = site.layout.spec
+    spec = site.model.spec
     errata = " ".join(site.pages["errata.html"].words.split())
     for erratum in spec.errata:
         for text in (erratum.title, erratum.here, erratum.why):
@@ -252,25 +252,25 @@ def test_the_data_of_the_decoder_is_the_layout(site: Reference) -> None:
         for given, text in site.pages["decoder.html"].scripts
         if given.get("type") == "application/json"
     ]
-    assert [message["name"] for message in data["messages"]] == list(site.layout.messages)
+    assert [message["name"] for message in data["messages"]] == list(site.model.messages)
     for message in data["messages"]:
-        layout = site.layout.messages[message["name"]]
+        layout = site.model.messages[message["name"]]
         lengths = message["lengths"]
         assert range(lengths["first"], lengths["last"] + 1, lengths["step"]) == layout.lengths
 
 
 def test_a_spec_with_nothing_optional_has_a_reference() -> None:
     data = read_tree(reference("busservo").source)[0].data
-    for key in ("errata", "unknowns", "lookalikes", "reserved", "history"):
+    for key in ("errata", "unknowns", "lookalikes", "reserved", "history", "pose"):
         del data[key]
+    needless = ("description", "vendor_name", "reply", "reports", "echoed", "acknowledged")
     for message in data["messages"].values():
-        for key in ("description", "vendor_name", "examples", "reply", "reports"):
+        for key in (*needless, "method", "lasts"):
             message.pop(key, None)
     site = reference_of(respelled(data))
     assert "No errata are known." in site.pages["errata.html"].words
     assert "No look-alikes are known." in site.pages["lookalikes.html"].words
     assert "Kept free" not in site.pages["index.html"].words
-    assert site.pages["messages/ServoMove.html"].python == []
     assert all(text.endswith("\n") for text in site.files.values())
 
 
@@ -280,7 +280,7 @@ def test_rendering_twice_gives_the_same_and_needs_no_folder(
 ) -> None:
     site = reference(name)
     monkeypatch.chdir(tmp_path)
-    first, second = (render(site.source, site.layout) for _ in range(2))
+    first, second = (render(site.compiled) for _ in range(2))
     assert first == second
     assert list(tmp_path.iterdir()) == []
     assert "docs/reference" in first.folders

@@ -3,7 +3,7 @@
 from pathlib import Path
 
 import pytest
-from framegen.model.layout import derive
+from framegen.model.model import derive
 from framegen.targets.docs.drawing import interruption
 from framegen.targets.docs.lessons import lessons
 from framegen.targets.docs.walk import Walk, walk
@@ -11,9 +11,9 @@ from framegen.targets.vectors import _spoilt
 
 from tests.docs.peers import Event, library, noisy_lines, python_events
 from tests.docs.reference import SPECS, reference
-from tests.specimens import DEMO, data_of, layout_of, loaded_of
+from tests.specimens import DEMO, compiled_of, data_of, layout_of
 
-BUSSERVO = reference("busservo").layout
+BUSSERVO = reference("busservo").model
 
 
 def events_of(shown: Walk) -> list[Event]:
@@ -28,7 +28,7 @@ def events_of(shown: Walk) -> list[Event]:
 @pytest.mark.parametrize("name", SPECS)
 def test_what_is_shown_is_what_the_library_gives(name: str, tmp_path: Path) -> None:
     module = library(name, tmp_path)
-    shown = lessons(reference(name).layout)
+    shown = lessons(reference(name).model)
     assert len(shown) >= 3
     for lesson in shown:
         way = lesson.walk.direction.key
@@ -44,7 +44,7 @@ def test_the_reference_shows_every_way_to_refuse_that_noise_meets() -> None:
 
 @pytest.mark.parametrize("name", SPECS)
 def test_no_byte_is_lost_and_every_step_shows_bytes_of_the_line(name: str) -> None:
-    layout = reference(name).layout
+    layout = reference(name).model
     for line in noisy_lines(reference(name), 4, 200):
         shown = walk(layout, layout.directions[0], line)
         assert b"".join(event.data for event in shown.events) == line
@@ -78,7 +78,7 @@ def test_where_every_code_has_a_meaning_no_lesson_is_about_one_that_has_none() -
     for code in set(range(256)) - {each["id"] for each in sent}:
         name = f"Code{chr(65 + code // 26)}{chr(97 + code % 26)}"
         data["messages"][name] = {**plain, "id": code, "examples": []}
-    spec = loaded_of(data).spec
+    spec = compiled_of(data).read
     assert spec is not None
     layout = derive(spec)
     assert "unknown" not in [lesson.id for lesson in lessons(layout)]
@@ -98,7 +98,7 @@ def test_a_report_comes_between_a_request_and_its_reply_only_from_the_same_end()
     ]
     # Without that report, nothing that the station sends is one.
     del data["messages"]["VentJammed"], data["messages"]["VentsOpen"]["reports"]
-    spec = loaded_of(data).spec
+    spec = compiled_of(data).read
     assert spec is not None
     assert interruption(derive(spec)) is None
 
@@ -111,7 +111,7 @@ def test_a_list_whose_example_is_empty_takes_no_lesson_away() -> None:
         "hex": "C3 5A A5 10 00 03 00 00 00",
         "values": {"ramp_s": 0, "vents": []},
     }
-    spec = loaded_of(data).spec
+    spec = compiled_of(data).read
     assert spec is not None
     told = lessons(derive(spec))
     assert [each.id for each in told] == [each.id for each in lessons(layout_of(data_of(DEMO)))]
@@ -121,6 +121,6 @@ def test_a_list_whose_example_is_empty_takes_no_lesson_away() -> None:
 def test_a_report_of_another_end_comes_between_no_request_and_its_reply() -> None:
     data = data_of(DEMO)
     data["messages"]["VentJammed"]["direction"] = "display -> gateway"
-    spec = loaded_of(data).spec
+    spec = compiled_of(data).read
     assert spec is not None
     assert interruption(derive(spec)) is None

@@ -4,12 +4,10 @@ import re
 from typing import get_args
 
 import pytest
-from framegen.checks import check
+from framegen.compile import compile_spec
 from framegen.explain import explain
 from framegen.language import spec
-from framegen.language.load import load
 from framegen.language.wiretypes import WIRE_TYPES
-from framegen.model.layout import derive
 from framegen.reading.source import Source
 from framegen.render import render
 from pydantic import BaseModel
@@ -34,13 +32,12 @@ KEYS = sorted(
 
 
 def test_the_example_is_a_spec_without_findings() -> None:
-    assert [finding.render(SPEC) for finding in check(load(SPEC))] == []
+    assert [finding.render(SPEC) for finding in compile_spec(SPEC).findings] == []
 
 
 def test_everything_can_be_generated_from_it() -> None:
-    loaded = load(SPEC)
-    assert loaded.spec is not None
-    files = render(SPEC, derive(loaded.spec)).files
+    compiled = compile_spec(SPEC)
+    files = render(compiled).files
     assert "generated/kiln/messages.py" in files
     assert "docs/reference/messages/ProgramRun.html" in files
 
@@ -67,9 +64,8 @@ def test_every_type_and_every_choice_is_named() -> None:
 
 
 def test_the_frame_that_the_guide_explains_is_one() -> None:
-    loaded = load(SPEC)
-    assert loaded.spec is not None
-    layout = derive(loaded.spec)
+    compiled = compile_spec(SPEC)
+    layout = compiled.model
     (line,) = [line for line in GUIDE.splitlines() if "framegen explain" in line and "AA" in line]
     data = bytes.fromhex(line.partition("kiln.yaml ")[2].partition("`")[0])
     assert explain(layout, data, layout.directions).readings

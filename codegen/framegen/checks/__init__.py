@@ -1,4 +1,4 @@
-"""The rules that a spec must keep, one file each, and `check`, which looks for all of them."""
+"""The rules that a spec must keep, one file each, and what looks for all of them."""
 
 from __future__ import annotations
 
@@ -15,6 +15,7 @@ from framegen.checks import (
     duplicate_name,
     echoed,
     empty_group,
+    endpoints,
     erratum,
     example,
     example_origin,
@@ -46,17 +47,18 @@ from framegen.checks import (
     value_range,
 )
 from framegen.checks.reading import READING_RULES
-from framegen.model.layout import derive
-from framegen.reading.findings import in_order
 
 if TYPE_CHECKING:
-    from framegen.checks.rule import LayoutRule, StructureRule
-    from framegen.language.load import Loaded
+    from framegen.checks.rule import AnyRule, ModelRule, StructureRule
+    from framegen.language.spec import Spec
+    from framegen.model.model import Model
     from framegen.reading.findings import Finding
+    from framegen.reading.yamltree import Tree
 
 STRUCTURE_RULES: tuple[StructureRule, ...] = (
     unknown_type.RULE,
     frame_parts.RULE,
+    endpoints.RULE,
     no_message.RULE,
     identifier.RULE,
     duplicate_name.RULE,
@@ -71,23 +73,27 @@ STRUCTURE_RULES: tuple[StructureRule, ...] = (
     count_bounds.RULE,
     frame_too_long.RULE,
     value_range.RULE,
-    limits.RULE,
     signed_as.RULE,
     named_value.RULE,
     absent.RULE,
     reply.RULE,
     echoed.RULE,
     acknowledged.RULE,
-    lasts.RULE,
-    method.RULE,
-    pose.RULE,
     example_origin.RULE,
     unknown_source.RULE,
     history.RULE,
     hid_board.RULE,
     lookalike_frame.RULE,
 )
-LAYOUT_RULES: tuple[LayoutRule, ...] = (
+# Looked for only where all of the above hold: what follows is known then.
+MODEL_RULES: tuple[ModelRule, ...] = (
+    limits.RULE,
+    lasts.RULE,
+    method.RULE,
+    pose.RULE,
+)
+# And these where all of the above hold: what the spec and its documents say of what follows.
+EVIDENCE_RULES: tuple[ModelRule, ...] = (
     length_rule.RULE,
     example.RULE,
     no_example.RULE,
@@ -97,26 +103,25 @@ LAYOUT_RULES: tuple[LayoutRule, ...] = (
     erratum.RULE,
     lookalike_example.RULE,
 )
+RULES: tuple[AnyRule, ...] = (
+    *READING_RULES,
+    *STRUCTURE_RULES,
+    *MODEL_RULES,
+    *EVIDENCE_RULES,
+)
 
-__all__ = ["LAYOUT_RULES", "READING_RULES", "STRUCTURE_RULES", "check"]
+
+def check_structure(spec: Spec, tree: Tree) -> list[Finding]:
+    """Say what can be said against a spec as it is written; without any of it, a model follows."""
+    return [
+        problem.finding(rule.id, tree) for rule in STRUCTURE_RULES for problem in rule.look(spec)
+    ]
 
 
-def check(loaded: Loaded) -> list[Finding]:
-    """Say everything that can be said against a spec, from the top of the file down."""
-    findings = list(loaded.findings)
-    spec = loaded.spec
-    if spec is not None:
-        structure = [
-            problem.finding(rule.id, loaded.tree)
-            for rule in STRUCTURE_RULES
-            for problem in rule.look(spec)
-        ]
-        findings += structure
-        if not structure:
-            layout = derive(spec)
-            findings += [
-                problem.finding(rule.id, loaded.tree)
-                for rule in LAYOUT_RULES
-                for problem in rule.look(layout)
-            ]
-    return in_order(findings)
+def check_model(model: Model, tree: Tree) -> list[Finding]:
+    """Say what can be said against what follows from a spec, causes before what they lead to."""
+    for rules in (MODEL_RULES, EVIDENCE_RULES):
+        found = [problem.finding(rule.id, tree) for rule in rules for problem in rule.look(model)]
+        if found:
+            return found
+    return []

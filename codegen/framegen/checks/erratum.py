@@ -4,20 +4,20 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from framegen.checks.rule import LayoutRule, Problem
+from framegen.checks.rule import ModelRule, Problem
 from framegen.model.codec import NotAFrame
 from framegen.model.facts import Fact, NoSuchFact, look_up
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from framegen.model.layout import Layout
+    from framegen.model.model import Model
 
 
-def _look(layout: Layout) -> Iterator[Problem]:
-    for index, erratum in enumerate(layout.spec.errata):
+def _look(model: Model) -> Iterator[Problem]:
+    for index, erratum in enumerate(model.spec.errata):
         try:
-            fact = look_up(layout, erratum.concerns)
+            fact = look_up(model, erratum.concerns)
         except (NoSuchFact, NotAFrame):
             # The rules `unknown-fact` and `example` speak of these.
             continue
@@ -34,7 +34,7 @@ def _look(layout: Layout) -> Iterator[Problem]:
             yield Problem(("errata", index, "bytes"), f"this spec says `{fact}`, not `{said}`")
 
 
-RULE = LayoutRule(
+RULE = ModelRule(
     id="erratum",
     title="Every erratum still tells a difference between the document and the frames",
     why="An erratum is a claim about bytes, and is held to them like an example. Once the spec "

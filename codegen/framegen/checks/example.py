@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from framegen.checks.rule import LayoutRule, Problem
+from framegen.checks.rule import ModelRule, Problem
 from framegen.language.values import to_hex
 from framegen.model.codec import NotAFrame, decode, encode
 
@@ -12,22 +12,23 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from framegen.language.spec import Example
-    from framegen.model.layout import Layout, MessageLayout
+    from framegen.model.layout import MessageLayout
+    from framegen.model.model import Model
     from framegen.reading.yamltree import KeyPath
 
 
-def _look(layout: Layout) -> Iterator[Problem]:
-    for name, message in layout.messages.items():
+def _look(model: Model) -> Iterator[Problem]:
+    for name, message in model.messages.items():
         for index, example in enumerate(message.message.examples):
             path = ("messages", name, "examples", index)
-            yield from _executed(layout, message, example, path)
+            yield from _executed(model, message, example, path)
 
 
 def _executed(
-    layout: Layout, message: MessageLayout, example: Example, path: KeyPath
+    model: Model, message: MessageLayout, example: Example, path: KeyPath
 ) -> Iterator[Problem]:
     try:
-        decoded = decode(layout, message.direction, example.hex)
+        decoded = decode(model, message.direction, example.hex)
     except NotAFrame as error:
         yield Problem((*path, "hex"), f"this is no frame of {message.name}: {error}")
         return
@@ -38,7 +39,7 @@ def _executed(
         return
     differences = list(_differences((*path, "values"), decoded.values, example.values, message))
     yield from differences
-    again = encode(layout, message, decoded.values)
+    again = encode(model, message, decoded.values)
     if again != example.hex:
         yield Problem((*path, "hex"), f"its values encode to {to_hex(again)}, which is not this")
 
@@ -72,7 +73,7 @@ def _shown(value: object) -> str:
     return text if len(text) <= 40 else text[:40] + "..."
 
 
-RULE = LayoutRule(
+RULE = ModelRule(
     id="example",
     title="Every example decodes to its values, and they encode to it",
     why="Examples are the evidence for everything else: a layout that does not read them is wrong, "

@@ -4,34 +4,35 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from framegen.checks.rule import Problem, StructureRule
+from framegen.checks.rule import ModelRule, Problem
 from framegen.language.spec import NumberField
 from framegen.language.wiretypes import WIRE_TYPES
-from framegen.model.exchanges import STEPS_PER_SECOND, arguments_of, sent_by_client
+from framegen.model.exchanges import STEPS_PER_SECOND, arguments_of
 from framegen.reading.findings import did_you_mean
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from framegen.language.spec import Message, Spec
+    from framegen.language.spec import Message
+    from framegen.language.values import Direction
+    from framegen.model.model import Model
 
 # What a client adds to the arguments of the method.
 _ADDED = "latest"
 _UNITS = " or ".join(f"`unit: {unit}`" for unit in reversed(STEPS_PER_SECOND))
 
 
-def _look(spec: Spec) -> Iterator[Problem]:
-    for name, message in spec.messages.items():
+def _look(model: Model) -> Iterator[Problem]:
+    for name, message in model.spec.messages.items():
         if message.lasts is None:
             continue
-        found = _misuse(name, message, spec) or _no_time(name, message, message.lasts)
+        found = _misuse(name, message, model.roles.sent) or _no_time(name, message, message.lasts)
         if found is not None:
             yield Problem(("messages", name, "lasts"), *found)
 
 
-def _misuse(name: str, message: Message, spec: Spec) -> tuple[str, str] | None:
+def _misuse(name: str, message: Message, sent: Direction) -> tuple[str, str] | None:
     """What keeps the message from starting anything that a client could wait for."""
-    sent = sent_by_client(spec)
     if message.direction != sent:
         what = f"{name} goes {message.direction}, and a client sends {sent}"
         return what, "only what a client sends can be waited for"
@@ -69,7 +70,7 @@ def _is_time(message: Message, name: str) -> bool:
     return field.unit in STEPS_PER_SECOND
 
 
-RULE = StructureRule(
+RULE = ModelRule(
     id="lasts",
     title="How long something goes on is a time that the message gives",
     why="A client adds it to the moment at which the message has left, and waits until then: what "

@@ -4,16 +4,17 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from framegen.checks.rule import LayoutRule, Problem
+from framegen.checks.rule import ModelRule, Problem
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from framegen.model.layout import Layout, MessageLayout
+    from framegen.model.layout import MessageLayout
+    from framegen.model.model import Model
 
 
-def _look(layout: Layout) -> Iterator[Problem]:
-    for message in layout.messages.values():
+def _look(model: Model) -> Iterator[Problem]:
+    for message in model.messages.values():
         fault = _fault(message)
         if fault is not None:
             path = ("messages", message.name, "length")
@@ -37,7 +38,7 @@ def _fault(message: MessageLayout) -> str | None:
     return None
 
 
-RULE = LayoutRule(
+RULE = ModelRule(
     id="length-rule",
     title="The length rule of a message is the length of its fields, for every legal count",
     why="The rule is what the document says, the fields are what the code does. Where the two "

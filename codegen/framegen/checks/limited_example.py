@@ -4,21 +4,21 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from framegen.checks.rule import LayoutRule, Problem
+from framegen.checks.rule import ModelRule, Problem
 from framegen.model.codec import NotAFrame, decode
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from framegen.language.spec import Limits
-    from framegen.model.layout import Layout
+    from framegen.model.model import Model
 
 
-def _look(layout: Layout) -> Iterator[Problem]:
-    for name, message in layout.messages.items():
+def _look(model: Model) -> Iterator[Problem]:
+    for name, message in model.messages.items():
         for number, example in enumerate(message.message.examples if message.limited else ()):
             try:
-                values = decode(layout, message.direction, example.hex).values
+                values = decode(model, message.direction, example.hex).values
             except NotAFrame:
                 # The rule `example` speaks of it.
                 continue
@@ -38,7 +38,7 @@ def _inside(limits: Limits, value: int) -> bool:
     return any(each.low <= value <= (each.high or 0) for each in ranges)
 
 
-RULE = LayoutRule(
+RULE = ModelRule(
     id="limited-example",
     title="What an example sends is inside the limits of one device or another",
     why="A frame that was published for a device is one that it takes: limits that refuse it are "

@@ -5,26 +5,26 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from framegen.checks.fields import numbers_of
-from framegen.checks.rule import Problem, StructureRule
+from framegen.checks.rule import ModelRule, Problem
 from framegen.language.wiretypes import WIRE_TYPES
-from framegen.model.exchanges import sent_by_client
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from framegen.language.spec import Limits, NumberField, Spec
+    from framegen.language.spec import Limits, NumberField
     from framegen.language.values import Range
+    from framegen.model.model import Model
     from framegen.reading.yamltree import KeyPath
 
 
-def _look(spec: Spec) -> Iterator[Problem]:
+def _look(model: Model) -> Iterator[Problem]:
     first: tuple[KeyPath, Limits] | None = None
-    for name, message in spec.messages.items():
+    for name, message in model.spec.messages.items():
         for path, field in numbers_of(("messages", name), message):
             if field.limits is None:
                 continue
             here = (*path, "limits")
-            if message.direction != sent_by_client(spec):
+            if message.direction != model.roles.sent:
                 what = f"{name} is no message of a client's, which has nothing to refuse in it"
                 yield Problem(here, what, "leave the limits out", on_key=True)
                 continue
@@ -59,7 +59,7 @@ def _bounds(path: KeyPath, range_: Range, field: NumberField) -> Iterator[Proble
             yield Problem(path, what, "keep the limits inside the range of the field")
 
 
-RULE = StructureRule(
+RULE = ModelRule(
     id="limits",
     title="Limits are values that the field can have, the same wherever a client has them",
     why="A client refuses what is outside: by limits that no frame can reach it refuses nothing, "

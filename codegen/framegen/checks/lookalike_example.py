@@ -4,20 +4,20 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from framegen.checks.rule import LayoutRule, Problem
+from framegen.checks.rule import ModelRule, Problem
 from framegen.model.lookalikes import recognise
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from framegen.model.layout import Layout
+    from framegen.model.model import Model
 
 
-def _look(layout: Layout) -> Iterator[Problem]:
-    for name, lookalike in layout.spec.lookalikes.items():
+def _look(model: Model) -> Iterator[Problem]:
+    for name, lookalike in model.spec.lookalikes.items():
         for index, example in enumerate(lookalike.examples):
             path = ("lookalikes", name, "examples", index, "hex")
-            found = recognise(layout.spec, example.hex)
+            found = recognise(model.spec, example.hex)
             if found is None:
                 text = f"this is no frame of {lookalike.title}"
                 yield Problem(path, text, "check its length, its checksum and its codes")
@@ -25,7 +25,7 @@ def _look(layout: Layout) -> Iterator[Problem]:
                 yield Problem(path, f"this is a frame of {found.lookalike.title}")
 
 
-RULE = LayoutRule(
+RULE = ModelRule(
     id="lookalike-example",
     title="Every example of a look-alike is recognised as one",
     why="People paste such frames to learn why nothing answers them: they must be told.",

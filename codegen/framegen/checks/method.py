@@ -5,8 +5,8 @@ from __future__ import annotations
 import re
 from typing import TYPE_CHECKING
 
-from framegen.checks.rule import Problem, StructureRule
-from framegen.model.exchanges import arguments_of, method_of, sent_by_client
+from framegen.checks.rule import ModelRule, Problem
+from framegen.model.exchanges import arguments_of, method_of
 from framegen.names import CLIENT_ATTRIBUTES, PYTHON_KEYWORDS
 from framegen.reading.findings import did_you_mean
 
@@ -14,15 +14,14 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from framegen.language.spec import Message, Spec
+    from framegen.model.model import Model
     from framegen.reading.yamltree import KeyPath
 
 _SNAKE = re.compile(r"[a-z][a-z0-9]*(?:_[a-z0-9]+)*")
 
 
-def _look(spec: Spec) -> Iterator[Problem]:
-    if not spec.messages:
-        return
-    sent = sent_by_client(spec)
+def _look(model: Model) -> Iterator[Problem]:
+    spec, sent = model.spec, model.roles.sent
     first: dict[str, KeyPath] = {}
     for name, message in spec.messages.items():
         declared = message.method is not None
@@ -88,7 +87,7 @@ def _result(path: KeyPath, name: str, message: Message, spec: Spec) -> Iterator[
         yield Problem(path, what, did_you_mean(result, known))
 
 
-RULE = StructureRule(
+RULE = ModelRule(
     id="method",
     title="Every message that a client sends can be a method of it",
     why="A client has one method for each message, with the fields as arguments: a name that is "

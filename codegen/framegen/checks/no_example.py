@@ -4,16 +4,16 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from framegen.checks.rule import LayoutRule, Problem
+from framegen.checks.rule import ModelRule, Problem
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from framegen.model.layout import Layout
+    from framegen.model.model import Model
 
 
-def _look(layout: Layout) -> Iterator[Problem]:
-    for name, message in layout.messages.items():
+def _look(model: Model) -> Iterator[Problem]:
+    for name, message in model.messages.items():
         if not message.message.examples:
             yield Problem(
                 ("messages", name),
@@ -23,7 +23,7 @@ def _look(layout: Layout) -> Iterator[Problem]:
             )
 
 
-RULE = LayoutRule(
+RULE = ModelRule(
     id="no-example",
     title="Every message has an example",
     why="Without a frame to try it on, nothing shows that the layout of a message is right.",

@@ -4,22 +4,24 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from framegen.checks.rule import Problem, StructureRule
+from framegen.checks.rule import ModelRule, Problem
 from framegen.language.spec import GroupField, NumberField
 from framegen.language.wiretypes import WIRE_TYPES
-from framegen.model.exchanges import arguments_of, sent_by_client
+from framegen.model.exchanges import arguments_of
 from framegen.reading.findings import did_you_mean
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from framegen.language.spec import Message, Pose, Spec
+    from framegen.model.model import Model
 
 
-def _look(spec: Spec) -> Iterator[Problem]:
-    if spec.pose is None or not spec.messages:
+def _look(model: Model) -> Iterator[Problem]:
+    spec = model.spec
+    if spec.pose is None:
         return
-    found = list(_messages(spec, spec.pose))
+    found = list(_messages(model, spec.pose))
     yield from found
     if found:
         return
@@ -40,12 +42,12 @@ def _look(spec: Spec) -> Iterator[Problem]:
         yield Problem(("pose", "release"), what, f"{spec.pose.read} is given `{asked}`")
 
 
-def _messages(spec: Spec, pose: Pose) -> Iterator[Problem]:
-    sent = [name for name, each in spec.messages.items() if each.direction == sent_by_client(spec)]
+def _messages(model: Model, pose: Pose) -> Iterator[Problem]:
+    sent = [message.name for message in model.sent(model.roles.sent).values()]
     for key in ("read", "move", "release"):
         name: str = getattr(pose, key)
         if name not in sent:
-            there = "is no message of a client's" if name in spec.messages else "is no message"
+            there = "is no message of a client's" if name in model.messages else "is no message"
             yield Problem(("pose", key), f"`{name}` {there}", did_you_mean(name, sent))
     if pose.release == pose.read:
         what = f"{pose.read} asks for positions, and cannot let go of them as well"
@@ -96,7 +98,7 @@ def _move(name: str, move: Message, told: list[str]) -> Iterator[Problem]:
         yield Problem(("pose", "move"), what, "it has to be the milliseconds that the motion takes")
 
 
-RULE = StructureRule(
+RULE = ModelRule(
     id="pose",
     title="Positions are read, commanded and let go by messages that speak of the same things",
     why="A client holds what it has read, and plays what was recorded: the numbers of a reply have "

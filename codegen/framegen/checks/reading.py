@@ -16,8 +16,8 @@ READING_RULES: tuple[ReadingRule, ...] = (
         id="yaml-document",
         title="A file holds one spec",
         why="What stands after a `---` would be read by some programs and not by others.",
-        bad="framegen: 1\n---\nframegen: 1",
-        good="framegen: 1",
+        bad="framegen: 2\n---\nframegen: 1",
+        good="framegen: 2",
     ),
     ReadingRule(
         id="yaml-duplicate-key",

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, TypeAlias
 
 from framegen.reading.findings import Finding, Related
 from framegen.reading.yamltree import dotted
@@ -12,7 +12,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
 
     from framegen.language.spec import Spec
-    from framegen.model.layout import Layout
+    from framegen.model.model import Model
     from framegen.reading.yamltree import KeyPath, Tree
 
 
@@ -35,7 +35,7 @@ class Problem:
 
 @dataclass(frozen=True, slots=True)
 class StructureRule:
-    """A rule about the spec as written. The layout is derived only once all of these hold."""
+    """A rule about the spec as written. The model is derived only once all of these hold."""
 
     id: str
     title: str
@@ -46,7 +46,7 @@ class StructureRule:
 
 
 @dataclass(frozen=True, slots=True)
-class LayoutRule:
+class ModelRule:
     """A rule about what follows from the spec."""
 
     id: str
@@ -54,7 +54,7 @@ class LayoutRule:
     why: str
     bad: str
     good: str
-    look: Callable[[Layout], Iterator[Problem]]
+    look: Callable[[Model], Iterator[Problem]]
 
 
 @dataclass(frozen=True, slots=True)
@@ -66,3 +66,6 @@ class ReadingRule:
     why: str
     bad: str
     good: str
+
+
+AnyRule: TypeAlias = ReadingRule | StructureRule | ModelRule

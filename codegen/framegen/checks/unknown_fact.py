@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from framegen.checks.rule import LayoutRule, Problem
+from framegen.checks.rule import ModelRule, Problem
 from framegen.model.codec import NotAFrame
 from framegen.model.facts import NoSuchFact, look_up
 
@@ -12,24 +12,24 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from framegen.language.spec import Concern
-    from framegen.model.layout import Layout
+    from framegen.model.model import Model
     from framegen.reading.yamltree import KeyPath
 
 
-def _look(layout: Layout) -> Iterator[Problem]:
-    for index, erratum in enumerate(layout.spec.errata):
+def _look(model: Model) -> Iterator[Problem]:
+    for index, erratum in enumerate(model.spec.errata):
         path = ("errata", index, "concerns")
-        yield from _missing(layout, path, erratum.concerns, needs_value=True)
-    for index, unknown in enumerate(layout.spec.unknowns):
+        yield from _missing(model, path, erratum.concerns, needs_value=True)
+    for index, unknown in enumerate(model.spec.unknowns):
         path = ("unknowns", index, "concerns")
-        yield from _missing(layout, path, unknown.concerns, needs_value=False)
+        yield from _missing(model, path, unknown.concerns, needs_value=False)
 
 
 def _missing(
-    layout: Layout, path: KeyPath, concerns: Concern, *, needs_value: bool
+    model: Model, path: KeyPath, concerns: Concern, *, needs_value: bool
 ) -> Iterator[Problem]:
     try:
-        fact = look_up(layout, concerns)
+        fact = look_up(model, concerns)
     except NoSuchFact as error:
         yield Problem((*path, error.key), str(error), error.hint)
     except NotAFrame:
@@ -44,7 +44,7 @@ def _missing(
             )
 
 
-RULE = LayoutRule(
+RULE = ModelRule(
     id="unknown-fact",
     title="Every erratum and every unknown is about something that is there",
     why="What is said about a field that was renamed or removed is said about nothing.",

@@ -5,23 +5,24 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from framegen.checks.fields import numbers_of
-from framegen.checks.rule import LayoutRule, Problem
+from framegen.checks.rule import ModelRule, Problem
 from framegen.language.wiretypes import WIRE_TYPES
 from framegen.model.codec import NotAFrame, decode
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from framegen.model.layout import Layout, MessageLayout
+    from framegen.model.layout import MessageLayout
+    from framegen.model.model import Model
     from framegen.reading.yamltree import KeyPath
 
 _HINT = "add an example with it; it may be `constructed`"
 
 
-def _look(layout: Layout) -> Iterator[Problem]:
-    for name, message in layout.messages.items():
+def _look(model: Model) -> Iterator[Problem]:
+    for name, message in model.messages.items():
         try:
-            shown = _shown(layout, message)
+            shown = _shown(model, message)
         except NotAFrame:
             # The rule `example` speaks of a broken example, which may be the one that shows it.
             continue
@@ -41,11 +42,11 @@ def _look(layout: Layout) -> Iterator[Problem]:
                 yield Problem((*path, "signed_as"), text, _HINT)
 
 
-def _shown(layout: Layout, message: MessageLayout) -> dict[KeyPath, set[int]]:
+def _shown(model: Model, message: MessageLayout) -> dict[KeyPath, set[int]]:
     """Collect the values in the examples of a message, by field. Raises NotAFrame."""
     shown: dict[KeyPath, set[int]] = {}
     for example in message.message.examples:
-        values = decode(layout, message.direction, example.hex).values
+        values = decode(model, message.direction, example.hex).values
         for name, value in values.items():
             for item in value if isinstance(value, list) else [value]:
                 fields = item if isinstance(item, dict) else {None: item}
@@ -55,7 +56,7 @@ def _shown(layout: Layout, message: MessageLayout) -> dict[KeyPath, set[int]]:
     return shown
 
 
-RULE = LayoutRule(
+RULE = ModelRule(
     id="unshown-value",
     title="An example shows every named value, every end of a range, and what is below zero",
     why="The values at the edge are where a width or a sign goes wrong unseen.",

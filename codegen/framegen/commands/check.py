@@ -12,12 +12,12 @@ from framegen.wording import counted
 if TYPE_CHECKING:
     from argparse import ArgumentParser, Namespace
 
-    from framegen.language.load import Loaded
+    from framegen.compile import Compiled
     from framegen.reading.findings import Finding
 
 SUMMARY = "Look for everything that is wrong with a spec, its examples and errata included."
 EXAMPLES = (
-    ("framegen check", "the only spec/*.yaml, here or in a folder above"),
+    ("framegen check", "every spec/*.yaml, here or in a folder above"),
     ("framegen check spec/busservo.yaml", "this spec"),
     ("framegen check --json", "one finding a line, for programs"),
     ("framegen rules unknown-type", "why a rule exists, and how to keep it"),
@@ -32,30 +32,27 @@ def add_arguments(parser: ArgumentParser) -> None:
 
 def run(arguments: Namespace) -> int:
     """Print the findings, and to the error stream how many there are. 1 where there are any."""
-    from framegen.checks import check  # noqa: PLC0415
-    from framegen.commands.spec_argument import read_spec  # noqa: PLC0415
+    from framegen.commands.spec_argument import compiled  # noqa: PLC0415
+    from framegen.project import all_specs  # noqa: PLC0415
 
-    specs = [read_spec(file) for file in arguments.specs or [None]]
-    total = 0
-    for loaded in specs:
-        findings = check(loaded)
-        for finding in findings:
-            print(_json(loaded, finding) if arguments.json else _text(loaded, finding))
+    specs = [compiled(file) for file in arguments.specs or all_specs()]
+    for each in specs:
+        for finding in each.findings:
+            print(_json(each, finding) if arguments.json else _text(each, finding))
         sys.stdout.flush()
-        print(_summary(loaded, findings), file=sys.stderr)
-        total += len(findings)
-    return 1 if total else 0
+        print(_summary(each), file=sys.stderr)
+    return 1 if any(each.findings for each in specs) else 0
 
 
-def _text(loaded: Loaded, finding: Finding) -> str:
-    return finding.render(loaded.source) + "\n"
+def _text(each: Compiled, finding: Finding) -> str:
+    return finding.render(each.source) + "\n"
 
 
-def _json(loaded: Loaded, finding: Finding) -> str:
+def _json(each: Compiled, finding: Finding) -> str:
     return json.dumps(
         {
             "rule": finding.rule,
-            "file": loaded.source.name,
+            "file": each.source.name,
             "line": finding.span.line,
             "column": finding.span.column,
             "path": finding.path,
@@ -65,8 +62,8 @@ def _json(loaded: Loaded, finding: Finding) -> str:
     )
 
 
-def _summary(loaded: Loaded, findings: list[Finding]) -> str:
-    name, spec = loaded.source.name, loaded.spec
+def _summary(each: Compiled) -> str:
+    name, spec, findings = each.source.name, each.read, each.findings
     if spec is None:
         found = f"{counted(len(findings), 'finding')} in {name}"
         return f"{found}; check again once its shape is mended, for what it says was not looked at"

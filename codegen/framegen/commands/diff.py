@@ -32,10 +32,10 @@ def add_arguments(parser: ArgumentParser) -> None:
 
 def run(arguments: Namespace) -> int:
     """Print the differences, what breaks first. 1 where the wire or programs break."""
-    from framegen.commands.spec_argument import read_layout  # noqa: PLC0415
+    from framegen.commands.spec_argument import compiled  # noqa: PLC0415
     from framegen.comparison import differences  # noqa: PLC0415
 
-    found = differences(read_layout(arguments.old), read_layout(arguments.new))
+    found = differences(compiled(arguments.old).model, compiled(arguments.new).model)
     order = ["wire", "programs", "nothing"]
     found.sort(key=lambda difference: order.index(difference.breaks))
     for difference in found:

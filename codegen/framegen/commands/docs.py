@@ -33,22 +33,18 @@ def run(arguments: Namespace) -> int:
     from tempfile import mkdtemp  # noqa: PLC0415
     from webbrowser import open as open_in_browser  # noqa: PLC0415
 
-    from framegen.checks import check  # noqa: PLC0415
-    from framegen.commands.spec_argument import read_spec  # noqa: PLC0415
-    from framegen.model.layout import derive  # noqa: PLC0415
+    from framegen.commands.spec_argument import compiled  # noqa: PLC0415
+    from framegen.render import snippets  # noqa: PLC0415
     from framegen.targets import docs  # noqa: PLC0415
 
-    loaded = read_spec(arguments.spec)
-    findings = check(loaded)
-    if findings or loaded.spec is None:
-        for finding in findings:
-            print(finding.render(loaded.source) + "\n")
-        name = loaded.source.name
-        print(
-            f"{counted(len(findings), 'finding')} in {name}: nothing was written", file=sys.stderr
-        )
+    spec = compiled(arguments.spec)
+    if spec.findings:
+        for finding in spec.findings:
+            print(finding.render(spec.source) + "\n")
+        found = counted(len(spec.findings), "finding")
+        print(f"{found} in {spec.source.name}: nothing was written", file=sys.stderr)
         return 1
-    files = docs.render(loaded.source, derive(loaded.spec))
+    files = docs.render(spec, snippets())
     folder: Path = arguments.out or Path(mkdtemp(prefix="framegen-docs-"))
     for path, text in files.items():
         file = folder / Path(path).relative_to(docs.FOLDER)

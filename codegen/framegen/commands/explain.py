@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     from argparse import ArgumentParser, Namespace
 
     from framegen.language.values import Direction
-    from framegen.model.layout import Layout
+    from framegen.model.model import Model
 
 # Enough of a text to find a place by; a long paste is cut around it.
 _SHOWN = 30
@@ -41,7 +41,7 @@ def add_arguments(parser: ArgumentParser) -> None:
 
 def run(arguments: Namespace) -> int:
     """Print the explanation. 0 for a frame, 1 for none. Raises Unusable."""
-    from framegen.commands.spec_argument import read_layout  # noqa: PLC0415
+    from framegen.commands.spec_argument import compiled  # noqa: PLC0415
     from framegen.explain import explain  # noqa: PLC0415
     from framegen.explain_text import as_json, as_text  # noqa: PLC0415
     from framegen.reading.yamltree import Unusable  # noqa: PLC0415
@@ -56,8 +56,8 @@ def run(arguments: Namespace) -> int:
         raise Unusable(_pointed(text, error), hint=error.hint) from None
     if not data:
         raise Unusable("there are no bytes to explain", hint="give them in hex, like 55 55 02 07")
-    layout = read_layout(spec)
-    explanation = explain(layout, data, _directions(layout, arguments.direction))
+    model = compiled(spec).model
+    explanation = explain(model, data, _directions(model, arguments.direction))
     print(json.dumps(as_json(explanation)) if arguments.json else as_text(explanation))
     return 0 if explanation.readings else 1
 
@@ -87,14 +87,14 @@ def _is_spec(word: str) -> bool:
         return False
 
 
-def _directions(layout: Layout, sender: str | None) -> list[Direction]:
+def _directions(model: Model, sender: str | None) -> list[Direction]:
     """Pick the directions of one sender, or all of them. Raises Unusable."""
     from framegen.reading.yamltree import Unusable  # noqa: PLC0415
 
     if sender is None:
-        return layout.directions
-    chosen = [direction for direction in layout.directions if direction.sender == sender]
+        return model.directions
+    chosen = [direction for direction in model.directions if direction.sender == sender]
     if not chosen:
-        senders = list(dict.fromkeys(direction.sender for direction in layout.directions))
+        senders = list(dict.fromkeys(direction.sender for direction in model.directions))
         raise Unusable(f"nothing is sent by {sender!r}", hint=did_you_mean(sender, senders))
     return chosen

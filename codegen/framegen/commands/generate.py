@@ -34,38 +34,36 @@ def add_arguments(parser: ArgumentParser) -> None:
 
 def run(arguments: Namespace) -> int:
     """Check the spec, render it, and bring the disk to agree. 1 for findings, or with --check."""
-    from framegen.checks import check  # noqa: PLC0415
-    from framegen.commands.spec_argument import read_spec  # noqa: PLC0415
-    from framegen.model.layout import derive  # noqa: PLC0415
+    from framegen.commands.spec_argument import compiled  # noqa: PLC0415
     from framegen.project import default_spec, project_root  # noqa: PLC0415
     from framegen.render import render  # noqa: PLC0415
     from framegen.writer import changes, write  # noqa: PLC0415
 
     file: Path = arguments.spec or default_spec()
-    loaded = read_spec(file)
-    findings = check(loaded)
-    if findings or loaded.spec is None:
-        for finding in findings:
-            print(finding.render(loaded.source) + "\n")
-        _tell(f"{counted(len(findings), 'finding')} in {loaded.source.name}: nothing was written")
+    spec = compiled(file)
+    if spec.findings:
+        for finding in spec.findings:
+            print(finding.render(spec.source) + "\n")
+        found = counted(len(spec.findings), "finding")
+        _tell(f"{found} in {spec.source.name}: nothing was written")
         return 1
     root: Path = arguments.out or project_root(file)
-    rendered = render(loaded.source, derive(loaded.spec))
+    rendered = render(spec)
     files = counted(len(rendered.files), "file")
     if not (arguments.check or arguments.diff):
         done = write(root, rendered)
         for change in done:
             print(f"{'removed' if change.new is None else 'wrote'} {visible(change.path)}")
-        _tell(f"{files} from {loaded.source.name}: {len(done) or 'none'} changed")
+        _tell(f"{files} from {spec.source.name}: {len(done) or 'none'} changed")
         return 0
-    found = changes(root, rendered)
-    for change in found:
+    differing = changes(root, rendered)
+    for change in differing:
         print(change.diff(), end="")
     sys.stdout.flush()
-    for change in found:
+    for change in differing:
         _tell(f"{change.why}: {visible(change.path)}")
-    _tell(f"{files} from {loaded.source.name}: {len(found) or 'none'} would change")
-    return 1 if found and arguments.check else 0
+    _tell(f"{files} from {spec.source.name}: {len(differing) or 'none'} would change")
+    return 1 if differing and arguments.check else 0
 
 
 def _tell(text: str) -> None:

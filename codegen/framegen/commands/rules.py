@@ -2,15 +2,13 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, TypeAlias
+from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from argparse import ArgumentParser, Namespace
     from collections.abc import Iterator
 
-    from framegen.checks.rule import LayoutRule, ReadingRule, StructureRule
-
-    AnyRule: TypeAlias = ReadingRule | StructureRule | LayoutRule
+    from framegen.checks.rule import AnyRule
 
 SUMMARY = "List the rules that a spec must keep, or tell why one of them exists."
 EXAMPLES = (
@@ -26,12 +24,11 @@ def add_arguments(parser: ArgumentParser) -> None:
 
 def run(arguments: Namespace) -> int:
     """Print the rules, or one of them. Raises Unusable for a rule that there is not."""
-    from framegen.checks import LAYOUT_RULES, READING_RULES, STRUCTURE_RULES  # noqa: PLC0415
+    from framegen.checks import RULES  # noqa: PLC0415
     from framegen.reading.findings import did_you_mean  # noqa: PLC0415
     from framegen.reading.yamltree import Unusable  # noqa: PLC0415
 
-    every: tuple[AnyRule, ...] = (*READING_RULES, *STRUCTURE_RULES, *LAYOUT_RULES)
-    rules = {rule.id: rule for rule in every}
+    rules = {rule.id: rule for rule in RULES}
     if arguments.id is None:
         width = max(map(len, rules))
         for rule in rules.values():

@@ -387,12 +387,15 @@ class Release(Part):
 class Spec(Part):
     """A protocol: its frame, its messages, and what is known about them."""
 
-    framegen: Literal[1] = Key(description="The version of the spec language.")
+    framegen: Literal[1, 2] = Key(description="The edition of the spec language: 2.")
     protocol: Protocol = Key(description="What the protocol is.")
     sources: dict[str, SourceDocument] = Key(
         description="What facts are cited from, by short name."
     )
-    endpoints: dict[str, str] = Key(description="Who talks: the name and role of each end.")
+    endpoints: dict[str, str] = Key(
+        description="The ends of the line, each with its part: first the one that the library is "
+        "for, then the one that it talks to."
+    )
     link: Link = Key(description="The serial line.")
     byte_order: Literal["little", "big"] = Key(description="Which byte of a number comes first.")
     frame: dict[str, FramePart] = Key(description="The parts of every frame, in order.")

@@ -11,7 +11,8 @@ from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from framegen.language.values import Direction
-    from framegen.model.layout import Layout, MessageLayout, Repeat, WireField
+    from framegen.model.layout import MessageLayout, Repeat, WireField
+    from framegen.model.model import Model
 
 # The reasons for which bytes are no frame. Every target and the test vectors use these words.
 TOO_SHORT = "too short"
@@ -45,9 +46,9 @@ class Unencodable(ValueError):  # noqa: N818 - says what the values are
     """Values that no frame can carry."""
 
 
-def decode(layout: Layout, direction: Direction, data: bytes) -> Decoded:
+def decode(model: Model, direction: Direction, data: bytes) -> Decoded:
     """Understands exactly one frame. Raises NotAFrame."""
-    frame = layout.frame
+    frame = model.frame
     for offset, byte in enumerate(frame.header):
         if offset == len(data):
             raise NotAFrame(TOO_SHORT, offset, f"a frame begins {frame.header.hex(' ').upper()}")
@@ -55,9 +56,9 @@ def decode(layout: Layout, direction: Direction, data: bytes) -> Decoded:
             raise NotAFrame(BAD_HEADER, offset, f"a frame begins {frame.header.hex(' ').upper()}")
     if len(data) < frame.body_at:
         raise NotAFrame(TOO_SHORT, len(data), f"the shortest frame has {frame.body_at} bytes")
-    length = read_number(layout, data, frame.length_at, frame.length.size)
-    code = read_number(layout, data, frame.id_at, frame.id.size)
-    message = layout.sent(direction).get(code)
+    length = read_number(model, data, frame.length_at, frame.length.size)
+    code = read_number(model, data, frame.id_at, frame.id.size)
+    message = model.sent(direction).get(code)
     if message is None:
         raise NotAFrame(
             UNKNOWN_COMMAND, frame.id_at, f"no message {direction} has the {frame.id_name} {code}"
@@ -78,16 +79,16 @@ def decode(layout: Layout, direction: Direction, data: bytes) -> Decoded:
         raise NotAFrame(
             TRAILING_BYTES, size, f"a {frame.length_name} of {length} makes {size} bytes"
         )
-    return Decoded(message, _values(layout, message, data, length))
+    return Decoded(message, _values(model, message, data, length))
 
 
-def _values(layout: Layout, message: MessageLayout, data: bytes, length: int) -> dict[str, Any]:
+def _values(model: Model, message: MessageLayout, data: bytes, length: int) -> dict[str, Any]:
     count = message.formula.count_at(length)
     if count is None:
         raise AssertionError("a legal length has a count")
     numbers: dict[str, int] = {}
     for path, offset, field in message.fields_of(count):
-        value = read_number(layout, data, offset, field.wire.size, signed=field.wire.low < 0)
+        value = read_number(model, data, offset, field.wire.size, signed=field.wire.low < 0)
         if message.counts_with(field) and value != count:
             raise NotAFrame(
                 COUNT_MISMATCH,
@@ -121,7 +122,7 @@ def _gathered(message: MessageLayout, numbers: dict[str, int], count: int) -> di
     return values
 
 
-def encode(layout: Layout, message: MessageLayout, values: dict[str, Any]) -> bytes:
+def encode(model: Model, message: MessageLayout, values: dict[str, Any]) -> bytes:
     """Encode the frame that carries `values`, keyed by field. Raises Unencodable."""
     expected = {argument.name for argument in message.arguments}
     for name in sorted(values.keys() ^ expected):
@@ -143,55 +144,53 @@ def encode(layout: Layout, message: MessageLayout, values: dict[str, Any]) -> by
             )
     for field in message.numbers:
         body += _number(
-            layout,
+            model,
             field,
             field.name,
             len(items) if message.counts_with(field) else values[field.name],
         )
     if repeat is not None:
-        body += b"".join(_element(layout, repeat, index, item) for index, item in enumerate(items))
-    frame = layout.frame
+        body += b"".join(_element(model, repeat, index, item) for index, item in enumerate(items))
+    frame = model.frame
     data = bytearray(frame.body_at)
     data[: len(frame.header)] = frame.header
     length = len(body) + frame.counted
     data[frame.length_at : frame.length_at + frame.length.size] = _number_bytes(
-        layout, length, frame.length.size
+        model, length, frame.length.size
     )
     data[frame.id_at : frame.id_at + frame.id.size] = _number_bytes(
-        layout, message.id, frame.id.size
+        model, message.id, frame.id.size
     )
     return bytes(data) + body
 
 
-def _element(layout: Layout, repeat: Repeat, index: int, item: Any) -> bytes:
+def _element(model: Model, repeat: Repeat, index: int, item: Any) -> bytes:
     path = f"{repeat.name}[{index}]"
     if repeat.element is None:
-        return _number(layout, repeat.fields[0], path, item)
+        return _number(model, repeat.fields[0], path, item)
     names = [field.name for field in repeat.fields]
     if not isinstance(item, dict) or set(item) != set(names):
         raise Unencodable(f"{path} must have the keys {', '.join(names)}")
     return b"".join(
-        _number(layout, field, f"{path}.{field.name}", item[field.name]) for field in repeat.fields
+        _number(model, field, f"{path}.{field.name}", item[field.name]) for field in repeat.fields
     )
 
 
-def _number(layout: Layout, field: WireField, path: str, value: object) -> bytes:
+def _number(model: Model, field: WireField, path: str, value: object) -> bytes:
     if not isinstance(value, int) or isinstance(value, bool):
         raise Unencodable(f"{path}: {value!r} is not a whole number")
     if not field.low <= value <= field.high:
         raise Unencodable(f"{path}: {value} is outside {field.low}..{field.high}")
-    return _number_bytes(layout, value, field.wire.size, signed=field.wire.low < 0)
+    return _number_bytes(model, value, field.wire.size, signed=field.wire.low < 0)
 
 
-def _number_bytes(layout: Layout, value: int, size: int, *, signed: bool = False) -> bytes:
-    return value.to_bytes(size, layout.spec.byte_order, signed=signed)
+def _number_bytes(model: Model, value: int, size: int, *, signed: bool = False) -> bytes:
+    return value.to_bytes(size, model.spec.byte_order, signed=signed)
 
 
-def read_number(
-    layout: Layout, data: bytes, offset: int, size: int, *, signed: bool = False
-) -> int:
+def read_number(model: Model, data: bytes, offset: int, size: int, *, signed: bool = False) -> int:
     """Read the number of `size` bytes at `offset`, in the byte order of the protocol."""
-    return int.from_bytes(data[offset : offset + size], layout.spec.byte_order, signed=signed)
+    return int.from_bytes(data[offset : offset + size], model.spec.byte_order, signed=signed)
 
 
 def describe_range(values: range) -> str:

@@ -1,8 +1,4 @@
-"""What a client does with each message that it sends: its method, and how the reply is known.
-
-The client is the end that sends the first message of the spec; whoever that message goes to is the
-end it talks to.
-"""
+"""What a client does with each message that it sends: its method, and how the reply is known."""
 
 from __future__ import annotations
 
@@ -14,9 +10,11 @@ from framegen.language.spec import GroupField
 from framegen.language.values import Method
 
 if TYPE_CHECKING:
-    from framegen.language.spec import Message, Spec
-    from framegen.language.values import Direction
-    from framegen.model.layout import Layout, MessageLayout, Repeat, WireField
+    from collections.abc import Mapping
+
+    from framegen.language.spec import Message
+    from framegen.model.layout import MessageLayout, Repeat, WireField
+    from framegen.model.roles import Roles
 
 # How many of each unit of time make a second.
 STEPS_PER_SECOND = {"s": 1, "ms": 1000}
@@ -66,19 +64,13 @@ class Exchange:
         return told.high if paired else 0
 
 
-def exchanges(layout: Layout) -> list[Exchange]:
+def exchanges(messages: Mapping[str, MessageLayout], roles: Roles) -> list[Exchange]:
     """Every message that the client sends, in the order of the spec."""
-    sent = sent_by_client(layout.spec)
     return [
-        _exchange(layout, message)
-        for message in layout.messages.values()
-        if message.direction == sent
+        _exchange(messages, message)
+        for message in messages.values()
+        if message.direction == roles.sent
     ]
-
-
-def sent_by_client(spec: Spec) -> Direction:
-    """The direction in which a client sends."""
-    return next(iter(spec.messages.values())).direction
 
 
 def method_of(name: str, message: Message) -> Method:
@@ -113,12 +105,12 @@ def snake_case(name: str) -> str:
     return re.sub(r"(?<=[a-z0-9])(?=[A-Z])|(?<=[A-Z])(?=[A-Z][a-z])", "_", name).lower()
 
 
-def _exchange(layout: Layout, request: MessageLayout) -> Exchange:
+def _exchange(messages: Mapping[str, MessageLayout], request: MessageLayout) -> Exchange:
     message = request.message
     return Exchange(
         request,
         method_of(request.name, message),
-        None if message.reply is None else layout.messages[message.reply],
+        None if message.reply is None else messages[message.reply],
         tuple(message.reports),
         tuple(message.echoed.items()),
         message.acknowledged,

@@ -13,7 +13,8 @@ from framegen.reading.findings import did_you_mean
 
 if TYPE_CHECKING:
     from framegen.language.spec import Concern, Message
-    from framegen.model.layout import Layout, MessageLayout, WireField
+    from framegen.model.layout import MessageLayout, WireField
+    from framegen.model.model import Model
 
 
 class NoSuchFact(ValueError):  # noqa: N818 - says what the fact is
@@ -45,14 +46,14 @@ class Fact:
             return False
 
 
-def look_up(layout: Layout, concern: Concern) -> Fact:
+def look_up(model: Model, concern: Concern) -> Fact:
     """Find the fact. Raises NoSuchFact; and codec.NotAFrame where it is in a broken example."""
-    message = layout.messages.get(concern.message)
+    message = model.messages.get(concern.message)
     if message is None:
         raise NoSuchFact(
             "message",
             f"there is no message `{concern.message}`",
-            did_you_mean(concern.message, layout.messages),
+            did_you_mean(concern.message, model.messages),
         )
     chosen = [key for key in ("fact", "parameter", "example") if getattr(concern, key) is not None]
     if len(chosen) > 1:
@@ -60,25 +61,25 @@ def look_up(layout: Layout, concern: Concern) -> Fact:
     if concern.field is not None and chosen not in ([], ["example"]):
         raise NoSuchFact("field", f"`{chosen[0]}` and `field` are two facts, not one")
     if concern.fact is not None:
-        return _of_message(layout, message, concern.fact)
+        return _of_message(model, message, concern.fact)
     if concern.parameter is not None:
-        return Fact(_parameter(layout, message, concern.parameter))
+        return Fact(_parameter(model, message, concern.parameter))
     if concern.example is not None:
-        return _of_example(layout, message, concern.example, concern.field)
+        return _of_example(model, message, concern.example, concern.field)
     if concern.field is not None:
         _require_field(message.message, concern.message, concern.field)
     return Fact(None)
 
 
-def _of_message(layout: Layout, message: MessageLayout, fact: str) -> Fact:
+def _of_message(model: Model, message: MessageLayout, fact: str) -> Fact:
     if fact == "id":
         return Fact(message.id)
     if fact == "kind":
-        return Fact(layout.kind(message.name))
+        return Fact(model.kind(message.name))
     return Fact(message.message.length)
 
 
-def _of_example(layout: Layout, message: MessageLayout, number: int, field: str | None) -> Fact:
+def _of_example(model: Model, message: MessageLayout, number: int, field: str | None) -> Fact:
     examples = message.message.examples
     if number > len(examples):
         raise NoSuchFact(
@@ -87,12 +88,12 @@ def _of_example(layout: Layout, message: MessageLayout, number: int, field: str 
     if field is None:
         return Fact(None)
     data = examples[number - 1].hex
-    values = decode(layout, message.direction, data).values
+    values = decode(model, message.direction, data).values
     if field in values:
         return Fact(values[field])
     if field == "length":
         frame = message.frame
-        return Fact(read_number(layout, data, frame.length_at, frame.length.size))
+        return Fact(read_number(model, data, frame.length_at, frame.length.size))
     raise NoSuchFact(
         "field",
         f"the examples of {message.name} give no field `{field}`",
@@ -110,12 +111,12 @@ def _require_field(message: Message, name: str, path: str) -> None:
         raise NoSuchFact("field", f"{name} has no field `{path}`", did_you_mean(path, known))
 
 
-def _parameter(layout: Layout, message: MessageLayout, number: int) -> str:
+def _parameter(model: Model, message: MessageLayout, number: int) -> str:
     """Name parameter byte `number`, counted from 1: `times, low byte`."""
     at = message.frame.body_at + number - 1
     for field in message.numbers:
         if at < field.offset + field.wire.size:
-            return _byte(layout, field.name, field, at - field.offset)
+            return _byte(model, field.name, field, at - field.offset)
     repeat = message.repeat
     if repeat is not None:
         index, rest = divmod(at - repeat.offset, repeat.size)
@@ -124,19 +125,19 @@ def _parameter(layout: Layout, message: MessageLayout, number: int) -> str:
             path = f"{repeat.name}[{index}]"
             if repeat.element is not None:
                 path += f".{inner.name}"
-            return _byte(layout, path, inner, rest - inner.offset)
+            return _byte(model, path, inner, rest - inner.offset)
     most = message.largest - message.frame.body_at
     raise NoSuchFact(
         "parameter", f"{message.name} has no parameter byte {number}: it has {most} at most"
     )
 
 
-def _byte(layout: Layout, path: str, field: WireField, offset: int) -> str:
+def _byte(model: Model, path: str, field: WireField, offset: int) -> str:
     """Name one byte of a number, the lowest being byte 0: `time_ms, low byte`."""
     size = field.wire.size
     if size == 1:
         return path
-    rank = offset if layout.spec.byte_order == "little" else size - 1 - offset
+    rank = offset if model.spec.byte_order == "little" else size - 1 - offset
     if size == 2:
         return f"{path}, {('low', 'high')[rank]} byte"
     return f"{path}, bits {8 * rank}..{8 * rank + 7}"

@@ -185,48 +185,6 @@ class MessageLayout:
                 )
 
 
-@dataclass(frozen=True)
-class Layout:
-    """Everything that follows from one spec."""
-
-    spec: Spec
-    frame: FrameLayout
-    messages: dict[str, MessageLayout]
-
-    @property
-    def directions(self) -> list[Direction]:
-        """The directions that messages have, in the order in which they first appear."""
-        return list(dict.fromkeys(message.direction for message in self.messages.values()))
-
-    def sent(self, direction: Direction) -> dict[int, MessageLayout]:
-        """Pick the messages of one direction, by code."""
-        return {
-            message.id: message
-            for message in self.messages.values()
-            if message.direction == direction
-        }
-
-    def kind(self, name: str) -> str:
-        """Tell a `query`, which is due a `reply`, from the rest.
-
-        Those are a `command` from the first endpoint and a `report` from any other.
-        """
-        message = self.messages[name].message
-        if message.reply is not None:
-            return "query"
-        if any(other.message.reply == name for other in self.messages.values()):
-            return "reply"
-        return (
-            "command" if message.direction.sender == next(iter(self.spec.endpoints)) else "report"
-        )
-
-
-def derive(spec: Spec) -> Layout:
-    """Work out the layout of every message."""
-    frame = derive_frame(spec)
-    return Layout(spec, frame, {name: _message(spec, frame, name) for name in spec.messages})
-
-
 def part_size(part: FramePart) -> int:
     """Bytes of a part of the frame; 0 for the body, whose size varies."""
     if isinstance(part, ConstantPart):
@@ -236,7 +194,7 @@ def part_size(part: FramePart) -> int:
 
 
 def derive_frame(spec: Spec) -> FrameLayout:
-    """Work out the envelope of every frame."""
+    """Work out the envelope of every frame. Needs a spec that keeps the rule frame-parts."""
     header = b""
     length_at = id_at = at = 0
     length_name = id_name = ""
@@ -268,7 +226,8 @@ def derive_frame(spec: Spec) -> FrameLayout:
     )
 
 
-def _message(spec: Spec, frame: FrameLayout, name: str) -> MessageLayout:
+def derive_message(spec: Spec, frame: FrameLayout, name: str) -> MessageLayout:
+    """Work out where the fields of a message stand."""
     message = spec.messages[name]
     numbers: list[WireField] = []
     repeat: Repeat | None = None

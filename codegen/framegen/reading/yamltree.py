@@ -106,7 +106,7 @@ def read_tree(source: Source) -> tuple[Tree, list[Finding]]:
         )
         raise Unusable(
             f"the file {found}, where a spec is a mapping of keys",
-            hint="begin with `framegen: 1` and `protocol:`; "
+            hint="begin with `framegen: 2` and `protocol:`; "
             "`framegen schema` prints the whole language",
         )
     builder.tree.data = data

@@ -10,7 +10,6 @@ from typing import TYPE_CHECKING
 
 from markupsafe import Markup
 
-from framegen.reading.yamltree import read_tree
 from framegen.targets.docs.data import protocol_data
 from framegen.targets.docs.escape import (
     Safe,
@@ -23,6 +22,7 @@ from framegen.targets.docs.escape import (
     verbatim,
 )
 from framegen.targets.docs.site import SiteView
+from framegen.targets.target import Target
 from framegen.targets.templates import environment
 
 if TYPE_CHECKING:
@@ -30,8 +30,8 @@ if TYPE_CHECKING:
 
     from jinja2 import Environment
 
-    from framegen.model.layout import Layout
-    from framegen.reading.source import Source
+    from framegen.compile import Compiled
+    from framegen.targets.target import Snippets
 
 FOLDER = "docs/reference"
 
@@ -49,18 +49,16 @@ _TWINS = {
 }
 
 
-def render(source: Source, layout: Layout) -> dict[str, str]:
+def render(compiled: Compiled, snippets: Snippets) -> dict[str, str]:
     """The files of the reference, by path below the project's root."""
-    # Pages lead to the lines of the spec, and only its text knows where those are.
-    tree, _ = read_tree(source)
-    site = SiteView(source, layout, tree)
+    site = SiteView(compiled.source, compiled.model, compiled.tree, snippets)
     files = dict([*_html(site), *_markdown(site)])
     return {f"{FOLDER}/{path}": text for path, text in files.items()}
 
 
 def _html(site: SiteView) -> Iterator[tuple[str, str]]:
     templates = _html_environment()
-    data = script_json(protocol_data(site.layout))
+    data = script_json(protocol_data(site.model))
     style = _static("style.css")
     for page in [*site.pages, *site.message_pages]:
         scripts = [_static(f"{name}.js") for name in page.scripts]
@@ -124,3 +122,11 @@ def _allowed(style: str, scripts: list[Markup]) -> dict[str, str]:
 
 def _digest(text: str) -> str:
     return f"'sha256-{b64encode(sha256(text.encode()).digest()).decode()}'"
+
+
+TARGET = Target(
+    name="docs",
+    about="The reference, as pages and as Markdown.",
+    render=render,
+    folders=lambda _model: (FOLDER,),
+)

@@ -8,32 +8,33 @@ from framegen.language.spec import BodyPart
 from framegen.model.layout import Repeat, part_size
 
 if TYPE_CHECKING:
-    from framegen.model.layout import Layout, MessageLayout, WireField
+    from framegen.model.layout import MessageLayout, WireField
+    from framegen.model.model import Model
 
 
-def protocol_data(layout: Layout) -> dict[str, Any]:
+def protocol_data(model: Model) -> dict[str, Any]:
     """Everything that decoding and encoding need."""
-    frame = layout.frame
+    frame = model.frame
     return {
-        "name": layout.spec.protocol.name,
-        "byteOrder": layout.spec.byte_order,
+        "name": model.spec.protocol.name,
+        "byteOrder": model.spec.byte_order,
         "header": list(frame.header),
         "length": {"name": frame.length_name, "at": frame.length_at, "size": frame.length.size},
         "id": {"name": frame.id_name, "at": frame.id_at, "size": frame.id.size},
         "bodyAt": frame.body_at,
         "uncounted": frame.uncounted,
-        "parts": _parts(layout),
+        "parts": _parts(model),
         "directions": [
-            {"key": way.key, "text": f"{way.sender} to {way.receiver}"} for way in layout.directions
+            {"key": way.key, "text": f"{way.sender} to {way.receiver}"} for way in model.directions
         ],
-        "messages": [_message(message) for message in layout.messages.values()],
+        "messages": [_message(message) for message in model.messages.values()],
     }
 
 
-def _parts(layout: Layout) -> list[dict[str, Any]]:
+def _parts(model: Model) -> list[dict[str, Any]]:
     parts: list[dict[str, Any]] = []
     at = 0
-    for name, part in layout.spec.frame.items():
+    for name, part in model.spec.frame.items():
         if not isinstance(part, BodyPart):
             parts.append({"name": name, "is": part.is_, "at": at, "size": part_size(part)})
         at += part_size(part)

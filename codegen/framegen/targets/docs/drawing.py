@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from framegen.language.values import Direction
-    from framegen.model.layout import Layout
+    from framegen.model.model import Model
 
 _WIDTH = 360
 _MARGIN = 48
@@ -67,45 +67,43 @@ class Drawing:
         return _TOP + _STEP * len(self.arrows) + _BOTTOM
 
 
-def drawing(layout: Layout, name: str) -> Drawing | None:
+def drawing(model: Model, name: str) -> Drawing | None:
     """Draw what a message sets off; None for one that is itself set off by another."""
-    message = layout.messages[name]
-    kind = layout.kind(name)
+    message = model.messages[name]
+    kind = model.kind(name)
     if kind not in ("query", "command"):
         return None
     steps = [(name, "", True)]
     if message.message.reply is not None:
         steps.append((message.message.reply, "always", True))
     steps += [(report, "may follow", False) for report in message.message.reports]
-    return _drawn(layout, name, steps, _caption(layout, name))
+    return _drawn(model, name, steps, _caption(model, name))
 
 
-def interruption(layout: Layout) -> Drawing | None:
+def interruption(model: Model) -> Drawing | None:
     """Draw a report that comes between a request and its reply, where the protocol has both."""
-    reports = {
-        name: message for name, message in layout.messages.items() if _is_report(layout, name)
-    }
-    for name, message in layout.messages.items():
+    reports = {name: message for name, message in model.messages.items() if _is_report(model, name)}
+    for name, message in model.messages.items():
         reply = message.message.reply
         if reply is None:
             continue
         for report, sent in reports.items():
-            if sent.direction == layout.messages[reply].direction:
+            if sent.direction == model.messages[reply].direction:
                 steps = [(name, "", True), (report, "unasked", False), (reply, "always", True)]
                 caption = (
                     f"{report} may arrive at any time, also between {name} and {reply}: whoever "
                     f"waits for {reply} must look at what arrived, not only that something did."
                 )
-                return _drawn(layout, "interruption", steps, caption)
+                return _drawn(model, "interruption", steps, caption)
     return None
 
 
-def _is_report(layout: Layout, name: str) -> bool:
-    return layout.kind(name) == "report"
+def _is_report(model: Model, name: str) -> bool:
+    return model.kind(name) == "report"
 
 
-def _caption(layout: Layout, name: str) -> str:
-    message = layout.messages[name].message
+def _caption(model: Model, name: str) -> str:
+    message = model.messages[name].message
     sender, receiver = message.direction.sender, message.direction.receiver
     if message.reply is not None:
         return f"The {sender} sends {name}; the {receiver} answers with {message.reply}."
@@ -121,8 +119,8 @@ def _caption(layout: Layout, name: str) -> str:
     return f"The {sender} sends {name}. {silent}{known}"
 
 
-def _drawn(layout: Layout, id_: str, steps: list[tuple[str, str, bool]], caption: str) -> Drawing:
-    ways = [layout.messages[name].direction for name, _, _ in steps]
+def _drawn(model: Model, id_: str, steps: list[tuple[str, str, bool]], caption: str) -> Drawing:
+    ways = [model.messages[name].direction for name, _, _ in steps]
     at = _places(ways)
     arrows = [
         Arrow(name, note, at[way.sender], at[way.receiver], _TOP + _STEP * index + 24, sure)

@@ -13,7 +13,8 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from framegen.language.spec import Example
-    from framegen.model.layout import Layout, MessageLayout
+    from framegen.model.layout import MessageLayout
+    from framegen.model.model import Model
     from framegen.reading.yamltree import Tree
 
 
@@ -57,7 +58,7 @@ class Exchange:
     certain: bool
 
 
-def example_views(layout: Layout, tree: Tree, message: MessageLayout) -> list[ExampleView]:
+def example_views(model: Model, tree: Tree, message: MessageLayout) -> list[ExampleView]:
     """Every example of a message."""
     return [
         ExampleView(
@@ -67,8 +68,8 @@ def example_views(layout: Layout, tree: Tree, message: MessageLayout) -> list[Ex
             example.hex,
             f"{message.direction.sender} to {message.direction.receiver}",
             message.direction.key,
-            frame_strip(layout, message, example.hex),
-            None if example.cite is None else cite_view(layout.spec, example.cite),
+            frame_strip(model, message, example.hex),
+            None if example.cite is None else cite_view(model.spec, example.cite),
             example.constructed,
             lines_of(tree, ("messages", message.name, "examples", number - 1)),
         )
@@ -76,33 +77,31 @@ def example_views(layout: Layout, tree: Tree, message: MessageLayout) -> list[Ex
     ]
 
 
-def exchanges(layout: Layout, tree: Tree) -> list[Exchange]:
+def exchanges(model: Model, tree: Tree) -> list[Exchange]:
     """Every documented frame once: requests with what answers them, then what is left over."""
-    views = {
-        name: example_views(layout, tree, message) for name, message in layout.messages.items()
-    }
+    views = {name: example_views(model, tree, message) for name, message in model.messages.items()}
     told: set[tuple[str, int]] = set()
     found: list[Exchange] = []
-    for name, message in layout.messages.items():
+    for name, message in model.messages.items():
         said = message.message
         follow = [said.reply] if said.reply is not None else said.reports
         for view in views[name]:
             if (view.message, view.number) in told:
                 continue
-            replies = list(_answers(layout, view, follow, views))
+            replies = list(_answers(model, view, follow, views))
             told |= {(reply.message, reply.number) for reply in replies}
             found.append(Exchange(view, replies, certain=said.reply is not None))
     return found
 
 
 def _answers(
-    layout: Layout, request: ExampleView, follow: list[str], views: dict[str, list[ExampleView]]
+    model: Model, request: ExampleView, follow: list[str], views: dict[str, list[ExampleView]]
 ) -> Iterator[ExampleView]:
     """Of each message that follows, the example that goes with the request, if there is one."""
-    asked = _example(layout, request)
+    asked = _example(model, request)
     for name in follow:
         for view in views[name]:
-            answer = _example(layout, view).values
+            answer = _example(model, view).values
             shared = asked.values.keys() & answer.keys()
             agree = all(asked.values[key] == answer[key] for key in shared)
             if agree if shared else view.number == request.number:
@@ -110,5 +109,5 @@ def _answers(
                 break
 
 
-def _example(layout: Layout, view: ExampleView) -> Example:
-    return layout.messages[view.message].message.examples[view.number - 1]
+def _example(model: Model, view: ExampleView) -> Example:
+    return model.messages[view.message].message.examples[view.number - 1]

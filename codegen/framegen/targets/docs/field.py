@@ -11,7 +11,8 @@ from framegen.targets.docs.strip import repeated
 
 if TYPE_CHECKING:
     from framegen.language.spec import GroupField
-    from framegen.model.layout import Layout, MessageLayout, WireField
+    from framegen.model.layout import MessageLayout, WireField
+    from framegen.model.model import Model
     from framegen.reading.yamltree import KeyPath, Tree
 
 
@@ -56,9 +57,9 @@ class FieldView:
         return "field-" + self.path.replace("[i]", "").replace(".", "-")
 
 
-def field_views(layout: Layout, tree: Tree, message: MessageLayout) -> list[FieldView]:
+def field_views(model: Model, tree: Tree, message: MessageLayout) -> list[FieldView]:
     """Every field of a message in the order of the frame; those of an element after their list."""
-    maker = _Maker(layout, tree, message)
+    maker = _Maker(model, tree, message)
     views = [
         maker.number(field, field.name, str(field.offset), ("fields", field.name))
         for field in message.numbers
@@ -90,7 +91,7 @@ def field_views(layout: Layout, tree: Tree, message: MessageLayout) -> list[Fiel
 
 @dataclass(frozen=True, slots=True)
 class _Maker:
-    layout: Layout
+    model: Model
     tree: Tree
     message: MessageLayout
 
@@ -119,7 +120,7 @@ class _Maker:
         *,
         derived: bool = False,
     ) -> FieldView:
-        spec = self.layout.spec
+        spec = self.model.spec
         unit = getattr(field, "unit", "")
         scale = getattr(field, "scale", None)
         values = getattr(field, "values", {})

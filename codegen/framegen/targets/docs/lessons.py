@@ -12,7 +12,8 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from framegen.language.values import Direction
-    from framegen.model.layout import Layout, MessageLayout
+    from framegen.model.layout import MessageLayout
+    from framegen.model.model import Model
 
 # Lists longer than this make no good picture.
 _LONGEST_LIST = 8
@@ -58,46 +59,46 @@ _SAID = {
 }
 
 
-def lessons(layout: Layout) -> list[Lesson]:
+def lessons(model: Model) -> list[Lesson]:
     """The lessons that this protocol can give, from the easiest on."""
     return [
-        Lesson(id_, _SAID[id_][0], " ".join(_SAID[id_][1].split()), walk(layout, way, data))
-        for id_, way, data in _materials(layout)
+        Lesson(id_, _SAID[id_][0], " ".join(_SAID[id_][1].split()), walk(model, way, data))
+        for id_, way, data in _materials(model)
         if data is not None
     ]
 
 
-def _materials(layout: Layout) -> Iterator[tuple[str, Direction, bytes | None]]:
-    way = layout.directions[0]
-    frames = _frames(layout, way)
+def _materials(model: Model) -> Iterator[tuple[str, Direction, bytes | None]]:
+    way = model.directions[0]
+    frames = _frames(model, way)
     if not frames:
         return
     first, short = frames[0], min(frames, key=len)
-    head = _unknown_head(layout, way)
+    head = _unknown_head(model, way)
     yield "whole", way, first
-    yield "stray-byte", way, layout.frame.header[-1:] + first
-    yield "count", way, _misread(layout, way)
+    yield "stray-byte", way, model.frame.header[-1:] + first
+    yield "count", way, _misread(model, way)
     yield "unknown", way, None if head is None else head + short
     yield "cut-short", way, first[:-1]
 
 
-def _frames(layout: Layout, way: Direction) -> list[bytes]:
-    messages = layout.sent(way).values()
+def _frames(model: Model, way: Direction) -> list[bytes]:
+    messages = model.sent(way).values()
     return [example.hex for message in messages for example in message.message.examples]
 
 
-def _misread(layout: Layout, way: Direction) -> bytes | None:
+def _misread(model: Model, way: Direction) -> bytes | None:
     """Find a frame that, behind a stray header byte, begins like a frame of another length."""
-    for message in layout.sent(way).values():
-        for frame in _lengthened(layout, message):
-            data = layout.frame.header[-1:] + frame
-            events = walk(layout, way, data).events
+    for message in model.sent(way).values():
+        for frame in _lengthened(model, message):
+            data = model.frame.header[-1:] + frame
+            events = walk(model, way, data).events
             if [event.reason for event in events] == [COUNT_MISMATCH, ""]:
                 return data
     return None
 
 
-def _lengthened(layout: Layout, message: MessageLayout) -> Iterator[bytes]:
+def _lengthened(model: Model, message: MessageLayout) -> Iterator[bytes]:
     """The first example of a message, with lists of other lengths."""
     repeat, examples = message.repeat, message.message.examples
     if repeat is None or not examples:
@@ -106,19 +107,19 @@ def _lengthened(layout: Layout, message: MessageLayout) -> Iterator[bytes]:
     for count in message.counts[:_LONGEST_LIST]:
         items = [(values[repeat.name] or [None])[0]] * count
         try:
-            yield encode(layout, message, {**values, repeat.name: items})
+            yield encode(model, message, {**values, repeat.name: items})
         except Unencodable:
             return
 
 
-def _unknown_head(layout: Layout, way: Direction) -> bytes | None:
+def _unknown_head(model: Model, way: Direction) -> bytes | None:
     """Make the head of a frame whose command has no meaning, and whose length is the longest."""
-    frame, sent = layout.frame, layout.sent(way)
+    frame, sent = model.frame, model.sent(way)
     code = next((code for code in frame.legal_ids if code not in sent and code), None)
     if code is None:
         return None
     length = max(message.lengths[-1] for message in sent.values())
-    order = layout.spec.byte_order
+    order = model.spec.byte_order
     head = bytearray(frame.header.ljust(frame.body_at, b"\0"))
     for at, number, size in (
         (frame.length_at, length, frame.length.size),

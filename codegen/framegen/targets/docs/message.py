@@ -12,23 +12,25 @@ from framegen.targets.docs.drawing import Drawing, drawing
 from framegen.targets.docs.escape import paragraphs
 from framegen.targets.docs.exchange import ExampleView, example_views
 from framegen.targets.docs.field import FieldView, field_views
-from framegen.targets.docs.snippet import receiving, sending
 from framegen.targets.docs.strip import Cell, pattern_strip
 from framegen.targets.docs.timing import milliseconds
 
 if TYPE_CHECKING:
     from framegen.language.spec import Message
-    from framegen.model.layout import Layout, MessageLayout
+    from framegen.model.layout import MessageLayout
+    from framegen.model.model import Model
     from framegen.reading.yamltree import Tree
+    from framegen.targets.target import Snippets
 
 
 @dataclass(frozen=True)
 class MessageView:
     """The facts of one message, each ready to be shown."""
 
-    whole: Layout
+    model: Model
     tree: Tree
     layout: MessageLayout
+    snippets: Snippets
 
     @property
     def said(self) -> Message:
@@ -63,7 +65,7 @@ class MessageView:
     @property
     def kind(self) -> str:
         """Command, query, reply or report."""
-        return self.whole.kind(self.name)
+        return self.model.kind(self.name)
 
     @property
     def description(self) -> list[str]:
@@ -73,7 +75,7 @@ class MessageView:
     @property
     def cite(self) -> CiteView:
         """Where it is known from."""
-        return cite_view(self.whole.spec, self.said.cite)
+        return cite_view(self.model.spec, self.said.cite)
 
     @cached_property
     def lines(self) -> Lines:
@@ -83,13 +85,12 @@ class MessageView:
     @property
     def answers(self) -> list[str]:
         """The requests that it answers."""
-        others = self.whole.spec.messages.items()
-        return [name for name, other in others if other.reply == self.name]
+        return self.model.answers.get(self.name, [])
 
     @property
     def reports_on(self) -> list[str]:
         """The commands that it may follow."""
-        others = self.whole.spec.messages.items()
+        others = self.model.spec.messages.items()
         return [name for name, other in others if self.name in other.reports]
 
     @property
@@ -101,7 +102,7 @@ class MessageView:
     @property
     def posed(self) -> list[str]:
         """The methods of a client that send it besides its own."""
-        pose = self.whole.spec.pose
+        pose = self.model.spec.pose
         if pose is None:
             return []
         found = {
@@ -129,7 +130,7 @@ class MessageView:
     @cached_property
     def cells(self) -> list[Cell]:
         """What every frame of it looks like."""
-        return pattern_strip(self.whole, self.layout)
+        return pattern_strip(self.model, self.layout)
 
     @property
     def parameters(self) -> list[Cell]:
@@ -139,30 +140,30 @@ class MessageView:
     @cached_property
     def fields(self) -> list[FieldView]:
         """Its fields, in the order of the frame."""
-        return field_views(self.whole, self.tree, self.layout)
+        return field_views(self.model, self.tree, self.layout)
 
     @cached_property
     def examples(self) -> list[ExampleView]:
         """Its documented frames."""
-        return example_views(self.whole, self.tree, self.layout)
+        return example_views(self.model, self.tree, self.layout)
 
     @property
     def sends(self) -> bool:
         """Whether the user of the library sends it, rather than receives it."""
-        return self.layout.direction.sender == next(iter(self.whole.spec.endpoints))
+        return self.layout.direction == self.model.roles.sent
 
     @property
     def snippet(self) -> str:
         """Python that sends or receives it; empty where the spec has no example."""
-        if not self.said.examples:
+        show = self.snippets.get("python")
+        if show is None or not self.said.examples:
             return ""
-        show = sending if self.sends else receiving
-        return show(self.whole, self.layout, self.said.examples[0])
+        return show(self.model, self.layout, self.said.examples[0])
 
     @property
     def drawing(self) -> Drawing | None:
         """What it sets off, as a picture."""
-        return drawing(self.whole, self.name)
+        return drawing(self.model, self.name)
 
     @property
     def words(self) -> str:

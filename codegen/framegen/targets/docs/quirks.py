@@ -15,7 +15,7 @@ from framegen.targets.docs.strip import Cell, given_strip, parts_strip
 
 if TYPE_CHECKING:
     from framegen.language.spec import Concern, Lookalike
-    from framegen.model.layout import Layout
+    from framegen.model.model import Model
     from framegen.reading.yamltree import Tree
 
 
@@ -78,13 +78,13 @@ class LookalikeView:
     codes: list[ForeignCode]
 
 
-def erratum_views(layout: Layout, tree: Tree) -> list[ErratumView]:
+def erratum_views(model: Model, tree: Tree) -> list[ErratumView]:
     """Every erratum, in the order of the spec."""
     return [
         ErratumView(
             number,
             erratum.title,
-            cite_view(layout.spec, erratum.cite),
+            cite_view(model.spec, erratum.cite),
             erratum.concerns.message,
             _concern(erratum.concerns),
             _shown(erratum.document),
@@ -93,15 +93,15 @@ def erratum_views(layout: Layout, tree: Tree) -> list[ErratumView]:
             erratum.why,
             lines_of(tree, ("errata", number - 1)),
         )
-        for number, erratum in enumerate(layout.spec.errata, 1)
+        for number, erratum in enumerate(model.spec.errata, 1)
     ]
 
 
-def unknown_views(layout: Layout) -> list[UnknownView]:
+def unknown_views(model: Model) -> list[UnknownView]:
     """Every unknown, in the order of the spec."""
     return [
         UnknownView(unknown.concerns.message, _concern(unknown.concerns), unknown.what)
-        for unknown in layout.spec.unknowns
+        for unknown in model.spec.unknowns
     ]
 
 
@@ -125,43 +125,43 @@ def _shown(value: Any) -> str:
     return str(value) if not isinstance(value, Formula) else f"length {value}"
 
 
-def lookalike_views(layout: Layout) -> list[LookalikeView]:
+def lookalike_views(model: Model) -> list[LookalikeView]:
     """Every look-alike, in the order of the spec."""
     return [
         LookalikeView(
             key,
             other.title,
             paragraphs(other.about),
-            cite_view(layout.spec, other.cite),
+            cite_view(model.spec, other.cite),
             parts_strip(other.frame) if other.frame else [],
-            [_foreign(layout, other, each.title, each.hex) for each in other.examples],
-            _codes(layout, other),
+            [_foreign(model, other, each.title, each.hex) for each in other.examples],
+            _codes(model, other),
         )
-        for key, other in layout.spec.lookalikes.items()
+        for key, other in model.spec.lookalikes.items()
     ]
 
 
-def _foreign(layout: Layout, other: Lookalike, title: str, data: bytes) -> ForeignFrame:
-    recognised = recognise(layout.spec, data)
-    parts = layout.spec.frame if other.frame is None else other.frame
+def _foreign(model: Model, other: Lookalike, title: str, data: bytes) -> ForeignFrame:
+    recognised = recognise(model.spec, data)
+    parts = model.spec.frame if other.frame is None else other.frame
     cells = [] if recognised is None else given_strip(parts, recognised.parts)
-    query = f"hex={data.hex()}&direction={layout.directions[0].key}"
-    verdicts = [_verdict(layout, way, data) for way in layout.directions]
+    query = f"hex={data.hex()}&direction={model.directions[0].key}"
+    verdicts = [_verdict(model, way, data) for way in model.directions]
     return ForeignFrame(title, to_hex(data), query, cells, verdicts)
 
 
-def _verdict(layout: Layout, way: Any, data: bytes) -> str:
+def _verdict(model: Model, way: Any, data: bytes) -> str:
     try:
-        return f"{way.sender} to {way.receiver}: {decode(layout, way, data).layout.name}"
+        return f"{way.sender} to {way.receiver}: {decode(model, way, data).layout.name}"
     except NotAFrame as error:
         return f"{way.sender} to {way.receiver}: no frame, {error}"
 
 
-def _codes(layout: Layout, other: Lookalike) -> list[ForeignCode]:
-    frame, order = layout.frame, layout.spec.byte_order
+def _codes(model: Model, other: Lookalike) -> list[ForeignCode]:
+    frame, order = model.frame, model.spec.byte_order
     found: list[ForeignCode] = []
     for code, there in other.commands.items():
-        known = [message.name for message in layout.messages.values() if message.id == code]
+        known = [message.name for message in model.messages.values() if message.id == code]
         pattern = ""
         if other.frame is None and code <= frame.id.high:
             head = [*(f"{byte:02X}" for byte in frame.header)]

@@ -26,9 +26,10 @@ from framegen.targets.docs.timing import RoundTrip, Timing, bytes_a_second, roun
 
 if TYPE_CHECKING:
     from framegen.language.spec import HidBoard, Protocol, Release, Reserved, SourceDocument
-    from framegen.model.layout import Layout
+    from framegen.model.model import Model
     from framegen.reading.source import Source
     from framegen.reading.yamltree import Tree
+    from framegen.targets.target import Snippets
 
 
 @dataclass(frozen=True, slots=True)
@@ -81,13 +82,14 @@ class SiteView:
     """Everything that pages are made of."""
 
     source: Source
-    layout: Layout
+    model: Model
     tree: Tree
+    snippets: Snippets
 
     @property
     def protocol(self) -> Protocol:
         """Its name, title, version and summary."""
-        return self.layout.spec.protocol
+        return self.model.spec.protocol
 
     @property
     def spec_name(self) -> str:
@@ -112,24 +114,24 @@ class SiteView:
     @property
     def endpoints(self) -> dict[str, str]:
         """Who talks."""
-        return self.layout.spec.endpoints
+        return self.model.spec.endpoints
 
     @property
     def sources(self) -> dict[str, SourceDocument]:
         """What facts are cited from."""
-        return self.layout.spec.sources
+        return self.model.spec.sources
 
     @property
     def link(self) -> str:
         """The serial line, as people write it."""
-        link = self.layout.spec.link
+        link = self.model.spec.link
         letter = {"none": "N", "even": "E", "odd": "O"}[link.parity]
         return f"{link.baud} baud, {link.data_bits}{letter}{link.stop_bits}"
 
     @property
     def hid_boards(self) -> list[HidBoardView]:
         """Boards that have no serial port."""
-        spec = self.layout.spec
+        spec = self.model.spec
         return [
             HidBoardView(board, None if board.cite is None else cite_view(spec, board.cite))
             for board in spec.link.usb_hid
@@ -138,39 +140,39 @@ class SiteView:
     @property
     def bytes_a_second(self) -> str:
         """What the line carries."""
-        return bytes_a_second(self.layout)
+        return bytes_a_second(self.model)
 
     @property
     def byte_order(self) -> str:
         """Little or big."""
-        return self.layout.spec.byte_order
+        return self.model.spec.byte_order
 
     @property
     def envelope(self) -> list[Cell]:
         """The parts of every frame."""
-        return parts_strip(self.layout.spec.frame)
+        return parts_strip(self.model.spec.frame)
 
     @property
     def parts(self) -> list[tuple[str, str]]:
         """The parts that have something said of them."""
-        return [(name, part.about) for name, part in self.layout.spec.frame.items() if part.about]
+        return [(name, part.about) for name, part in self.model.spec.frame.items() if part.about]
 
     @property
     def length_name(self) -> str:
         """What the length is called."""
-        return self.layout.frame.length_name
+        return self.model.frame.length_name
 
     @property
     def id_name(self) -> str:
         """What the code is called."""
-        return self.layout.frame.id_name
+        return self.model.frame.id_name
 
     @cached_property
     def messages(self) -> list[MessageView]:
         """Every message, in the order of the spec."""
         return [
-            MessageView(self.layout, self.tree, message)
-            for message in self.layout.messages.values()
+            MessageView(self.model, self.tree, message, self.snippets)
+            for message in self.model.messages.values()
         ]
 
     @cached_property
@@ -186,19 +188,19 @@ class SiteView:
     @cached_property
     def exchanges(self) -> list[Exchange]:
         """Every documented frame, requests with what comes back."""
-        return exchanges(self.layout, self.tree)
+        return exchanges(self.model, self.tree)
 
     @cached_property
     def lessons(self) -> list[Lesson]:
         """How a stream is decoded."""
-        return lessons(self.layout)
+        return lessons(self.model)
 
     @property
     def drawings(self) -> list[Drawing]:
         """Every sequence that has more than one message, and a report that interrupts one."""
         found = [message.drawing for message in self.messages]
         told = [drawing for drawing in found if drawing and len(drawing.arrows) > 1]
-        between = interruption(self.layout)
+        between = interruption(self.model)
         return [*told, between] if between else told
 
     @property
@@ -209,32 +211,32 @@ class SiteView:
     @property
     def timings(self) -> list[Timing]:
         """What each message costs."""
-        return timings(self.layout)
+        return timings(self.model)
 
     @property
     def round_trips(self) -> list[RoundTrip]:
         """What a question and its answer cost."""
-        return round_trips(self.layout)
+        return round_trips(self.model)
 
     @cached_property
     def errata(self) -> list[ErratumView]:
         """Where the documents are wrong."""
-        return erratum_views(self.layout, self.tree)
+        return erratum_views(self.model, self.tree)
 
     @cached_property
     def unknowns(self) -> list[UnknownView]:
         """What nobody has written down."""
-        return unknown_views(self.layout)
+        return unknown_views(self.model)
 
     @cached_property
     def lookalikes(self) -> list[LookalikeView]:
         """Protocols easily taken for this one."""
-        return lookalike_views(self.layout)
+        return lookalike_views(self.model)
 
     @property
     def reserved(self) -> list[ReservedView]:
         """Codes and names that are kept free."""
-        spec = self.layout.spec
+        spec = self.model.spec
         return [
             ReservedView(
                 reserved, None if reserved.cite is None else cite_view(spec, reserved.cite)
@@ -245,7 +247,7 @@ class SiteView:
     @property
     def releases(self) -> list[Release]:
         """What changed, the latest version first."""
-        return self.layout.spec.history[::-1]
+        return self.model.spec.history[::-1]
 
     @property
     def spec_lines(self) -> list[str]:

@@ -15,7 +15,8 @@ if TYPE_CHECKING:
 
     from framegen.explain import Row
     from framegen.language.spec import FramePart
-    from framegen.model.layout import Layout, MessageLayout, Repeat, WireField
+    from framegen.model.layout import MessageLayout, Repeat, WireField
+    from framegen.model.model import Model
 
 # More elements of a list than this are not shown one by one.
 _MOST_CELLS = 64
@@ -32,22 +33,22 @@ class Cell:
     role: str
 
 
-def frame_strip(layout: Layout, message: MessageLayout, data: bytes) -> list[Cell]:
+def frame_strip(model: Model, message: MessageLayout, data: bytes) -> list[Cell]:
     """Cut a legal frame into cells."""
-    rows = explain(layout, data, [message.direction]).readings[0].rows
+    rows = explain(model, data, [message.direction]).readings[0].rows
     counter = "" if message.repeat is None else message.repeat.counter.name
-    return [_cell(layout, row, counter) for row in rows[:_MOST_CELLS]]
+    return [_cell(model, row, counter) for row in rows[:_MOST_CELLS]]
 
 
-def _cell(layout: Layout, row: Row, counter: str) -> Cell:
-    part = layout.spec.frame.get(row.path) if row.offset < layout.frame.body_at else None
+def _cell(model: Model, row: Row, counter: str) -> Cell:
+    part = model.spec.frame.get(row.path) if row.offset < model.frame.body_at else None
     role = "count" if row.path == counter else "field" if part is None else part.is_
     return Cell(str(row.offset), to_hex(row.data), row.path, row.text, role)
 
 
-def pattern_strip(layout: Layout, message: MessageLayout) -> list[Cell]:
+def pattern_strip(model: Model, message: MessageLayout) -> list[Cell]:
     """Cut what every frame of a message looks like into cells; a list is shown once."""
-    cells = list(_envelope(layout, message))
+    cells = list(_envelope(model, message))
     cells += [
         _pattern(field, "count" if message.counts_with(field) else "field")
         for field in message.numbers
@@ -71,10 +72,10 @@ def _pattern(field: WireField, role: str) -> Cell:
     return Cell(str(field.offset), _dots(field.wire.size), field.name, field.wire.name, role)
 
 
-def _envelope(layout: Layout, message: MessageLayout) -> Iterator[Cell]:
+def _envelope(model: Model, message: MessageLayout) -> Iterator[Cell]:
     at = 0
-    order = layout.spec.byte_order
-    for name, part in layout.spec.frame.items():
+    order = model.spec.byte_order
+    for name, part in model.spec.frame.items():
         size = part_size(part)
         if isinstance(part, ConstantPart):
             yield Cell(str(at), to_hex(part.bytes_), name, "", part.is_)

@@ -10,7 +10,8 @@ from framegen.wording import counted
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from framegen.model.layout import Layout, MessageLayout
+    from framegen.model.layout import MessageLayout
+    from framegen.model.model import Model
 
 
 @dataclass(frozen=True, slots=True)
@@ -41,28 +42,28 @@ def milliseconds(seconds: float) -> str:
     return f"{seconds * 1000:.1f} ms"
 
 
-def bytes_a_second(layout: Layout) -> str:
+def bytes_a_second(model: Model) -> str:
     """Say what the line carries, as `960`."""
-    link = layout.spec.link
+    link = model.spec.link
     return _trimmed(link.baud / link.bits_per_byte)
 
 
-def timings(layout: Layout) -> list[Timing]:
+def timings(model: Model) -> list[Timing]:
     """Every message at its smallest, as its examples have it, and at its largest."""
     return [
-        _timing(message, count) for message in layout.messages.values() for count in _sizes(message)
+        _timing(message, count) for message in model.messages.values() for count in _sizes(message)
     ]
 
 
-def round_trips(layout: Layout) -> list[RoundTrip]:
+def round_trips(model: Model) -> list[RoundTrip]:
     """Every request with its reply; lists of the same length where both have one."""
-    return [trip for message in layout.messages.values() for trip in _trips(layout, message)]
+    return [trip for message in model.messages.values() for trip in _trips(model, message)]
 
 
-def _trips(layout: Layout, request: MessageLayout) -> Iterator[RoundTrip]:
+def _trips(model: Model, request: MessageLayout) -> Iterator[RoundTrip]:
     if request.message.reply is None:
         return
-    reply = layout.messages[request.message.reply]
+    reply = model.messages[request.message.reply]
     for count in _sizes(request):
         answered = min(max(count, reply.counts[0]), reply.counts[-1])
         size = _size(request, count) + _size(reply, answered)

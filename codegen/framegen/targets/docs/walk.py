@@ -24,8 +24,11 @@ from framegen.model.codec import (
 from framegen.wording import counted
 
 if TYPE_CHECKING:
+    from collections.abc import Mapping
+
     from framegen.language.values import Direction
-    from framegen.model.layout import Layout, MessageLayout
+    from framegen.model.layout import MessageLayout
+    from framegen.model.model import Model
 
 
 @dataclass(frozen=True, slots=True)
@@ -86,18 +89,18 @@ class _Refused(Exception):  # noqa: N818 - says what became of the header
         self.reason = reason
 
 
-def walk(layout: Layout, direction: Direction, data: bytes) -> Walk:
+def walk(model: Model, direction: Direction, data: bytes) -> Walk:
     """Decode `data`, after which the line stays quiet."""
     steps: list[Step] = []
     events: list[Event] = []
     at = 0
     while at < len(data):
-        look = _Look(layout, direction, data, at, steps)
+        look = _Look(model, direction, data, at, steps)
         try:
             name, end = look.frame()
             events.append(Event(at, data[at:end], name, ""))
         except _Refused as refusal:
-            end = _next_header(layout.frame.header, data, at + 1)
+            end = _next_header(model.frame.header, data, at + 1)
             if refusal.reason != BAD_HEADER:
                 text = f"{counted(end - at, 'byte')} of noise: {refusal.reason}"
                 steps.append(Step(at, to_hex(data[at:end]), text, ok=False))
@@ -118,7 +121,7 @@ def _next_header(header: bytes, data: bytes, start: int) -> int:
 class _Look:
     """One place where a frame may begin, looked at byte by byte."""
 
-    layout: Layout
+    model: Model
     direction: Direction
     data: bytes
     start: int
@@ -130,7 +133,7 @@ class _Look:
 
     def frame(self) -> tuple[str, int]:
         """Name the message that stands here, and its end. Raises _Refused."""
-        frame = self.layout.frame
+        frame = self.model.frame
         self._header(frame.header)
         if frame.length_at < frame.id_at:
             self._length()
@@ -155,7 +158,7 @@ class _Look:
         self._take(len(header), "a header: a frame may begin here")
 
     def _length(self) -> None:
-        frame = self.layout.frame
+        frame = self.model.frame
         length = self._number(frame.length_at, frame.length.size, keep=True)
         longest = max(message.largest for message in self._sent().values())
         size = length + frame.uncounted
@@ -167,7 +170,7 @@ class _Look:
         self._take(frame.length.size, text)
 
     def _command(self) -> MessageLayout:
-        frame = self.layout.frame
+        frame = self.model.frame
         code = self._number(frame.id_at, frame.id.size, keep=True)
         message = self._sent().get(code)
         if message is None:
@@ -191,32 +194,32 @@ class _Look:
             message.formula.count_at(length),
         )
         if count != due:
-            name = self.layout.frame.length_name
+            name = self.model.frame.length_name
             text = f"{counter.name} {count}: with a {name} of {length} it is {due}"
             self._take(counter.wire.size, text, ok=False)
             raise _Refused(COUNT_MISMATCH)
         self._take(counter.wire.size, f"{counter.name} {count}: agrees with the length")
 
     def _rest(self, message: MessageLayout, length: int) -> tuple[str, int]:
-        end = self.start + length + self.layout.frame.uncounted
+        end = self.start + length + self.model.frame.uncounted
         if end > self.at:
             self._take(end - self.at, "the rest of the values")
         try:
-            decode(self.layout, self.direction, self.data[self.start : end])
+            decode(self.model, self.direction, self.data[self.start : end])
         except NotAFrame as error:
             self._refuse(OUT_OF_RANGE, error.expected)
         whole = f"{message.name}, whole: {counted(end - self.start, 'byte')} from here"
         self.steps.append(Step(self.start, "", whole, ok=True))
         return message.name, end
 
-    def _sent(self) -> dict[int, MessageLayout]:
-        return self.layout.sent(self.direction)
+    def _sent(self) -> Mapping[int, MessageLayout]:
+        return self.model.sent(self.direction)
 
     def _number(self, offset: int, size: int, *, keep: bool = False) -> int:
         """Read the number at `offset` of the frame; with `keep`, only if it has arrived."""
         if keep and self.start + offset + size > len(self.data):
             self._take(size, "", ok=True)
-        return read_number(self.layout, self.data, self.start + offset, size)
+        return read_number(self.model, self.data, self.start + offset, size)
 
     def _take(self, size: int, text: str, *, ok: bool = True) -> None:
         """Tell what the next bytes say, or that they never come."""

@@ -11,28 +11,37 @@ from framegen.targets.python.client_view import ClientView
 from framegen.targets.python.device_view import DeviceView
 from framegen.targets.python.escape import comment, docstring, literal
 from framegen.targets.python.library_view import LibraryView
+from framegen.targets.python.snippet import snippet
+from framegen.targets.target import Target
 from framegen.targets.templates import environment
 
 if TYPE_CHECKING:
     from jinja2 import Environment
 
-    from framegen.model.layout import Layout
+    from framegen.compile import Compiled
+    from framegen.model.model import Model
     from framegen.reading.source import Source
+    from framegen.targets.target import Snippets
 
 _HERE = Path(__file__).parent
 # What framegen and a library have in common is written once: where it is copied to.
 _SHARED = {"cli/console.py": "console.py", "hextext.py": "hextext.py"}
 
 
-def render(source: Source, layout: Layout) -> dict[str, str]:
+def render(compiled: Compiled, _snippets: Snippets) -> dict[str, str]:
     """The library's files, by path below the project's root."""
-    library = LibraryView(layout)
-    banner = _banner(source, library)
+    library = LibraryView(compiled.model)
+    banner = _banner(compiled.source, library)
     files = dict([*_runtime(), *_from_templates(library)])
-    root = f"generated/{library.package}"
+    (root,) = folders(compiled.model)
     rendered = {f"{root}/{name}": banner + text for name, text in files.items()}
     rendered[f"{root}/py.typed"] = ""
     return rendered
+
+
+def folders(model: Model) -> tuple[str, ...]:
+    """The folder of the package."""
+    return (f"generated/{model.spec.protocol.name}",)
 
 
 def _banner(source: Source, library: LibraryView) -> str:
@@ -60,9 +69,9 @@ def _from_templates(library: LibraryView) -> list[tuple[str, str]]:
             name.removesuffix(".jinja"),
             templates.get_template(name).render(
                 library=library,
-                client=ClientView(library.layout),
-                device=DeviceView(library.layout),
-                frame=library.layout.frame,
+                client=ClientView(library.model),
+                device=DeviceView(library.model),
+                frame=library.model.frame,
                 package_version=__version__,
             ),
         )
@@ -76,3 +85,12 @@ def _environment() -> Environment:
     made = environment(_HERE / "templates", "python", autoescape=False)
     made.filters.update(docstring=docstring, literal=literal)
     return made
+
+
+TARGET = Target(
+    name="python",
+    about="The Python library: messages, codec, clients, device and command.",
+    render=render,
+    folders=folders,
+    snippet=snippet,
+)

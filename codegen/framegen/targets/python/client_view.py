@@ -8,7 +8,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, ClassVar
 
-from framegen.model.exchanges import STEPS_PER_SECOND, exchanges, sent_by_client
+from framegen.model.exchanges import STEPS_PER_SECOND
 from framegen.targets.python.escape import Bracketed, literal
 from framegen.targets.python.exports import relative_import
 from framegen.targets.python.method_view import Flavour, MethodView
@@ -18,7 +18,7 @@ from framegen.targets.python.words import direction_member
 if TYPE_CHECKING:
     from framegen.language.values import Range
     from framegen.model.exchanges import Exchange
-    from framegen.model.layout import Layout
+    from framegen.model.model import Model
 
 _SHARED = (
     "Each method sends one message. What they share is explained at {}: {}, deadlines, reports, "
@@ -33,7 +33,7 @@ _RESULTS = {"motion": ["AsyncMotion", "Motion"], "request": ["Sent"], "run": ["R
 class ClientView:
     """The clients of the library."""
 
-    layout: Layout
+    model: Model
 
     FLAVOURS: ClassVar = {
         "Controller": Flavour("def ", "", "Motion"),
@@ -58,7 +58,7 @@ class ClientView:
 
     @property
     def _title(self) -> str:
-        return self.layout.spec.protocol.title
+        return self.model.spec.protocol.title
 
     @property
     def methods(self) -> list[MethodView]:
@@ -71,7 +71,7 @@ class ClientView:
         return self._methods(self.FLAVOURS["AsyncController"])
 
     def _methods(self, flavour: Flavour) -> list[MethodView]:
-        return [MethodView(each, self.layout, flavour) for each in exchanges(self.layout)]
+        return [MethodView(each, self.model, flavour) for each in self.model.exchanges]
 
     @property
     def pose(self) -> PoseView | None:
@@ -84,15 +84,15 @@ class ClientView:
         return self._pose(self.FLAVOURS["AsyncController"])
 
     def _pose(self, flavour: Flavour) -> PoseView | None:
-        pose = self.layout.spec.pose
-        return None if pose is None else PoseView(pose, self.layout, flavour)
+        pose = self.model.spec.pose
+        return None if pose is None else PoseView(pose, self.model, flavour)
 
     @property
     def limits(self) -> str:
         """What describes the limits of what is sent."""
         limited = {
             each.request.name: each.request.limited
-            for each in exchanges(self.layout)
+            for each in self.model.exchanges
             if each.request.limited
         }
         if not limited:
@@ -106,47 +106,47 @@ class ClientView:
         items: list[str | Bracketed] = [_bounds(limits.usual)]
         items += [Bracketed("others={", others, "}")] if others else []
         items.append(Bracketed("fields={", fields, "}"))
-        pose = self.layout.spec.pose
+        pose = self.model.spec.pose
         items += [] if pose is None else [f"targets={literal(pose.targets)}"]
         return Bracketed("LIMITS = Limits(", items, ")").fitted(0)
 
     @property
     def entries(self) -> list[str]:
         """What comes back for each message, as the entries of a dict."""
-        return [_entry(each) for each in exchanges(self.layout)]
+        return [_entry(each) for each in self.model.exchanges]
 
     @property
     def hears(self) -> bool:
         """Whether anything comes to the client."""
-        return sent_by_client(self.layout.spec).reversed in self.layout.directions
+        return self.model.roles.received in self.model.directions
 
     @property
     def received(self) -> str:
         """The direction of what comes to the client; None, for either, where nothing does."""
-        back = sent_by_client(self.layout.spec).reversed
+        back = self.model.roles.received
         return f"Direction.{direction_member(back)}" if self.hears else "None"
 
     @property
     def import_messages(self) -> str:
         """The messages that exchanges are about."""
-        names = {each.request.name for each in exchanges(self.layout)}
-        names |= {each.reply.name for each in exchanges(self.layout) if each.reply is not None}
-        for each in exchanges(self.layout):
+        names = {each.request.name for each in self.model.exchanges}
+        names |= {each.reply.name for each in self.model.exchanges if each.reply is not None}
+        for each in self.model.exchanges:
             names |= set(each.reports)
         return relative_import("messages", sorted(names))
 
     @property
     def import_requests(self) -> str:
         """The classes that the methods make and expect."""
-        names = {each.request.name for each in exchanges(self.layout)}
-        names |= {each.reply.name for each in exchanges(self.layout) if each.reply is not None}
+        names = {each.request.name for each in self.model.exchanges}
+        names |= {each.reply.name for each in self.model.exchanges if each.reply is not None}
         return relative_import("messages", sorted(names))
 
     @property
     def import_elements(self) -> str:
         """The classes of elements that the methods return; empty where they return none."""
         shown = " ".join(method.returns for method in self.methods)
-        lists = [each.repeat for each in self.layout.messages.values()]
+        lists = [each.repeat for each in self.model.messages.values()]
         elements = {each.element for each in lists if each is not None and each.element is not None}
         found = {each for each in elements if f"tuple[{each}, ...]" in shown}
         names = sorted(found | ({self.pose.element} if self.pose else set()))

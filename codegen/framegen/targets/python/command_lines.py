@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from framegen.model.exchanges import exchanges
 from framegen.targets.python.escape import Bracketed, literal
 from framegen.targets.python.message_view import MessageView
 
@@ -12,13 +11,13 @@ if TYPE_CHECKING:
     from collections.abc import Iterable
 
     from framegen.language.spec import Example
-    from framegen.model.layout import Layout
+    from framegen.model.model import Model
 
 
-def decode_examples(layout: Layout) -> list[str]:
+def decode_examples(model: Model) -> list[str]:
     """For `decode`: the ways to hand it bytes."""
-    program, sender = layout.spec.protocol.name, layout.directions[0].sender
-    frame = _messages(layout)[0].example.hex
+    program, sender = model.spec.protocol.name, model.directions[0].sender
+    frame = _messages(model)[0].example.hex
     hex_ = frame.hex(" ").upper()
     examples = [
         (f"{program} decode {hex_}", "bytes in hex, however they are written"),
@@ -31,11 +30,11 @@ def decode_examples(layout: Layout) -> list[str]:
     return _pairs(examples)
 
 
-def encode_examples(layout: Layout) -> list[str]:
+def encode_examples(model: Model) -> list[str]:
     """For `encode`: an example of each shape of message."""
-    program = layout.spec.protocol.name
+    program = model.spec.protocol.name
     shapes: dict[tuple[bool, bool], tuple[str, str]] = {}
-    for message in _messages(layout):
+    for message in _messages(model):
         words = message.command_words(message.example.values)
         line = " ".join([program, "encode", message.name, *words])
         shape = bool(message.given), message.repeat is not None
@@ -43,10 +42,10 @@ def encode_examples(layout: Layout) -> list[str]:
     return _pairs(shapes.values())
 
 
-def line_examples(layout: Layout) -> dict[str, list[str]]:
+def line_examples(model: Model) -> dict[str, list[str]]:
     """For each verb that has to do with a port, in the order of the alphabet."""
-    program = layout.spec.protocol.name
-    questions = _questions(layout)
+    program = model.spec.protocol.name
+    questions = _questions(model)
     lines = {
         "bench-line": [
             (f"{words} -n 20" if at else words, f"how long {reply} takes to come")
@@ -76,13 +75,13 @@ def line_examples(layout: Layout) -> dict[str, list[str]]:
             ("line.hex --port COM7 --speed 0.5", "at half the pace"),
             ("line.bin --port COM7 --skip-noise", "raw bytes, of which some are no frames"),
         ],
-        "send": [*_commands(layout)[:4], *((words, what) for words, what, _ in questions)],
+        "send": [*_commands(model)[:4], *((words, what) for words, what, _ in questions)],
         "simulate": [
             ("", "a board behind a port, whose name is printed first"),
             ("--help", "what else it can do"),
         ],
     }
-    if layout.spec.pose is not None:
+    if model.spec.pose is not None:
         lines["doctor"].append(("--port COM7 --move 1", "also whether that moves; asks first"))
         lines |= {
             "play": [
@@ -101,21 +100,21 @@ def line_examples(layout: Layout) -> dict[str, list[str]]:
     }
 
 
-def _commands(layout: Layout) -> list[tuple[str, str]]:
+def _commands(model: Model) -> list[tuple[str, str]]:
     """An example of each message of the first direction, and what it does."""
     return [
         (_sent(message, message.example), message.layout.message.summary)
-        for message in _messages(layout)
-        if message.layout.direction == layout.directions[0]
+        for message in _messages(model)
+        if message.layout.direction == model.directions[0]
     ]
 
 
-def _questions(layout: Layout) -> list[tuple[str, str, str]]:
+def _questions(model: Model) -> list[tuple[str, str, str]]:
     """An example of each question, what it does, and its reply."""
     return [
         (_sent(message, message.example), message.layout.message.summary, exchange.reply.name)
-        for exchange in exchanges(layout)
-        for message in [MessageView(exchange.request, layout)]
+        for exchange in model.exchanges
+        for message in [MessageView(exchange.request, model)]
         if exchange.reply is not None
     ]
 
@@ -125,8 +124,8 @@ def _sent(message: MessageView, example: Example) -> str:
     return f"--port COM7 {words}"
 
 
-def _messages(layout: Layout) -> list[MessageView]:
-    return [MessageView(message, layout) for message in layout.messages.values()]
+def _messages(model: Model) -> list[MessageView]:
+    return [MessageView(message, model) for message in model.messages.values()]
 
 
 def _pairs(examples: Iterable[tuple[str, str]]) -> list[str]:

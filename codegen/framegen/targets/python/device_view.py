@@ -12,7 +12,8 @@ from framegen.targets.python.words import direction_member
 
 if TYPE_CHECKING:
     from framegen.language.values import Direction
-    from framegen.model.layout import Layout, MessageLayout
+    from framegen.model.layout import MessageLayout
+    from framegen.model.model import Model
 
 
 @dataclass(frozen=True, slots=True)
@@ -53,16 +54,14 @@ class HandlerView:
 
 @dataclass(frozen=True, slots=True)
 class DeviceView:
-    """The end of the line that the first endpoint of the spec talks to."""
+    """The end of the line that the library's user talks to."""
 
-    layout: Layout
+    model: Model
 
     @property
     def incoming(self) -> Direction:
         """The direction of what it receives."""
-        first = next(iter(self.layout.spec.endpoints))
-        found = [way for way in self.layout.directions if way.sender == first]
-        return found[0] if found else self.layout.directions[0]
+        return self.model.roles.sent
 
     @property
     def direction(self) -> str:
@@ -93,12 +92,12 @@ class DeviceView:
     @property
     def handlers(self) -> list[HandlerView]:
         """A handler for each message that it receives."""
-        return [HandlerView(message) for message in self.layout.sent(self.incoming).values()]
+        return [HandlerView(message) for message in self.model.sent(self.incoming).values()]
 
     @property
     def reports(self) -> list[str]:
         """The names of the messages that it sends."""
-        return sorted(message.name for message in self.layout.sent(self.incoming.reversed).values())
+        return sorted(message.name for message in self.model.sent(self.incoming.reversed).values())
 
     @property
     def import_handled(self) -> str:

@@ -20,7 +20,7 @@ from framegen.targets.python.words import direction_member, struct_order
 if TYPE_CHECKING:
     from framegen.language.spec import Link
     from framegen.language.values import Direction
-    from framegen.model.layout import Layout
+    from framegen.model.model import Model
     from framegen.targets.python.list_view import ListView
 
 
@@ -63,23 +63,23 @@ class VerbView:
 class LibraryView:
     """The library as a whole."""
 
-    layout: Layout
+    model: Model
 
     @property
     def version(self) -> str:
-        return self.layout.spec.protocol.version
+        return self.model.spec.protocol.version
 
     @property
     def package(self) -> str:
-        return self.layout.spec.protocol.name
+        return self.model.spec.protocol.name
 
     @property
     def directions(self) -> list[DirectionView]:
-        return [DirectionView(direction) for direction in self.layout.directions]
+        return [DirectionView(direction) for direction in self.model.ways]
 
     @property
     def messages(self) -> list[MessageView]:
-        return [MessageView(message, self.layout) for message in self.layout.messages.values()]
+        return [MessageView(message, self.model) for message in self.model.messages.values()]
 
     @property
     def elements(self) -> list[ListView]:
@@ -162,31 +162,31 @@ class LibraryView:
     @property
     def doc(self) -> list[str]:
         """The docstring of the package."""
-        protocol = self.layout.spec.protocol
+        protocol = self.model.spec.protocol
         return [f"{protocol.title}.", protocol.summary, protocol.description]
 
     @property
     def command_summary(self) -> str:
         """What the command is for."""
-        return f"Send, read and replay frames of: {self.layout.spec.protocol.title}."
+        return f"Send, read and replay frames of: {self.model.spec.protocol.title}."
 
     @property
     def decode_examples(self) -> list[str]:
-        return decode_examples(self.layout)
+        return decode_examples(self.model)
 
     @property
     def encode_examples(self) -> list[str]:
-        return encode_examples(self.layout)
+        return encode_examples(self.model)
 
     @property
     def line_verbs(self) -> list[VerbView]:
         """The verbs that have to do with a port."""
-        return [VerbView(name, lines) for name, lines in line_examples(self.layout).items()]
+        return [VerbView(name, lines) for name, lines in line_examples(self.model).items()]
 
     @property
     def lookalikes(self) -> str:
         """The tuple of the protocols that are easily taken for this one."""
-        spec = self.layout.spec
+        spec = self.model.spec
         # With neither a frame nor commands of its own, there is nothing to tell it by.
         told = [each for each in spec.lookalikes.values() if each.frame or each.commands]
         entries = [LookalikeView(lookalike, spec).entry for lookalike in told]
@@ -195,7 +195,7 @@ class LibraryView:
 
     @property
     def link(self) -> Link:
-        return self.layout.spec.link
+        return self.model.spec.link
 
     @property
     def hid_boards(self) -> str:
@@ -209,7 +209,7 @@ class LibraryView:
 
     @property
     def byte_order(self) -> str:
-        return self.layout.spec.byte_order
+        return self.model.spec.byte_order
 
     @property
     def struct_order(self) -> str:
@@ -217,14 +217,14 @@ class LibraryView:
 
     @property
     def header(self) -> str:
-        return 'b"' + "".join(f"\\x{byte:02x}" for byte in self.layout.frame.header) + '"'
+        return 'b"' + "".join(f"\\x{byte:02x}" for byte in self.model.frame.header) + '"'
 
     @property
     def head(self) -> list[str]:
         """The expressions whose sum is the head of a frame."""
         terms: list[str] = []
-        frame = self.layout.frame
-        for part in self.layout.spec.frame.values():
+        frame = self.model.frame
+        for part in self.model.spec.frame.values():
             if isinstance(part, LengthPart):
                 terms.append(f'length.to_bytes({frame.length.size}, "{self.byte_order}")')
             elif isinstance(part, IdPart):

@@ -19,7 +19,8 @@ if TYPE_CHECKING:
 
     from framegen.language.spec import Example
     from framegen.language.values import Citation
-    from framegen.model.layout import Layout, MessageLayout
+    from framegen.model.layout import MessageLayout
+    from framegen.model.model import Model
 
 # What the function of a strategy cannot be called.
 _TAKEN_FUNCTIONS = {"messages", "noise", "noisy_streams", "st", *PYTHON_KEYWORDS, *PYTHON_BUILTINS}
@@ -30,7 +31,7 @@ class MessageView:
     """One message class."""
 
     layout: MessageLayout
-    whole: Layout
+    model: Model
 
     @property
     def name(self) -> str:
@@ -55,7 +56,7 @@ class MessageView:
         return found
 
     def cited(self, cite: Citation) -> str:
-        title = self.whole.spec.sources[cite.source].title
+        title = self.model.spec.sources[cite.source].title
         return f"{title}, {cite.place}" if cite.place else title
 
     @property
@@ -78,13 +79,13 @@ class MessageView:
     @property
     def numbers(self) -> list[NumberView]:
         """The fields in front of the list, its count among them."""
-        return [NumberView(field, self.whole.spec) for field in self.layout.numbers]
+        return [NumberView(field, self.model.spec) for field in self.layout.numbers]
 
     @property
     def given(self) -> list[NumberView]:
         """The numbers that a user gives."""
         return [
-            NumberView(field, self.whole.spec)
+            NumberView(field, self.model.spec)
             for field in self.layout.arguments
             if isinstance(field, WireField)
         ]
@@ -92,7 +93,7 @@ class MessageView:
     @property
     def repeat(self) -> ListView | None:
         repeat = self.layout.repeat
-        return None if repeat is None else ListView(repeat, self.whole.spec)
+        return None if repeat is None else ListView(repeat, self.model.spec)
 
     @property
     def counter(self) -> int:

@@ -12,7 +12,7 @@ from framegen.targets.python.number_view import NumberView
 
 if TYPE_CHECKING:
     from framegen.model.exchanges import Exchange
-    from framegen.model.layout import Layout
+    from framegen.model.model import Model
 
 _HANDED_OVER = (
     "Returns once the frame is handed over; `delay` of the result is in how many seconds it will "
@@ -55,7 +55,7 @@ class MethodView:
     """One method of a client."""
 
     exchange: Exchange
-    layout: Layout
+    model: Model
     flavour: Flavour
 
     @property
@@ -192,10 +192,10 @@ class MethodView:
         return self._list(field) if isinstance(field, Repeat) else self._number(field)
 
     def _list(self, field: Repeat) -> ListView:
-        return ListView(field, self.layout.spec)
+        return ListView(field, self.model.spec)
 
     def _number(self, field: WireField) -> NumberView:
-        return NumberView(field, self.layout.spec)
+        return NumberView(field, self.model.spec)
 
     def _type(self, argument: NumberView | ListView) -> str:
         return argument.given_as if isinstance(argument, ListView) else "int"

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from framegen.model.exchanges import arguments_of, exchanges
+from framegen.model.exchanges import arguments_of
 from framegen.targets.python.escape import Bracketed, literal
 from framegen.targets.python.method_view import MethodView
 from framegen.targets.python.words import range_expression
@@ -13,7 +13,8 @@ from framegen.targets.python.words import range_expression
 if TYPE_CHECKING:
     from framegen.language.spec import Pose
     from framegen.model.exchanges import Exchange
-    from framegen.model.layout import Layout, MessageLayout, Repeat
+    from framegen.model.layout import MessageLayout, Repeat
+    from framegen.model.model import Model
     from framegen.targets.python.method_view import Flavour
 
 _RAISED = "NoReplyError where no reply comes in time, and TransportError."
@@ -24,7 +25,7 @@ class PoseView:
     """The methods of a client that read and command the positions of many."""
 
     pose: Pose
-    layout: Layout
+    model: Model
     flavour: Flavour
 
     @property
@@ -91,7 +92,7 @@ class PoseView:
     @property
     def moves(self) -> str:
         """What that method returns."""
-        return MethodView(self._exchange(self.pose.move), self.layout, self.flavour).returns
+        return MethodView(self._exchange(self.pose.move), self.model, self.flavour).returns
 
     @property
     def call(self) -> str:
@@ -196,7 +197,7 @@ class PoseView:
         return found
 
     def _message(self, name: str) -> MessageLayout:
-        return self.layout.messages[name]
+        return self.model.messages[name]
 
     def _exchange(self, name: str) -> Exchange:
-        return next(each for each in exchanges(self.layout) if each.request.name == name)
+        return next(each for each in self.model.exchanges if each.request.name == name)

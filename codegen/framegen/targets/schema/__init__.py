@@ -12,12 +12,13 @@ from typing import TYPE_CHECKING, Any
 from framegen.language.spec import Spec
 from framegen.language.wiretypes import WIRE_TYPES
 from framegen.reading.yamltree import Unusable
+from framegen.targets.target import Target
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from framegen.model.layout import Layout
-    from framegen.reading.source import Source
+    from framegen.compile import Compiled
+    from framegen.targets.target import Snippets
 
 _KEYWORDS = (
     "$schema",
@@ -43,7 +44,7 @@ _KEYWORDS = (
 )
 
 
-def render(_source: Source, _layout: Layout) -> dict[str, str]:
+def render(_compiled: Compiled, _snippets: Snippets) -> dict[str, str]:
     """The schema, by path below the project's root: beside the spec, where editors look for it."""
     return {"spec/framegen.schema.json": schema_text()}
 
@@ -98,3 +99,11 @@ def _mapped(keyword: str, value: Any, change: Callable[[dict[str, Any]], dict[st
     if keyword in ("items", "additionalProperties") and isinstance(value, dict):
         return change(value)
     return value
+
+
+TARGET = Target(
+    name="schema",
+    about="The spec language as JSON Schema, for editors.",
+    render=render,
+    shared=True,
+)

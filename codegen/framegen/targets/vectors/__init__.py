@@ -13,26 +13,30 @@ from framegen import __version__
 from framegen.language.values import to_hex
 from framegen.model.codec import NotAFrame, decode, encode
 from framegen.model.layout import Repeat
+from framegen.targets.target import Target
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
+    from framegen.compile import Compiled
     from framegen.language.values import Direction
-    from framegen.model.layout import Layout, MessageLayout, WireField
-    from framegen.reading.source import Source
+    from framegen.model.layout import MessageLayout, WireField
+    from framegen.model.model import Model
+    from framegen.targets.target import Snippets
 
 
-def render(source: Source, layout: Layout) -> dict[str, str]:
+def render(compiled: Compiled, _snippets: Snippets) -> dict[str, str]:
     """The file of vectors, by path below the project's root."""
-    protocol = layout.spec.protocol
-    valid = [vector for message in layout.messages.values() for vector in _valid(layout, message)]
+    model = compiled.model
+    protocol = model.spec.protocol
+    valid = [vector for message in model.messages.values() for vector in _valid(model, message)]
     document = {
         "generated_by": f"framegen {__version__}",
         "protocol": protocol.name,
         "version": protocol.version,
-        "spec_sha256": source.digest,
+        "spec_sha256": compiled.source.digest,
         "valid": valid,
-        "invalid": list(_invalid(layout)),
+        "invalid": list(_invalid(model)),
     }
     return {f"generated/{protocol.name}/vectors.json": _one_vector_a_line(document)}
 
@@ -48,23 +52,23 @@ def _one_vector_a_line(document: dict[str, Any]) -> str:
     return "{\n" + ",\n".join(parts) + "\n}\n"
 
 
-def _valid(layout: Layout, message: MessageLayout) -> Iterator[dict[str, Any]]:
+def _valid(model: Model, message: MessageLayout) -> Iterator[dict[str, Any]]:
     """The examples of a message, then the ends of its ranges."""
     for example in message.message.examples:
-        yield _vector(layout, message, example.title, dict(example.values))
+        yield _vector(model, message, example.title, dict(example.values))
     for title, values in _range_ends(message):
-        yield _vector(layout, message, title, values)
+        yield _vector(model, message, title, values)
 
 
 def _vector(
-    layout: Layout, message: MessageLayout, title: str, values: dict[str, Any]
+    model: Model, message: MessageLayout, title: str, values: dict[str, Any]
 ) -> dict[str, Any]:
     return {
         "title": title,
         "direction": message.direction.key,
         "message": message.name,
         "fields": values,
-        "hex": to_hex(encode(layout, message, values)),
+        "hex": to_hex(encode(model, message, values)),
     }
 
 
@@ -92,23 +96,23 @@ def _item(repeat: Repeat, end: str) -> Any:
     return {field.name: _end(field, end) for field in repeat.fields}
 
 
-def _invalid(layout: Layout) -> Iterator[dict[str, Any]]:
+def _invalid(model: Model) -> Iterator[dict[str, Any]]:
     """Bytes that are no frame, with the reason: each documented frame, spoilt in every way."""
-    for direction in layout.directions:
+    for direction in model.directions:
         seen: set[bytes] = set()
-        for message in layout.sent(direction).values():
+        for message in model.sent(direction).values():
             for example in message.message.examples:
-                for title, data in _spoilt(layout, message, example.hex):
+                for title, data in _spoilt(model, message, example.hex):
                     if data not in seen:
                         seen.add(data)
-                        yield from _refused(layout, direction, f"{message.name}: {title}", data)
+                        yield from _refused(model, direction, f"{message.name}: {title}", data)
 
 
 def _refused(
-    layout: Layout, direction: Direction, title: str, data: bytes
+    model: Model, direction: Direction, title: str, data: bytes
 ) -> Iterator[dict[str, Any]]:
     try:
-        decode(layout, direction, data)
+        decode(model, direction, data)
     except NotAFrame as error:
         yield {
             "title": title,
@@ -119,32 +123,32 @@ def _refused(
         }
 
 
-def _spoilt(layout: Layout, message: MessageLayout, frame: bytes) -> Iterator[tuple[str, bytes]]:
+def _spoilt(model: Model, message: MessageLayout, frame: bytes) -> Iterator[tuple[str, bytes]]:
     """A frame with one thing wrong with it. Some are legal frames after all, and are left out."""
-    envelope = layout.frame
+    envelope = model.frame
     for size in sorted({0, 1, len(envelope.header), envelope.body_at - 1, len(frame) - 1}):
         yield f"only the first {size} bytes", frame[:size]
     yield "a byte too many", frame + b"\x00"
     yield "a header byte flipped", _changed(frame, len(envelope.header) - 1, 0xFF)
     for step in -1, 1:
-        spoilt = _stepped(layout, frame, envelope.length_at, envelope.length.size, step)
+        spoilt = _stepped(model, frame, envelope.length_at, envelope.length.size, step)
         yield f"the length off by {step:+}", spoilt
-    unknown = next((i for i in envelope.legal_ids if i not in layout.sent(message.direction)), None)
+    unknown = next((i for i in envelope.legal_ids if i not in model.sent(message.direction)), None)
     if unknown is not None:
-        yield "an unknown command", _replaced(layout, frame, envelope.id_at, unknown)
+        yield "an unknown command", _replaced(model, frame, envelope.id_at, unknown)
     if message.repeat is not None:
         counter = message.repeat.counter
         for step in -1, 1:
-            spoilt = _stepped(layout, frame, counter.offset, counter.wire.size, step)
+            spoilt = _stepped(model, frame, counter.offset, counter.wire.size, step)
             yield f"the count off by {step:+}", spoilt
     for field in message.numbers:
         if field.narrowed and not message.counts_with(field) and field.high < field.wire.high:
-            spoilt = frame[: field.offset] + _bytes(layout, field, field.high + 1)
+            spoilt = frame[: field.offset] + _bytes(model, field, field.high + 1)
             yield f"{field.name} too high", spoilt + frame[len(spoilt) :]
 
 
-def _bytes(layout: Layout, field: WireField, value: int) -> bytes:
-    order = layout.spec.byte_order
+def _bytes(model: Model, field: WireField, value: int) -> bytes:
+    order = model.spec.byte_order
     return value.to_bytes(field.wire.size, order, signed=field.wire.low < 0)
 
 
@@ -152,12 +156,19 @@ def _changed(frame: bytes, at: int, mask: int) -> bytes:
     return frame[:at] + bytes([frame[at] ^ mask]) + frame[at + 1 :]
 
 
-def _stepped(layout: Layout, frame: bytes, at: int, size: int, step: int) -> bytes:
+def _stepped(model: Model, frame: bytes, at: int, size: int, step: int) -> bytes:
     """The number at `at` changed by `step`, in its lowest byte."""
-    last = at if layout.spec.byte_order == "little" else at + size - 1
+    last = at if model.spec.byte_order == "little" else at + size - 1
     return frame[:last] + bytes([(frame[last] + step) & 0xFF]) + frame[last + 1 :]
 
 
-def _replaced(layout: Layout, frame: bytes, at: int, value: int) -> bytes:
-    size = layout.frame.id.size
-    return frame[:at] + value.to_bytes(size, layout.spec.byte_order) + frame[at + size :]
+def _replaced(model: Model, frame: bytes, at: int, value: int) -> bytes:
+    size = model.frame.id.size
+    return frame[:at] + value.to_bytes(size, model.spec.byte_order) + frame[at + size :]
+
+
+TARGET = Target(
+    name="vectors",
+    about="Test vectors for codecs in any language.",
+    render=render,
+)

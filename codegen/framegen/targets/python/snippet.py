@@ -11,24 +11,31 @@ from framegen.targets.python.words import direction_member
 
 if TYPE_CHECKING:
     from framegen.language.spec import Example
-    from framegen.model.layout import Layout, MessageLayout
+    from framegen.model.layout import MessageLayout
+    from framegen.model.model import Model
 
 
-def sending(layout: Layout, message: MessageLayout, example: Example) -> str:
+def snippet(model: Model, message: MessageLayout, example: Example) -> str:
+    """Make what the library's user sends; find what it receives."""
+    show = _sending if message.direction == model.roles.sent else _receiving
+    return show(model, message, example)
+
+
+def _sending(model: Model, message: MessageLayout, example: Example) -> str:
     """Make the frame of an example."""
-    given = MessageView(message, layout).given_values(example.values)
+    given = MessageView(message, model).given_values(example.values)
     return (
-        f"from {layout.spec.protocol.name} import {message.name}\n\n"
+        f"from {model.spec.protocol.name} import {message.name}\n\n"
         + Bracketed(f"message = {message.name}(", given, ")\n").fitted(0)
         + _from_hex("assert message.encode() ==", example)
     )
 
 
-def receiving(layout: Layout, message: MessageLayout, example: Example) -> str:
+def _receiving(model: Model, message: MessageLayout, example: Example) -> str:
     """Find an example in what the line brings."""
     names = sorted([message.name, "Direction", "StreamDecoder"])
     return (
-        f"from {layout.spec.protocol.name} import {', '.join(names)}\n\n"
+        f"from {model.spec.protocol.name} import {', '.join(names)}\n\n"
         f"decoder = StreamDecoder(Direction.{direction_member(message.direction)})\n"
         + _from_hex("received =", example)
         + "for event in decoder.feed(received):\n"

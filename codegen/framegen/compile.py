@@ -1,0 +1,64 @@
+"""From the text of a spec to everything that is known of it: one parse, one derivation."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from framegen.checks import check_model, check_structure
+from framegen.language.load import load
+from framegen.model.model import derive
+from framegen.reading.findings import in_order
+from framegen.reading.yamltree import Unusable
+from framegen.wording import counted
+
+if TYPE_CHECKING:
+    from framegen.language.spec import Spec
+    from framegen.model.model import Model
+    from framegen.reading.findings import Finding
+    from framegen.reading.source import Source
+    from framegen.reading.yamltree import Tree
+
+
+@dataclass(frozen=True, slots=True)
+class Compiled:
+    """A spec as text, with the place of each value, what is wrong with it, and what it means."""
+
+    source: Source
+    tree: Tree
+    findings: list[Finding]
+    read: Spec | None
+    derived: Model | None
+
+    @property
+    def spec(self) -> Spec:
+        """What its author said. Raises Unusable where there are findings."""
+        return self.model.spec
+
+    @property
+    def model(self) -> Model:
+        """What follows from it. Raises Unusable where there are findings."""
+        if self.findings or self.derived is None:
+            name = self.source.name
+            first = self.findings[0].render(self.source)
+            raise Unusable(
+                f"{name} has {counted(len(self.findings), 'finding')}; the first is\n{first}",
+                hint=f"`framegen check {name}` shows them all",
+            )
+        return self.derived
+
+
+def compile_spec(source: Source) -> Compiled:
+    """Read a spec, check it and work out what follows. Raises Unusable where it is no spec at all.
+
+    What is wrong is in `findings`, from the top of the file down.
+    """
+    loaded = load(source)
+    found, spec, model = list(loaded.findings), loaded.spec, None
+    if spec is not None:
+        structure = check_structure(spec, loaded.tree)
+        found += structure
+        if not structure:
+            model = derive(spec)
+            found += check_model(model, loaded.tree)
+    return Compiled(source, loaded.tree, in_order(found), spec, model)

@@ -1,0 +1,80 @@
+"""Everything that follows from a spec, in one place: whoever asks what a protocol is, asks here."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+from typing import TYPE_CHECKING
+
+from framegen.model import roles
+from framegen.model.exchanges import exchanges
+from framegen.model.layout import derive_frame, derive_message
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    from framegen.language.spec import Spec
+    from framegen.language.values import Direction
+    from framegen.model.exchanges import Exchange
+    from framegen.model.layout import FrameLayout, MessageLayout
+    from framegen.model.roles import Kind, Roles
+
+
+@dataclass(frozen=True)
+class Model:
+    """Everything that follows from one spec."""
+
+    spec: Spec
+    roles: Roles
+    frame: FrameLayout
+    messages: dict[str, MessageLayout]
+
+    @cached_property
+    def ways(self) -> list[Direction]:
+        """Every direction: what the client sends, what it receives, and others that messages go."""
+        return list(dict.fromkeys([*self.roles.directions, *self._sent]))
+
+    @cached_property
+    def directions(self) -> list[Direction]:
+        """Those of them in which messages go."""
+        return [way for way in self.ways if way in self._sent]
+
+    def sent(self, direction: Direction) -> Mapping[int, MessageLayout]:
+        """The messages of one direction, by id."""
+        return self._sent.get(direction, {})
+
+    @cached_property
+    def _sent(self) -> dict[Direction, dict[int, MessageLayout]]:
+        found: dict[Direction, dict[int, MessageLayout]] = {}
+        for message in self.messages.values():
+            found.setdefault(message.direction, {})[message.id] = message
+        return found
+
+    def kind(self, name: str) -> Kind:
+        """What a message is: `query`, `command`, `reply` or `report`."""
+        return self._kinds[name]
+
+    @cached_property
+    def _kinds(self) -> dict[str, Kind]:
+        return roles.kinds(self.spec.messages, self.roles)
+
+    @cached_property
+    def exchanges(self) -> list[Exchange]:
+        """Every message that the client sends and what comes back, in the order of the spec."""
+        return exchanges(self.messages, self.roles)
+
+    @cached_property
+    def answers(self) -> dict[str, list[str]]:
+        """The requests that each reply answers."""
+        found: dict[str, list[str]] = {}
+        for name, message in self.spec.messages.items():
+            if message.reply is not None:
+                found.setdefault(message.reply, []).append(name)
+        return found
+
+
+def derive(spec: Spec) -> Model:
+    """Work out all of it, once. Needs a spec that keeps the rules of its structure."""
+    frame = derive_frame(spec)
+    messages = {name: derive_message(spec, frame, name) for name in spec.messages}
+    return Model(spec, roles.settle(spec), frame, messages)

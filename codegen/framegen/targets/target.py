@@ -1,0 +1,66 @@
+"""What a target is: one kind of output, such as a library for one language, or the reference."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, TypeAlias
+
+if TYPE_CHECKING:
+    from framegen.compile import Compiled
+    from framegen.language.spec import Example
+    from framegen.model.layout import MessageLayout
+    from framegen.model.model import Model
+    from framegen.reading.yamltree import KeyPath
+
+Snippet: TypeAlias = "Callable[[Model, MessageLayout, Example], str]"
+Snippets: TypeAlias = Mapping[str, Snippet]
+
+
+@dataclass(frozen=True, slots=True)
+class Comment:
+    """What stands around a line to make it a comment."""
+
+    before: str
+    after: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class BentName:
+    """A name of the spec that a target writes otherwise, and why."""
+
+    path: KeyPath
+    name: str
+    bent: str
+    why: str
+
+
+def _no_folders(_model: Model) -> tuple[str, ...]:
+    return ()
+
+
+def _nothing_bent(_model: Model) -> list[BentName]:
+    return []
+
+
+@dataclass(frozen=True, slots=True)
+class Target:
+    """One kind of output. Everything that the rest of framegen asks of a target stands here.
+
+    `render` gives the files by path below the project's root: pure, without a look at the disk. It
+    is handed the snippets of all targets, by name of the target. `folders` are those that hold
+    nothing else, `comments` how a line becomes a comment, by suffix: such files get the banner.
+    `reserved` are the words that no name may be in this target, and `bent` what became of names
+    that are. `snippet` shows an example of a message as code. `shared` says that the files are the
+    same for every spec: they belong to framegen.
+    """
+
+    name: str
+    about: str
+    render: Callable[[Compiled, Snippets], dict[str, str]]
+    folders: Callable[[Model], tuple[str, ...]] = _no_folders
+    comments: Mapping[str, Comment] = field(default_factory=dict)
+    reserved: frozenset[str] = frozenset()
+    bent: Callable[[Model], list[BentName]] = _nothing_bent
+    snippet: Snippet | None = None
+    shared: bool = False

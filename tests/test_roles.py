@@ -1,0 +1,79 @@
+"""Who is who: settled by the order of the endpoints, whatever the order of the messages."""
+
+from typing import Any
+
+import pytest
+
+from tests.specimens import BUSSERVO, DEMO, Data, compiled_of, data_of, files_of, layout_of
+
+SERVO, HOUSE = data_of(BUSSERVO), data_of(DEMO)
+
+
+def report_first(data: Data) -> Data:
+    """The same with a message of the device in front."""
+    device = list(data["endpoints"])[1]
+    messages = data["messages"]
+    front = next(name for name in messages if messages[name]["direction"].startswith(device))
+    return {**data, "messages": {front: messages[front], **messages}}
+
+
+def turned_round(data: Data) -> Data:
+    return {**data, "endpoints": dict(reversed(data["endpoints"].items()))}
+
+
+def rules(data: Data) -> list[str]:
+    return [finding.rule for finding in compiled_of(data).findings]
+
+
+@pytest.mark.parametrize("data", [SERVO, HOUSE], ids=["busservo", "greenhouse"])
+def test_a_report_in_front_of_the_commands_turns_nobody_round(data: Data) -> None:
+    moved = report_first(data)
+    assert list(moved["messages"]) != list(data["messages"])
+    assert layout_of(moved).roles == layout_of(data).roles
+
+    name = data["protocol"]["name"]
+    before, after = files_of(data), files_of(moved)
+    # What lists messages lists them in the order of the spec; what each end does is the same.
+    for file in ("controller", "async_controller", "direction"):
+        path = f"generated/{name}/{file}.py"
+        assert _without_banner(before[path]) == _without_banner(after[path]), path
+
+
+def _without_banner(text: str) -> list[str]:
+    return [line for line in text.split("\n") if not line.startswith("#")]
+
+
+def test_endpoints_that_change_places_are_told_where_a_client_has_methods() -> None:
+    assert set(rules(turned_round(SERVO))) == {"limits", "lasts", "method", "pose"}
+
+
+@pytest.mark.parametrize(
+    ("change", "found"),
+    [(lambda data: data, []), (report_first, ["endpoints"]), (turned_round, ["endpoints"])],
+    ids=["as it was", "a report first", "turned round"],
+)
+def test_where_an_older_edition_meant_another_it_is_told(change: Any, found: list[str]) -> None:
+    """Edition 1 took whoever sends first for the library's user."""
+    assert rules({**change(HOUSE), "framegen": 1}) == found
+
+
+def test_kinds_are_told_by_who_sends() -> None:
+    model = layout_of(report_first(HOUSE))
+    assert {name: model.kind(name) for name in sorted(model.messages)} == {
+        "StationRead": "query",
+        "StationState": "reply",
+        "TextShow": "command",
+        "VentJammed": "report",
+        "VentsOpen": "command",
+    }
+
+
+def test_a_third_end_is_read_and_plays_no_part() -> None:
+    model = layout_of(HOUSE)
+    assert (model.roles.client, model.roles.device) == ("gateway", "station")
+    assert [way.key for way in model.ways] == [
+        "gateway_to_station",
+        "station_to_gateway",
+        "gateway_to_display",
+    ]
+    assert "TextShow" not in [each.request.name for each in model.exchanges]
