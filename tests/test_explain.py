@@ -523,7 +523,7 @@ def damaged(draw: st.DrawFn) -> bytes:
 
 @settings(max_examples=400, deadline=None, derandomize=True)
 @given(
-    layout=st.sampled_from([LAYOUT, GREENHOUSE]),
+    model=st.sampled_from([LAYOUT, GREENHOUSE]),
     data=st.one_of(st.binary(min_size=1, max_size=40), damaged()),
 )
 def test_any_bytes_are_explained(model: Model, data: bytes) -> None:
