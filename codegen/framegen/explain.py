@@ -181,13 +181,9 @@ def _facts(model: Model, message: MessageLayout, data: bytes) -> Iterator[tuple[
         yield "reply", said.reply or "none is due"
     if said.reports:
         yield "reported by", ", ".join(said.reports)
-    others = model.spec.messages.items()
-    answers = [name for name, other in others if other.reply == message.name]
-    if answers:
-        yield "answers", ", ".join(answers)
-    reports = [name for name, other in others if message.name in other.reports]
-    if reports:
-        yield "reports on", ", ".join(reports)
+    for fact, others in ("answers", model.answers), ("reports on", model.reports_on):
+        if message.name in others:
+            yield fact, ", ".join(others[message.name])
     for example in said.examples:
         if example.hex == data:
             cite = "" if example.cite is None else f" ({example.cite})"

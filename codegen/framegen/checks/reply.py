@@ -11,29 +11,27 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from framegen.language.spec import Message, Spec
+    from framegen.language.values import Direction
     from framegen.reading.yamltree import KeyPath
 
 
 def _look(spec: Spec) -> Iterator[Problem]:
+    sent: dict[Direction, list[str]] = {}
     for name, message in spec.messages.items():
+        sent.setdefault(message.direction, []).append(name)
+    for name, message in spec.messages.items():
+        way = message.direction.reversed
         for path, answer in _answers(("messages", name), message):
             other = spec.messages.get(answer)
-            back = [
-                key
-                for key, each in spec.messages.items()
-                if each.direction == message.direction.reversed
-            ]
+            if other is not None and other.direction == way:
+                continue
+            hint = did_you_mean(answer, sent.get(way, []))
             if other is None:
-                hint = did_you_mean(answer, back)
                 yield Problem(path, f"there is no message `{answer}`", hint)
-            elif answer not in back:
-                yield Problem(
-                    path,
-                    f"{answer} goes {other.direction}, and what answers {name} "
-                    f"goes {message.direction.reversed}",
-                    did_you_mean(answer, back),
-                    also=(("messages", answer, "direction"), f"the direction of {answer}"),
-                )
+            else:
+                what = f"{answer} goes {other.direction}, and what answers {name} goes {way}"
+                also = (("messages", answer, "direction"), f"the direction of {answer}")
+                yield Problem(path, what, hint, also=also)
 
 
 def _answers(path: KeyPath, message: Message) -> Iterator[tuple[KeyPath, str]]:

@@ -11,7 +11,7 @@ from framegen.model.exchanges import exchanges
 from framegen.model.layout import derive_frame, derive_message
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
+    from collections.abc import Iterable, Mapping
 
     from framegen.language.spec import Spec
     from framegen.language.values import Direction
@@ -65,12 +65,23 @@ class Model:
 
     @cached_property
     def answers(self) -> dict[str, list[str]]:
-        """The requests that each reply answers."""
-        found: dict[str, list[str]] = {}
-        for name, message in self.spec.messages.items():
-            if message.reply is not None:
-                found.setdefault(message.reply, []).append(name)
-        return found
+        """By reply, the messages that it answers."""
+        named = {name: [message.reply or ""] for name, message in self.spec.messages.items()}
+        return _turned(named)
+
+    @cached_property
+    def reports_on(self) -> dict[str, list[str]]:
+        """By report, the messages that it may follow."""
+        return _turned({name: message.reports for name, message in self.spec.messages.items()})
+
+
+def _turned(named: Mapping[str, Iterable[str]]) -> dict[str, list[str]]:
+    """By each name that is named, those that name it."""
+    found: dict[str, list[str]] = {}
+    for name, others in named.items():
+        for other in dict.fromkeys(others):
+            found.setdefault(other, []).append(name)
+    return found
 
 
 def derive(spec: Spec) -> Model:

@@ -90,8 +90,7 @@ class MessageView:
     @property
     def reports_on(self) -> list[str]:
         """The commands that it may follow."""
-        others = self.model.spec.messages.items()
-        return [name for name, other in others if self.name in other.reports]
+        return self.model.reports_on.get(self.name, [])
 
     @property
     def silent(self) -> bool:
