@@ -13,9 +13,10 @@ from framegen import checks
 from framegen.checks import RULES
 from framegen.checks.reading import READING_RULES
 from framegen.compile import compile_spec
+from framegen.language import misfit
 from framegen.language.load import MAX_BYTES, load, read_source
 from framegen.model.lookalikes import recognise
-from framegen.reading.findings import Finding, did_you_mean
+from framegen.reading.findings import MOST_FINDINGS, Finding, did_you_mean
 from framegen.reading.source import Source, Span
 from framegen.reading.yamltree import Unusable
 from hypothesis import given, settings
@@ -25,6 +26,8 @@ from tests.patience import PATIENCE
 from tests.specimens import BUSSERVO, DEMO, compiled_of, data_of
 
 if TYPE_CHECKING:
+    from collections.abc import Iterable
+
     from framegen.checks.rule import AnyRule
 
     from tests.specimens import Steps
@@ -160,16 +163,13 @@ LONG = "abcdefghij" * 4
         (
             ("protocol", "title"),
             True,
-            (
-                "text is expected here, not the truth value `true`; "
-                "put a number or a word like true in quotes"
-            ),
-            "",
+            "text is expected here, not the truth value `true`",
+            'put it in quotes: "true"',
         ),
         (
             ("protocol", "title"),
             {"en": "Greenhouse"},
-            "text is expected here, not a mapping; put a number or a word like true in quotes",
+            "text is expected here, not a mapping",
             "",
         ),
         (
@@ -284,7 +284,9 @@ def test_a_finding_in_two_places_is_shown_with_both() -> None:
         ("is: id", "wrong-value"),
     ],
 )
-@pytest.mark.parametrize("value", ["x" * 200_000, "x " * 100_000, "9" * 4000])
+@pytest.mark.parametrize(
+    "value", ["x" * 200_000, "x " * 100_000, "x`y " * 50_000, "`.x " * 50_000, "9" * 4000]
+)
 def test_a_finding_repeats_no_more_of_a_value_than_can_be_read(
     found: str, rule: str, value: str
 ) -> None:
@@ -295,6 +297,40 @@ def test_a_finding_repeats_no_more_of_a_value_than_can_be_read(
     findings = compile_spec(source).findings
     assert rule in {finding.rule for finding in findings}
     assert max(len(finding.render(source)) for finding in findings) < 2000
+
+
+@pytest.mark.parametrize("key", ["x" * 200_000, "x " * 100_000, "x`y " * 50_000, "x." * 100_000])
+def test_a_finding_repeats_no_more_of_a_key_than_can_be_read(key: str) -> None:
+    text = DEMO.read_text(encoding="utf-8") + f'? "{key}"\n: {{}}\n? "{key}"\n: 1\n'
+    source = Source("long.yaml", text)
+    shown = [finding.render(source) for finding in compile_spec(source).findings]
+    assert len(shown) == 2
+    assert max(map(len, shown)) < 5000
+
+
+def test_no_more_findings_are_told_than_can_be_mended_and_how_many_more_there_are() -> None:
+    known = data_of(DEMO)
+    findings = compiled_of({**known, **{f"key_{each}": 1 for each in range(20_000)}}).findings
+    assert [finding.rule for finding in findings] == [
+        *["unknown-key"] * MOST_FINDINGS,
+        "many-findings",
+    ]
+    assert findings[-1].message == f"not shown: {20_000 - MOST_FINDINGS} findings from here down"
+    assert findings[-1].path == f"key_{MOST_FINDINGS}"
+
+
+def test_only_what_is_shown_is_searched_for_what_it_was_to_be(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    searched: list[str] = []
+
+    def noted(word: str, known: Iterable[str]) -> str:
+        searched.append(word)
+        return did_you_mean(word, known)
+
+    monkeypatch.setattr(misfit, "did_you_mean", noted)
+    compiled_of({**data_of(DEMO), **{f"key_{number}": 1 for number in range(500)}})
+    assert searched == [f"key_{number}" for number in range(MOST_FINDINGS)]
 
 
 @pytest.mark.parametrize(
@@ -333,6 +369,12 @@ def test_a_caret_stands_under_its_place(
         ("u17", ["u16"], "declare it", "did you mean `u16`?"),
         ("size", ["u8", "u16"], "", "choose one of `u8`, `u16`"),
         ("size", ["u8", "u16"], "declare it", "declare it"),
+        (
+            "size",
+            [f"u{n}" for n in range(22)],
+            "",
+            f"choose one of {', '.join(f'`u{n}`' for n in range(20))} or 2 others",
+        ),
         ("size", [], "declare it", "declare it"),
         ("size", [], "", ""),
     ],

@@ -212,9 +212,9 @@ def test_what_is_not_yaml_is_shown_at_its_place(tmp_path: Path, capsys: Capture)
     file = tmp_path / "broken.yaml"
     file.write_text("framegen: [1\nprotocol: 2\n")
     assert main(["check", str(file)]) == 2
-    first, second, *_, excerpt, caret = capsys.readouterr().err.splitlines()
+    first, second, excerpt, caret, *_ = capsys.readouterr().err.splitlines()
     assert first == f"framegen: error: {file.as_posix()}: the file is not YAML"
-    assert second.startswith(f"{file.as_posix()}:2:9: yaml-syntax: this is not YAML: ")
+    assert second.startswith(f"{file.as_posix()}:2:9: yaml-syntax: a comma or `]` is")
     assert (excerpt, caret) == ("2 | protocol: 2", "  |         ^")
 
 

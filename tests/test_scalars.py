@@ -143,7 +143,7 @@ def test_what_readers_disagree_on_is_refused_with_what_to_write(what: str, text:
 def test_an_octal_gets_its_decimal_proposed(text: str, written: str) -> None:
     with pytest.raises(Ambiguous) as refused:
         resolve(text)
-    assert refused.value.hint == f'write {written}, or put it in quotes: "{text}"'
+    assert refused.value.hint == f'write "{text}" for text or bytes, and {written} for a number'
     assert resolve(written) == int(written)
 
 

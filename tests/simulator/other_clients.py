@@ -21,6 +21,7 @@ if TYPE_CHECKING:
 
     from busservo_simulator import VirtualController
 
+MISSING = "{} is not installed: it is in the dependency group `test`"
 # How long each waits for an answer that does not come. They would wait a second.
 SILENCE = 0.03
 
@@ -64,7 +65,7 @@ class Xarm(OtherClient):
     name = "`xarm` 0.0.4"
 
     def __init__(self, board: VirtualController) -> None:
-        self._module: Any = pytest.importorskip("xarm", reason="it is in the group `test`")
+        self._module: Any = pytest.importorskip("xarm", reason=MISSING.format("xarm"))
         # It takes a port only by a name that begins with COM.
         with pytest.MonkeyPatch.context() as patch:
             patch.chdir(Path(board.port).parent)
@@ -103,7 +104,8 @@ class LewansoulLx16a(OtherClient):
     name = "`lewansoul-lx16a` 0.1"
 
     def __init__(self, board: VirtualController) -> None:
-        module: Any = pytest.importorskip("lewansoul_lx16a", reason="it is in the group `test`")
+        name = "lewansoul_lx16a"
+        module: Any = pytest.importorskip(name, reason=MISSING.format("lewansoul-lx16a"))
         self._line = serial.Serial(board.port, 9600)
         self._servos = module.ServoController(self._line, timeout=SILENCE)
 

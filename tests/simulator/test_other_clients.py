@@ -15,6 +15,7 @@ import serial
 from busservo_simulator import Faults, VirtualController
 
 from tests.patience import await_that
+from tests.simulator.other_clients import MISSING
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -88,7 +89,7 @@ def test_xarm_is_served(board: VirtualController, monkeypatch: pytest.MonkeyPatc
     """It takes a port only by a name that begins with COM, and waits a second for each answer:
     here, what is left of it begins when the answer has come, however busy the machine is.
     """
-    xarm = pytest.importorskip("xarm", reason="it is in the dependency group `test`")
+    xarm = pytest.importorskip("xarm", reason=MISSING.format("xarm"))
     link = Path(board.port)
     monkeypatch.chdir(link.parent)
     arm = xarm.Controller(link.name)

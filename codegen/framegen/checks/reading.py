@@ -71,6 +71,21 @@ READING_RULES: tuple[ReadingRule, ...] = (
         good="title: Lamp",
     ),
     ReadingRule(
+        id="edition",
+        title="A spec is written in an edition of the language that this framegen reads",
+        why="A newer edition gives a key another meaning, and to read it as an older one is to "
+        "guess. Older ones are read for ever.",
+        bad="framegen: 3",
+        good="framegen: 2",
+    ),
+    ReadingRule(
+        id="many-findings",
+        title="As many findings are shown as can be mended in one go",
+        why="One slip can make thousands of them, all of which are gone once it is mended.",
+        bad="{aa: 1, ab: 1, ...}  # fifty-one keys that the language does not have",
+        good="{}",
+    ),
+    ReadingRule(
         id="missing-key",
         title="Every key that is needed is there",
         why="What it would say cannot be guessed.",

@@ -1,4 +1,4 @@
-"""The editions of the language.
+"""The editions of the language: which there are, and what is said of one that is newer.
 
 Keys are added under the same number. It rises when a meaning changes, and every edition is read
 for ever.
@@ -6,7 +6,27 @@ for ever.
 
 from __future__ import annotations
 
+from typing import Literal, TypeAlias, get_args
+
+from framegen import __version__
+
+Edition: TypeAlias = Literal[1, 2]
+EDITIONS: tuple[int, ...] = get_args(Edition)
+LATEST = EDITIONS[-1]
+
 # From this edition on, the first endpoint is the library's user; before, whoever sent first was.
 FIRST_ENDPOINT_IS_CLIENT = 2
 
-LATEST = 2
+
+def is_newer(value: object) -> bool:
+    """Whether `value` is an edition that only a later framegen reads."""
+    return isinstance(value, int) and not isinstance(value, bool) and value > LATEST
+
+
+def refusal(value: object) -> tuple[str, str]:
+    """Say that an edition is newer than this framegen, and what to do."""
+    what = f"this spec is written in edition {value} of the language"
+    return (
+        f"{what}, and framegen {__version__} reads up to {LATEST}",
+        "a newer framegen is needed: pip install --upgrade 'busservo[codegen]'",
+    )

@@ -1,11 +1,11 @@
-"""Lets pydantic read the small notations of `values`, and tells editors what they look like."""
+"""Lets pydantic read what it has no type for: the small notations of `values`, exact numbers."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, get_args
 
-from pydantic_core import PydanticCustomError, core_schema
+from pydantic_core import PydanticCustomError, PydanticKnownError, core_schema
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -39,11 +39,32 @@ class Notation:
             return self.number(value)
         if not isinstance(value, str):
             raise PydanticCustomError(
-                "notation",
+                "notation_type",
                 "{what} is written as text, like `{example}`",
                 {"what": self.what, "example": self.example},
             )
         try:
             return self.parse(value)
         except ValueError as error:
-            raise PydanticCustomError("notation", "{message}", {"message": str(error)}) from None
+            told = {"message": str(error), "part": getattr(error, "part", "")}
+            raise PydanticCustomError("notation", "{message}", told) from None
+
+
+class OneOf:
+    """Goes into `Annotated` beside a Literal of numbers: one of them, and never a truth value.
+
+    Of itself, pydantic takes `true` for 1.
+    """
+
+    def __get_pydantic_core_schema__(
+        self, source: object, handler: GetCoreSchemaHandler
+    ) -> core_schema.CoreSchema:
+        choices: tuple[int, ...] = get_args(source)
+
+        def read(value: object) -> object:
+            if type(value) is not int or value not in choices:
+                named = " or ".join(map(str, choices))
+                raise PydanticKnownError("literal_error", {"expected": named})
+            return value
+
+        return core_schema.no_info_before_validator_function(read, handler(source))

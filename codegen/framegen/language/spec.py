@@ -12,8 +12,9 @@ from typing import Annotated, Any, Literal, TypeAlias
 from pydantic import BaseModel, ConfigDict, Discriminator, StrictBool, StrictInt, Tag
 from pydantic import Field as Key
 
+from framegen.language.edition import LATEST, Edition
 from framegen.language.formula import Formula, parse_formula
-from framegen.language.notation import Notation
+from framegen.language.notation import Notation, OneOf
 from framegen.language.values import Citation, Direction, Method, Range, Scale, parse_hex
 from framegen.language.wiretypes import WIRE_TYPES
 
@@ -86,9 +87,11 @@ class Link(Part):
     """The serial line."""
 
     baud: Annotated[StrictInt, Key(gt=0)] = Key(description="Bits per second.")
-    data_bits: Literal[5, 6, 7, 8] = Key(8, description="Data bits of a character.")
+    data_bits: Annotated[Literal[5, 6, 7, 8], OneOf()] = Key(
+        8, description="Data bits of a character."
+    )
     parity: Literal["none", "even", "odd"] = Key("none", description="Parity bit of a character.")
-    stop_bits: Literal[1, 2] = Key(1, description="Stop bits of a character.")
+    stop_bits: Annotated[Literal[1, 2], OneOf()] = Key(1, description="Stop bits of a character.")
     usb_hid: list[HidBoard] = Key(
         [], description="Boards that show as a USB HID device instead of a serial port."
     )
@@ -387,7 +390,9 @@ class Release(Part):
 class Spec(Part):
     """A protocol: its frame, its messages, and what is known about them."""
 
-    framegen: Literal[1, 2] = Key(description="The edition of the spec language: 2.")
+    framegen: Annotated[Edition, OneOf()] = Key(
+        description=f"The edition of the spec language: {LATEST} in a new spec."
+    )
     protocol: Protocol = Key(description="What the protocol is.")
     sources: dict[str, SourceDocument] = Key(
         description="What facts are cited from, by short name."

@@ -9,7 +9,10 @@ import re
 from dataclasses import dataclass
 from decimal import Decimal
 
+from framegen.hextext import is_hex, read_hex
+
 _HEX = re.compile(r"(?:[0-9A-Fa-f]{2}\s+)*[0-9A-Fa-f]{2}")
+_BYTE = re.compile(r"[0-9A-Fa-f]{2}")
 _DIRECTION = re.compile(r"(\S+)\s*->\s*(\S+)")
 _RANGE = re.compile(r"(-?[0-9]{1,20})\s*\.\.\s*(-?[0-9]{1,20})?")
 _METHOD = re.compile(r"(\w+)\s*\(\s*((?:\w+(?:\s*,\s*\w+)*)?)\s*\)(?:\s*->\s*(\w+))?", re.ASCII)
@@ -142,14 +145,22 @@ class Method:
         return cls(match[1], tuple(_NAME.findall(match[2])), match[3] or "")
 
 
+class NotHex(ValueError):  # noqa: N818 - says what the text is
+    """Text that is no hex as a spec has it; `part` is the first word that is none."""
+
+    def __init__(self, part: str, hint: str) -> None:
+        super().__init__(f"`{part[:40]}` is no hex: {hint}")
+        self.part = part
+
+
 def parse_hex(text: str) -> bytes:
-    """Bytes written `55 55 02 07`, over as many lines as they need."""
-    if _HEX.fullmatch(text.strip()) is None:
-        raise ValueError(
-            f"`{text.strip()[:40]}` is no hex: "
-            "write two digits a byte with blanks between, like `55 55 02 07`"
-        )
-    return bytes.fromhex(text)
+    """Bytes written `55 55 02 07`, over as many lines as they need. Raises NotHex."""
+    if _HEX.fullmatch(text.strip()) is not None:
+        return bytes.fromhex(text)
+    part = next((word for word in text.split() if _BYTE.fullmatch(word) is None), "")
+    if is_hex(text):
+        raise NotHex(part, f"write `{to_hex(read_hex(text))}`")
+    raise NotHex(part, "write two digits a byte with blanks between, like `55 55 02 07`")
 
 
 def to_hex(data: bytes) -> str:

@@ -41,13 +41,13 @@ class Exchange:
     def split(self) -> Repeat | None:
         """The list of the request that is asked in parts, where a reply has room for fewer.
 
-        Only what is nothing but a list, and returns nothing but a list, can be put together again.
+        Only what is nothing but a list, and returns nothing but a list, can be put together again;
+        and only where the reply repeats it is it known what of it was answered.
         """
-        asked = self.request.repeat
-        if asked is None or self.reply is None or self.reply.repeat is None:
+        asked, reply = self.request.repeat, self.reply
+        if asked is None or reply is None or reply.repeat is None or not self.most:
             return None
-        told = self.reply.repeat
-        whole = len(self.request.arguments) == 1 and self.method.result == told.name
+        whole = len(self.request.arguments) == 1 and self.method.result == reply.repeat.name
         return asked if whole and self.most < asked.high else None
 
     @property

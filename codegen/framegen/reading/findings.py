@@ -7,6 +7,8 @@ from dataclasses import dataclass
 from difflib import get_close_matches
 from typing import TYPE_CHECKING
 
+from framegen.wording import counted
+
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator
 
@@ -20,13 +22,16 @@ class Related:
     span: Span
     text: str
 
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "text", _shortened(self.text))
+
 
 @dataclass(frozen=True, slots=True)
 class Finding:
     """One thing wrong with a spec.
 
     `rule` is the stable id; `path` the dotted path of the value (`messages.ServoMove.id`).
-    What `message` and `hint` repeat of the spec is cut short where nobody would read all of it.
+    What is repeated of the spec is cut short where nobody would read all of it.
     """
 
     rule: str
@@ -37,8 +42,8 @@ class Finding:
     related: tuple[Related, ...] = ()
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "message", _shortened(self.message))
-        object.__setattr__(self, "hint", _shortened(self.hint))
+        for name in ("path", "message", "hint"):
+            object.__setattr__(self, name, _shortened(getattr(self, name)))
 
     def render(self, source: Source) -> str:
         """Show the finding as a person reads it: place, rule, source line, caret, hint."""
@@ -58,28 +63,42 @@ class Finding:
 
 
 def in_order(findings: Iterable[Finding]) -> list[Finding]:
-    """Sort the findings from the top of the file down, each said once."""
-    unique = dict.fromkeys(findings)
-    return sorted(unique, key=lambda f: (f.span, f.rule, f.message))
+    """Sort the findings from the top of the file down, each said once, and no more than help."""
+    unique = sorted(dict.fromkeys(findings), key=lambda f: (f.span, f.rule, f.message))
+    shown, more = unique[:MOST_FINDINGS], unique[MOST_FINDINGS:]
+    if more:
+        message = f"not shown: {counted(len(more), 'finding')} from here down"
+        hint = "mend those above, and check again"
+        shown.append(Finding("many-findings", more[0].span, more[0].path, message, hint))
+    return shown
 
 
 def did_you_mean(word: str, known: Iterable[str], *, otherwise: str = "") -> str:
-    """Hint at what a misspelt word was to be: its nearest neighbour, or else all the choices."""
+    """Hint at what a misspelt word was to be: its nearest neighbour, or else the choices."""
     choices = list(known)
     near = get_close_matches(word, choices)
     if near:
         return f"did you mean `{near[0]}`?"
     if otherwise or not choices:
         return otherwise
-    return "choose one of " + ", ".join(f"`{choice}`" for choice in choices)
+    named = ", ".join(f"`{choice}`" for choice in choices[:_MOST_CHOICES])
+    others = len(choices) - _MOST_CHOICES
+    return f"choose one of {named}" + (f" or {others} others" if others > 0 else "")
 
 
-# A word or a quotation of more characters than any name, type or formula has.
-_TOO_LONG = re.compile(r"[^\s`]{121,}|(?<=`)[^`]{241,}(?=`)")
+# More than anybody mends in one go.
+MOST_FINDINGS = 50
+_MOST_CHOICES = 20
+# A word or a quotation of more characters than any name, type or formula has; and all of a text.
+_TOO_LONG = re.compile(r"[^\s`.]{121,}|(?<=`)[^`]{241,}(?=`)")
+_MOST_CHARACTERS = 1000
 
 
 def _shortened(text: str) -> str:
-    return _TOO_LONG.sub(lambda found: f"{found[0][:40]}...", text)
+    if len(text) <= 120:
+        return text
+    text = _TOO_LONG.sub(lambda found: f"{found[0][:40]}...", text)
+    return text if len(text) <= _MOST_CHARACTERS else f"{text[:_MOST_CHARACTERS]}..."
 
 
 # Enough of a long line to show the place; the rest of a 10 000-column line helps nobody.

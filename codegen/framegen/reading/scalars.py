@@ -27,7 +27,7 @@ _AMBIGUOUS = (
     (
         re.compile(r"[-+]?0[0-9_]+"),
         "octal to YAML 1.1 and decimal to YAML 1.2",
-        'write {decimal}, or put it in quotes: "{text}"',
+        'write "{text}" for text or bytes, and {decimal} for a number',
     ),
     (
         re.compile(r"[-+]?[0-9][0-9_]*(?::[0-9]+)+(?:\.[0-9_]*)?"),

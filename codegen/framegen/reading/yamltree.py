@@ -11,9 +11,10 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 
 import yaml
 
-from framegen.reading.findings import Finding, Related
+from framegen.reading.findings import MOST_FINDINGS, Finding, Related
 from framegen.reading.scalars import Ambiguous, resolve
 from framegen.reading.source import Source, Span
+from framegen.reading.syntax import syntax_finding
 from framegen.reading.text import first_invisible
 
 if TYPE_CHECKING:
@@ -25,7 +26,6 @@ _Loader: Any = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
 KeyPath: TypeAlias = "tuple[str | int, ...]"
 
 MAX_DEPTH = 24
-_MAX_FINDINGS = 50
 
 
 class Unusable(Exception):  # noqa: N818 - says what the input is
@@ -90,11 +90,7 @@ def read_tree(source: Source) -> tuple[Tree, list[Finding]]:
     try:
         data = builder.document()
     except yaml.MarkedYAMLError as error:
-        span = Span(1, 1)
-        if error.problem_mark is not None:
-            span = Span(error.problem_mark.line + 1, error.problem_mark.column + 1)
-        problem = ", ".join(part for part in (error.context, error.problem) if part)
-        finding = Finding("yaml-syntax", span, "", f"this is not YAML: {problem}")
+        finding = syntax_finding(error, source)
         raise Unusable("the file is not YAML", finding=finding) from None
     except yaml.YAMLError as error:
         raise Unusable(f"the file is not YAML: {' '.join(str(error).split())}") from None
@@ -254,7 +250,7 @@ class _Builder:
         self, rule: str, event: Any, path: KeyPath, message: str, hint: str, *related: Related
     ) -> None:
         self.findings.append(Finding(rule, self._span(event), dotted(path), message, hint, related))
-        if len(self.findings) >= _MAX_FINDINGS:
+        if len(self.findings) >= MOST_FINDINGS:
             raise Unusable(
                 "the file is no spec: too much in it is not the YAML of a spec",
                 finding=self.findings[0],

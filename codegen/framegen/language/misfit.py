@@ -1,0 +1,192 @@
+"""Where a spec does not fit the language: pydantic's errors, in our words and at their places."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, get_args
+
+from pydantic import BaseModel
+
+from framegen.hextext import is_hex, read_hex
+from framegen.language.edition import LATEST
+from framegen.language.spec import Spec
+from framegen.language.values import to_hex
+from framegen.reading.findings import MOST_FINDINGS, Finding, did_you_mean
+from framegen.reading.scalars import Ambiguous, resolve
+from framegen.reading.source import Source, Span
+from framegen.reading.yamltree import KeyPath, Tree, dotted
+
+if TYPE_CHECKING:
+    from collections.abc import Container, Iterable, Iterator
+
+_MESSAGES = {
+    "string_type": "text is expected here, not {found}",
+    "int_type": "a whole number is expected here, not {found}",
+    "int_parsing": "a whole number is expected here, not {found}",
+    "int_parsing_size": "a smaller number is expected here, not {found}",
+    "bool_type": "`true` or `false` is expected here, not {found}",
+    "dict_type": "a mapping of keys is expected here, not {found}",
+    "model_type": "a mapping of keys is expected here, not {found}",
+    "list_type": "a list is expected here, not {found}",
+    "literal_error": "{expected} is expected here, not {found}",
+    "greater_than": "a number above {gt} is expected here, not {found}",
+    "greater_than_equal": "a number from {ge} up is expected here, not {found}",
+    "less_than_equal": "a number up to {le} is expected here, not {found}",
+    "union_tag_not_found": "the key `is` is missing: it says what kind of part this is",
+    "union_tag_invalid": "`{tag}` is no kind of part; choose one of {expected_tags}",
+    "notation": "{message}",
+    "notation_type": "{what} is written as text, like `{example}`, and this is {found}",
+}
+
+
+def misfits(
+    source: Source, tree: Tree, problems: Iterable[Any], doubtful: Container[Span]
+) -> Iterator[Finding]:
+    """Turn pydantic's errors into findings, save at the `doubtful` places.
+
+    Hints are worked out for as many as are shown, from the top of the file down.
+    """
+    placed = sorted((_Misfit.of(tree, problem) for problem in problems), key=lambda each: each.span)
+    told = [misfit for misfit in placed if misfit.span not in doubtful]
+    for number, misfit in enumerate(told):
+        yield misfit.finding(source, tree, hinted=number < MOST_FINDINGS)
+
+
+@dataclass(frozen=True, slots=True)
+class _Misfit:
+    """One of pydantic's errors, and where it is."""
+
+    problem: Any
+    path: KeyPath
+    span: Span
+
+    @classmethod
+    def of(cls, tree: Tree, problem: Any) -> _Misfit:
+        path = tuple(_steps_in(tree, problem["loc"]))
+        on_key = problem["type"] in ("missing", "extra_forbidden") or problem["loc"][-1] == "[key]"
+        return cls(problem, path, tree.key_at(path) if on_key else tree.value_at(path))
+
+    def finding(self, source: Source, tree: Tree, *, hinted: bool) -> Finding:
+        """Say what is wrong, and what to do if that is asked for."""
+        kind, last = self.problem["type"], str(self.problem["loc"][-1])
+        path = dotted(self.path)
+        if kind == "missing":
+            hint = _described(self.path, last) if hinted else ""
+            return Finding("missing-key", self.span, path, f"the key `{last}` is missing", hint)
+        if kind == "extra_forbidden":
+            hint = did_you_mean(last, _keys_at(tree, self.path[:-1])) if hinted else ""
+            return Finding("unknown-key", self.span, path, f"there is no key `{last}` here", hint)
+        context = {"found": _kind(self.problem["input"]), **self.problem.get("ctx", {})}
+        message = _MESSAGES.get(kind, self.problem["msg"]).format_map(context)
+        span = _part(source, self.span, context.get("part", ""))
+        return Finding("wrong-value", span, path, message, self._hint(source))
+
+    def _hint(self, source: Source) -> str:
+        if self.path == ("framegen",):
+            return f"write `framegen: {LATEST}`"
+        if self.problem["type"] not in ("string_type", "notation_type"):
+            return ""
+        if not isinstance(self.problem["input"], bool | int):
+            return ""
+        start = self.span.column - 1
+        text = source.line(self.span.line)[start : start + self.span.length]
+        if self.problem.get("ctx", {}).get("what") == "hex":
+            if not is_hex(text):
+                return ""
+            text = to_hex(read_hex(text))
+        return f'put it in quotes: "{text}"'
+
+
+def _kind(value: object) -> str:
+    if value is None:
+        return "nothing"
+    if isinstance(value, dict):
+        return "a mapping"
+    if isinstance(value, list):
+        return "a list"
+    if isinstance(value, bool):
+        return f"the truth value `{str(value).lower()}`"
+    text = str(value)
+    what = "the text " if isinstance(value, str) and not _is_plain(value) else ""
+    return f"{what}`{text if len(text) <= 40 else text[:40] + '...'}`"
+
+
+def _is_plain(text: str) -> bool:
+    """Whether the text would be text without quotes, too."""
+    try:
+        return resolve(text) == text
+    except Ambiguous:
+        return False
+
+
+def _part(source: Source, span: Span, part: str) -> Span:
+    """Find the `part` of a value at `span` that is wrong; all of it, if that stands nowhere."""
+    word = re.compile(rf"(?<!\w){re.escape(part)}(?!\w)")
+    for number in range(span.line, len(source.lines) + 1) if part else ():
+        found = word.search(source.line(number), span.column - 1 if number == span.line else 0)
+        if found is not None:
+            return Span(number, found.start() + 1, len(part))
+    return span
+
+
+def _steps_in(tree: Tree, steps: tuple[str | int, ...]) -> Iterator[str | int]:
+    """Keep the steps of pydantic's location that are in the file: it adds tags of its unions."""
+    here: Any = tree.data
+    for number, step in enumerate(steps):
+        if isinstance(here, dict):
+            key = str(step)
+            if key in here:
+                here = here[key]
+                yield key
+            elif number == len(steps) - 1 and key != "[key]":
+                yield key
+        elif isinstance(here, list) and isinstance(step, int) and step < len(here):
+            here = here[step]
+            yield step
+
+
+def _keys_at(tree: Tree, path: KeyPath) -> list[str]:
+    """List the keys that the language has at `path`; of a union, those of what fits best there."""
+    here: Any = tree.data
+    for step in path:
+        here = here[step]
+    known = [
+        [info.alias or name for name, info in model.model_fields.items()]
+        for model in _models_at(path)
+    ]
+    return max(known, key=lambda keys: len(here.keys() & keys), default=[])
+
+
+def _described(path: KeyPath, key: str) -> str:
+    """Say what a missing key is for, with the description that editors show too."""
+    told = [
+        info.description
+        for model in _models_at(path[:-1])
+        for name, info in model.model_fields.items()
+        if key in (name, info.alias)
+    ]
+    return next(filter(None, told), "")
+
+
+def _models_at(path: KeyPath) -> list[type[BaseModel]]:
+    """Find the model of the mapping at `path`; of a union, every member."""
+    models: list[type[BaseModel]] = [Spec]
+    for step in path:
+        named = [
+            info.annotation
+            for model in models
+            for name, info in model.model_fields.items()
+            if step in (name, info.alias)
+        ]
+        # A step that is no key of the model is a place in a list, or a name that the author chose:
+        # the mapping goes on below it.
+        if named:
+            models = [model for annotation in named for model in _models_in(annotation)]
+    return models
+
+
+def _models_in(annotation: Any) -> list[type[BaseModel]]:
+    if isinstance(annotation, type) and issubclass(annotation, BaseModel):
+        return [annotation]
+    return [model for argument in get_args(annotation) for model in _models_in(argument)]

@@ -1,0 +1,73 @@
+"""A question whose reply repeats nothing of it is asked whole, by the model and by a client."""
+
+from __future__ import annotations
+
+import importlib
+from typing import TYPE_CHECKING, Any
+
+import pytest
+
+from tests.specimens import Data, files_of, kiln, layout_of, library
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+
+class Line:
+    """A line in this process, to the library's own other end."""
+
+    def __init__(self, device: Any) -> None:
+        self._device = device
+        self._arrived = b""
+
+    def write(self, data: bytes) -> None:
+        self._arrived += self._device.receive(data)
+
+    def read(self, timeout: float) -> bytes:  # noqa: ARG002 - all that comes is there already
+        arrived, self._arrived = self._arrived, b""
+        return arrived
+
+    def drain(self, timeout: float) -> None:
+        pass
+
+    def close(self) -> None:
+        pass
+
+
+def long_question(*, echoed: bool) -> Data:
+    """The kiln, whose question for dampers can name more than its reply has room for."""
+    data = kiln()
+    # A pose is only there where the reply repeats the question.
+    del data["pose"]
+    question = data["messages"]["DamperRead"]
+    question["method"] = "read_dampers(damper_ids) -> positions"
+    if not echoed:
+        del question["echoed"]
+    return data
+
+
+@pytest.mark.parametrize(("echoed", "most", "split"), [(True, 84, True), (False, 0, False)])
+def test_only_a_question_whose_reply_repeats_its_list_is_asked_in_parts(
+    echoed: bool, most: int, split: bool
+) -> None:
+    model = layout_of(long_question(echoed=echoed))
+    [exchange] = [each for each in model.exchanges if each.request.name == "DamperRead"]
+    assert exchange.request.repeat is not None
+    assert (exchange.most, exchange.split is not None) == (most, split)
+
+
+@pytest.mark.parametrize("echoed", [True, False])
+def test_a_client_is_answered_whether_or_not_a_reply_repeats_the_question(
+    echoed: bool, tmp_path: Path
+) -> None:
+    with library(files_of(long_question(echoed=echoed)), tmp_path) as kiln_library:
+        made: Any = kiln_library
+
+        device: Any = importlib.import_module(f"{made.__name__}.device")
+
+        class Board(device.Device):  # type: ignore[misc]
+            def on_damper_read(self, message: Any) -> Any:
+                return made.DamperPositions([(each, 10 * each) for each in message.damper_ids])
+
+        with made.Controller(Line(Board()), background=False, baud=float("inf")) as controller:
+            assert controller.read_dampers([3, 4]) == ((3, 30), (4, 40))
