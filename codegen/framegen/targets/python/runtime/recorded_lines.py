@@ -62,7 +62,7 @@ def _beginning(line: str, number: int, began: float | None) -> float | None:
         raise RecordingError(f"line {number}: {problem}")
     if line and not line.startswith("#"):
         raise RecordingError(
-            f"line {number}: it has no time and sender, as in `55 55 02 07  # 0.5 s, NAME: ...`, "
+            f"line {number}: it has no time and sender, as in `HEX  # 0.5 s, NAME: ...`, "
             "and other lines have"
         )
     found = _BEGAN.fullmatch(line)
