@@ -33,6 +33,7 @@ ALLOWED = (
     nodes.Filter,
     nodes.Concat,
     nodes.And,
+    nodes.Not,
     nodes.Add,
 )
 FILTERS = {"docstring", "join", "literal"}

@@ -128,8 +128,10 @@ _STRATEGIES: dict[type[Message], SearchStrategy[Message]] = {
 
 
 def messages(direction: Direction | None = None) -> SearchStrategy[Message]:
-    """Any message of one direction, or of any."""
+    """Any message of one direction, or of any. ValueError for one in which none goes."""
     kinds = [kind for kind in _STRATEGIES if direction in (None, kind.DIRECTION)]
+    if not kinds:
+        raise ValueError(f"no message goes in the direction {direction}")
     return st.one_of([_STRATEGIES[kind] for kind in kinds])
 
 

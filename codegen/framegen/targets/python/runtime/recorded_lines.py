@@ -82,7 +82,7 @@ def _sender(who: str, number: int, direction: Direction | None) -> tuple[str | N
     whose, _, last = who.rpartition(" ")
     if is_noise := last == NOISE:
         # Where nobody is named, it came to this end: what a client sends is never noise.
-        who = whose or (EITHER if RECEIVED is None else RECEIVED.sender)
+        who = whose or RECEIVED.sender
     if who in SENDERS:
         return who, is_noise
     if who == EITHER:

@@ -111,7 +111,7 @@ def _survey(entries: Iterable[Entry], name: str, arguments: argparse.Namespace) 
     left: dict[str, int] = {}
     for entry in entries:
         # What came to this end may be told late: a client does so when it has opened a line anew.
-        if entry.time is not None and (RECEIVED is None or entry.sender != RECEIVED.sender):
+        if entry.time is not None and entry.sender != RECEIVED.sender:
             if entry.time < before:
                 raise UnusableError(
                     f"{name}, {entry.place}: {entry.time:.6f} s is before {before:.6f} s in a line "
