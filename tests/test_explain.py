@@ -472,23 +472,23 @@ def test_hex_longer_than_a_path_can_be_is_hex(
         (
             "0x55,0xO2",
             "`O` is no hex digit\n  0x55,0xO2\n         ^",
-            "write two digits a byte, like 55 55 02 07",
+            "write two digits a byte, like 0A 1B FF",
         ),
         (
             "55 \u0665\u0665",
             "`\u0665` is no hex digit\n  55 \u0665\u0665\n     ^",
-            "write two digits a byte, like 55 55 02 07",
+            "write two digits a byte, like 0A 1B FF",
         ),
-        ("0x", "`0x` has no digits after it\n  0x\n  ^^", "write the byte whole, like 0x55"),
+        ("0x", "`0x` has no digits after it\n  0x\n  ^^", "write the byte whole, like 0x1B"),
         (
             "55\x1b[2J",
             "`\ufffd` is no hex digit\n  55\ufffd[2J\n    ^",
-            "write two digits a byte, like 55 55 02 07",
+            "write two digits a byte, like 0A 1B FF",
         ),
         (
             40 * "55" + "!" + 40 * "55",
             f"`!` is no hex digit\n  {15 * '55'}!{'55' * 14}5\n{' ' * 32}^",
-            "write two digits a byte, like 55 55 02 07",
+            "write two digits a byte, like 0A 1B FF",
         ),
     ],
 )

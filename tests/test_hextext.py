@@ -50,8 +50,8 @@ def test_the_commands_refuse_it_as_well(text: str, capsys: pytest.CaptureFixture
     ("text", "told"),
     [
         ("5", "no hex: '5' is half a byte; did you mean 05?"),
-        ("55 5G", "no hex: 'G' in '5G' is no hex digit; write two digits a byte, like 55 55 02 07"),
-        ("0x", "no hex: '0x' has no digits after it; write the byte whole, like 0x55"),
+        ("55 5G", "no hex: 'G' in '5G' is no hex digit; write two digits a byte, like 0A 1B FF"),
+        ("0x", "no hex: '0x' has no digits after it; write the byte whole, like 0x1B"),
         (
             "0x555",
             "no hex: '555' in '0x555' is 3 digits, which is no whole number of bytes; look for a d",

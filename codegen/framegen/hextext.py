@@ -1,4 +1,4 @@
-"""Hex as people paste it: `55 55 02 07`, `0x55, 0x55`, `55550207`, over any lines.
+"""Hex as people paste it: `0A 1B 02 FF`, `0x0A, 0x1B`, `0A1B02FF`, over any lines.
 
 Between bytes may stand blanks, commas, colons, semicolons, dashes and underscores, and comments
 from a `#` to the end of the line. A byte is two digits, with `0x` before it, or the backslash and x
@@ -113,11 +113,11 @@ def _refusal(word: str, rest_at: int, at: int) -> HexError:
     prefix = re.compile(_PREFIX).match(word, rest_at)
     start = prefix.end() if prefix else rest_at
     if prefix and start == len(word):
-        hint = f"write the byte whole, like {prefix.group()}55"
+        hint = f"write the byte whole, like {prefix.group()}1B"
         return HexError(word, prefix.group(), at + rest_at, "has no digits after it", hint)
     wrong = _NO_DIGIT.search(word, start)
     if wrong is not None:
-        hint = "write two digits a byte, like 55 55 02 07"
+        hint = "write two digits a byte, like 0A 1B FF"
         return HexError(word, wrong.group(), at + wrong.start(), "is no hex digit", hint)
     run = _DIGITS.search(word)
     digits, start = (run[1], run.start(1)) if run else (word, 0)

@@ -66,6 +66,7 @@ if TYPE_CHECKING:
     from .run import Run
     from .serial_port import open_transport
     from .transport import Transport
+    from .version import __version__
 else:
     # Each is imported when it is first asked for: nobody waits for what is not used.
     _HOMES = {
@@ -117,6 +118,7 @@ else:
         "TransportError": "link_errors",
         "UnknownFrame": "noise",
         "WriteStuckError": "link_errors",
+        "__version__": "version",
         "decode": "codec",
         "open_async_controller": "async_opening",
         "open_controller": "opening",
@@ -135,8 +137,6 @@ else:
     def __dir__() -> list[str]:
         return sorted({*globals(), *_HOMES})
 
-
-__version__ = "0.1.0"
 
 __all__ = [
     "MESSAGES",

@@ -164,8 +164,8 @@ class AsyncClient:
     def send_latest(self, message: Message) -> None:
         """Sends a command when the line is free, unless a newer one overtakes it; does not wait.
 
-        It takes the place of what waits here of the same class for the same servos, or for fewer.
-        So a stream of motions faster than the line is thinned out instead of falling behind.
+        It takes the place of what waits here of the same class for the same ids, or for fewer.
+        So a stream of commands faster than the line is thinned out instead of falling behind.
         Raises LimitError for what is outside the limits.
         """
         self._submit_latest(message)
@@ -247,9 +247,9 @@ class AsyncClient:
         is not asked of a class that lacks it.
 
         A report that has already come counts, if it came after the latest command that causes such
-        reports (for that group, say) and no earlier wait was satisfied by it. It is still there for
-        reports(). Raises NoReportError after `timeout` seconds, which says what came instead, and
-        TransportError.
+        reports (with these fields, if any) and no earlier wait was satisfied by it. It is still
+        there for reports(). Raises NoReportError after `timeout` seconds, which says what came
+        instead, and TransportError.
         """
         self._start()
         wanted = Wanted(kind, fields)

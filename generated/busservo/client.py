@@ -52,7 +52,7 @@ SLICE = 0.02
 _LONGEST_WAIT = 0.25
 # How long a line may take to be drained, beyond what its bytes take by calculation.
 GRACE = 1.0
-NEVER_CLOSED = "use the controller in a `with`, or call close()"
+NEVER_CLOSED = "use the client in a `with`, or call close()"
 logger = logging.getLogger(__package__)
 _Reply = TypeVar("_Reply", bound="Message")
 _Second = TypeVar("_Second", bound="Message")
@@ -71,9 +71,9 @@ class Client:
     an answer may take besides, `retries` how often a question is asked again that was not answered,
     `trace` a file that every frame is recorded in, for `recordings` and `decode` to read (what it
     holds already is never overwritten: FileExistsError), `report_limit` how many reports are kept,
-    `limits` the lowest and the highest position (or whatever has limits) that is sent, None for
-    any. With `background`, a thread listens while nobody waits; without, only calls read the line,
-    and `clock` may be of any kind.
+    `limits` the lowest and the highest value that is sent of what has limits, None for any.
+    With `background`, a thread listens while nobody waits; without, only calls read the line, and
+    `clock` may be of any kind.
 
     `local_echo` says that the line gives back what is sent, as half-duplex adapters do: it is then
     expected, compared and dropped, and EchoError raised where it does not come. `settle` is for how
@@ -192,8 +192,8 @@ class Client:
     def send_latest(self, message: Message) -> None:
         """Sends a command when the line is free, unless a newer one overtakes it; does not wait.
 
-        It takes the place of what waits here of the same class for the same servos, or for fewer.
-        So a stream of motions faster than the line is thinned out instead of falling behind.
+        It takes the place of what waits here of the same class for the same ids, or for fewer.
+        So a stream of commands faster than the line is thinned out instead of falling behind.
         Raises LimitError for what is outside the limits.
         """
         self._submit_latest(message)
@@ -277,9 +277,9 @@ class Client:
         is not asked of a class that lacks it.
 
         A report that has already come counts, if it came after the latest command that causes such
-        reports (for that group, say) and no earlier wait was satisfied by it. It is still there for
-        reports(). Raises NoReportError after `timeout` seconds, which says what came instead, and
-        TransportError.
+        reports (with these fields, if any) and no earlier wait was satisfied by it. It is still
+        there for reports(). Raises NoReportError after `timeout` seconds, which says what came
+        instead, and TransportError.
         """
         wanted = Wanted(kind, fields)
         began = self._clock()

@@ -52,8 +52,8 @@ class StreamDecoder:
     How they were cut makes no difference, save that one piece of noise may come as several. It
     never raises on input, and never holds more than the largest legal frame.
 
-    `direction` says who sends: Direction.CONTROLLER_TO_HOST on the computer's end, and None for a
-    line on which both are heard. Where a frame is legal in both, it is the first's.
+    `direction` says who sends: on a client's end that of what the device sends, and None for a line
+    on which both are heard. Where a frame is legal in both, it is the first's.
     """
 
     __slots__ = (

@@ -26,7 +26,7 @@ class ProtocolError(Exception):
 class EncodeError(ProtocolError, ValueError):
     """A value that no frame can carry.
 
-    `path` says where it was given (`targets[1].position`) and `value` what was given there.
+    `path` says where it was given (`items[1].level`) and `value` what was given there.
     """
 
     def __init__(self, path: str, value: object, problem: str) -> None:

@@ -27,7 +27,7 @@ TYPE_CHECKING = False
 if TYPE_CHECKING:
     from .message import Message
 
-RECEIVED: Direction | None = Direction.CONTROLLER_TO_HOST
+RECEIVED: Direction = Direction.CONTROLLER_TO_HOST
 """Who sends what comes to this end."""
 
 EXCHANGES: dict[type[Message], Exchange] = {

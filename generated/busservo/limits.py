@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 class Limits:
     """The limits of a protocol: the usual ones, those of other devices, and the fields they are of.
 
-    `fields` has the paths of the fields (`targets.position`) by the message that they are in,
+    `fields` has the paths of the fields (`items.level`) by the message that they are in,
     `targets` is what makes targets of positions that were read, or empty. A protocol without limits
     has none of these.
     """
@@ -86,7 +86,7 @@ class Limits:
 
 
 def placed(message: Message, path: str, place: int) -> str:
-    """Where a value of a field stands in a message: `targets[1].position`, or just `level`."""
+    """Where a value of a field stands in a message: `items[1].level`, or just `level`."""
     name, dot, inner = path.partition(".")
     items = message.SHAPE.items
     listed = items is not None and items.name == name

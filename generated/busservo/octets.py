@@ -17,5 +17,5 @@ def octets(data: bytes | bytearray | memoryview) -> bytes:
 
 
 def spaced(data: bytes) -> str:
-    """Bytes as people write them: `55 55 02 07`."""
+    """Bytes as people write them: `0A 1B FF`."""
     return data.hex(" ").upper()

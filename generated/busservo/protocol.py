@@ -20,7 +20,7 @@ DATA_BITS = 8
 PARITY = "none"
 STOP_BITS = 1
 BITS_PER_BYTE = 10
-# Boards that are reached by USB HID: vendor and product, and the bytes of a report.
+# Devices that are reached by USB HID: vendor and product, and the bytes of a report.
 HID_BOARDS: tuple[tuple[int, int, int], ...] = ((0x0483, 0x5750, 64),)
 
 

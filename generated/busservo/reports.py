@@ -63,8 +63,8 @@ class ReportLog:
     def since(self, wanted: Wanted) -> int:
         """The number from which on a report answers the latest command that may cause it.
 
-        A command that is about what is asked for, such as a group, goes before one that is about
-        nothing of it: a run of that group begins a story which a stop, of any group, may end.
+        A command that is about what is asked for, such as a number, goes before one that is about
+        nothing of it: the former begins a story that the latter may end.
         """
         latest: int | None = None
         for number, command, reports in reversed(self._causes):

@@ -42,7 +42,7 @@ class Table(dict[bytes, "Entry | None"]):
         self.waits: dict[bytes, int] = {}
         # What may follow each legal head that was seen; of these, there are not many.
         self._legal: dict[bytes, tuple[Entry, ...]] = {}
-        self.largest = max(kind.LENGTHS[-1] for kind in kinds) + UNCOUNTED
+        self.largest = max((kind.LENGTHS[-1] + UNCOUNTED for kind in kinds), default=0)
 
     def __missing__(self, head: bytes) -> Entry | None:
         entries = self.entries(head)

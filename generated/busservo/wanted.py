@@ -58,7 +58,7 @@ class Wanted:
     def may_follow(self, command: Message, reports: tuple[type[Message], ...]) -> bool:
         """Whether a command that causes such reports may cause one of these.
 
-        Where a command and a report share a field, such as a group, it must be the one asked for.
+        Where a command and a report share a field, such as a number, it must be the one asked for.
         """
         return not set(reports).isdisjoint(self.kinds) and self._agrees(command)
 

@@ -249,7 +249,7 @@ def test_where_nobody_can_list_such_boards_it_says_so(
     assert capsys.readouterr().err.splitlines() == [
         "no serial port is plugged in",
         (
-            "boards of USB HID (0483:5750) have no serial port, and are not listed without an "
+            "USB HID devices (0483:5750) have no serial port, and are not listed without an "
             "extra: pip install 'busservo[hid]'"
         ),
     ]
@@ -315,7 +315,6 @@ FILE = str(ROOT / "tests" / "captures" / "noisy_line.bin")
         ["encode", "ActionGroupStop"],
         ["--help"],
         ["decode", "--help"],
-        ["--version"],
     ],
 )
 def test_without_a_port_there_is_no_serial_and_no_thread(words: list[str]) -> None:
@@ -333,6 +332,7 @@ def test_without_a_port_there_is_no_serial_and_no_thread(words: list[str]) -> No
         ["ports", "--help"],
         ["replay", FILE, "--dry-run", "--skip-noise", "--either", "send"],
         ["send", "--port", "COM7", "ServoMov"],
+        ["--version"],
     ],
 )
 def test_pyserial_is_imported_only_to_open_a_port(words: list[str]) -> None:

@@ -13,9 +13,8 @@ from typing import TYPE_CHECKING, Any
 
 import pytest
 from busservo import ServoMove, ServoPositionsRead, ServoUnload
-from busservo.cli import main, positions
+from busservo.cli import main
 from busservo.cli.posefile import Recorded, read_poses, write_poses
-from busservo.cli.unusable import UnusableError
 from busservo.exchanges import POSE
 from busservo_simulator import VirtualController
 from hypothesis import given
@@ -466,12 +465,6 @@ def test_send_refuses_what_is_outside_the_limits(
     assert heard == []
     for limits in ("500..2500", "none"):
         assert main([*words, "--limits", limits]) == 0
-
-
-def test_a_protocol_without_positions_says_so(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(positions, "POSE", None)
-    with pytest.raises(UnusableError, match="no positions to read"):
-        positions.the_pose()
 
 
 # ------------------------------------------------------------------ the file

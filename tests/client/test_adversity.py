@@ -213,7 +213,7 @@ def test_a_board_that_reboots_is_silent_and_then_back_by_itself(board: VirtualCo
         assert controller.request(BatteryVoltageRead(), retries=OFTEN) == answer
         # It is silent for longer than anybody waits here, until it is told otherwise.
         board.reboot(2 * BOUND)
-        with bounded(), pytest.raises(NoReplyError, match="is the board switched on"):
+        with bounded(), pytest.raises(NoReplyError, match="is the device switched on"):
             controller.read_battery_voltage()
         board.reboot(0.2)
         assert controller.request(BatteryVoltageRead(), retries=OFTEN) == answer

@@ -160,7 +160,7 @@ def test_a_client_that_is_forgotten_says_so_and_gives_everything_back(tmp_path: 
     del controller
     await_that(lambda: line.closed)
     await_that(lambda: not own_threads())
-    assert warned == ["live line was never closed: use the controller in a `with`, or call close()"]
+    assert warned == ["live line was never closed: use the client in a `with`, or call close()"]
     assert trace.read_text().count("\n") == 3
 
 

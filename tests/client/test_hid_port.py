@@ -227,7 +227,7 @@ def test_a_board_that_is_gone_is_lost() -> None:
     with pytest.raises(DisconnectedError, match="the report was not taken"):
         port.write(b"UU")
     device.lost = True
-    with pytest.raises(DisconnectedError, match=r"the board was lost \(write error\); see to"):
+    with pytest.raises(DisconnectedError, match=r"the device was lost \(write error\); see to"):
         port.write(b"UU")
     with pytest.raises(DisconnectedError, match="read error"):
         port.read(0.1)
@@ -276,15 +276,15 @@ def test_silence_is_no_reply(library: Library) -> None:
 @pytest.mark.parametrize(
     ("found", "port", "error", "told"),
     [
-        ([], "hid://", PortNotFoundError, r"no board of USB HID is plugged in \(0483:5750\)"),
-        ([OTHER | {"path": b"1"}], "hid://", PortNotFoundError, "no board of USB HID"),
+        ([], "hid://", PortNotFoundError, r"no USB HID device is plugged in \(0483:5750\)"),
+        ([OTHER | {"path": b"1"}], "hid://", PortNotFoundError, "no USB HID device"),
         ([plugged()], "hid://0483:0001", PortNotFoundError, "these exist: hid:///dev/null"),
         ([plugged()], "hid:///dev/zero", PortNotFoundError, "these exist: hid:///dev/null"),
         (
             [plugged(path=b"1-1"), plugged(path=b"1-2")],
             "hid://0483:5750",
             PortAddressError,
-            r"2 boards are plugged in; choose: hid://1-1 \(0483:5750\), hid://1-2 ",
+            r"2 devices are plugged in; choose: hid://1-1 \(0483:5750\), hid://1-2 ",
         ),
         ([plugged()], "hid:", PortAddressError, "no address of USB HID; write hid://"),
         ([plugged(path=b"busy")], "hid://", TransportError, "0483:5750 cannot be opened .*udev"),

@@ -427,10 +427,10 @@ def test_what_is_dropped_and_why_is_logged(caplog: pytest.LogCaptureFixture) -> 
 @pytest.mark.parametrize(
     ("came", "told"),
     [
-        (b"", "nothing came at all: is the board switched on"),
+        (b"", "nothing came at all: is the device switched on"),
         (b"\xf0" * 336, "336 bytes came that are no frame: wrong baud rate?"),
         (b"\x00", "1 byte came that is no frame"),
-        (ActionGroupCompleted(8, 1).encode(), "1 report came, so the board can be heard"),
+        (ActionGroupCompleted(8, 1).encode(), "1 report came, so the device can be heard"),
         (ServoPositions([(9, 1)]).encode(), "1 reply came that cannot be the answer"),
         (b"\x55\x55\x09\x15", "4 bytes came that are no frame"),
     ],

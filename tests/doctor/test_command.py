@@ -97,10 +97,10 @@ def test_what_is_of_no_use_is_said_before_anything_is_looked_at(
 # ------------------------------------------------------------------ reports
 
 
-def report_of(diagnosis: Diagnosis, path: Path, board: str = "LSC-32") -> str:
+def report_of(diagnosis: Diagnosis, path: Path, model: str = "LSC-32") -> str:
     report = Report(path)
     findings = list(examine(diagnosis, CHECKS))
-    report.write(diagnosis, findings, board)
+    report.write(diagnosis, findings, model)
     return path.read_text(encoding="ascii")
 
 
@@ -112,7 +112,7 @@ def test_a_report_is_a_recording_that_says_what_was_found(
         told = report_of(diagnosis_of(board), path)
     lines = told.splitlines()
     assert lines[0].startswith("# doctor of busservo ")
-    assert "# board: LSC-32" in lines
+    assert "# device: LSC-32" in lines
     assert "# adapter: 1A86:7523 USB Serial" in lines
     assert "# line: a serial port, 9600 baud" in lines
     assert [line.split()[2] for line in lines if line[2:8] in {"passed", "failed"}][:3] == [
@@ -154,7 +154,7 @@ def test_a_report_of_no_port_at_all_is_one_too(tmp_path: Path) -> None:
     with board_with() as board:
         diagnosis = diagnosis_of(board, port=None, ports=list)
         told = report_of(diagnosis, tmp_path / "report.hex", "")
-    assert "# board: not told\n# adapter: not known\n" in told
+    assert "# device: not told\n# adapter: not known\n" in told
     assert "# line: no port, 9600 baud\n# failed port: no serial port is plugged in\n" in told
 
 

@@ -153,7 +153,7 @@ CASES = {
         told=NO_REPLY
         | {
             "silence": (FAILED, "bytes that are no frame came unasked", "see that the rate"),
-            "rate": (FAILED, "that are no reply", "at which rate the board is set"),
+            "rate": (FAILED, "that are no reply", "at which rate the device is set"),
         },
     ),
     "a report": Case(before=lambda board: board.report(ActionGroupStarted(3, 1))),

@@ -35,7 +35,7 @@ BUILT_IN = SerialPortSeen("/dev/ttyS0", "", "")
 ONE = SerialPortSeen("/dev/ttyUSB0", "1A86:7523", "USB Serial", "A50285BI")
 OTHER = SerialPortSeen("/dev/ttyUSB1", "0403:6001", "FT232R", "B1")
 BOARD = HidBoard(0x0483, 0x5750, "/dev/hidraw0", "LOBOT")
-PLUG_IN = "boards of USB HID have no serial port at all"
+PLUG_IN = "USB HID devices have no serial port at all"
 
 
 @pytest.mark.parametrize(
@@ -75,7 +75,7 @@ def test_the_port_is_found_or_it_is_said_where_to_look(
 @pytest.mark.parametrize(
     ("port", "boards", "state", "seen", "advice"),
     [
-        ("COM7", [], PASSED, "no board of USB HID (0483:5750) is plugged in", ""),
+        ("COM7", [], PASSED, "no USB HID device (0483:5750) is plugged in", ""),
         ("COM7", None, UNKNOWN, "nobody here can tell", "pip install 'busservo[hid]'"),
         ("COM7", [BOARD], UNKNOWN, "0483:5750 LOBOT is plugged in", "and --port hid://"),
         ("hid://", [BOARD], PASSED, "0483:5750 LOBOT is plugged in", ""),

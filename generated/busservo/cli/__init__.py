@@ -9,11 +9,12 @@ import sys
 from contextlib import suppress
 from importlib import import_module
 
-from .. import __version__
+from ..protocol import SPEC_VERSION
 from . import console
 from .examples import EXAMPLES, PROGRAM, SUMMARY, VERBS
 from .exits import DONE, MEANINGS, UNUSABLE
 from .unusable import UnusableError
+from .verbs import verbs
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
@@ -70,19 +71,23 @@ def _parser(name: str, verb: Any) -> console.Parser:
 
 
 def _run_none(words: Sequence[str]) -> int:
+    here = verbs()
     parser = console.Parser(
         prog=PROGRAM,
         usage=f"{PROGRAM} VERB ...",
         description=SUMMARY,
         epilog="\n\n".join(
             (
-                _listed("verbs", VERBS.items()),
-                _listed("examples", [example for verb in VERBS for example in EXAMPLES[verb][:2]]),
+                _listed("verbs", here.items()),
+                _listed("examples", [example for verb in here for example in EXAMPLES[verb][:2]]),
                 f"`{PROGRAM} VERB --help` shows what else a verb can do.",
             )
         ),
     )
-    parser.add_argument("--version", action="version", version=f"{PROGRAM} {__version__}")
+    # Not argparse's: the version is looked up only when it is asked for.
+    parser.add_argument(
+        "--version", action="store_true", help="show program's version number and exit"
+    )
     parser.add_argument(
         "--print-completion",
         choices=_SHELLS,
@@ -91,13 +96,17 @@ def _run_none(words: Sequence[str]) -> int:
     )
     parser.add_argument("verb", nargs="?", metavar="VERB", help=argparse.SUPPRESS)
     known, _ = parser.parse_known_args(words)
+    if known.version:
+        version = import_module("..version", __package__).__version__
+        print(f"{PROGRAM} {version}, spec {SPEC_VERSION}")
+        return DONE
     if known.print_completion is not None:
         print(_module("completion").script(known.print_completion))
         return DONE
     if known.verb is None:
         parser.print_help(sys.stderr)
         return UNUSABLE
-    raise UnusableError(f"there is no verb {known.verb!r}; there are {', '.join(VERBS)}")
+    raise UnusableError(f"there is no verb {known.verb!r}; there are {', '.join(here)}")
 
 
 def _listed(title: str, entries: Iterable[tuple[str, str]]) -> str:

@@ -7,12 +7,12 @@ from __future__ import annotations
 from argparse import ArgumentParser
 from importlib import import_module
 
-from .. import __version__
 from ..exchanges import EXCHANGES
 from ..messages import MESSAGES
 from .events import KINDS
-from .examples import PROGRAM, SUMMARY, VERBS
+from .examples import PROGRAM, SUMMARY
 from .unusable import UnusableError
+from .verbs import verbs
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
@@ -33,11 +33,11 @@ def script(shell: str) -> str:
         ) from None
     # All verbs in one parser; the command itself imports only the one that is asked for.
     parser = _Parser(prog=PROGRAM, description=SUMMARY)
-    parser.add_argument("--version", action="version", version=__version__, help="show the version")
-    verbs = parser.add_subparsers()
-    for name, about in VERBS.items():
+    parser.add_argument("--version", action="store_true", help="show the version")
+    parts = parser.add_subparsers()
+    for name, about in verbs().items():
         verb = import_module(f"{__package__}.{name.replace('-', '_')}")
-        part = verbs.add_parser(name, help=about)
+        part = parts.add_parser(name, help=about)
         if hasattr(verb, "add_arguments"):
             verb.add_arguments(part)
     try:

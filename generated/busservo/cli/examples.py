@@ -10,18 +10,28 @@ SUMMARY = "Send, read and replay frames of: Hiwonder bus servo controller."
 VERBS = {
     "bench-line": "Measure how long questions take on a line, against what it allows.",
     "decode": "Tell what bytes mean: messages, noise, and why noise is noise.",
-    "doctor": "Find out what is wrong with a port, a line or a board.",
+    "doctor": "Find out what is wrong with a port, a line or a device.",
     "encode": "Make the frame of a message.",
     "monitor": "Show what a line carries, as it comes.",
     "play": "Move through poses that were recorded.",
-    "ports": "List what is plugged in: serial ports, and boards that have none.",
+    "ports": "List what is plugged in: serial ports, and devices that have none.",
     "replay": "Send once more what was recorded of a line.",
     "send": "Send a message to a port, and print the reply.",
-    "simulate": "Run a virtual board to talk to.",
+    "simulate": "Run a virtual device to talk to.",
     "teach": "Let go, and record poses by hand.",
 }
 
 EXAMPLES = {
+    "bench-line": (
+        (
+            "busservo bench-line --port COM7 BatteryVoltageRead",
+            "how long BatteryVoltage takes to come",
+        ),
+        (
+            "busservo bench-line --port COM7 ServoPositionsRead servo_ids=1,2,3,4,5,6 -n 20",
+            "how long ServoPositions takes to come",
+        ),
+    ),
     "decode": (
         ("busservo decode 55 55 08 03 01 E8 03 01 20 03", "bytes in hex, however they are written"),
         ("busservo decode line.bin", "a recording, hex or raw bytes"),
@@ -29,6 +39,13 @@ EXAMPLES = {
         ("busservo decode --json line.bin", "a line of JSON for each message and noise"),
         ("busservo decode -t absolute line.hex", "a recording, with the time of day"),
         ("busservo decode --csv line.hex", "a row for each, for a spreadsheet"),
+    ),
+    "doctor": (
+        ("busservo doctor", "the port that is plugged in, and the device behind it"),
+        ("busservo doctor --port COM7", "this port"),
+        ('busservo doctor --port COM7 --model "V1.3" --report line.hex', "a report to be sent in"),
+        ("busservo doctor --port COM7 --json", "for a program to read"),
+        ("busservo doctor --port COM7 --move 1", "also whether that moves; asks first"),
     ),
     "encode": (
         (
@@ -44,26 +61,6 @@ EXAMPLES = {
             "busservo encode ServoUnload servo_ids=1,2,3",
             "Switch off the force of one or more servos, so that they can be turned by hand.",
         ),
-    ),
-    "bench-line": (
-        (
-            "busservo bench-line --port COM7 BatteryVoltageRead",
-            "how long BatteryVoltage takes to come",
-        ),
-        (
-            "busservo bench-line --port COM7 ServoPositionsRead servo_ids=1,2,3,4,5,6 -n 20",
-            "how long ServoPositions takes to come",
-        ),
-    ),
-    "doctor": (
-        ("busservo doctor", "the port that is plugged in, and the board behind it"),
-        ("busservo doctor --port COM7", "this port"),
-        (
-            'busservo doctor --port COM7 --board "LSC-32, V1.3" --report line.hex',
-            "a report to be sent in",
-        ),
-        ("busservo doctor --port COM7 --json", "for a program to read"),
-        ("busservo doctor --port COM7 --move 1", "also whether that moves; asks first"),
     ),
     "monitor": (
         ("busservo monitor --port COM7", "every frame and all noise"),
@@ -118,7 +115,7 @@ EXAMPLES = {
         ),
     ),
     "simulate": (
-        ("busservo simulate", "a board behind a port, whose name is printed first"),
+        ("busservo simulate", "a device behind a port, whose name is printed first"),
         ("busservo simulate --help", "what else it can do"),
     ),
     "teach": (

@@ -78,7 +78,7 @@ def add_timeout(parser: argparse.ArgumentParser) -> None:
         type=above_zero(highest=_LONGEST, unit="seconds"),
         default=MARGIN,
         metavar="S",
-        help="seconds that the board may take for an answer, besides those on the wire "
+        help="seconds that the device may take for an answer, besides those on the wire "
         f"(default: {MARGIN})",
     )
 

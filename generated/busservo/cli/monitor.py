@@ -12,6 +12,7 @@ from pathlib import Path
 from ..careful_decoder import GAP
 from ..decoder import StreamDecoder
 from ..exchanges import RECEIVED
+from ..messages import MESSAGES
 from ..recording_entry import SENDERS
 from ..recording_file import EITHER, NOISE
 from . import link
@@ -47,7 +48,9 @@ _SLICE = 0.25
 def add_arguments(parser: ArgumentParser) -> None:
     """Declares the arguments of the verb."""
     add_port(parser, client=False)
-    usual = "any" if RECEIVED is None else RECEIVED.sender
+    # Where nothing comes to a client, whoever looks at a line looks at what one sends.
+    comes = any(kind.DIRECTION is RECEIVED for kind in MESSAGES)
+    usual = RECEIVED.sender if comes else "any"
     parser.add_argument(
         "--direction",
         choices=[*SENDERS, "any"],

@@ -42,13 +42,13 @@ def run(arguments: Namespace) -> int:
         print("no serial port is plugged in", file=sys.stderr)
     if boards is None and HID_BOARDS and not any(usb for _, usb, _ in serial):
         known = ", ".join(f"{vendor:04X}:{product:04X}" for vendor, product, _ in HID_BOARDS)
-        told = f"boards of USB HID ({known}) have no serial port, and are not listed without an"
+        told = f"USB HID devices ({known}) have no serial port, and are not listed without an"
         print(f"{told} extra: pip install '{PROGRAM}[hid]'", file=sys.stderr)
     return 0
 
 
 def _by_hid(boards: list[HidBoard]) -> Iterator[Line]:
-    """Boards without a serial port, each by an address that opens it."""
+    """Devices without a serial port, each by an address that opens it."""
     for each in boards:
         alone = len([other for other in boards if other.ids == each.ids]) == 1
         about = f"{each.product}, USB HID, no serial port ({UNSEEN})".removeprefix(", ")

@@ -68,9 +68,9 @@ class Recorder:
         for event in events:
             who, what = sender_of(event, direction), " or ".join(names_of(event, direction))
             if isinstance(event, Noise):
-                # What the board sends is never sent to it, noise or no; all else is for the reader.
+                # What the device sends is never sent to it, noise or no; all else is to be read.
                 sender = EITHER if direction is None else direction.sender
-                who = NOISE if direction is RECEIVED is not None else f"{sender} {NOISE}"
+                who = NOISE if direction is RECEIVED else f"{sender} {NOISE}"
                 what = event.reason.value
             elif who != EITHER:
                 what = repr(event)

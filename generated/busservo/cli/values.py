@@ -40,7 +40,7 @@ def _listed(message: Message) -> Iterator[tuple[int, ...]]:
 
 
 def fields_as_text(message: Message) -> str:
-    """The fields as `time_ms=1000 ms targets=1:800,9:800`."""
+    """The fields as `delay=10 ms items=1:20,2:30`."""
     items = message.SHAPE.items
     shown: list[str] = []
     for name in message.__match_args__:
@@ -63,7 +63,7 @@ def _number_as_text(number: Number, value: int) -> str:
 
 
 def message_from_text(kind: type[Message], words: list[str]) -> Message:
-    """The message with the fields given as `time_ms=1000 targets=1:800,9:800`."""
+    """The message with the fields given as `delay=10 items=1:20,2:30`."""
     given = fields_from_text(kind, words)
     try:
         return kind(**given)

@@ -31,13 +31,13 @@ def _look(diagnosis: Diagnosis) -> Result:
         if title is not None:
             return failed(
                 f"frames of another protocol came: {title}",
-                "the page on look-alikes in the reference tells them apart: another board, or plug",
+                "the page on look-alikes in the reference tells them apart: another device or plug",
                 data,
             )
     for each in noise:
         told = _told(each)
         if told:
-            advice = "an unknown edition of the board, or bytes that were lost: send a report in"
+            advice = "an unknown edition of the device, or bytes that were lost: send a report in"
             return failed(told, advice, each.data)
     return passed("what came is this protocol")
 

@@ -20,12 +20,12 @@ _SILENCES = 3
 
 # What may be wrong, and what to do; the first explains those behind it.
 _ADVICE = {
-    "answered too late": "give the board more time: --timeout 2 (margin=2 in Python)",
-    "answered more than once": "see that no other program or host asks on the same line; the "
+    "answered too late": "give the device more time: --timeout 2 (margin=2 in Python)",
+    "answered more than once": "see that no other program or computer asks on the same line; the "
     "library returns one of such replies, and counts the others",
     "answered by bytes that are no reply": "see to loose plugs and the grounds, and compare the "
-    "bytes with the reference: the board may be another, or speak another edition",
-    "not answered": "see to the supply of the board and to loose plugs; retries=2 asks again",
+    "bytes with the reference: the device may be another, or speak another edition",
+    "not answered": "see to the supply of the device and to loose plugs; retries=2 asks again",
     "answered with noise around it": "see to the grounds, the supply and the length of cables",
 }
 

@@ -26,13 +26,15 @@ if TYPE_CHECKING:
 _HERE = Path(__file__).parent
 # What framegen and a library have in common is written once: where it is copied to.
 _SHARED = {"cli/console.py": "console.py", "hextext.py": "hextext.py"}
+# What only a protocol with poses has a use for.
+_FOR_POSES = {"cli/play.py", "cli/posefile.py", "cli/positions.py", "cli/teach.py"}
 
 
 def render(compiled: Compiled, _snippets: Snippets) -> dict[str, str]:
     """The library's files, by path below the project's root."""
     library = LibraryView(compiled.model)
     banner = _banner(compiled.source, library)
-    files = dict([*_runtime(), *_from_templates(library)])
+    files = dict([*_runtime(poses=compiled.model.spec.pose is not None), *_from_templates(library)])
     (root,) = folders(compiled.model)
     rendered = {f"{root}/{name}": banner + text for name, text in files.items()}
     rendered[f"{root}/py.typed"] = ""
@@ -53,12 +55,16 @@ def _banner(source: Source, library: LibraryView) -> str:
     )
 
 
-def _runtime() -> list[tuple[str, str]]:
-    """The files that are the same for every protocol, copied as they are."""
+def _runtime(*, poses: bool) -> list[tuple[str, str]]:
+    """The files that are the same for every protocol, with poses or without, copied as they are."""
     root = _HERE / "runtime"
     files = {file.relative_to(root).as_posix(): file for file in sorted(root.rglob("*.py"))}
     files |= {name: _HERE.parents[1] / shared for name, shared in _SHARED.items()}
-    return [(name, file.read_text(encoding="utf-8")) for name, file in files.items()]
+    return [
+        (name, file.read_text(encoding="utf-8"))
+        for name, file in files.items()
+        if poses or name not in _FOR_POSES
+    ]
 
 
 def _from_templates(library: LibraryView) -> list[tuple[str, str]]:
@@ -72,7 +78,6 @@ def _from_templates(library: LibraryView) -> list[tuple[str, str]]:
                 client=ClientView(library.model),
                 device=DeviceView(library.model),
                 frame=library.model.frame,
-                package_version=__version__,
             ),
         )
         for name in names

@@ -24,6 +24,7 @@ _SHARED = (
     "Each method sends one message. What they share is explained at {}: {}, deadlines, reports, "
     "and closing."
 )
+_LISTENS = "It sends nothing, and listens. How is explained at {}: {}, reports, and closing."
 
 # What a command returns, by module.
 _RESULTS = {"motion": ["AsyncMotion", "Motion"], "request": ["Sent"], "run": ["Run"]}
@@ -43,18 +44,19 @@ class ClientView:
     @property
     def about(self) -> list[str]:
         """The docstring of the client for threads."""
-        return [
-            f"A client for threads: {self._title}.",
-            _SHARED.format("Client", "threads"),
-        ]
+        return [f"A client for threads: {self._title}.", self._shared.format("Client", "threads")]
 
     @property
     def async_about(self) -> list[str]:
         """The docstring of the client for asyncio."""
         return [
             f"A client for asyncio: {self._title}.",
-            _SHARED.format("AsyncClient", "tasks"),
+            self._shared.format("AsyncClient", "tasks"),
         ]
+
+    @property
+    def _shared(self) -> str:
+        return _SHARED if self.model.exchanges else _LISTENS
 
     @property
     def _title(self) -> str:
@@ -116,15 +118,9 @@ class ClientView:
         return [_entry(each) for each in self.model.exchanges]
 
     @property
-    def hears(self) -> bool:
-        """Whether anything comes to the client."""
-        return self.model.roles.received in self.model.directions
-
-    @property
     def received(self) -> str:
-        """The direction of what comes to the client; None, for either, where nothing does."""
-        back = self.model.roles.received
-        return f"Direction.{direction_member(back)}" if self.hears else "None"
+        """The direction of what comes to the client, as a member of the enumeration."""
+        return direction_member(self.model.roles.received)
 
     @property
     def import_messages(self) -> str:

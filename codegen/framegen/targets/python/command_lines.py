@@ -1,8 +1,9 @@
-"""Command lines for the help of the command, each with what it does, as the lines of a tuple."""
+"""The verbs of the command: what each is for, and command lines for its help."""
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, TypeAlias
 
 from framegen.targets.python.escape import Bracketed, literal
 from framegen.targets.python.message_view import MessageView
@@ -10,53 +11,58 @@ from framegen.targets.python.message_view import MessageView
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
-    from framegen.language.spec import Example
+    from framegen.model.exchanges import Exchange
     from framegen.model.model import Model
 
+# What stands behind a verb, and what it does.
+_Line: TypeAlias = tuple[str, str]
+# What each verb is for.
+_ABOUT = {
+    "bench-line": "Measure how long questions take on a line, against what it allows.",
+    "decode": "Tell what bytes mean: messages, noise, and why noise is noise.",
+    "doctor": "Find out what is wrong with a port, a line or a device.",
+    "encode": "Make the frame of a message.",
+    "monitor": "Show what a line carries, as it comes.",
+    "play": "Move through poses that were recorded.",
+    "ports": "List what is plugged in: serial ports, and devices that have none.",
+    "replay": "Send once more what was recorded of a line.",
+    "send": "Send a message to a port, and print the reply.",
+    "simulate": "Run a virtual device to talk to.",
+    "teach": "Let go, and record poses by hand.",
+}
 
-def decode_examples(model: Model) -> list[str]:
-    """For `decode`: the ways to hand it bytes."""
-    program, sender = model.spec.protocol.name, model.directions[0].sender
-    frame = _messages(model)[0].example.hex
-    hex_ = frame.hex(" ").upper()
-    examples = [
-        (f"{program} decode {hex_}", "bytes in hex, however they are written"),
-        (f"{program} decode line.bin", "a recording, hex or raw bytes"),
-        (f"{program} decode --direction {sender} -", "what arrives on standard input"),
-        (f"{program} decode --json line.bin", "a line of JSON for each message and noise"),
-        (f"{program} decode -t absolute line.hex", "a recording, with the time of day"),
-        (f"{program} decode --csv line.hex", "a row for each, for a spreadsheet"),
-    ]
-    return _pairs(examples)
+
+@dataclass(frozen=True, slots=True)
+class VerbView:
+    """A verb of the command, what it is for, and the lines of its examples."""
+
+    name: str
+    about: str
+    examples: list[str]
 
 
-def encode_examples(model: Model) -> list[str]:
-    """For `encode`: an example of each shape of message."""
+def verbs(model: Model) -> list[VerbView]:
+    """The verbs that have something to do in this protocol, in the order of the alphabet."""
     program = model.spec.protocol.name
-    shapes: dict[tuple[bool, bool], tuple[str, str]] = {}
-    for message in _messages(model):
-        words = message.command_words(message.example.values)
-        line = " ".join([program, "encode", message.name, *words])
-        shape = bool(message.given), message.repeat is not None
-        shapes.setdefault(shape, (line, message.layout.message.summary))
-    return _pairs(shapes.values())
+    found: list[VerbView] = []
+    for verb, lines in sorted(_examples(model).items()):
+        shown = [(f"{program} {verb} {words}".rstrip(), about) for words, about in lines]
+        found.append(VerbView(verb, _ABOUT[verb], _pairs(shown)))
+    return found
 
 
-def line_examples(model: Model) -> dict[str, list[str]]:
-    """For each verb that has to do with a port, in the order of the alphabet."""
-    program = model.spec.protocol.name
-    questions = _questions(model)
-    lines = {
-        "bench-line": [
-            (f"{words} -n 20" if at else words, f"how long {reply} takes to come")
-            for at, (words, _, reply) in enumerate(questions)
-        ],
+def _examples(model: Model) -> dict[str, list[_Line]]:
+    """What stands behind each verb in its examples, and what it does."""
+    commands, questions = _commands(model), _questions(model)
+    found = {
+        "decode": _decode_lines(model),
         "doctor": [
-            ("", "the port that is plugged in, and the board behind it"),
+            ("", "the port that is plugged in, and the device behind it"),
             ("--port COM7", "this port"),
-            ('--port COM7 --board "LSC-32, V1.3" --report line.hex', "a report to be sent in"),
+            ('--port COM7 --model "V1.3" --report line.hex', "a report to be sent in"),
             ("--port COM7 --json", "for a program to read"),
         ],
+        "encode": _encode_lines(model),
         "monitor": [
             ("--port COM7", "every frame and all noise"),
             ("--port COM7 -t delta -n 5", "five, and their distances"),
@@ -69,66 +75,93 @@ def line_examples(model: Model) -> dict[str, list[str]]:
             ("", "the name, VID:PID and description of each"),
             ("--json", "a line of JSON for each"),
         ],
-        "replay": [
+        "simulate": [
+            ("", "a device behind a port, whose name is printed first"),
+            ("--help", "what else it can do"),
+        ],
+    }
+    if commands or questions:
+        found["send"] = [*commands[:4], *((words, about) for words, about, _ in questions)]
+        found["replay"] = [
             ("line.hex --dry-run", "what would be sent, and when"),
             ("line.hex --port COM7", "what was recorded, once more"),
             ("line.hex --port COM7 --speed 0.5", "at half the pace"),
             ("line.bin --port COM7 --skip-noise", "raw bytes, of which some are no frames"),
-        ],
-        "send": [*_commands(model)[:4], *((words, what) for words, what, _ in questions)],
-        "simulate": [
-            ("", "a board behind a port, whose name is printed first"),
-            ("--help", "what else it can do"),
-        ],
-    }
+        ]
+    if questions:
+        found["bench-line"] = [
+            (f"{words} -n 20" if at else words, f"how long {reply} takes to come")
+            for at, (words, _, reply) in enumerate(questions)
+        ]
     if model.spec.pose is not None:
-        lines["doctor"].append(("--port COM7 --move 1", "also whether that moves; asks first"))
-        lines |= {
-            "play": [
-                ("poses.json --dry-run", "what would be sent, and when"),
-                ("poses.json --port COM7", "from pose to pose, each in a second"),
-                ("poses.json --port COM7 --time-ms 500 --pause 1 --repeat 3", "faster, and thrice"),
-            ],
-            "teach": [
-                ("poses.json --port COM7", "all that are there, at each Enter"),
-                ("poses.json --port COM7 --ids 1-3 --append", "three, behind what is recorded"),
-            ],
-        }
-    return {
-        verb: _pairs((f"{program} {verb} {words}".rstrip(), what) for words, what in examples)
-        for verb, examples in sorted(lines.items())
-    }
+        found["doctor"].append(("--port COM7 --move 1", "also whether that moves; asks first"))
+        found["play"] = [
+            ("poses.json --dry-run", "what would be sent, and when"),
+            ("poses.json --port COM7", "from pose to pose, each in a second"),
+            ("poses.json --port COM7 --time-ms 500 --pause 1 --repeat 3", "faster, and thrice"),
+        ]
+        found["teach"] = [
+            ("poses.json --port COM7", "all that are there, at each Enter"),
+            ("poses.json --port COM7 --ids 1-3 --append", "three, behind what is recorded"),
+        ]
+    return found
 
 
-def _commands(model: Model) -> list[tuple[str, str]]:
-    """An example of each message of the first direction, and what it does."""
+def _decode_lines(model: Model) -> list[_Line]:
+    """The ways to hand over bytes."""
+    frame = _messages(model)[0].example.hex
     return [
-        (_sent(message, message.example), message.layout.message.summary)
-        for message in _messages(model)
-        if message.layout.direction == model.directions[0]
+        (frame.hex(" ").upper(), "bytes in hex, however they are written"),
+        ("line.bin", "a recording, hex or raw bytes"),
+        (f"--direction {model.directions[0].sender} -", "what arrives on standard input"),
+        ("--json line.bin", "a line of JSON for each message and noise"),
+        ("-t absolute line.hex", "a recording, with the time of day"),
+        ("--csv line.hex", "a row for each, for a spreadsheet"),
+    ]
+
+
+def _encode_lines(model: Model) -> list[_Line]:
+    """An example of each shape of message."""
+    shapes: dict[tuple[bool, bool], _Line] = {}
+    for message in _messages(model):
+        shape = bool(message.given), message.repeat is not None
+        line = _words(message), message.layout.message.summary
+        shapes.setdefault(shape, line)
+    return [*shapes.values()]
+
+
+def _commands(model: Model) -> list[_Line]:
+    """An example of each message of the client that is not answered, and what it does."""
+    return [
+        (f"--port COM7 {_words(message)}", message.layout.message.summary)
+        for exchange, message in _sent(model)
+        if exchange.reply is None
     ]
 
 
 def _questions(model: Model) -> list[tuple[str, str, str]]:
     """An example of each question, what it does, and its reply."""
     return [
-        (_sent(message, message.example), message.layout.message.summary, exchange.reply.name)
-        for exchange in model.exchanges
-        for message in [MessageView(exchange.request, model)]
+        (f"--port COM7 {_words(message)}", message.layout.message.summary, exchange.reply.name)
+        for exchange, message in _sent(model)
         if exchange.reply is not None
     ]
 
 
-def _sent(message: MessageView, example: Example) -> str:
-    words = " ".join([message.name, *message.command_words(example.values)])
-    return f"--port COM7 {words}"
+def _sent(model: Model) -> list[tuple[Exchange, MessageView]]:
+    return [(each, MessageView(each.request, model)) for each in model.exchanges]
+
+
+def _words(message: MessageView) -> str:
+    """A message as the command takes it, with the values of its example."""
+    return " ".join([message.name, *message.command_words(message.example.values)])
 
 
 def _messages(model: Model) -> list[MessageView]:
     return [MessageView(message, model) for message in model.messages.values()]
 
 
-def _pairs(examples: Iterable[tuple[str, str]]) -> list[str]:
+def _pairs(examples: Iterable[_Line]) -> list[str]:
     return [
         Bracketed("(", [literal(line), literal(what)], "),").fitted(8) for line, what in examples
     ]

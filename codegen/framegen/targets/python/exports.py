@@ -40,6 +40,7 @@ HOMES = {
     "TransportError": "link_errors",
     "UnknownFrame": "noise",
     "WriteStuckError": "link_errors",
+    "__version__": "version",
     "decode": "codec",
     "open_async_controller": "async_opening",
     "open_controller": "opening",

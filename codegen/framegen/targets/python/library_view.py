@@ -6,11 +6,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from framegen.language.spec import IdPart, LengthPart
-from framegen.targets.python.command_lines import (
-    decode_examples,
-    encode_examples,
-    line_examples,
-)
+from framegen.targets.python.command_lines import verbs
 from framegen.targets.python.escape import Bracketed, literal
 from framegen.targets.python.exports import HOMES, export_order, relative_import
 from framegen.targets.python.lookalike_view import LookalikeView
@@ -21,6 +17,7 @@ if TYPE_CHECKING:
     from framegen.language.spec import Link
     from framegen.language.values import Direction
     from framegen.model.model import Model
+    from framegen.targets.python.command_lines import VerbView
     from framegen.targets.python.list_view import ListView
 
 
@@ -45,18 +42,6 @@ class DirectionView:
     @property
     def receiver(self) -> str:
         return self.direction.receiver
-
-
-@dataclass(frozen=True, slots=True)
-class VerbView:
-    """A verb of the command, and the lines of its examples."""
-
-    verb: str
-    examples: list[str]
-
-    @property
-    def name(self) -> str:
-        return literal(self.verb)
 
 
 @dataclass(frozen=True, slots=True)
@@ -144,7 +129,7 @@ class LibraryView:
     @property
     def exported(self) -> list[str]:
         """Every name that the package exports, in the order that linters want."""
-        return sorted([*self._homes, "__version__"], key=export_order)
+        return list(self._homes)
 
     @property
     def homes(self) -> list[str]:
@@ -171,17 +156,9 @@ class LibraryView:
         return f"Send, read and replay frames of: {self.model.spec.protocol.title}."
 
     @property
-    def decode_examples(self) -> list[str]:
-        return decode_examples(self.model)
-
-    @property
-    def encode_examples(self) -> list[str]:
-        return encode_examples(self.model)
-
-    @property
-    def line_verbs(self) -> list[VerbView]:
-        """The verbs that have to do with a port."""
-        return [VerbView(name, lines) for name, lines in line_examples(self.model).items()]
+    def verbs(self) -> list[VerbView]:
+        """What the command can do."""
+        return verbs(self.model)
 
     @property
     def lookalikes(self) -> str:

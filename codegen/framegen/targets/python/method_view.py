@@ -138,37 +138,54 @@ class MethodView:
         return self._session(f"answer = {call}")
 
     @property
-    def body(self) -> str:
-        """What it does, as statements."""
-        name, reply = self.exchange.request.name, self.exchange.reply
-        given = [f"{field.name}={field.name}" for field in self.exchange.request.arguments]
-        wait = self.flavour.wait
-        latest = [] if self.exchange.lasts is None else ["latest=latest"]
-        if reply is None:
-            sent: list[str | Bracketed] = [Bracketed(f"{name}(", given, ")"), *latest]
-            return Bracketed(f"return {wait}self.{self._sender}(", sent, ")").fitted(8)
-        if self.exchange.split is not None:
-            asked = [name, reply.name, self.exchange.split.name]
-            replies = Bracketed(f"replies = {wait}self._ask_in_parts(", asked, ")").fitted(8)
-            field = self.exchange.method.result
-            return (
-                f"{replies}\n"
-                f"        return tuple(each for reply in replies for each in reply.{field})"
-            )
-        call = [f"{name}({', '.join(given)})", reply.name]
-        if self._result is None:
-            return Bracketed(f"return {wait}self._ask(", call, ")").fitted(8)
-        return (
-            Bracketed(f"reply = {wait}self._ask(", call, ")").fitted(8)
-            + f"\n        return reply.{self._result.name}"
-        )
+    def in_parts(self) -> bool:
+        """Whether it may take several requests, whose replies are put together."""
+        return self.exchange.split is not None
 
     @property
-    def _sender(self) -> str:
+    def result(self) -> str:
+        """The field of the reply that it returns; empty where it returns the reply, or has none."""
+        return self.exchange.method.result
+
+    @property
+    def asked(self) -> str:
+        """What a question is asked with; empty for a command."""
+        reply, split = self.exchange.reply, self.exchange.split
+        if reply is None:
+            return ""
+        if split is not None:
+            return self._given(
+                "replies = ", "_ask_in_parts", [self._request, reply.name, split.name]
+            )
+        before = "reply = " if self.result else "return "
+        return self._given(before, "_ask", [str(self._made), reply.name])
+
+    @property
+    def sent(self) -> str:
+        """What a command is sent with."""
+        latest = [] if self.exchange.lasts is None else ["latest=latest"]
+        return self._given("return ", self.sender, [self._made, *latest])
+
+    @property
+    def sender(self) -> str:
         """What a command is sent by."""
         if self.exchange.lasts is not None:
             return "_move"
         return "send" if self.exchange.acknowledged is None else "_run"
+
+    @property
+    def _request(self) -> str:
+        return self.exchange.request.name
+
+    @property
+    def _made(self) -> Bracketed:
+        given = [f"{field.name}={field.name}" for field in self.exchange.request.arguments]
+        return Bracketed(f"{self._request}(", given, ")")
+
+    def _given(self, before: str, method: str, arguments: list[str | Bracketed]) -> str:
+        """The arguments of a call in the body, broken where the line would be too long."""
+        call = f"{before}{self.flavour.wait}self.{method}("
+        return Bracketed(call, arguments, ")").fitted(8).removeprefix(call).removesuffix(")")
 
     @property
     def _names(self) -> tuple[str, ...]:

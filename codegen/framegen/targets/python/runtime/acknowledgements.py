@@ -41,7 +41,7 @@ class Acknowledgements:
     """The commands that wait for such a report, and the reports that have come so far.
 
     A report may come `margin` seconds after the time on the wire of both, and as much later as
-    other bytes take that come before it. Only a line that has seen one can miss one: a board may
+    other bytes take that come before it. Only a line that has seen one can miss one: a device may
     never send any.
     """
 

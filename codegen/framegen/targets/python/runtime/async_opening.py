@@ -1,4 +1,4 @@
-"""Opens a port, and gives the controller that is behind it, for asyncio."""
+"""Opens a port, and gives a client of the device behind it, for asyncio."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 
 
 class Opening:
-    """A controller that is about to be opened: by `await`, or better by `async with`."""
+    """A client that is about to be opened: by `await`, or better by `async with`."""
 
     def __init__(
         self, opener: Callable[[], Transport], make: Callable[[Transport], AsyncController]
@@ -42,7 +42,7 @@ class Opening:
     if not TYPE_CHECKING:
 
         def __getattr__(self, name: str) -> object:
-            problem = f"the controller is not open yet, and has no {name!r}"
+            problem = f"the client is not open yet, and has no {name!r}"
             how = "enter open_async_controller() with `async with`, or await it"
             raise AttributeError(f"{problem}: {how}", name=name, obj=self)
 
@@ -83,9 +83,9 @@ def open_async_controller(
     local_echo: bool = False,
     settle: float | None = None,
 ) -> Opening:
-    """Opens the port of a controller, to be used in an `async with`.
+    """Opens the port of a device, to be used in an `async with`.
 
-    It may also be awaited, and the controller closed by hand. The arguments and
+    It may also be awaited, and the client closed by hand. The arguments and
     the errors are those of open_controller; the errors come when it is entered or awaited.
     """
     opener = partial(open_transport, port, baud=baud, exclusive=exclusive)

@@ -13,15 +13,15 @@ if TYPE_CHECKING:
 
 
 class Exchange:
-    """One message of the host, and its answers.
+    """One message of the client, and its answers.
 
-    `method` is the method of the controller that sends it and `arguments` their order; `result` is
-    the field of the reply that the method returns, or empty. `reply` is the message that answers
-    it, None where none does; `reports` are messages that may follow it, and `acknowledged` is that
-    of them which says that it was taken. `lasts` is the field that says how long what it starts
-    goes on, and how many steps of it make a second. `echoed` pairs what was
-    asked with where the reply repeats it (`servo_ids` with `positions.servo_id`); `most` is how
-    many elements of the request a reply has room for, 0 where that does not matter.
+    `method` is the method of the client that sends it and `arguments` their order; `result` is the
+    field of the reply that the method returns, or empty. `reply` is the message that answers it,
+    None where none does; `reports` are messages that may follow it, and `acknowledged` is that of
+    them which says that it was taken. `lasts` is the field that says how long what it starts
+    goes on, and how many steps of it make a second. `echoed` pairs what was asked with where the
+    reply repeats it (`ids` with `items.id`); `most` is how many elements of the request a reply has
+    room for, 0 where that does not matter.
     """
 
     __slots__ = (

@@ -1,6 +1,6 @@
-"""The boards of USB HID that are plugged in: found by the extra `hid`, on Linux without it too.
+"""The USB HID devices that are plugged in: found by the extra `hid`, on Linux without it too.
 
-A board of this kind has no serial port. None was seen by this library on hardware yet.
+A device of this kind has no serial port. None was seen by this library on hardware yet.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ _LINUX = Path("/sys/bus/hid/devices")
 
 
 class HidBoard(NamedTuple):
-    """A board that is plugged in. `path` is the system's name of it, `product` its own."""
+    """A device that is plugged in. `path` is the system's name of it, `product` its own."""
 
     vendor: int
     product_id: int
@@ -36,7 +36,7 @@ class HidBoard(NamedTuple):
 
 
 def report_size(vendor: int, product_id: int) -> int | None:
-    """The bytes of a report of such a board; None for what is no board of this protocol."""
+    """The bytes of a report of such a device; None for what is no device of this protocol."""
     sizes = {(vendor, product): size for vendor, product, size in HID_BOARDS}
     return sizes.get((vendor, product_id))
 
@@ -58,7 +58,7 @@ def hid_library(port: str) -> Any:
 
 
 def hid_boards(library: Any) -> list[HidBoard]:
-    """The boards of this protocol that are plugged in, as the library has them."""
+    """The devices of this protocol that are plugged in, as the library has them."""
     found = [
         HidBoard(
             each["vendor_id"],

@@ -1,7 +1,7 @@
-"""A board of USB HID as a transport: reports that carry the same frames. Not seen on hardware yet.
+"""A USB HID device as a transport: reports that carry the same frames. Not seen on hardware yet.
 
 A frame is sent at the start of a report, behind the report's number, which is 0, and padded with
-zeros; so it comes back. This follows what others have published of such boards.
+zeros; so it comes back. This follows what others have published of such devices.
 """
 
 from __future__ import annotations
@@ -38,14 +38,14 @@ if TYPE_CHECKING:
 logger = logging.getLogger(__package__)
 SCHEME = "hid:"
 _IDS = re.compile(r"([0-9a-fA-F]{4}):([0-9a-fA-F]{4})")
-_NAMED = "write hid:// for the one board that is plugged in, hid://VENDOR:PRODUCT or hid://PATH"
+_NAMED = "write hid:// for the one device that is plugged in, hid://VENDOR:PRODUCT or hid://PATH"
 _USUAL_SIZE = 64
 # A read cannot be ended from outside: longer waits are made of several.
 _SLICE = 0.05
 
 
 def open_hid(port: str, *, library: Any = None) -> HidPort:
-    """Opens a board by USB HID: `hid://`, `hid://0483:5750`, or `hid://` and the system's path.
+    """Opens a device by USB HID: `hid://`, `hid://0483:5750`, or `hid://` and the system's path.
 
     Raises TransportError. `library` is what speaks USB HID; without one, it is imported.
     """
@@ -66,7 +66,7 @@ def open_hid(port: str, *, library: Any = None) -> HidPort:
 
 
 def _chosen(port: str, wanted: str, found: list[HidBoard]) -> HidBoard:
-    """The one board that is meant."""
+    """The one device that is meant."""
     ids = _IDS.fullmatch(wanted)
     if ids is not None:
         pair = int(ids[1], 16), int(ids[2], 16)
@@ -77,16 +77,16 @@ def _chosen(port: str, wanted: str, found: list[HidBoard]) -> HidBoard:
         return fitting[0]
     listed = ", ".join(f"hid://{each.path} ({each.ids})" for each in found)
     if fitting:
-        raise PortAddressError(port, f"{len(fitting)} boards are plugged in", f"choose: {listed}")
+        raise PortAddressError(port, f"{len(fitting)} devices are plugged in", f"choose: {listed}")
     if found:
-        raise PortNotFoundError(port, "there is no such board", f"these exist: {listed}")
+        raise PortNotFoundError(port, "there is no such device", f"these exist: {listed}")
     known = ", ".join(f"{vendor:04X}:{product:04X}" for vendor, product, _ in HID_BOARDS)
-    happened = f"no board of USB HID is plugged in ({known or 'none is known'})"
+    happened = f"no USB HID device is plugged in ({known or 'none is known'})"
     raise PortNotFoundError(port, happened, "`ports` lists those that have a serial port")
 
 
 def _not_opened(port: str, board: HidBoard, error: Exception) -> TransportError:
-    """Why a board that is there could not be opened: the library does not say."""
+    """Why a device that is there could not be opened: the library does not say."""
     rule = (
         'KERNEL=="hidraw*", '
         f'ATTRS{{idVendor}}=="{board.vendor:04x}", ATTRS{{idProduct}}=="{board.product_id:04x}", '
@@ -100,7 +100,7 @@ def _not_opened(port: str, board: HidBoard, error: Exception) -> TransportError:
 
 
 class HidPort:
-    """An open board of USB HID, as a transport. `reopen` opens the same one anew.
+    """An open USB HID device, as a transport. `reopen` opens the same one anew.
 
     `device` has the methods of a device of hidapi. No frame of more than `largest_frame` bytes can
     be sent. Of a report that begins with a frame, what follows it is padding, and dropped; of any
@@ -177,7 +177,7 @@ class HidPort:
         """Returns at once: a report that was handed over has arrived."""
 
     def close(self) -> None:
-        """Closes the board; a read under way ends first."""
+        """Closes the device; a read under way ends first."""
         if self._closed:
             return
         self._closed = True
@@ -197,4 +197,4 @@ class HidPort:
         if self._closed:
             return self._is_closed()
         advice = "see to the cable and the power, then reconnect()"
-        return DisconnectedError(self.name, f"the board was lost ({why})", advice)
+        return DisconnectedError(self.name, f"the device was lost ({why})", advice)

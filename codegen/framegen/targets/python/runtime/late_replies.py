@@ -37,7 +37,7 @@ class LateReplies:
     def expect(self, kind: type[Message], count: int, until: float, *, owed: bool = True) -> None:
         """Says that so many may come up to a time.
 
-        `owed` is whether the board has been asked for them; or else it is only doubtful whether
+        `owed` is whether the device has been asked for them; or else it is only doubtful whether
         there are any.
         """
         self._expected.append(_Late(kind, count, until, owed=owed))

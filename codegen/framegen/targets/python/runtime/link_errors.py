@@ -107,9 +107,9 @@ class NoReplyError(ProtocolError, TimeoutError):
             replies = _counted(self.unsolicited, "reply", "replies")
             came.append(f"{replies} came that cannot be the answer: late, or sent twice")
         if self.reports:
-            came.append(f"{_counted(self.reports, 'report')} came, so the board can be heard")
+            came.append(f"{_counted(self.reports, 'report')} came, so the device can be heard")
         return "; ".join(came) or (
-            "nothing came at all: is the board switched on, and is this its port?"
+            "nothing came at all: is the device switched on, and is this its port?"
         )
 
 

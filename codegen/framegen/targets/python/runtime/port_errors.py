@@ -60,7 +60,7 @@ def refused_name(port: object) -> TransportError | None:
 
 
 def _refused_address(port: str, scheme: str) -> TransportError | None:
-    advice = f"write {scheme}://HOST:PORT, such as {scheme}://arm.local:4000"
+    advice = f"write {scheme}://HOST:PORT, such as {scheme}://device.local:4000"
     try:
         parts = urlsplit(port)
     except ValueError as error:

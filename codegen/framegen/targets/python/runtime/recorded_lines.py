@@ -62,7 +62,7 @@ def _beginning(line: str, number: int, began: float | None) -> float | None:
         raise RecordingError(f"line {number}: {problem}")
     if line and not line.startswith("#"):
         raise RecordingError(
-            f"line {number}: it has no time and sender, as in `55 55 02 07  # 0.5 s, NAME: ...`, "
+            f"line {number}: it has no time and sender, as in `HEX  # 0.5 s, NAME: ...`, "
             "and other lines have"
         )
     found = _BEGAN.fullmatch(line)
@@ -82,7 +82,7 @@ def _sender(who: str, number: int, direction: Direction | None) -> tuple[str | N
     whose, _, last = who.rpartition(" ")
     if is_noise := last == NOISE:
         # Where nobody is named, it came to this end: what a client sends is never noise.
-        who = whose or (EITHER if RECEIVED is None else RECEIVED.sender)
+        who = whose or RECEIVED.sender
     if who in SENDERS:
         return who, is_noise
     if who == EITHER:

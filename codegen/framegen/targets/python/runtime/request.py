@@ -1,4 +1,4 @@
-"""One message on its way to the controller, and what has become of it."""
+"""One message on its way to the device, and what has become of it."""
 
 from __future__ import annotations
 

@@ -72,7 +72,7 @@ def serial_ports() -> list[SerialPortSeen]:
 def open_transport(
     port: str, *, baud: float = BAUD, exclusive: bool = True
 ) -> SerialPort | HidPort:
-    """Opens a port, by the name or the URL that pyserial knows it by, or a board by `hid://`.
+    """Opens a port, by the name or the URL that pyserial knows it by, or a device by `hid://`.
 
     The rest of the line's parameters are the protocol's; a `baud` of math.inf says that the line
     takes no time, and sets the port to the protocol's rate. With `exclusive`, no other program that

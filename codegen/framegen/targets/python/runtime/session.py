@@ -1,4 +1,4 @@
-"""The conversation with a controller, without a line and without a clock.
+"""The conversation with a device, without a line and without a clock.
 
 Whoever drives it hands in the bytes that arrive and the time, and takes out the bytes to write. One
 question is under way at a time; commands, which nothing answers, do not wait for it.
@@ -58,8 +58,8 @@ logger = logging.getLogger(__package__)
 # How long before the line is free the next frame is handed over, so that it is never idle. More
 # would be lag that nobody sees.
 _AHEAD = 0.004
-# A board that answers at all has begun to do so by then: how long a doubtful reply is held, and how
-# long a line settles, for whoever grants it a longer margin than this.
+# A device that answers at all has begun to do so by then: how long a doubtful reply is held, and
+# how long a line settles, for whoever grants it a longer margin than this.
 _LATENCY = 0.25
 # How long a port may take to accept a frame: longer than it takes until it is said to be stuck.
 _WRITING = 1.5
@@ -69,7 +69,7 @@ _REPLIES = frozenset(each.reply for each in EXCHANGES.values() if each.reply is 
 class Session:
     """One end of a line. Times are seconds on any clock that never goes back.
 
-    `margin` is how long the controller may take for an answer, besides the time on the wire, and
+    `margin` is how long the device may take for an answer, besides the time on the wire, and
     `limits` what may be sent of that which has limits. `local_echo` says that the line gives back
     what is sent; `settle` is for how many seconds nothing is asked on a line that has been opened,
     None for one reply time where that may matter.
@@ -99,7 +99,7 @@ class Session:
         # The longest frame that the line carries; None for any.
         self.largest_frame: int | None = None
         self._margin = margin
-        # How long a board takes at most until it begins to answer.
+        # How long a device takes at most until it begins to answer.
         self._latency = min(margin, _LATENCY)
         self._limits = limits
         self._name = name
@@ -185,7 +185,7 @@ class Session:
     def written(self, request: Request, now: float) -> None:
         """Takes in that the port has the frame of a question only `now`, however long it took.
 
-        The time that the controller has for its answer begins then.
+        The time that the device has for its answer begins then.
         """
         if request is not self._asked or request.written:
             return
@@ -285,7 +285,7 @@ class Session:
         self._queue.clear()
         self._asked = self._held = None
         for request in waiting:
-            # The board may answer yet, on the line that is opened next.
+            # The device may answer yet, on the line that is opened next.
             self._remember(request, request.deadline)
             request.finish(error=error)
         # A frame that had begun to arrive will never end, and belongs in the trace.
@@ -576,7 +576,7 @@ class Session:
         self._late.expect(kind, count, since + (request.deadline - request.left_at))
 
     def _replace(self, message: Message) -> None:
-        """Takes out what waits and would be undone by `message`: the same, for no other servos."""
+        """Takes out what waits and would be undone by `message`: the same, for no others."""
         covered = _subjects(message)
         for request in [each for each in self._queue if each.latest]:
             if type(request.message) is type(message) and _subjects(request.message) <= covered:

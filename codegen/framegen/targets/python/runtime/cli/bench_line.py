@@ -35,7 +35,7 @@ if TYPE_CHECKING:
 ENDS = link.ENDS | {NOT_ALL: "not every question was answered, or not in full"}
 ABOUT = """\
 Asks the same question again and again, one at a time, and compares the round trips with what the
-bytes of question and answer take on the wire. Questions move nothing."""
+bytes of question and answer take on the wire. Questions change nothing."""
 
 
 def add_arguments(parser: ArgumentParser) -> None:

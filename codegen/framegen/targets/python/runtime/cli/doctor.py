@@ -34,10 +34,10 @@ if TYPE_CHECKING:
 
 ENDS = link.ENDS | {NOT_ALL: "a check has failed"}
 ABOUT = """\
-Looks at ports, permissions, the rate, the replies, their times, and what is there behind the board,
-in the order of the guide to troubleshooting. Each line says `passed`, `failed` or `unknown`, what
-was seen, the bytes that show it, and what to do next. It only reads; --move asks before it moves
-anything."""
+Looks at ports, permissions, the rate, the replies, their times, and what is there behind the
+device, in the order of the guide to troubleshooting. Each line says `passed`, `failed` or
+`unknown`, what was seen, the bytes that show it, and what to do next. It only reads"""
+ABOUT += "." if POSE is None else ";\n--move asks before it moves anything."
 _COLOURS = {PASSED: "green", FAILED: "red", UNKNOWN: "yellow"}
 
 
@@ -53,7 +53,7 @@ def add_arguments(parser: ArgumentParser) -> None:
         "--report", metavar="FILE", help="write a recording of it all, to be sent to others"
     )
     parser.add_argument(
-        "--board", default="", metavar="TEXT", help="what the board is, for the report"
+        "--model", default="", metavar="TEXT", help="what the device is, for the report"
     )
     parser.add_argument("--json", action="store_true", help="print each check as a line of JSON")
 
@@ -131,7 +131,7 @@ def _finish(
     findings: list[tuple[Check, Result]],
 ) -> None:
     try:
-        report.write(diagnosis, findings, arguments.board)
+        report.write(diagnosis, findings, arguments.model)
     except OSError as error:
         told = f"{arguments.report} cannot be written: {error.strerror or error}"
         raise UnusableError(told) from None

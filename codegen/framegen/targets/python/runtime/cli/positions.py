@@ -8,7 +8,6 @@ from ..link_errors import AbsentError, NoReplyError
 from ..outcome import parts_of
 from ..pose import HOLD_MS
 from .limits import refused
-from .unusable import UnusableError
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
@@ -23,9 +22,9 @@ UNREAD = (AbsentError, LimitError, NoReplyError)
 
 
 def the_pose() -> Pose:
-    """How positions are read and commanded. Raises UnusableError where there are none."""
+    """How positions are read and commanded: this is here only where they are."""
     if POSE is None:
-        raise UnusableError("this protocol has no positions to read and to command")
+        raise AssertionError("this is for protocols with poses")
     return POSE
 
 
@@ -51,7 +50,7 @@ def hold(controller: Client, pose: Pose, ids: Sequence[int], limits: Bounds | No
 
 
 def listed(pose: Pose, ids: Iterable[int]) -> str:
-    """Some of them in words: `servo 1`, `servos 1, 2`."""
+    """Some of them in words: `vent 1`, `vents 1, 2`."""
     numbers = [str(each) for each in ids]
     return f"{pose.noun}{'' if len(numbers) == 1 else 's'} {', '.join(numbers)}"
 

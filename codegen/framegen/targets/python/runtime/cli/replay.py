@@ -34,11 +34,11 @@ ENDS = link.ENDS
 ABOUT = """\
 FILE is what `monitor --log` or the `trace` of a client wrote, or hex, or raw bytes. What this end
 has sent in it is sent again: each frame at the time at which it was recorded, but no faster than
-the line can carry it; raw bytes and plain hex have no times, and go as fast as that. What the board
-sent is left out. What is no frame, or may be of either end, is refused before anything is sent,
-unless an option says what to do with it. What is sent is printed, and so is what comes back.
+the line can carry it; raw bytes and plain hex have no times, and go as fast as that. What the
+device sent is left out. What is no frame, or may be of either end, is refused before anything is
+sent, unless an option says what to do with it. What is sent is printed, and so is what comes back.
 
-The board does at once what it is told, within the limits of `send` or beyond them: give the arm
+The device does at once what it is told, within the limits of `send` or beyond them: give it
 room, and look at --dry-run first."""
 
 
@@ -111,7 +111,7 @@ def _survey(entries: Iterable[Entry], name: str, arguments: argparse.Namespace) 
     left: dict[str, int] = {}
     for entry in entries:
         # What came to this end may be told late: a client does so when it has opened a line anew.
-        if entry.time is not None and (RECEIVED is None or entry.sender != RECEIVED.sender):
+        if entry.time is not None and entry.sender != RECEIVED.sender:
             if entry.time < before:
                 raise UnusableError(
                     f"{name}, {entry.place}: {entry.time:.6f} s is before {before:.6f} s in a line "

@@ -1,4 +1,4 @@
-"""The verb `simulate`: hands over to the virtual controller, which is a package of its own."""
+"""The verb `simulate`: hands over to the virtual device, which is a package of its own."""
 
 from __future__ import annotations
 
@@ -6,6 +6,7 @@ from importlib import import_module
 
 from .examples import PROGRAM
 from .unusable import UnusableError
+from .verbs import SIMULATOR
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
@@ -14,15 +15,15 @@ if TYPE_CHECKING:
 
 def hand_over(words: Sequence[str]) -> int:
     """Runs the simulator's own command line."""
-    package = f"{PROGRAM}_simulator"
+    module = f"{SIMULATOR}.cli"
     try:
-        simulator = import_module(f"{package}.cli")
+        simulator = import_module(module)
     except ModuleNotFoundError as error:
-        if error.name not in {package, f"{package}.cli"}:
+        if error.name not in {SIMULATOR, module}:
             raise
         raise UnusableError(
-            f"the package {package} is not installed here; it comes with the whole of {PROGRAM}, "
-            "so install that, or put the folder `simulator` of a clone on PYTHONPATH"
+            f"the package {SIMULATOR} is not installed here; where there is none, "
+            f"{PROGRAM}.Device is what a virtual device can be made of"
         ) from None
     code: int = simulator.main(list(words), program=f"{PROGRAM} simulate")
     return code

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from ..exchanges import POSE
 from ..link_errors import TransportError
 from . import (
     busy,
@@ -11,12 +12,12 @@ from . import (
     opening,
     permission,
     port_listed,
-    present,
     rate,
     reply,
     round_trip,
     silence,
 )
+from .present import present_check
 from .result import FAILED, failed, unknown
 
 TYPE_CHECKING = False
@@ -38,7 +39,7 @@ CHECKS: tuple[Check, ...] = (
     echo.CHECK,
     reply.CHECK,
     round_trip.CHECK,
-    present.CHECK,
+    *(() if POSE is None else (present_check(POSE),)),
     look_alike.CHECK,
 )
 

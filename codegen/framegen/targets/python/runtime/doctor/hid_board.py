@@ -1,4 +1,4 @@
-"""Check: whether a board is plugged in that has no serial port at all."""
+"""Check: whether a device is plugged in that has no serial port at all."""
 
 from __future__ import annotations
 
@@ -18,21 +18,21 @@ _PACKAGE = __name__.partition(".")[0]
 def _look(diagnosis: Diagnosis) -> Result:
     known = ", ".join(f"{vendor:04X}:{product:04X}" for vendor, product, _ in HID_BOARDS)
     if not known:
-        return passed("no board of this protocol is known to be reached by USB HID")
+        return passed("no device of this protocol is known to be reached by USB HID")
     if diagnosis.boards is None:
         return unknown(
-            f"nobody here can tell whether a board of USB HID ({known}) is plugged in",
-            f"pip install '{_PACKAGE}[hid]'; such a board has no serial port at all",
+            f"nobody here can tell whether a USB HID device ({known}) is plugged in",
+            f"pip install '{_PACKAGE}[hid]'; such a device has no serial port at all",
         )
     if not diagnosis.boards:
-        return passed(f"no board of USB HID ({known}) is plugged in")
+        return passed(f"no USB HID device ({known}) is plugged in")
     told = ", ".join(f"{each.ids} {each.product}".rstrip() for each in diagnosis.boards)
     if diagnosis.port is not None and diagnosis.port.lower().startswith("hid:"):
         return passed(f"{told} is plugged in")
     return unknown(
-        f"{told} is plugged in, a board without a serial port ({UNSEEN})",
-        f"if that is the board you mean: pip install '{_PACKAGE}[hid]', and --port hid://",
+        f"{told} is plugged in, a device without a serial port ({UNSEEN})",
+        f"if that is the device you mean: pip install '{_PACKAGE}[hid]', and --port hid://",
     )
 
 
-CHECK = Check("hid", "which boards have no serial port", (), _look)
+CHECK = Check("hid", "which devices have no serial port", (), _look)

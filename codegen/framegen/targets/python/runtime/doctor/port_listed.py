@@ -12,8 +12,8 @@ if TYPE_CHECKING:
 
 _NONE = "no serial port is plugged in"
 _PLUG_IN = (
-    "plug in the board or its adapter, by a cable that carries data; where that changes nothing, "
-    "see the check `hid`: boards of USB HID have no serial port at all"
+    "plug in the device or its adapter, by a cable that carries data; where that changes nothing, "
+    "see the check `hid`: USB HID devices have no serial port at all"
 )
 
 
@@ -31,12 +31,12 @@ def _look(diagnosis: Diagnosis) -> Result:
 
 
 def _choose(diagnosis: Diagnosis, found: str) -> Result:
-    """Takes the one port that there is; or a board without any."""
+    """Takes the one port that there is; or a device without any."""
     by_usb = [each for each in diagnosis.ports if each.usb]
     boards = diagnosis.boards or []
     if not by_usb and boards:
         diagnosis.port = "hid://"
-        told = f"{_NONE}, but a board of USB HID is, which has none"
+        told = f"{_NONE}, but a USB HID device is, which has none"
         return passed(f"{told}: {boards[0].ids} {boards[0].product}".rstrip())
     if not by_usb and len(diagnosis.ports) == 1:
         diagnosis.port = diagnosis.ports[0].name
@@ -49,7 +49,7 @@ def _choose(diagnosis: Diagnosis, found: str) -> Result:
     if len(by_usb) > 1:
         return failed(
             f"{len(by_usb)} ports are plugged in: {', '.join(str(each) for each in by_usb)}",
-            "name the board's: --port NAME; it is the one that goes when you unplug the board",
+            "name the device's: --port NAME; it is the one that goes when you unplug the device",
         )
     diagnosis.port = by_usb[0].name
     return passed(f"the one that is plugged in is taken: {by_usb[0]}")

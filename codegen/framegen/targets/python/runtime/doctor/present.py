@@ -1,8 +1,8 @@
-"""Check: something is there behind the board, and tells its position."""
+"""Check: something is there behind the device, and tells its position."""
 
 from __future__ import annotations
 
-from ..exchanges import EXCHANGES, POSE
+from ..exchanges import EXCHANGES
 from .check import Check
 from .rate import PATIENCE
 from .result import failed, passed, unknown
@@ -21,31 +21,35 @@ _TRIES = 3
 _FEW = 16
 
 
-def _look(diagnosis: Diagnosis) -> Result:
-    if POSE is None:
-        return unknown("the protocol does not say how positions are read")
+def present_check(pose: Pose) -> Check:
+    """The check that asks all that there can be where they are."""
+    title = "something is there behind the device"
+    return Check("present", title, ("opening",), lambda each: _look(each, pose))
+
+
+def _look(diagnosis: Diagnosis, pose: Pose) -> Result:
     if not any(trip.replies for trip in diagnosis.trips):
         return unknown("there is no reply to anything: see the check `rate`")
     replies: list[Message] = []
-    for request in _requests(diagnosis.connected(), POSE):
+    for request in _requests(diagnosis.connected(), pose):
         reply = ask_patiently(diagnosis, request)
         if reply is None:
-            ids = getattr(request, POSE.asked)
+            ids = getattr(request, pose.asked)
             return failed(
-                f"the question about {POSE.noun}s {ids[0]} to {ids[-1]} was not answered, though "
+                f"the question about {pose.noun}s {ids[0]} to {ids[-1]} was not answered, though "
                 f"asked {_TRIES} times",
-                "see the check `reply`; if that has passed, the board may be of a kind that does "
+                "see the check `reply`; if that has passed, the device may be of a kind that does "
                 "not know this question",
                 *(trip.received for trip in diagnosis.trips[-_TRIES:] if trip.received),
             )
         replies.append(reply)
     frames = [reply.encode() for reply in replies]
-    there = POSE.present_in(replies)
-    absent = sum(len(getattr(reply, POSE.told)) for reply in replies) - len(there)
-    told = f"{POSE.noun}s that are there: {', '.join(map(str, there)) or 'none'}"
+    there = pose.present_in(replies)
+    absent = sum(len(getattr(reply, pose.told)) for reply in replies) - len(there)
+    told = f"{pose.noun}s that are there: {', '.join(map(str, there)) or 'none'}"
     told += f"; told to be absent: {absent}" if absent else ""
     if not there:
-        advice = f"see to the supply of the {POSE.noun}s, which USB is not, and to their cables"
+        advice = f"see to the supply of the {pose.noun}s, which USB is not, and to their cables"
         return failed(told, advice, *frames)
     return passed(told, *frames)
 
@@ -67,6 +71,3 @@ def _requests(probe: Probe, pose: Pose) -> list[Message]:
         most = min(most, _FEW)
     parts = (pose.ids[at : at + most] for at in range(0, len(pose.ids), most))
     return [pose.read(**{pose.asked: [*part]}) for part in parts]
-
-
-CHECK = Check("present", "something is there behind the board", ("opening",), _look)

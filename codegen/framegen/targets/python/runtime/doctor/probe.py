@@ -30,7 +30,7 @@ _LONGEST = 1.0
 class Probe:
     """Asks over a transport at `baud`, and notes in `log` all that passes. Raises TransportError.
 
-    `margin` is how many seconds a board may take for an answer, besides those on the wire.
+    `margin` is how many seconds a device may take for an answer, besides those on the wire.
     """
 
     def __init__(

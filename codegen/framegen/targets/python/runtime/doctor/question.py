@@ -1,4 +1,4 @@
-"""What may be asked of any board: a question without fields, which moves nothing."""
+"""What may be asked of any device: a question without fields, which changes nothing."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Check: the board answers at the rate of the protocol, or else at which it does."""
+"""Check: the device answers at the rate of the protocol, or else at which it does."""
 
 from __future__ import annotations
 
@@ -18,22 +18,22 @@ if TYPE_CHECKING:
     from .result import Result
     from .trip import Trip
 
-# The rates that boards and adapters are mostly at, the likeliest first.
+# The rates that devices and adapters are mostly at, the likeliest first.
 _RATES = (115200, 57600, 38400, 19200, 9600, 4800)
 # How much longer than a program a reply is waited for, so that a late one is seen to be late.
 PATIENCE = 1.0
 _NO_RATE = ("socket", "loop", "hid")
 _PSEUDO_TERMINALS = ("/dev/pts/", "/dev/ttys")
 _SILENT = (
-    "see that TX goes to RX and RX to TX, that the grounds are joined, that the board is supplied, "
-    "and that it is the board's port: unplug it, and see which one goes"
+    "see that TX goes to RX and RX to TX, that the grounds are joined, that the device is "
+    "supplied, and that it is the device's port: unplug it, and see which one goes"
 )
 
 
 def _look(diagnosis: Diagnosis) -> Result:
     question = harmless_question()
     if question is None:
-        return unknown("the protocol has no question that could be asked of any board")
+        return unknown("the protocol has no question that could be asked of any device")
     probe = diagnosis.connected()
     for _ in range(2):
         diagnosis.trips.append(probe.ask(question, patience=PATIENCE))
@@ -78,7 +78,7 @@ def _searched(diagnosis: Diagnosis, question: Message) -> Result:
             diagnosis.trips = [trip]
             return failed(
                 f"{asked} at {diagnosis.stated}, but is at {rate}",
-                f"set the board to {diagnosis.stated}, or say --baud {rate} "
+                f"set the device to {diagnosis.stated}, or say --baud {rate} "
                 f"(baud={rate} in Python)",
                 trip.replies[0][1].encode(),
             )
@@ -92,7 +92,9 @@ def _searched(diagnosis: Diagnosis, question: Message) -> Result:
     told = f"{asked}: {sum(map(len, found))} bytes came"
     if all(trip.echoed and not trip.noise for trip in diagnosis.trips if trip.received):
         return failed(f"{told}, which are the question itself", _SILENT, *found)
-    advice = "see at which rate the board is set, that the grounds are joined, and the checks below"
+    advice = (
+        "see at which rate the device is set, that the grounds are joined, and the checks below"
+    )
     return failed(f"{told} that are no reply", advice, *found)
 
 
@@ -120,4 +122,4 @@ def _is_pseudo_terminal(port: str) -> bool:
     return str(Path(port).resolve()).startswith(_PSEUDO_TERMINALS)
 
 
-CHECK = Check("rate", "the board answers at the rate of the protocol", ("opening",), _look)
+CHECK = Check("rate", "the device answers at the rate of the protocol", ("opening",), _look)

@@ -1,4 +1,4 @@
-"""What a diagnosis leaves in a file: a recording, with what is known of board, adapter and host.
+"""What a diagnosis leaves in a file: a recording, with what is known of both ends and between.
 
 It is made to be sent to others: no serial number, no name of a user, no path of a home is in it.
 """
@@ -9,9 +9,9 @@ import platform
 from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 
-from .. import __version__
 from ..protocol import SPEC_VERSION
 from ..recording_file import NOISE, RecordingFile
+from ..version import __version__
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
@@ -33,10 +33,10 @@ class Report:
         self._file = RecordingFile(path)
 
     def write(
-        self, diagnosis: Diagnosis, findings: Iterable[tuple[Check, Result]], board: str
+        self, diagnosis: Diagnosis, findings: Iterable[tuple[Check, Result]], model: str
     ) -> None:
-        """Writes all of it, and closes the file. `board` is what its user says that it is."""
-        for line in _about(diagnosis, board):
+        """Writes all of it, and closes the file. `model` is what its user calls the device."""
+        for line in _about(diagnosis, model):
             self._file.note(line)
         for check, result in findings:
             self._file.note(f"{result.state} {check.id}: {_blinded(result.seen, diagnosis)}")
@@ -50,7 +50,7 @@ class Report:
         self._file.close()
 
 
-def _about(diagnosis: Diagnosis, board: str) -> list[str]:
+def _about(diagnosis: Diagnosis, model: str) -> list[str]:
     try:
         pyserial = version("pyserial")
     except PackageNotFoundError:
@@ -58,9 +58,9 @@ def _about(diagnosis: Diagnosis, board: str) -> list[str]:
     system = f"{platform.system()} {platform.release()} {platform.machine()}"
     return [
         f"doctor of {_PACKAGE} {__version__}, spec {SPEC_VERSION}",
-        f"board: {board or 'not told'}",
+        f"device: {model or 'not told'}",
         f"adapter: {_blinded(diagnosis.adapter, diagnosis) or 'not known'}",
-        f"host: {system}, Python {platform.python_version()}, pyserial {pyserial}",
+        f"computer: {system}, Python {platform.python_version()}, pyserial {pyserial}",
         f"line: {_kind_of(diagnosis.port)}, {diagnosis.stated}",
     ]
 

@@ -29,7 +29,7 @@ def failed(seen: str, advice: str, *evidence: bytes) -> Result:
 
 
 def unknown(seen: str, advice: str = "", *evidence: bytes) -> Result:
-    """It could not be told, or it is as it should be for some boards only."""
+    """It could not be told, or it is as it should be for some devices only."""
     return Result(UNKNOWN, seen, _first(evidence), advice)
 
 

@@ -21,7 +21,7 @@ def _look(diagnosis: Diagnosis) -> Result:
         return failed(
             f"{sum(map(len, noise))} bytes that are no frame came unasked",
             "see that the rate is right, that the grounds are joined, and that the plug is the "
-            "board's",
+            "device's",
             *noise,
         )
     told = [repr(each) for each in diagnosis.unasked if not isinstance(each, Noise)]

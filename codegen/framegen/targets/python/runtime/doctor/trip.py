@@ -81,6 +81,6 @@ class Trip:
     def _find_echo(self) -> range:
         frame = self.question.encode()
         if any(not isinstance(each, Noise) for each in StreamDecoder(RECEIVED).feed(frame)):
-            return range(0)  # the board may have sent this
+            return range(0)  # the device may have sent this
         at = self.received.find(frame)
         return range(0) if at < 0 else range(at, at + len(frame))

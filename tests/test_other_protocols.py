@@ -1,0 +1,228 @@
+"""The library of one protocol says nothing of another: no word, no verb, no version."""
+
+import ast
+import contextlib
+import io
+import re
+import subprocess
+import sys
+import tokenize
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from tests.specimens import BUSSERVO, DEMO, ROOT, Data, data_of, files_of, leaves
+
+# One that asks and answers, a sensor that only reports, a lamp that only takes commands.
+WEATHER, LAMP = (ROOT / "tests" / "specs" / f"{name}.yaml" for name in ("weather", "lamp"))
+OTHERS = {data_of(file)["protocol"]["name"]: file for file in (DEMO, WEATHER, LAMP)}
+
+# Names in busservo's spec that are plain English, or words of the language that specs are written
+# in, and may stand in any library.
+PLAIN = {"absent", "all", "group", "host", "percent", "position", "positions", "targets", "times"}
+# What is said of servos, of the boards that drive them, and of those who make them.
+SAID = (
+    *(r"\w*servos?\w*", "arms?", "boards?", "grippers?", "robots?", "handsets?", "LED2"),
+    *("batter(?:y|ies)", "voltages?", "buzzers?", "beeps?", "torque", "limp", "action groups?"),
+    *("hiwonder", "lewansoul", "xarm", "le-?arm", r"lx-?\w+", r"lsc-?\w*", "(?:the|a) host"),
+    *("9600", "55 55", "5555", "0x55"),
+)
+
+
+def names_in(value: Any) -> Iterator[str]:
+    """The names that a spec gives: of messages, fields, elements, values, methods."""
+    for name, message in value["messages"].items():
+        yield from (name, message.get("vendor_name", name))
+        yield from re.findall(r"\w+", message.get("method", ""))
+        yield from _fields_in(message.get("fields", {}))
+    yield from value["endpoints"]
+    yield value["protocol"]["name"]
+    yield from (name for name in value.get("pose", {}).values() if name.isidentifier())
+
+
+def _fields_in(fields: Data) -> Iterator[str]:
+    for name, field in fields.items():
+        yield from (name, field.get("element", name), *field.get("values", {}))
+        yield from _fields_in(field.get("fields", {}))
+
+
+def forbidden(spec: Data) -> re.Pattern[str]:
+    """The words of busservo that another spec does not say itself."""
+    own = " ".join(text for _, text in leaves(spec)) + " ".join(names_in(spec))
+    names = [re.escape(name) for name in sorted({*names_in(data_of(BUSSERVO))} - PLAIN)]
+    words = [word for word in [*names, *SAID] if not re.search(rf"(?i)\b(?:{word})\b", own)]
+    # `controller` is what a client is called in examples, and the name of a module.
+    return re.compile(rf"(?i)(?<!\w)(?:{'|'.join(words)})(?!\w|(?<=controller)[.]\w)")
+
+
+def prose(text: str) -> Iterator[str]:
+    """Every line of the docstrings, other text and comments of a module."""
+    for node in ast.walk(ast.parse(text)):
+        # What is a name is code, such as that of a module in a table of modules.
+        if isinstance(node, ast.Constant) and isinstance(node.value, str):
+            lines = node.value.split("\n")
+            yield from [] if node.value == "controller" else lines
+    for token in tokenize.generate_tokens(io.StringIO(text).readline):
+        if token.type == tokenize.COMMENT:
+            yield token.string
+
+
+def told(files: dict[str, str], words: re.Pattern[str]) -> list[str]:
+    """Where one of the words stands."""
+    return [
+        f"{path}: {line.strip()}"
+        for path, text in files.items()
+        for line in (prose(text) if path.endswith(".py") else text.split("\n"))
+        if words.search(line.replace("socket://host:port", "").replace("rfc2217://host:port", ""))
+    ]
+
+
+@pytest.mark.parametrize("name", OTHERS)
+def test_no_library_speaks_of_another_protocol(name: str) -> None:
+    spec = data_of(OTHERS[name])
+    assert told(files_of(spec), forbidden(spec)) == []
+
+
+def test_what_is_looked_for_is_found_where_it_belongs() -> None:
+    """Else the test above would hold for want of words, or of eyes."""
+    found = told(files_of(data_of(BUSSERVO)), forbidden(data_of(DEMO)))
+    for word in ("ServoMove", "time_ms", "present_servos", "battery", "CMD_SERVO_MOVE", "the host"):
+        assert any(word in line for line in found), word
+
+
+# ------------------------------------------------------------------ verbs
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Where the libraries of the others stand side by side."""
+    made = tmp_path_factory.mktemp("others")
+    for file in OTHERS.values():
+        for path, text in files_of(data_of(file)).items():
+            (made / path).parent.mkdir(parents=True, exist_ok=True)
+            (made / path).write_text(text, encoding="utf-8", newline="")
+    return made / "generated"
+
+
+def command(folder: Path, *words: str) -> tuple[int, str, str]:
+    done = subprocess.run(
+        [sys.executable, "-m", *words], cwd=folder, capture_output=True, text=True, check=False
+    )
+    return done.returncode, done.stdout, done.stderr
+
+
+def verbs_of(folder: Path, name: str) -> list[str]:
+    code, shown, _ = command(folder, name, "--help")
+    assert code == 0
+    table = shown.partition("\nverbs:\n")[2].partition("\n\n")[0]
+    return [line.split()[0] for line in table.split("\n")]
+
+
+HEARING = ["decode", "doctor", "encode", "monitor", "ports"]
+
+
+@pytest.mark.parametrize(
+    ("name", "verbs"),
+    [
+        ("greenhouse", ["bench-line", *HEARING, "replay", "send"]),
+        ("weather", HEARING),
+        ("stage_lamp", [*HEARING, "replay", "send"]),
+    ],
+)
+def test_only_what_can_work_is_offered(folder: Path, name: str, verbs: list[str]) -> None:
+    assert verbs_of(folder, name) == verbs
+    for verb in verbs:
+        code, shown, _ = command(folder, name, verb, "--help")
+        assert (code, shown.startswith(f"usage: {name} {verb} ")) == (0, True)
+        assert f"\nexamples:\n  {name} {verb}" in shown
+
+
+MISSING = (
+    "greenhouse: error: the package greenhouse_simulator is not installed here; where there is none, "
+    "greenhouse.Device is what a virtual device can be made of\n"
+)
+
+
+def test_there_is_a_simulator_where_one_is_installed(folder: Path, tmp_path: Path) -> None:
+    assert command(folder, "greenhouse", "simulate") == (2, "", MISSING)
+    package = folder / "greenhouse_simulator"
+    package.mkdir()
+    (package / "__init__.py").touch()
+    (package / "cli.py").write_text("def main(words, program): print(program, words)\n")
+    try:
+        assert "simulate" in verbs_of(folder, "greenhouse")
+        said = command(folder, "greenhouse", "simulate", "--fast")
+        assert said == (0, "greenhouse simulate ['--fast']\n", "")
+    finally:
+        for file in package.rglob("*.py"):
+            file.unlink()
+        package.rename(tmp_path / "gone")
+
+
+# ------------------------------------------------------------------ versions
+
+
+def install(folder: Path, version: str, origin: str = "") -> None:
+    """Has it that a distribution of the greenhouse is installed in a folder."""
+    info = folder / f"greenhouse-{version}.dist-info"
+    info.mkdir(parents=True)
+    text = f"Metadata-Version: 2.1\nName: greenhouse\nVersion: {version}\n"
+    (info / "METADATA").write_text(text)
+    if origin:
+        (info / "direct_url.json").write_text(origin)
+
+
+def version_of(folder: Path, *installed: Path) -> str:
+    program = (
+        f"import sys; sys.path[:0] = {[str(each) for each in (folder, *installed)]!r}; "
+        "import greenhouse; assert 'importlib.metadata' not in sys.modules; "
+        "print(greenhouse.__version__)"
+    )
+    done = subprocess.run(
+        [sys.executable, "-S", "-c", program], capture_output=True, text=True, check=True
+    )
+    return done.stdout.strip()
+
+
+@contextlib.contextmanager
+def installed_beside(folder: Path, version: str) -> Iterator[None]:
+    install(folder, version)
+    try:
+        yield
+    finally:
+        info = folder / f"greenhouse-{version}.dist-info"
+        (info / "METADATA").unlink()
+        info.rmdir()
+
+
+def test_the_version_is_that_of_what_is_installed(folder: Path, tmp_path: Path) -> None:
+    assert version_of(folder) == "1.1.0"
+    with installed_beside(folder, "7.8.9"):
+        assert version_of(folder) == "7.8.9"
+    install(
+        tmp_path / "edited",
+        "7.8.10",
+        f'{{"url": "{folder.parent.as_uri()}", "dir_info": {{"editable": true}}}}',
+    )
+    assert version_of(folder, tmp_path / "edited") == "7.8.10"
+
+
+@pytest.mark.parametrize(
+    "origin",
+    [
+        "",
+        '{"url": "file:///elsewhere", "dir_info": {"editable": true}}',
+        '{"url": "https://example.org", "archive_info": {}}',
+    ],
+)
+def test_a_copy_beside_what_is_installed_has_the_version_of_its_spec(
+    folder: Path, tmp_path: Path, origin: str
+) -> None:
+    install(tmp_path, "7.8.9", origin)
+    assert version_of(folder, tmp_path) == "1.1.0"
+
+
+def test_the_command_tells_both_versions(folder: Path) -> None:
+    assert command(folder, "greenhouse", "--version") == (0, "greenhouse 1.1.0, spec 1.1.0\n", "")
