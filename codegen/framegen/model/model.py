@@ -6,9 +6,9 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING
 
-from framegen.model import roles
 from framegen.model.exchanges import exchanges
 from framegen.model.layout import derive_frame, derive_message
+from framegen.model.roles import kinds, settle
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping
@@ -56,7 +56,7 @@ class Model:
 
     @cached_property
     def _kinds(self) -> dict[str, Kind]:
-        return roles.kinds(self.spec.messages, self.roles)
+        return kinds(self.spec.messages, self.roles)
 
     @cached_property
     def exchanges(self) -> list[Exchange]:
@@ -88,4 +88,4 @@ def derive(spec: Spec) -> Model:
     """Work out all of it, once. Needs a spec that keeps the rules of its structure."""
     frame = derive_frame(spec)
     messages = {name: derive_message(spec, frame, name) for name in spec.messages}
-    return Model(spec, roles.settle(spec), frame, messages)
+    return Model(spec, settle(spec), frame, messages)

@@ -50,7 +50,7 @@ def hold(controller: Client, pose: Pose, ids: Sequence[int], limits: Bounds | No
 
 
 def listed(pose: Pose, ids: Iterable[int]) -> str:
-    """Some of them in words: `vent 1`, `vents 1, 2`."""
+    """Some of them in words: `joint 1`, `joints 1, 2`."""
     numbers = [str(each) for each in ids]
     return f"{pose.noun}{'' if len(numbers) == 1 else 's'} {', '.join(numbers)}"
 
