@@ -15,18 +15,20 @@ from framegen.checks.reading import READING_RULES
 from framegen.compile import compile_spec
 from framegen.language import misfit
 from framegen.language.load import MAX_BYTES, load, read_source
+from framegen.language.spec import Spec
 from framegen.model.lookalikes import recognise
 from framegen.reading.findings import MOST_FINDINGS, Finding, did_you_mean
 from framegen.reading.source import Source, Span
 from framegen.reading.yamltree import Unusable
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from pydantic import ValidationError
 
 from tests.patience import PATIENCE
-from tests.specimens import BUSSERVO, DEMO, compiled_of, data_of
+from tests.specimens import BUSSERVO, DEMO, compiled_of, data_of, kiln
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable
+    from collections.abc import Iterable, Iterator
 
     from framegen.checks.rule import AnyRule
 
@@ -618,6 +620,35 @@ def survives(text: str) -> None:
             assert all(message.counts for message in compiled.model.messages.values())
     for finding in findings:
         assert finding.render(source)
+
+
+ODD = [None, True, -1, 0, 2**64, 10**30, "x", "", [], {}, [None], {"a": 1}]
+KILN = kiln()
+
+
+def keys_of_the_language(value: Any) -> Iterator[Steps]:
+    """The path of one value under each key that the guide's spec shows."""
+    seen: set[object] = set()
+    for here in paths(value)[1:]:
+        key = here[-1] if isinstance(here[-1], str) else (here[-2], "[0]")
+        if key not in seen:
+            seen.add(key)
+            yield here
+
+
+@pytest.mark.parametrize("value", ODD, ids=repr)
+def test_whatever_stands_in_place_of_a_value_is_told_in_our_words(value: object) -> None:
+    """And never in those of the library that reads it."""
+    for path in keys_of_the_language(KILN):
+        data = copied(KILN)
+        around = at(data, path[:-1])
+        around[path[-1]] = value
+        kinds: set[str] = set()
+        try:
+            Spec.model_validate(data)
+        except ValidationError as error:
+            kinds = {each["type"] for each in error.errors(include_url=False)}
+        assert kinds <= {*misfit._MESSAGES, "missing", "extra_forbidden"}, path
 
 
 @brisk

@@ -7,10 +7,12 @@ from typing import Any
 import busservo
 import pytest
 from busservo import MESSAGES, DecodeError, Direction, Reason
+from framegen.targets.vectors import _range_ends
 
 from tests import oracle
 from tests.cases import CASES
 from tests.lines import said
+from tests.specimens import DEMO, compiled_of, data_of
 
 VECTORS: dict[str, Any] = json.loads(
     files("busservo").joinpath("vectors.json").read_text(encoding="utf-8")
@@ -99,3 +101,29 @@ def test_no_vector_is_there_twice() -> None:
     for vectors in (VALID, INVALID):
         frames = [(vector["direction"], vector["hex"]) for vector in vectors]
         assert len(frames) == len(set(frames))
+
+
+@pytest.mark.parametrize(
+    ("counter", "count", "items", "title"),
+    [
+        ("u8", "0..", 255, "every value at its highest"),
+        ("u8", "0..8", 8, "every value at its highest"),
+        ("u16", "0..256", 256, "every value at its highest"),
+        ("u16", "0..257", 256, "every value at its highest, 256 items of up to 257"),
+        ("u16", "0..", 256, "every value at its highest, 256 items of up to 32764"),
+        ("u16", "300..", 300, "every value at its highest"),
+        ("u32", "0..32763", 256, "every value at its highest, 256 items of up to 32763"),
+    ],
+)
+def test_a_list_is_no_longer_than_to_need_two_bytes_of_its_count(
+    counter: str, count: str, items: int, title: str
+) -> None:
+    data = data_of(DEMO)
+    fields = data["messages"]["StationState"]["fields"]
+    fields["reading_count"]["type"] = counter
+    fields["readings"]["count"] = count
+    model = compiled_of(data).derived
+    assert model is not None
+    ends = dict(_range_ends(model.messages["StationState"]))
+    assert [*ends] == ["every value at its lowest", title]
+    assert len(ends[title]["readings"]) == items

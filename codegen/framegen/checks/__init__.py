@@ -71,7 +71,6 @@ STRUCTURE_RULES: tuple[StructureRule, ...] = (
     list_last.RULE,
     empty_group.RULE,
     count_bounds.RULE,
-    frame_too_long.RULE,
     value_range.RULE,
     signed_as.RULE,
     named_value.RULE,
@@ -87,6 +86,7 @@ STRUCTURE_RULES: tuple[StructureRule, ...] = (
 )
 # Looked for only where all of the above hold: what follows is known then.
 MODEL_RULES: tuple[ModelRule, ...] = (
+    frame_too_long.RULE,
     limits.RULE,
     lasts.RULE,
     method.RULE,

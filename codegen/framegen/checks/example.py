@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from dataclasses import replace
+from typing import TYPE_CHECKING, Any, Literal
 
 from framegen.checks.rule import ModelRule, Problem
 from framegen.language.values import to_hex
@@ -30,7 +31,8 @@ def _executed(
     try:
         decoded = decode(model, message.direction, example.hex)
     except NotAFrame as error:
-        yield Problem((*path, "hex"), f"this is no frame of {message.name}: {error}")
+        what = f"this is no frame of {message.name}: {error}"
+        yield Problem((*path, "hex"), what, _other_order(model, message, example))
         return
     if decoded.layout is not message:
         at, found = message.frame.id_at, decoded.layout
@@ -42,6 +44,18 @@ def _executed(
     again = encode(model, message, decoded.values)
     if again != example.hex:
         yield Problem((*path, "hex"), f"its values encode to {to_hex(again)}, which is not this")
+
+
+def _other_order(model: Model, message: MessageLayout, example: Example) -> str:
+    """Hint at the byte order, if the frame would have its values in the other one."""
+    order: Literal["little", "big"] = "big" if model.spec.byte_order == "little" else "little"
+    other = replace(model, spec=model.spec.model_copy(update={"byte_order": order}))
+    try:
+        decoded = decode(other, message.direction, example.hex)
+    except NotAFrame:
+        return ""
+    right = decoded.layout is message and decoded.values == example.values
+    return f"bytes swapped? with `byte_order: {order}`, it has these values" if right else ""
 
 
 def _differences(path: KeyPath, frame: Any, said: Any, message: MessageLayout) -> Iterator[Problem]:
@@ -61,7 +75,22 @@ def _differences(path: KeyPath, frame: Any, said: Any, message: MessageLayout) -
         for index, (value, other) in enumerate(zip(frame, said, strict=False)):
             yield from _differences((*path, index), value, other, message)
     elif frame != said or type(frame) is not type(said):
-        yield Problem(path, f"the frame says {_shown(frame)}, not {_shown(said)}")
+        hint = "bytes swapped?" if _swapped(path, frame, said, message) else ""
+        yield Problem(path, f"the frame says {_shown(frame)}, not {_shown(said)}", hint)
+
+
+def _swapped(path: KeyPath, frame: Any, said: Any, message: MessageLayout) -> bool:
+    """Whether the frame has the bytes of the number the other way round."""
+    _, _, _, _, _, *steps = path
+    in_list = message.repeat is not None and steps[0] == message.repeat.name
+    fields = message.repeat.fields if in_list and message.repeat is not None else message.numbers
+    name = [step for step in steps if isinstance(step, str)][-1]
+    wire = next((field.wire for field in fields if field.name == name), None)
+    if wire is None or type(said) is not int or not wire.low <= said <= wire.high:
+        return False
+    signed = wire.low < 0
+    there = said.to_bytes(wire.size, "big", signed=signed)
+    return type(frame) is int and int.from_bytes(there, "little", signed=signed) == frame
 
 
 def _shown(value: object) -> str:

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from framegen.checks.frames import part_problems
 from framegen.checks.rule import Problem, StructureRule
-from framegen.language.spec import AddressPart, BodyPart, ChecksumPart, ConstantPart
+from framegen.language.spec import BodyPart, ConstantPart
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -15,17 +15,21 @@ if TYPE_CHECKING:
     from framegen.language.spec import Spec
 
 
+_NOT_YET = {
+    "address": (
+        "frames with an address cannot be described yet",
+        "if it is always the same, make it a constant",
+    ),
+    "checksum": ("frames with a checksum cannot be described yet", ""),
+}
+
+
 def _look(spec: Spec) -> Iterator[Problem]:
     yield from part_problems(("frame",), spec.frame)
     yield from _order(spec)
     for name, part in spec.frame.items():
-        if isinstance(part, AddressPart | ChecksumPart):
-            yield Problem(
-                ("frame", name),
-                f"the protocol's own frame cannot have {part.is_} parts yet",
-                "describe it under `lookalikes`, where they are understood",
-                on_key=True,
-            )
+        if part.is_ in _NOT_YET:
+            yield Problem(("frame", name), *_NOT_YET[part.is_], on_key=True)
 
 
 def _order(spec: Spec) -> Iterator[Problem]:
@@ -49,7 +53,7 @@ def _order(spec: Spec) -> Iterator[Problem]:
             on_key=True,
         )
     for name, after in pairwise(names):
-        if isinstance(spec.frame[name], BodyPart):
+        if isinstance(spec.frame[name], BodyPart) and spec.frame[after].is_ not in _NOT_YET:
             yield Problem(
                 ("frame", after),
                 f"`{after}` stands after the body",

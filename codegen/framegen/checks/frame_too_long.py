@@ -1,85 +1,68 @@
-"""Rule: the length and the count can say how long every legal frame is."""
+"""Rule: the length and the count can say how long every legal frame is, and none is endless."""
 
 from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from framegen.checks import count_bounds, counted_by, empty_group, frame_parts, unknown_type
-from framegen.checks.rule import Problem, StructureRule
-from framegen.language.spec import GroupField, NumberField
-from framegen.language.wiretypes import WIRE_TYPES
-from framegen.model.layout import derive_frame
+from framegen.checks.rule import ModelRule, Problem
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from framegen.language.spec import AnyField, Message, Spec
-    from framegen.model.layout import FrameLayout
+    from framegen.model.layout import MessageLayout, Repeat
+    from framegen.model.model import Model
     from framegen.reading.yamltree import KeyPath
 
-# Without these there is no size to reckon with.
-_FIRST = (unknown_type, frame_parts, counted_by, count_bounds, empty_group)
+# What a length of two bytes can say. A decoder holds the longest legal frame, whatever arrives: of
+# a length of four bytes, one false header would have it wait for gigabytes.
+LONGEST = 0xFFFF
+_OF_ANY = f"and {LONGEST} is the most that any frame may have"
 
 
-def _look(spec: Spec) -> Iterator[Problem]:
-    if any(True for rule in _FIRST for _ in rule.RULE.look(spec)):
-        return
-    frame = derive_frame(spec)
-    for name, message in spec.messages.items():
-        yield from _in_message(("messages", name), name, message, frame)
+def _look(model: Model) -> Iterator[Problem]:
+    for name, message in model.messages.items():
+        frame, fixed = message.frame, message.formula.constant
+        path: KeyPath = ("messages", name)
+        if fixed > min(frame.length.high, LONGEST):
+            ends = f"and a {frame.length.name} ends at {frame.length.high}"
+            bound = ends if frame.length.high <= LONGEST else _OF_ANY
+            what = f"{name} needs a {frame.length_name} of {fixed}, {bound}"
+            yield Problem(path, what, on_key=True)
+        elif message.repeat is not None:
+            yield from _list((*path, "fields", message.repeat.name), message, message.repeat)
 
 
-def _in_message(
-    path: KeyPath, name: str, message: Message, frame: FrameLayout
-) -> Iterator[Problem]:
-    fixed = frame.counted + sum(
-        _size(field) for field in message.fields.values() if field.counted_by is None
-    )
-    most = frame.length.high
-    if fixed > most:
-        yield Problem(
-            path,
-            f"{name} needs a {frame.length_name} of {fixed}, "
-            f"and a {frame.length.name} ends at {most}",
-            on_key=True,
-        )
-        return
-    for field_name, field in message.fields.items():
-        if field.counted_by is not None and field.count is not None:
-            count = field.count
-            room, limit = _room(message, field, most - fixed, frame)
-            over = max(count.low, count.high or 0)
-            if over > room:
-                yield Problem(
-                    (*path, "fields", field_name, "count"),
-                    f"{over} elements are too many: {limit} has room for {room}",
-                    f"write {count.low}.. for as many as there is room for"
-                    if count.low <= room
-                    else "",
-                )
+def _list(path: KeyPath, message: MessageLayout, items: Repeat) -> Iterator[Problem]:
+    fixed, declared = message.formula.constant, items.field.count
+    most = items.high if declared is None else max(declared.low, declared.high or items.high)
+    room, limit = _room(message, items)
+    fits = (LONGEST - fixed) // items.size
+    if most > fits and room > fits:
+        length = fixed + most * items.size
+        what = f"with {most} elements, {message.name} has a {message.frame.length_name} of {length}"
+        hint = f"write `count: {items.low}..{fits}`" if items.low <= fits else ""
+        at = path if declared is None else (*path, "count")
+        yield Problem(at, f"{what}, {_OF_ANY}", hint, on_key=declared is None)
+    elif most > room:
+        what = f"{most} elements are too many: {limit} has room for {room}"
+        hint = f"write {items.low}.. for as many as there is room for" if items.low <= room else ""
+        yield Problem((*path, "count"), what, hint)
 
 
-def _room(message: Message, field: AnyField, rest: int, frame: FrameLayout) -> tuple[int, str]:
-    """Reckon how many elements there is room for, and what limits them."""
-    by_length = rest // _size(field)
-    counter = message.fields[field.counted_by or ""]
-    by_count = WIRE_TYPES[counter.type].high if isinstance(counter, NumberField) else 0
+def _room(message: MessageLayout, items: Repeat) -> tuple[int, str]:
+    """Reckon how many elements length and count can tell of, and which of the two limits them."""
+    by_length = (message.frame.length.high - message.formula.constant) // items.size
+    by_count = items.counter.wire.high
     if by_count < by_length:
-        return by_count, f"`{field.counted_by}`"
-    return by_length, f"`{frame.length_name}`"
+        return by_count, f"`{items.counter.name}`"
+    return by_length, f"`{message.frame.length_name}`"
 
 
-def _size(field: AnyField) -> int:
-    """Bytes of a number, or of one element."""
-    if isinstance(field, GroupField):
-        return sum(_size(inner) for inner in field.fields.values())
-    return WIRE_TYPES[field.type].size
-
-
-RULE = StructureRule(
+RULE = ModelRule(
     id="frame-too-long",
-    title="The length and the count can say how long every legal frame is",
-    why="A frame whose length does not fit cannot be sent, and to cut it in silence is worse.",
+    title="The length and the count can say how long every legal frame is, and none is endless",
+    why="A frame whose length does not fit cannot be sent, and to cut it in silence is worse. "
+    "A decoder holds the longest frame that there may be: 64 KiB are enough for any serial line.",
     bad="count: 1..300  # where the length is a u8",
     good="count: 1..",
     look=_look,

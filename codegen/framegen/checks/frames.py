@@ -16,12 +16,20 @@ if TYPE_CHECKING:
     from framegen.reading.yamltree import KeyPath
 
 
+_WITHOUT = {
+    "length": "say which part it is, by `is: length`; frames without one cannot be described yet",
+    "id": "say which part tells messages apart, by `is: id`; "
+    "frames without one cannot be described yet",
+    "body": "end the frame with a part that `is: body`; it is empty where a message has no fields",
+}
+
+
 def part_problems(path: KeyPath, frame: dict[str, FramePart]) -> Iterator[Problem]:
     """Find what keeps the parts of the frame at `path` from fitting together."""
     for kind in ("length", "id", "body"):
         names = [name for name, part in frame.items() if part.is_ == kind]
         if not names:
-            yield Problem(path, f"the frame has no {kind} part", f"add a part with `is: {kind}`")
+            yield Problem(path, f"the frame has no {kind} part", _WITHOUT[kind])
         for name in names[1:]:
             yield Problem(
                 (*path, name),

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 from framegen.hextext import HexError, read_hex
 from framegen.reading.findings import did_you_mean
+from framegen.reading.text import shown
 
 if TYPE_CHECKING:
     from argparse import ArgumentParser, Namespace
@@ -65,17 +66,10 @@ def run(arguments: Namespace) -> int:
 def _pointed(text: str, error: HexError) -> str:
     """Tell what is no hex, and show the place in the text, with a caret under it."""
     start = max(0, error.at - _SHOWN)
-    line = _visible(text[start : error.at + _SHOWN])
+    line = shown(text[start : error.at + _SHOWN])
     place = error.at - start
     carets = "^" * max(1, min(len(error.wrong), len(line) - place))
-    return f"`{_visible(error.wrong[:_SHOWN])}` {error.problem}\n  {line}\n  {' ' * place}{carets}"
-
-
-def _visible(text: str) -> str:
-    """Show blanks as blanks and what cannot be seen as a mark, one for one."""
-    return "".join(
-        " " if c.isspace() else c if c.isprintable() else "\N{REPLACEMENT CHARACTER}" for c in text
-    )
+    return f"`{shown(error.wrong[:_SHOWN])}` {error.problem}\n  {line}\n  {' ' * place}{carets}"
 
 
 def _is_spec(word: str) -> bool:

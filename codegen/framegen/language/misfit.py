@@ -28,6 +28,7 @@ _MESSAGES = {
     "bool_type": "`true` or `false` is expected here, not {found}",
     "dict_type": "a mapping of keys is expected here, not {found}",
     "model_type": "a mapping of keys is expected here, not {found}",
+    "model_attributes_type": "a mapping of keys is expected here, not {found}",
     "list_type": "a list is expected here, not {found}",
     "literal_error": "{expected} is expected here, not {found}",
     "greater_than": "a number above {gt} is expected here, not {found}",

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from difflib import get_close_matches
 from typing import TYPE_CHECKING
 
+from framegen.reading.text import shown
 from framegen.wording import counted
 
 if TYPE_CHECKING:
@@ -65,12 +66,12 @@ class Finding:
 def in_order(findings: Iterable[Finding]) -> list[Finding]:
     """Sort the findings from the top of the file down, each said once, and no more than help."""
     unique = sorted(dict.fromkeys(findings), key=lambda f: (f.span, f.rule, f.message))
-    shown, more = unique[:MOST_FINDINGS], unique[MOST_FINDINGS:]
+    told, more = unique[:MOST_FINDINGS], unique[MOST_FINDINGS:]
     if more:
         message = f"not shown: {counted(len(more), 'finding')} from here down"
         hint = "mend those above, and check again"
-        shown.append(Finding("many-findings", more[0].span, more[0].path, message, hint))
-    return shown
+        told.append(Finding("many-findings", more[0].span, more[0].path, message, hint))
+    return told
 
 
 def did_you_mean(word: str, known: Iterable[str], *, otherwise: str = "") -> str:
@@ -112,11 +113,7 @@ def _place(source: Source, span: Span) -> str:
 def _excerpt(source: Source, span: Span, gutter: int) -> Iterator[str]:
     line, column = source.line(span.line), span.column - 1
     start = 0 if column < _WIDTH * 3 // 4 else column - _WIDTH // 2
-    shown = line[start : start + _WIDTH]
-    # Tabs become one blank and invisible characters a mark, so that the caret stands right.
-    clean = "".join(
-        " " if c == "\t" else c if c.isprintable() else "\N{REPLACEMENT CHARACTER}" for c in shown
-    )
+    clean = shown(line[start : start + _WIDTH])
     carets = "^" * max(1, min(span.length, len(clean) - (column - start)))
     yield f"{span.line:>{gutter}} | {clean.rstrip()}"
     yield f"{' ' * gutter} | {' ' * (column - start)}{carets}"

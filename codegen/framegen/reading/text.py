@@ -1,4 +1,4 @@
-"""Characters that a spec may not hold, because a reader cannot see what they do."""
+"""Characters that a reader cannot see: which a spec may not hold, and what is shown for them."""
 
 from __future__ import annotations
 
@@ -34,3 +34,11 @@ def first_invisible(text: str) -> str | None:
     """Find the first character of `text` that may not stand in a spec; a line feed may."""
     found = _INVISIBLE.search(text)
     return None if found is None else found[0]
+
+
+def shown(text: str) -> str:
+    """Show white space as blanks and what cannot be seen as a mark, one for one, for a caret."""
+    return "".join(
+        " " if c in "\t\n\r\v\f" else c if c.isprintable() else "\N{REPLACEMENT CHARACTER}"
+        for c in text
+    )

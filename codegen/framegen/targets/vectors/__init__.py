@@ -72,18 +72,25 @@ def _vector(
     }
 
 
+# So many items need two bytes of a count, and of a length: more would show nothing else.
+_ENOUGH = 0x100
+
+
 def _range_ends(message: MessageLayout) -> Iterator[tuple[str, dict[str, Any]]]:
-    """Every field at its lowest, then its highest; a list with the fewest items, then the most."""
+    """Every field at its lowest, then its highest; a list with the fewest items, then with many."""
     if not message.arguments:
         return
-    for end, word, count in ("low", "lowest", 0), ("high", "highest", -1):
+    fewest, most = message.counts[0], message.counts[-1]
+    many = max(fewest, min(most, _ENOUGH))
+    for end, word, count in ("low", "lowest", fewest), ("high", "highest", many):
         values: dict[str, Any] = {}
         for argument in message.arguments:
             if isinstance(argument, Repeat):
-                values[argument.name] = [_item(argument, end) for _ in range(message.counts[count])]
+                values[argument.name] = [_item(argument, end) for _ in range(count)]
             else:
                 values[argument.name] = _end(argument, end)
-        yield f"every value at its {word}", values
+        shortened = "" if count in (fewest, most) else f", {count} items of up to {most}"
+        yield f"every value at its {word}{shortened}", values
 
 
 def _end(field: WireField, end: str) -> int:
