@@ -791,11 +791,15 @@ def tool(name: str) -> str:
     return found
 
 
+# Protocols in which one end alone speaks, by the names of their files.
+ONE_WAY = ("lamp", "weather")
+
+
 @pytest.fixture(scope="module")
 def many(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """The libraries of the demo spec and the guide, of all the shapes above, of hardly anything."""
     folder = tmp_path_factory.mktemp("many")
-    specs = [SPEC, kiln()]
+    specs = [SPEC, kiln(), *(data_of(DEMO.with_name(f"{name}.yaml")) for name in ONE_WAY)]
     for name, shapes in {"shapes": list(SHAPES), "bare": ["no fields at all"]}.items():
         messages = {
             f"Made{number:02}": {**SHAPES[shape][0], "length": SHAPES[shape][1]}
@@ -832,7 +836,7 @@ def test_every_verb_of_a_library_has_help(many: Path, name: str) -> None:
     assert last == "[]"
 
 
-@pytest.mark.parametrize("name", ["kiln", "bare"])
+@pytest.mark.parametrize("name", ["kiln", "bare", "weather"])
 def test_the_doctor_of_a_library_finds_its_way_without_a_board(many: Path, name: str) -> None:
     words = [name, "doctor", "--port", "loop://", "--timeout", "0.01", "--json"]
     done = subprocess.run(
@@ -860,6 +864,8 @@ def test_the_doctor_of_a_library_finds_its_way_without_a_board(many: Path, name:
             "greenhouse",
             "kiln",
             "shapes",
+            "stage_lamp",
+            "weather",
         ),
         ("mypy", "--strict", "--no-error-summary", "--python-version", "3.10", "."),
     ],

@@ -11,10 +11,10 @@ from busservo import (
     ServoMove,
     StreamDecoder,
 )
-from busservo.table import worded
 from framegen.language.values import Citation, Direction
-from framegen.model.codec import NotAFrame, decode, describe_range, encode
+from framegen.model.codec import NotAFrame, decode, encode
 from framegen.model.model import derive
+from framegen.wording import describe_range
 
 from tests.cases import CASES
 from tests.specimens import BUSSERVO, DEMO, compiled_of, data_of, layout_of
@@ -206,12 +206,6 @@ def test_a_frame_that_is_none_is_told_in_full(frame: str, said: str) -> None:
     with pytest.raises(DecodeError) as refused:
         busservo.decode(bytes.fromhex(frame), None)
     assert refused.value.problem == said
-
-
-def test_five_lengths_are_too_many_to_be_listed() -> None:
-    assert worded(range(4)) == "0, 1, 2, 3"
-    assert worded(range(5)) == "0..4"
-    assert worded(range(0, 10, 2)) == "0, 2, 4 .. 8"
 
 
 def test_each_unknown_frame_is_counted() -> None:

@@ -5,10 +5,11 @@ from typing import Any, NamedTuple
 import pytest
 from framegen.language.spec import Concern, Spec
 from framegen.language.values import Direction
-from framegen.model.codec import NotAFrame, Unencodable, decode, describe_range, encode
+from framegen.model.codec import NotAFrame, Unencodable, decode, encode
 from framegen.model.facts import NoSuchFact, look_up
 from framegen.model.layout import MessageLayout, derive_frame, part_size
 from framegen.model.model import Model
+from framegen.wording import describe_range
 from hypothesis import given
 from hypothesis import strategies as st
 

@@ -13,7 +13,7 @@ from framegen.console import UNUSABLE, visible
 from framegen.reading.findings import did_you_mean
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Sequence
+    from collections.abc import Sequence
 
 VERBS = ("check", "generate", "diff", "docs", "explain", "schema", "rules")
 
@@ -87,7 +87,7 @@ def _run_verb(name: str, words: Sequence[str]) -> int:
     parser = console.Parser(
         prog=f"framegen {name}",
         description=verb.SUMMARY,
-        epilog=_listed("examples", verb.EXAMPLES),
+        epilog=console.table("examples", verb.EXAMPLES),
     )
     verb.add_arguments(parser)
     # Intermixed: `55 55 --direction host 02 07` is one list of bytes.
@@ -110,13 +110,9 @@ def _overview() -> str:
     verbs = {name: _verb(name) for name in VERBS}
     summaries = [(name, verb.SUMMARY) for name, verb in verbs.items()]
     examples = [verb.EXAMPLES[0] for verb in verbs.values()]
-    return "\n\n".join((_listed("verbs", summaries), _listed("examples", examples), _CLOSING))
-
-
-def _listed(title: str, entries: Iterable[tuple[str, str]]) -> str:
-    rows = list(entries)
-    width = max(len(left) for left, _ in rows)
-    return "\n".join([f"{title}:", *(f"  {left:<{width}}  {right}" for left, right in rows)])
+    return "\n\n".join(
+        (console.table("verbs", summaries), console.table("examples", examples), _CLOSING)
+    )
 
 
 def _complain(message: str, hint: str = "") -> None:

@@ -19,7 +19,7 @@ from typing import TYPE_CHECKING
 
 from .codec import table_for
 from .exchanges import RECEIVED
-from .hid_boards import UNSEEN, hid_boards, hid_library, report_size
+from .hid_devices import UNSEEN, hid_devices, hid_library, report_size
 from .link_errors import (
     ClosedError,
     DisconnectedError,
@@ -29,13 +29,13 @@ from .link_errors import (
     TransportError,
 )
 from .octets import spaced
-from .protocol import BODY_AT, HEADER, HID_BOARDS, LENGTH_END, UNCOUNTED, read_length
+from .protocol import BODY_AT, HEADER, HID_DEVICES, LENGTH_END, UNCOUNTED, read_length
 
 if TYPE_CHECKING:
     from collections.abc import Callable
     from typing import Any
 
-    from .hid_boards import HidBoard
+    from .hid_devices import HidDevice
 
 logger = logging.getLogger(__package__)
 SCHEME = "hid:"
@@ -55,19 +55,19 @@ def open_hid(port: str, *, library: Any = None) -> HidPort:
     if not separator or f"{scheme.lower()}:" != SCHEME:
         raise PortAddressError(port, "it is no address of USB HID", _NAMED)
     hid = hid_library(port) if library is None else library
-    board = _chosen(port, rest, hid_boards(hid))
+    seen = _chosen(port, rest, hid_devices(hid))
     device = hid.device()
     try:
-        device.open_path(board.path.encode())
+        device.open_path(seen.path.encode())
         # Otherwise a read without a time to wait would wait for ever.
         device.set_nonblocking(1)
     except (OSError, ValueError) as error:
-        raise _not_opened(port, board, error) from error
-    size = report_size(board.vendor, board.product_id) or _USUAL_SIZE
+        raise _not_opened(port, seen, error) from error
+    size = report_size(seen.vendor, seen.product_id) or _USUAL_SIZE
     return HidPort(port, device, size, partial(open_hid, port, library=library))
 
 
-def _chosen(port: str, wanted: str, found: list[HidBoard]) -> HidBoard:
+def _chosen(port: str, wanted: str, found: list[HidDevice]) -> HidDevice:
     """The one device that is meant."""
     ids = _IDS.fullmatch(wanted)
     if ids is not None:
@@ -82,23 +82,23 @@ def _chosen(port: str, wanted: str, found: list[HidBoard]) -> HidBoard:
         raise PortAddressError(port, f"{len(fitting)} devices are plugged in", f"choose: {listed}")
     if found:
         raise PortNotFoundError(port, "there is no such device", f"these exist: {listed}")
-    known = ", ".join(f"{vendor:04X}:{product:04X}" for vendor, product, _ in HID_BOARDS)
+    known = ", ".join(f"{vendor:04X}:{product:04X}" for vendor, product, _ in HID_DEVICES)
     happened = f"no USB HID device is plugged in ({known or 'none is known'})"
     raise PortNotFoundError(port, happened, "`ports` lists those that have a serial port")
 
 
-def _not_opened(port: str, board: HidBoard, error: Exception) -> TransportError:
+def _not_opened(port: str, seen: HidDevice, error: Exception) -> TransportError:
     """Why a device that is there could not be opened: the library does not say."""
     rule = (
         'KERNEL=="hidraw*", '
-        f'ATTRS{{idVendor}}=="{board.vendor:04x}", ATTRS{{idProduct}}=="{board.product_id:04x}", '
+        f'ATTRS{{idVendor}}=="{seen.vendor:04x}", ATTRS{{idProduct}}=="{seen.product_id:04x}", '
         'TAG+="uaccess"'
     )
     told = f"as root, put this line into /etc/udev/rules.d/70-{__package__}.rules: {rule} ; replug"
-    if board.path.startswith("/dev/") and not os.access(board.path, os.R_OK | os.W_OK):
-        return PortPermissionError(port, f"permission is denied to {board.path}", told)
+    if seen.path.startswith("/dev/") and not os.access(seen.path, os.R_OK | os.W_OK):
+        return PortPermissionError(port, f"permission is denied to {seen.path}", told)
     advice = f"close the other program that has it; on Linux it may be the permission: {told}"
-    return TransportError(port, f"{board.ids} cannot be opened ({error}; {UNSEEN})", advice)
+    return TransportError(port, f"{seen.ids} cannot be opened ({error}; {UNSEEN})", advice)
 
 
 class HidPort:

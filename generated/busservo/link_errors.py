@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 from .errors import ProtocolError
+from .wording import counted
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
@@ -103,13 +104,13 @@ class NoReplyError(ProtocolError, TimeoutError):
         if self.noise:
             verb = "is" if self.noise == 1 else "are"
             came.append(
-                f"{_counted(self.noise, 'byte')} came that {verb} no frame: wrong baud rate?"
+                f"{counted(self.noise, 'byte')} came that {verb} no frame: wrong baud rate?"
             )
         if self.unsolicited:
-            replies = _counted(self.unsolicited, "reply", "replies")
+            replies = counted(self.unsolicited, "reply", "replies")
             came.append(f"{replies} came that cannot be the answer: late, or sent twice")
         if self.reports:
-            came.append(f"{_counted(self.reports, 'report')} came, so the device can be heard")
+            came.append(f"{counted(self.reports, 'report')} came, so the device can be heard")
         return "; ".join(came) or (
             "nothing came at all: is the device switched on, and is this its port?"
         )
@@ -177,7 +178,3 @@ class NoReportError(ProtocolError, TimeoutError):
         more = [f"{len(came) - _SHOWN} others"] if len(came) > _SHOWN else []
         what = ", ".join([*more, *came[-_SHOWN:]]) or "no report at all"
         return f"no {self.report} came within {self.waited:.3f} s; what came instead: {what}"
-
-
-def _counted(number: int, noun: str, plural: str = "") -> str:
-    return f"{number} {noun if number == 1 else plural or noun + 's'}"

@@ -21,7 +21,7 @@ PARITY = "none"
 STOP_BITS = 1
 BITS_PER_BYTE = 10
 # Devices that are reached by USB HID: vendor and product, and the bytes of a report.
-HID_BOARDS: tuple[tuple[int, int, int], ...] = ((0x0483, 0x5750, 64),)
+HID_DEVICES: tuple[tuple[int, int, int], ...] = ((0x0483, 0x5750, 64),)
 
 
 def head(command: int, length: int) -> bytes:

@@ -17,7 +17,7 @@ from busservo.cli import link, main, send, simulate
 from busservo.cli.examples import EXAMPLES, VERBS
 from busservo.cli.questions import in_parts
 from busservo.client import Client
-from busservo.hid_boards import HidBoard
+from busservo.hid_devices import HidDevice
 from busservo.link_errors import PortNotFoundError
 from busservo_simulator import Faults, VirtualController
 from serial.tools.list_ports_common import ListPortInfo
@@ -223,8 +223,8 @@ def test_boards_without_a_serial_port_are_listed(
     capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr("serial.tools.list_ports.comports", list)
-    one = HidBoard(0x0483, 0x5750, "/dev/hidraw1", "LOBOT")
-    monkeypatch.setattr("busservo.cli.ports.hid_boards_at_hand", lambda: [one])
+    one = HidDevice(0x0483, 0x5750, "/dev/hidraw1", "LOBOT")
+    monkeypatch.setattr("busservo.cli.ports.hid_devices_at_hand", lambda: [one])
     assert main(["ports"]) == 0
     output, errors = capsys.readouterr()
     about = "USB HID, no serial port (not seen on hardware yet)"
@@ -232,7 +232,7 @@ def test_boards_without_a_serial_port_are_listed(
     assert errors == "no serial port is plugged in\n"
     # Of two of a kind, each has an address of its own.
     other = one._replace(path="/dev/hidraw2", product="")
-    monkeypatch.setattr("busservo.cli.ports.hid_boards_at_hand", lambda: [one, other])
+    monkeypatch.setattr("busservo.cli.ports.hid_devices_at_hand", lambda: [one, other])
     assert main(["ports", "--json"]) == 0
     assert [json.loads(line) for line in capsys.readouterr().out.splitlines()] == [
         {"port": "hid:///dev/hidraw1", "usb": "0483:5750", "description": f"LOBOT, {about}"},
@@ -244,7 +244,7 @@ def test_where_nobody_can_list_such_boards_it_says_so(
     capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr("serial.tools.list_ports.comports", list)
-    monkeypatch.setattr("busservo.cli.ports.hid_boards_at_hand", lambda: None)
+    monkeypatch.setattr("busservo.cli.ports.hid_devices_at_hand", lambda: None)
     assert main(["ports"]) == 0
     assert capsys.readouterr().err.splitlines() == [
         "no serial port is plugged in",
@@ -388,7 +388,7 @@ def test_no_port_is_said_where_nothing_is_plugged_in(
     capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr("serial.tools.list_ports.comports", list)
-    monkeypatch.setattr("busservo.cli.ports.hid_boards_at_hand", list)
+    monkeypatch.setattr("busservo.cli.ports.hid_devices_at_hand", list)
     assert main(["ports"]) == 0
     assert capsys.readouterr() == ("", "no serial port is plugged in\n")
 

@@ -28,7 +28,7 @@ from busservo import (
     open_async_controller,
     open_controller,
 )
-from busservo.hid_boards import HidBoard, hid_boards_at_hand, hid_library
+from busservo.hid_devices import HidDevice, hid_devices_at_hand, hid_library
 from busservo.hid_port import HidPort, open_hid
 from busservo.noise import Noise
 
@@ -339,14 +339,14 @@ def test_linux_tells_of_boards_without_the_extra(
 ) -> None:
     for name in ("hid", "hidraw"):
         monkeypatch.setitem(sys.modules, name, None)
-    assert hid_boards_at_hand(tmp_path / "none") is None
-    assert hid_boards_at_hand(tmp_path) == []
+    assert hid_devices_at_hand(tmp_path / "none") is None
+    assert hid_devices_at_hand(tmp_path) == []
     board = tmp_path / "0003:0483:5750.0001"
     (board / "hidraw" / "hidraw3").mkdir(parents=True)
     (board / "uevent").write_text("HID_ID=0003\nHID_NAME=LOBOT\nHID_UNIQ=48D7\n")
     # A keyboard, the same ids by Bluetooth, and what is no device.
     for other in ("0003:046D:C31C.0002", "0005:0483:5750.0003", "driver", "a:b:c.1"):
         (tmp_path / other).mkdir()
-    assert hid_boards_at_hand(tmp_path) == [HidBoard(0x0483, 0x5750, "/dev/hidraw3", "LOBOT")]
+    assert hid_devices_at_hand(tmp_path) == [HidDevice(0x0483, 0x5750, "/dev/hidraw3", "LOBOT")]
     (tmp_path / "0003:0483:5750.0009").mkdir()
-    assert hid_boards_at_hand(tmp_path)[0] == HidBoard(0x0483, 0x5750, "", "")  # type: ignore[index]
+    assert hid_devices_at_hand(tmp_path)[0] == HidDevice(0x0483, 0x5750, "", "")  # type: ignore[index]

@@ -36,7 +36,7 @@ def diagnosis_of(board: VirtualController, **more: Any) -> Diagnosis:
         "port": PORT,
         "opener": lambda _port, _baud: board.open(),
         "ports": lambda: [ADAPTER],
-        "boards": list,
+        "hid_devices": list,
         "clock": board.clock.now,
     }
     return Diagnosis(**(given | more))

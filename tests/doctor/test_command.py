@@ -159,11 +159,11 @@ def test_a_report_of_no_port_at_all_is_one_too(tmp_path: Path) -> None:
 
 
 def test_a_report_of_a_board_by_usb_hid_names_it(tmp_path: Path) -> None:
-    from busservo.hid_boards import HidBoard  # noqa: PLC0415 - where it is used
+    from busservo.hid_devices import HidDevice  # noqa: PLC0415 - where it is used
 
-    found = [HidBoard(0x0483, 0x5750, "/dev/hidraw0", "LOBOT")]
+    found = [HidDevice(0x0483, 0x5750, "/dev/hidraw0", "LOBOT")]
     with board_with() as board:
-        diagnosis = diagnosis_of(board, port="hid://", boards=lambda: found)
+        diagnosis = diagnosis_of(board, port="hid://", hid_devices=lambda: found)
         told = report_of(diagnosis, tmp_path / "report.hex")
     assert "# adapter: 0483:5750 LOBOT\n" in told
     assert "# line: hid://, 9600 baud\n" in told

@@ -19,7 +19,7 @@ from busservo.doctor import rate
 from busservo.doctor.checks import CHECKS, examine
 from busservo.doctor.diagnosis import Diagnosis
 from busservo.doctor.result import FAILED, PASSED, UNKNOWN
-from busservo.hid_boards import HidBoard
+from busservo.hid_devices import HidDevice
 from busservo.serial_port import SerialPortSeen
 from busservo_simulator import VirtualController
 
@@ -34,12 +34,12 @@ if TYPE_CHECKING:
 BUILT_IN = SerialPortSeen("/dev/ttyS0", "", "")
 ONE = SerialPortSeen("/dev/ttyUSB0", "1A86:7523", "USB Serial", "A50285BI")
 OTHER = SerialPortSeen("/dev/ttyUSB1", "0403:6001", "FT232R", "B1")
-BOARD = HidBoard(0x0483, 0x5750, "/dev/hidraw0", "LOBOT")
+BOARD = HidDevice(0x0483, 0x5750, "/dev/hidraw0", "LOBOT")
 PLUG_IN = "USB HID devices have no serial port at all"
 
 
 @pytest.mark.parametrize(
-    ("port", "ports", "boards", "taken", "state", "seen", "advice"),
+    ("port", "ports", "hid", "taken", "state", "seen", "advice"),
     [
         (None, [ONE, BUILT_IN], [], "/dev/ttyUSB0", PASSED, "/dev/ttyUSB0 (1A86:7523 USB S", ""),
         (None, [BUILT_IN], [], "/dev/ttyS0", UNKNOWN, "no port is plugged in by USB", PLUG_IN),
@@ -57,14 +57,14 @@ PLUG_IN = "USB HID devices have no serial port at all"
 def test_the_port_is_found_or_it_is_said_where_to_look(
     port: str | None,
     ports: list[SerialPortSeen],
-    boards: list[HidBoard] | None,
+    hid: list[HidDevice] | None,
     taken: str | None,
     state: str,
     seen: str,
     advice: str,
 ) -> None:
     with board_with() as board:
-        diagnosis = diagnosis_of(board, port=port, ports=lambda: ports, boards=lambda: boards)
+        diagnosis = diagnosis_of(board, port=port, ports=lambda: ports, hid_devices=lambda: hid)
         found = examined(diagnosis)["port"]
     assert (diagnosis.port, found.state) == (taken, state)
     assert seen in found.seen
@@ -73,7 +73,7 @@ def test_the_port_is_found_or_it_is_said_where_to_look(
 
 
 @pytest.mark.parametrize(
-    ("port", "boards", "state", "seen", "advice"),
+    ("port", "hid", "state", "seen", "advice"),
     [
         ("COM7", [], PASSED, "no USB HID device (0483:5750) is plugged in", ""),
         ("COM7", None, UNKNOWN, "nobody here can tell", "pip install 'busservo[hid]'"),
@@ -82,14 +82,14 @@ def test_the_port_is_found_or_it_is_said_where_to_look(
     ],
 )
 def test_a_board_without_a_serial_port_is_seen(
-    port: str, boards: list[HidBoard] | None, state: str, seen: str, advice: str
+    port: str, hid: list[HidDevice] | None, state: str, seen: str, advice: str
 ) -> None:
     with board_with() as board:
-        found = examined(diagnosis_of(board, port=port, boards=lambda: boards))["hid"]
+        found = examined(diagnosis_of(board, port=port, hid_devices=lambda: hid))["hid"]
     assert found.state == state
     assert seen in found.seen
     assert advice in found.advice
-    assert ("not seen on hardware yet" in found.seen) == (state == UNKNOWN and boards is not None)
+    assert ("not seen on hardware yet" in found.seen) == (state == UNKNOWN and hid is not None)
 
 
 @pytest.mark.parametrize(
@@ -138,7 +138,7 @@ def quick(monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 def rate_of(port: str, **more: Any) -> Any:
-    diagnosis = Diagnosis(port, ports=list, boards=list, **more)
+    diagnosis = Diagnosis(port, ports=list, hid_devices=list, **more)
     checks = [check for check in CHECKS if check.id in {"port", "opening", "permission", "rate"}]
     return {check.id: result for check, result in examine(diagnosis, checks)}["rate"]
 

@@ -15,6 +15,11 @@ class WireType:
     high: int
     code: str
 
+    @property
+    def is_byte(self) -> bool:
+        """Whether it is a byte as it stands on the wire: of one, and not below zero."""
+        return self.size == 1 and self.low == 0
+
 
 WIRE_TYPES = {
     wire.name: wire

@@ -9,6 +9,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
+from framegen.wording import describe_range
+
 if TYPE_CHECKING:
     from framegen.language.values import Direction
     from framegen.model.layout import MessageLayout, Repeat, WireField
@@ -191,12 +193,3 @@ def _number_bytes(model: Model, value: int, size: int, *, signed: bool = False) 
 def read_number(model: Model, data: bytes, offset: int, size: int, *, signed: bool = False) -> int:
     """Read the number of `size` bytes at `offset`, in the byte order of the protocol."""
     return int.from_bytes(data[offset : offset + size], model.spec.byte_order, signed=signed)
-
-
-def describe_range(values: range) -> str:
-    """Put a range in words: `5`, `4..255`, or `8, 11, 14 .. 254`."""
-    if len(values) <= 4:
-        return ", ".join(str(value) for value in values)
-    if values.step == 1:
-        return f"{values[0]}..{values[-1]}"
-    return f"{values[0]}, {values[1]}, {values[2]} .. {values[-1]}"

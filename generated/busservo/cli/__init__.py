@@ -18,10 +18,9 @@ from .verbs import verbs
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Sequence
+    from collections.abc import Sequence
     from typing import Any
 
-_WIDTH = 100
 _SHELLS = ("bash", "zsh", "tcsh", "fish")
 
 
@@ -64,7 +63,9 @@ def _parser(name: str, verb: Any) -> console.Parser:
     parser = console.Parser(
         prog=f"{PROGRAM} {name}",
         description="\n\n".join(about),
-        epilog="\n\n".join((_listed("examples", EXAMPLES[name]), _listed("exit status", statuses))),
+        epilog="\n\n".join(
+            (console.table("examples", EXAMPLES[name]), console.table("exit status", statuses))
+        ),
     )
     verb.add_arguments(parser)
     return parser
@@ -78,8 +79,10 @@ def _run_none(words: Sequence[str]) -> int:
         description=SUMMARY,
         epilog="\n\n".join(
             (
-                _listed("verbs", here.items()),
-                _listed("examples", [example for verb in here for example in EXAMPLES[verb][:2]]),
+                console.table("verbs", here.items()),
+                console.table(
+                    "examples", [example for verb in here for example in EXAMPLES[verb][:2]]
+                ),
                 f"`{PROGRAM} VERB --help` shows what else a verb can do.",
             )
         ),
@@ -107,13 +110,3 @@ def _run_none(words: Sequence[str]) -> int:
         parser.print_help(sys.stderr)
         return UNUSABLE
     raise UnusableError(f"there is no verb {known.verb!r}; there are {', '.join(here)}")
-
-
-def _listed(title: str, entries: Iterable[tuple[str, str]]) -> str:
-    """A table of two columns; or, where that is too wide to be read, a line below the other."""
-    rows = list(entries)
-    width = max((len(left) for left, _ in rows), default=0)
-    lines = [f"  {left:<{width}}  {right}" for left, right in rows] or ["  none"]
-    if any(len(line) > _WIDTH for line in lines):
-        lines = [line for left, right in rows for line in (f"  {left}", f"      {right}")]
-    return "\n".join([f"{title}:", *lines])

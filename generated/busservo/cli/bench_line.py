@@ -15,9 +15,9 @@ from ..link_errors import NoReplyError
 from ..outcome import lacking
 from ..protocol import BAUD
 from ..wire import Wire
+from ..wording import counted
 from . import link
 from .console import visible
-from .events import counted
 from .exits import DONE, INTERRUPTED, NOT_ALL
 from .link import add_port, add_timeout, failures_told, open_client
 from .numerals import at_least

@@ -21,12 +21,14 @@ from contextlib import contextmanager, suppress
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator
+    from collections.abc import Callable, Iterable, Iterator
     from typing import Any, NoReturn, TextIO, TypeVar
 
     Result = TypeVar("Result")
 
 DONE, UNUSABLE = 0, 2
+# The widest line of a table.
+_WIDTH = 100
 # What a shell reports for a program that SIGINT or SIGPIPE ended.
 INTERRUPTED, READER_GONE = 130, 141
 
@@ -57,6 +59,16 @@ def complain(program: str, message: str, hint: str = "") -> None:
     print(f"{program.partition(' ')[0]}: error: {visible(message)}", file=sys.stderr)
     if hint:
         print(f"  hint: {visible(hint)}", file=sys.stderr)
+
+
+def table(title: str, entries: Iterable[tuple[str, str]]) -> str:
+    """A table of two columns; or, where that is too wide to be read, a line below the other."""
+    rows = list(entries)
+    width = max((len(left) for left, _ in rows), default=0)
+    lines = [f"  {left:<{width}}  {right}" for left, right in rows] or ["  none"]
+    if any(len(line) > _WIDTH for line in lines):
+        lines = [line for left, right in rows for line in (f"  {left}", f"      {right}")]
+    return "\n".join([f"{title}:", *lines])
 
 
 class Parser(argparse.ArgumentParser):

@@ -11,6 +11,7 @@ from ..octets import spaced
 from ..recording_entry import SENDERS
 from ..recording_file import EITHER, NOISE
 from ..twins import twins
+from ..wording import counted
 from .values import fields_as_json, fields_as_text
 
 TYPE_CHECKING = False
@@ -78,11 +79,6 @@ def totals(seen: Counters) -> str:
     )
     told = f"{counted(seen.fed, 'byte')}: {counted(seen.messages, 'message')}"
     return f"{told}, {counted(seen.noise, 'byte')} of noise{unknown}"
-
-
-def counted(number: int, noun: str, plural: str = "") -> str:
-    """A number of things, in words."""
-    return f"{number} {noun}" if number == 1 else f"{number} {plural or noun + 's'}"
 
 
 def _why(noise: Noise, direction: Direction | None) -> str:

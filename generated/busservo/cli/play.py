@@ -11,8 +11,8 @@ from itertools import chain, repeat
 from pathlib import Path
 
 from ..wire import Wire
+from ..wording import counted
 from . import link
-from .events import counted
 from .exits import DONE, INTERRUPTED
 from .limits import add_limits, limits_of
 from .link import add_port, add_timeout, failures_told, open_client

@@ -13,7 +13,8 @@ from ..careful_decoder import GAP
 from ..decoder import StreamDecoder
 from ..exchanges import RECEIVED
 from ..link_errors import TransportError
-from .events import bytes_of, counted, totals
+from ..wording import counted
+from .events import bytes_of, totals
 from .lines import Lines
 from .waiting import PATIENCE, Waiting
 

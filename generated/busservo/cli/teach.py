@@ -9,8 +9,8 @@ import sys
 from pathlib import Path
 
 from ..link_errors import NoReplyError
+from ..wording import counted
 from . import link
-from .events import counted
 from .examples import PROGRAM
 from .exits import DONE, INTERRUPTED, NOT_ALL
 from .limits import add_limits, limits_of

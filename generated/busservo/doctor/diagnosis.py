@@ -9,7 +9,7 @@ import time
 from pathlib import Path
 
 from ..guarded import Guarded
-from ..hid_boards import hid_boards_at_hand
+from ..hid_devices import hid_devices_at_hand
 from ..protocol import BAUD
 from ..serial_port import open_transport, serial_ports
 from .probe import Probe
@@ -18,7 +18,7 @@ TYPE_CHECKING = False
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from ..hid_boards import HidBoard
+    from ..hid_devices import HidDevice
     from ..link_errors import TransportError
     from ..message import Message
     from ..noise import Noise
@@ -32,8 +32,8 @@ class Diagnosis:
     """One examination of one port, with what has been found so far.
 
     `port` may be None: the one that is plugged in is taken, if there is one. `opener` opens a port
-    at a rate, `ports` and `boards` tell what is plugged in, and `clock` tells seconds; all of them
-    are for tests to replace. With `local_echo`, what is sent is expected to come back.
+    at a rate, `ports` and `hid_devices` tell what is plugged in, and `clock` tells seconds; all of
+    them are for tests to replace. With `local_echo`, what is sent is expected to come back.
     """
 
     def __init__(
@@ -45,7 +45,7 @@ class Diagnosis:
         local_echo: bool = False,
         opener: Callable[[str, float], Transport] | None = None,
         ports: Callable[[], list[SerialPortSeen]] = serial_ports,
-        boards: Callable[[], list[HidBoard] | None] = hid_boards_at_hand,
+        hid_devices: Callable[[], list[HidDevice] | None] = hid_devices_at_hand,
         clock: Callable[[], float] = time.monotonic,
     ) -> None:
         self.port = port
@@ -53,7 +53,7 @@ class Diagnosis:
         self.margin = margin
         self.local_echo = local_echo
         self.ports = ports()
-        self.boards = boards()
+        self.hid_devices = hid_devices()
         self.log: list[Entry] = []
         # Why it could not be opened, and whether it was lost since.
         self.error: TransportError | None = None
@@ -77,7 +77,7 @@ class Diagnosis:
         """What is plugged in, by VID:PID and product; empty where that is not known."""
         port = self.port or ""
         if port.lower().startswith("hid:"):
-            return ", ".join(f"{each.ids} {each.product}" for each in self.boards or [])
+            return ", ".join(f"{each.ids} {each.product}" for each in self.hid_devices or [])
         names = (port, str(Path(port).resolve()))
         found = (each for each in self.ports if each.name in names)
         return next((f"{each.usb} {each.product}".strip() for each in found), "")

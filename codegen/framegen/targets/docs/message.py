@@ -6,7 +6,6 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING
 
-from framegen.model.codec import describe_range
 from framegen.targets.docs.cite import CiteView, Lines, cite_view, lines_of
 from framegen.targets.docs.drawing import Drawing, drawing
 from framegen.targets.docs.escape import paragraphs
@@ -14,6 +13,7 @@ from framegen.targets.docs.exchange import ExampleView, example_views
 from framegen.targets.docs.field import FieldView, field_views
 from framegen.targets.docs.strip import Cell, pattern_strip
 from framegen.targets.docs.timing import milliseconds
+from framegen.wording import describe_range
 
 if TYPE_CHECKING:
     from framegen.language.spec import Message

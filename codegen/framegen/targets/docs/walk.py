@@ -18,10 +18,9 @@ from framegen.model.codec import (
     UNKNOWN_COMMAND,
     NotAFrame,
     decode,
-    describe_range,
     read_number,
 )
-from framegen.wording import counted
+from framegen.wording import counted, describe_range
 
 if TYPE_CHECKING:
     from collections.abc import Mapping

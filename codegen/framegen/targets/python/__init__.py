@@ -25,7 +25,11 @@ if TYPE_CHECKING:
 
 _HERE = Path(__file__).parent
 # What framegen and a library have in common is written once: where it is copied to.
-_SHARED = {"cli/console.py": "console.py", "hextext.py": "hextext.py"}
+_SHARED = {
+    "cli/console.py": "console.py",
+    "hextext.py": "hextext.py",
+    "wording.py": "wording.py",
+}
 # What only a protocol with poses has a use for.
 _FOR_POSES = {"cli/play.py", "cli/posefile.py", "cli/positions.py", "cli/teach.py"}
 

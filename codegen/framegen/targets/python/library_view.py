@@ -175,13 +175,13 @@ class LibraryView:
         return self.model.spec.link
 
     @property
-    def hid_boards(self) -> str:
+    def hid_devices(self) -> str:
         """An assignment: vendor, product and the bytes of a report, of each."""
         boards = [
             f"(0x{board.vendor:04X}, 0x{board.product:04X}, {board.report_size})"
             for board in self.link.usb_hid
         ]
-        before = "HID_BOARDS: tuple[tuple[int, int, int], ...] = ("
+        before = "HID_DEVICES: tuple[tuple[int, int, int], ...] = ("
         return Bracketed(before, boards, ")", lone=",").fitted(0)
 
     @property

@@ -128,7 +128,7 @@ class ListView:
         data = f"self._frame[{self.layout.offset}:]"
         if self.element is not None:
             return f"tuple(map(_make_{self.snake}, _read_{self.snake}({data})))"
-        if self.layout.fields[0].wire.name == "u8":
+        if self.layout.fields[0].wire.is_byte:
             return f"tuple({data})"
         return f"tuple(chain.from_iterable(iter_unpack({literal(self.codes)}, {data})))"
 

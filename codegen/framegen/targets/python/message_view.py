@@ -5,7 +5,6 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from framegen.model.codec import describe_range
 from framegen.model.exchanges import snake_case
 from framegen.model.layout import Repeat, WireField
 from framegen.names import PYTHON_BUILTINS, PYTHON_KEYWORDS
@@ -13,6 +12,7 @@ from framegen.targets.python.escape import Bracketed, literal, session
 from framegen.targets.python.list_view import ListView, given
 from framegen.targets.python.number_view import AbsentView, NumberView, absent_view
 from framegen.targets.python.words import direction_member, range_expression
+from framegen.wording import describe_range
 
 if TYPE_CHECKING:
     from typing import Any

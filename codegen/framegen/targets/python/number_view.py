@@ -115,7 +115,7 @@ class NumberView:
     def read(self) -> str:
         """The expression that reads it from the frame."""
         start, end = self.layout.offset, self.layout.offset + self.layout.wire.size
-        if self.layout.wire.name == "u8":
+        if self.layout.wire.is_byte:
             return f"self._frame[{start}]"
         signed = ", signed=True" if self.layout.wire.low < 0 else ""
         return f'int.from_bytes(self._frame[{start}:{end}], "{self.spec.byte_order}"{signed})'

@@ -24,7 +24,7 @@ _NO_LISTS = (str, bytes, bytearray, memoryview, dict, set, frozenset)
 class Number:
     """A whole number: its name, its letter in `struct`, its range, unit and named values.
 
-    `names` maps the names that some values have to those values, such as `{"unlimited": 0}`.
+    `names` maps the names that some values have to those values, such as `{"off": 0}`.
     """
 
     __slots__ = ("code", "high", "low", "name", "names", "unit")

@@ -5,6 +5,7 @@ from __future__ import annotations
 from .errors import DecodeError, Reason
 from .octets import octets, spaced
 from .protocol import BODY_AT, COMMAND_AT, HEADER, LENGTH_AT, UNCOUNTED, read_command, read_length
+from .wording import describe_range
 
 TYPE_CHECKING = False  # typing alone would double the time that the import takes
 if TYPE_CHECKING:
@@ -115,7 +116,7 @@ class Table(dict[bytes, "Entry | None"]):
             return DecodeError(Reason.UNKNOWN_COMMAND, COMMAND_AT, problem)
         names: dict[str, list[str]] = {}
         for kind in kinds:
-            names.setdefault(worded(kind.LENGTHS), []).append(kind.__name__)
+            names.setdefault(describe_range(kind.LENGTHS), []).append(kind.__name__)
         legal = " or ".join(f"{words} ({', '.join(who)})" for words, who in names.items())
         problem = f"the length is {length}, and must be {legal}"
         return DecodeError(Reason.LENGTH_MISMATCH, LENGTH_AT, problem)
@@ -139,12 +140,3 @@ def _misfit(
         offset, problem = misplaced
         return DecodeError(Reason.OUT_OF_RANGE, offset, problem)
     return None
-
-
-def worded(numbers: range) -> str:
-    """A range in words: `5`, `4..255`, or `8, 11, 14 .. 254`."""
-    if len(numbers) <= 4:
-        return ", ".join(str(number) for number in numbers)
-    if numbers.step == 1:
-        return f"{numbers[0]}..{numbers[-1]}"
-    return f"{numbers[0]}, {numbers[1]}, {numbers[2]} .. {numbers[-1]}"

@@ -13,9 +13,10 @@ from ..exchanges import RECEIVED
 from ..messages import MESSAGES
 from ..recording_entry import SENDERS
 from ..recording_file import EITHER, NOISE
+from ..wording import counted
 from . import link
 from .encode import message_named
-from .events import KINDS, UNKNOWN, counted, names_of, sender_of, totals
+from .events import KINDS, UNKNOWN, names_of, sender_of, totals
 from .exits import DONE, INTERRUPTED
 from .lines import TIMES, Lines
 from .link import add_port, failures_told, open_line

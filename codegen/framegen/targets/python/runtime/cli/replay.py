@@ -12,8 +12,9 @@ from ..recording_entry import SENDERS
 from ..recording_file import EITHER, NOISE
 from ..recordings import FORMS
 from ..wire import Wire
+from ..wording import counted
 from . import link
-from .events import bytes_of, counted, in_words
+from .events import bytes_of, in_words
 from .exits import DONE, INTERRUPTED
 from .lines import Lines
 from .link import add_port, failures_told, open_line

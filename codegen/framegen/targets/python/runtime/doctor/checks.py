@@ -7,7 +7,7 @@ from ..link_errors import TransportError
 from . import (
     busy,
     echo,
-    hid_board,
+    hid_device,
     look_alike,
     opening,
     permission,
@@ -30,7 +30,7 @@ if TYPE_CHECKING:
 
 CHECKS: tuple[Check, ...] = (
     port_listed.CHECK,
-    hid_board.CHECK,
+    hid_device.CHECK,
     permission.CHECK,
     busy.CHECK,
     opening.CHECK,

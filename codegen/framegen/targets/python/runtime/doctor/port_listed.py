@@ -33,11 +33,11 @@ def _look(diagnosis: Diagnosis) -> Result:
 def _choose(diagnosis: Diagnosis, found: str) -> Result:
     """Takes the one port that there is; or a device without any."""
     by_usb = [each for each in diagnosis.ports if each.usb]
-    boards = diagnosis.boards or []
-    if not by_usb and boards:
+    devices = diagnosis.hid_devices or []
+    if not by_usb and devices:
         diagnosis.port = "hid://"
         told = f"{_NONE}, but a USB HID device is, which has none"
-        return passed(f"{told}: {boards[0].ids} {boards[0].product}".rstrip())
+        return passed(f"{told}: {devices[0].ids} {devices[0].product}".rstrip())
     if not by_usb and len(diagnosis.ports) == 1:
         diagnosis.port = diagnosis.ports[0].name
         return unknown(f"no port is plugged in by USB; {found} is taken", _PLUG_IN)

@@ -77,7 +77,7 @@ def _blinded(text: str, diagnosis: Diagnosis) -> str:
     """Text without the names of ports, serial numbers and the path of the user's home."""
     hidden = {each.name: _PORT for each in diagnosis.ports}
     hidden |= {each.serial: "SERIAL" for each in diagnosis.ports}
-    hidden |= {each.path: _PORT for each in diagnosis.boards or []}
+    hidden |= {each.path: _PORT for each in diagnosis.hid_devices or []}
     hidden |= {diagnosis.port or "": _PORT, str(Path.home()): "~"}
     # The longest first, of which others may be parts; a lone slash would be in every path.
     for each in sorted(hidden, key=len, reverse=True):
