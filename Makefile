@@ -58,8 +58,8 @@ bench:  ## Measure the library against its peers
 	$(BENCH_VENV)/bin/python -m benchmarks
 
 docs: $(READY)  ## Build build/site: the reference and the guides, ready to be served
-	$(IN)/framegen generate
 	rm -rf build/site
+	$(IN)/framegen docs --out build/site/reference
 	$(IN)/python docs/site.py build/site
 	@echo "Open build/site/index.html"
 

@@ -1,8 +1,9 @@
-"""Builds the folder that is published: the guides of this folder as pages, beside the reference.
+"""Builds the guides of this folder as pages, in the folder that is published.
 
+    framegen docs --out build/site/reference
     python docs/site.py build/site
 
-The guides look like the reference, and need as little: no network, no script.
+The guides look like the reference beside them, and need as little: no network, no script.
 """
 # ruff: noqa: INP001 - a script, in no package
 
@@ -56,11 +57,10 @@ PAGE = """\
 
 
 def build(out: Path) -> None:
-    """Write everything below `out`, which is made anew."""
-    shutil.rmtree(out, ignore_errors=True)
-    shutil.copytree(HERE / "reference", out / "reference", ignore=shutil.ignore_patterns("*.md"))
+    """Write every guide, and the pictures in them, below `out`."""
+    out.mkdir(parents=True, exist_ok=True)
     if (HERE / "images").is_dir():
-        shutil.copytree(HERE / "images", out / "images")
+        shutil.copytree(HERE / "images", out / "images", dirs_exist_ok=True)
     for guide in sorted(HERE.glob("*.md")):
         (out / _page(guide.name)).write_text(_html(guide), encoding="utf-8", newline="\n")
 
@@ -119,7 +119,7 @@ def _address(link: str) -> str | None:
         return link
     steps = PurePosixPath(path)
     if path.startswith("../"):
-        return "reference/spec.html" if steps.parts[1] == "spec" else None
+        return f"reference/{steps.stem}/spec.html" if steps.parts[1] == "spec" else None
     return (steps.parent / _page(steps.name)).as_posix() + mark + anchor
 
 

@@ -14,6 +14,7 @@ from framegen.language.load import read_source
 from framegen.model.model import Model
 from framegen.reading.source import Source
 from framegen.reading.yamltree import Unusable, read_tree
+from framegen.render import render
 from framegen.targets import python, vectors
 
 ROOT = Path(__file__).parent.parent
@@ -80,7 +81,7 @@ def files_of(data: Data, name: str = "made_up.yaml") -> dict[str, str]:
     """The library and the vectors of a spec without findings; its schema says nothing of it."""
     compiled = compiled_of(data, name)
     assert [finding.message for finding in compiled.findings] == []
-    return python.render(compiled, {}) | vectors.render(compiled, {})
+    return render(compiled, [python.TARGET, vectors.TARGET]).files
 
 
 def leaves(value: Any, path: Steps = ()) -> Iterator[tuple[Steps, str]]:

@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from pathlib import PurePosixPath
 from typing import TYPE_CHECKING
 
+from framegen.output import banner
 from framegen.targets.table import TARGETS
 
 if TYPE_CHECKING:
@@ -28,9 +30,18 @@ def render(compiled: Compiled, targets: Iterable[Target] = TARGETS) -> Rendered:
     files: dict[str, str] = {}
     folders: list[str] = []
     for target in targets:
-        files |= target.render(compiled, snippets())
+        rendered = target.render(compiled, snippets())
+        files |= {path: _headed(target, path, text, compiled) for path, text in rendered.items()}
         folders += target.folders(compiled.model)
     return Rendered(dict(sorted(files.items())), tuple(folders), compiled.source.digest)
+
+
+def _headed(target: Target, path: str, text: str, compiled: Compiled) -> str:
+    """Put the banner on top of a file whose language has comments, save for one that is empty."""
+    comment = target.comments.get(PurePosixPath(path).suffix)
+    if comment is None or not text:
+        return text
+    return f"{comment.before}{banner(compiled.source.path)}{comment.after}\n{text}"
 
 
 def snippets() -> Snippets:

@@ -22,7 +22,9 @@ if TYPE_CHECKING:
 _LITTER = frozenset(["__pycache__", ".DS_Store", "Thumbs.db"])
 _STAGED, _KEPT = ".framegen-new", ".framegen-old"
 # How every file of the output begins, whatever its language.
-_MARK = re.compile(r"\W*generated[ _]by\W+framegen ", re.IGNORECASE)
+_MARK = re.compile(
+    r"\W*(?:comment\W+)?(?:code )?generated[ _]by\W+framegen |<!doctype html>", re.IGNORECASE
+)
 
 
 @dataclass(frozen=True, slots=True)

@@ -13,8 +13,9 @@ from typing import TYPE_CHECKING, Any
 from framegen.compile import Compiled, compile_spec
 from framegen.language.load import read_source
 from framegen.reading.source import Source
-from framegen.render import snippets
+from framegen.render import render, snippets
 from framegen.targets import docs
+from framegen.targets.docs.pages import render_site
 
 if TYPE_CHECKING:
     from framegen.model.model import Model
@@ -108,7 +109,7 @@ class Page(HTMLParser):
 
 @dataclass(frozen=True)
 class Reference:
-    """All files of one reference, by their path below its root."""
+    """One reference by path below its root: the files of Markdown that are kept, and the pages."""
 
     compiled: Compiled
     files: dict[str, str]
@@ -124,19 +125,21 @@ class Reference:
         """What follows from it."""
         return self.compiled.model
 
-    def markdown(self) -> dict[str, str]:
-        """The files of the Markdown twin."""
-        return {path: text for path, text in self.files.items() if path.endswith(".md")}
-
 
 def reference_of(source: Source) -> Reference:
     """Render the reference of a spec that has no findings."""
     compiled = compile_spec(source)
+    name = compiled.spec.protocol.name
     files = {
-        path.removeprefix(f"{docs.FOLDER}/"): text
-        for path, text in docs.render(compiled, snippets()).items()
+        path.removeprefix(f"docs/reference/{name}/"): text
+        for path, text in render(compiled, [docs.TARGET]).files.items()
     }
-    pages = {path: Page(path, text) for path, text in files.items() if path.endswith(".html")}
+    site = {
+        path.removeprefix(f"{name}/"): text
+        for path, text in render_site([compiled], snippets()).items()
+        if path.startswith(f"{name}/")
+    }
+    pages = {path: Page(path, text) for path, text in site.items()}
     return Reference(compiled, files, pages)
 
 

@@ -9,9 +9,10 @@ from typing import TYPE_CHECKING, Any
 
 import busservo
 import pytest
+from framegen.cli import main
 
 from tests.docs.peers import noisy_lines, python_events, vectors_of
-from tests.docs.reference import NODE_MODULES, reference
+from tests.docs.reference import NODE_MODULES, SPECS, reference
 from tests.docs.test_hostile_pages import PAYLOADS, hostile
 from tests.patience import PATIENCE
 
@@ -44,15 +45,12 @@ PAGES = [*NAMES, "messages/ServoMove.html", "messages/ServoPositions.html"]
 pytestmark = pytest.mark.skipif(CHROMIUM is None, reason="chromium is not installed")
 
 
-@pytest.fixture(scope="module")
+@pytest.fixture(scope="session")
 def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """The reference on a disk, as on a USB stick."""
-    root = tmp_path_factory.mktemp("stick") / "busservo reference"
-    for path, page in SITE.pages.items():
-        file = root / path
-        file.parent.mkdir(parents=True, exist_ok=True)
-        file.write_text(page.text, encoding="utf-8")
-    return root
+    """The reference on a disk, as on a USB stick: what `framegen docs` builds."""
+    root = tmp_path_factory.mktemp("stick") / "the reference"
+    assert main(["docs", str(SPECS["busservo"]), "--out", str(root)]) == 0
+    return root / "busservo"
 
 
 @pytest.fixture(scope="module")
@@ -102,7 +100,7 @@ def visit(context: BrowserContext, folder: Path) -> Iterator[Visit]:
     yield visit
     visit.tab.close()
     assert visit.troubles == []
-    assert [url for url in visit.requests if not url.startswith(folder.as_uri())] == []
+    assert [url for url in visit.requests if not url.startswith(folder.parent.as_uri())] == []
 
 
 def texts(found: Locator) -> list[str]:
@@ -288,9 +286,16 @@ def test_anchors_land(visit: Visit) -> None:
     top = tab.locator("#field-targets-position").bounding_box()
     assert top is not None
     assert 0 <= top["y"] < 720
-    tab.get_by_role("link", name=re.compile("of the spec")).first.click()
+    tab.get_by_role("link", name="targets[i].position in the spec").click()
+    assert tab.url.endswith("spec.html#messages.ServoMove.fields.targets.fields.position")
     line = tab.locator(":target").inner_text()
-    assert line.strip().endswith("ServoMove:")
+    assert line.strip().endswith("position:")
+
+
+def test_the_front_page_leads_to_the_reference(visit: Visit) -> None:
+    tab = visit.open("../index.html")
+    tab.get_by_role("link", name="Hiwonder bus servo controller").click()
+    assert tab.get_by_role("searchbox").is_visible()
 
 
 # ---------------------------------------------------------------------------- looks

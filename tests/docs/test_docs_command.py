@@ -15,16 +15,16 @@ def written(folder: Path) -> set[str]:
     return {path.relative_to(folder).as_posix() for path in folder.rglob("*") if path.is_file()}
 
 
-def test_it_writes_what_generate_would_write(
+def test_it_writes_the_pages_and_the_way_to_them(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     folder = tmp_path / "site"
     assert main(["docs", SPEC, "--out", str(folder)]) == 0
-    assert capsys.readouterr().out.strip() == str(folder / "index.html")
+    assert capsys.readouterr().out.strip() == str(folder / "busservo" / "index.html")
     site = reference("busservo")
-    assert written(folder) == set(site.files)
-    for path, text in site.files.items():
-        assert (folder / path).read_bytes() == text.encode()
+    assert written(folder) == {"index.html", *(f"busservo/{path}" for path in site.pages)}
+    for path, page in site.pages.items():
+        assert (folder / "busservo" / path).read_bytes() == page.text.encode()
 
 
 def test_it_opens_the_index(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -36,7 +36,7 @@ def test_it_opens_the_index(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> 
 
     monkeypatch.setattr(webbrowser, "open", note)
     assert main(["docs", SPEC, "--open", "--out", str(tmp_path / "a b")]) == 0
-    assert opened == [(tmp_path / "a b" / "index.html").as_uri()]
+    assert opened == [(tmp_path / "a b" / "busservo" / "index.html").as_uri()]
 
 
 def test_it_says_so_where_there_is_no_browser(

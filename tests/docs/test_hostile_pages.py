@@ -110,7 +110,7 @@ def test_links_lead_where_they_led(site: Reference, harmless: Reference) -> None
 def test_markdown_has_no_html_no_link_and_no_block_of_the_spec(
     site: Reference, harmless: Reference
 ) -> None:
-    for path, text in site.markdown().items():
+    for path, text in site.files.items():
         body = text.partition("-->")[2]
         assert "<" not in body, path
         for word in ("https://", "www.e", "{{", "{%"):

@@ -15,15 +15,25 @@ pytest.importorskip("markdown_it", reason="markdown-it-py is not installed")
 
 @pytest.fixture(scope="module")
 def site(tmp_path_factory: pytest.TempPathFactory) -> dict[str, Page]:
-    folder = tmp_path_factory.mktemp("build") / "site"
-    done = subprocess.run(
-        [sys.executable, str(ROOT / "docs" / "site.py"), str(folder)],
-        env={"PYTHONPATH": str(ROOT / "codegen")},
-        capture_output=True,
-        encoding="utf-8",
-        check=False,
-    )
-    assert done.returncode == 0, done.stderr
+    """What `make docs` builds."""
+    root = tmp_path_factory.mktemp("build")
+    folder = root / "site"
+    makefile = (ROOT / "Makefile").read_text(encoding="utf-8")
+    for command in (
+        "framegen docs --out build/site/reference",
+        "python docs/site.py build/site",
+    ):
+        assert f"\t$(IN)/{command}\n" in makefile
+        name, *words = command.replace("build/site", str(folder)).split()
+        done = subprocess.run(
+            [sys.executable, *(["-m", name] if name == "framegen" else []), *words],
+            cwd=ROOT,
+            env={"PYTHONPATH": str(ROOT / "codegen")},
+            capture_output=True,
+            encoding="utf-8",
+            check=False,
+        )
+        assert done.returncode == 0, done.stderr
     return {
         file.relative_to(folder).as_posix(): Page(
             file.relative_to(folder).as_posix(), file.read_text("utf-8")
@@ -39,16 +49,14 @@ def guides(site: dict[str, Page]) -> dict[str, Page]:
 def test_every_guide_is_a_page(site: dict[str, Page]) -> None:
     names = {file.stem for file in (ROOT / "docs").glob("*.md")} - {"README"}
     assert {path.removesuffix(".html") for path in guides(site)} - {"index"} == names
-    assert "reference/index.html" in site
+    assert {"reference/index.html", "reference/busservo/index.html"} <= site.keys()
 
 
 def test_every_link_of_a_guide_leads_somewhere(site: dict[str, Page]) -> None:
-    # The index of the guides, which every page leads to, comes from docs/README.md.
-    indexed = (ROOT / "docs" / "README.md").exists()
     for path, page in guides(site).items():
         for link in page.links:
             where, anchor = page.leads_to(link)
-            if "://" in link or (where == "index.html" and not indexed):
+            if "://" in link:
                 continue
             assert where in site, (path, link)
             assert not anchor or anchor in site[where].ids, (path, link)
@@ -57,6 +65,18 @@ def test_every_link_of_a_guide_leads_somewhere(site: dict[str, Page]) -> None:
 @needs_validator
 def test_guides_are_valid(site: dict[str, Page], tmp_path: Path) -> None:
     assert complaints(tmp_path, {path: page.text for path, page in guides(site).items()}) == []
+
+
+def test_guides_lead_to_the_pages_of_the_reference(site: dict[str, Page]) -> None:
+    reached = {page.leads_to(link)[0] for page in guides(site).values() for link in page.links}
+    expected = ["index", "busservo/index", "busservo/lookalikes", "busservo/spec"]
+    assert {f"reference/{name}.html" for name in expected} <= reached
+
+
+def test_the_front_page_of_the_references_leads_to_each(site: dict[str, Page]) -> None:
+    front = site["reference/index.html"]
+    assert [front.leads_to(link)[0] for link in front.links] == ["reference/busservo/index.html"]
+    assert "Hiwonder bus servo controller 1.0.0" in front.words
 
 
 def test_code_of_a_guide_is_code(site: dict[str, Page]) -> None:

@@ -39,7 +39,7 @@ def test_everything_can_be_generated_from_it() -> None:
     compiled = compile_spec(SPEC)
     files = render(compiled).files
     assert "generated/kiln/messages.py" in files
-    assert "docs/reference/messages/ProgramRun.html" in files
+    assert "docs/reference/kiln/messages/ProgramRun.md" in files
 
 
 @pytest.mark.parametrize(("model", "key"), KEYS)

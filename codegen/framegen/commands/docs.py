@@ -1,4 +1,4 @@
-"""`framegen docs`: the reference of a spec, for a look."""
+"""`framegen docs`: the reference of a spec as pages."""
 
 from __future__ import annotations
 
@@ -11,11 +11,11 @@ from framegen.wording import counted
 if TYPE_CHECKING:
     from argparse import ArgumentParser, Namespace
 
-SUMMARY = "Write the reference of a spec into a folder of its own, and open it in a browser."
+SUMMARY = "Build the reference of a spec as pages, with a search, a decoder and a cheat sheet."
 EXAMPLES = (
     ("framegen docs --open", "the reference of spec/*.yaml, in your browser"),
     ("framegen docs SPEC.yaml --open", "that of another spec"),
-    ("framegen docs --out site", "write it into this folder, ready to be served"),
+    ("framegen docs --out site", "build it in site/NAME, ready to be served"),
 )
 
 
@@ -29,13 +29,13 @@ def add_arguments(parser: ArgumentParser) -> None:
 
 
 def run(arguments: Namespace) -> int:
-    """Render the reference alone, and print where its index is. 1 where the spec has findings."""
+    """Build the pages, and print where their index is. 1 where the spec has findings."""
     from tempfile import mkdtemp  # noqa: PLC0415
     from webbrowser import open as open_in_browser  # noqa: PLC0415
 
     from framegen.commands.spec_argument import compiled  # noqa: PLC0415
     from framegen.render import snippets  # noqa: PLC0415
-    from framegen.targets import docs  # noqa: PLC0415
+    from framegen.targets.docs.pages import render_site  # noqa: PLC0415
 
     spec = compiled(arguments.spec)
     if spec.findings:
@@ -44,13 +44,13 @@ def run(arguments: Namespace) -> int:
         found = counted(len(spec.findings), "finding")
         print(f"{found} in {spec.source.name}: nothing was written", file=sys.stderr)
         return 1
-    files = docs.render(spec, snippets())
+    files = render_site([spec], snippets())
     folder: Path = arguments.out or Path(mkdtemp(prefix="framegen-docs-"))
     for path, text in files.items():
-        file = folder / Path(path).relative_to(docs.FOLDER)
+        file = folder / path
         file.parent.mkdir(parents=True, exist_ok=True)
         file.write_bytes(text.encode())
-    index = folder / "index.html"
+    index = folder / spec.model.spec.protocol.name / "index.html"
     print(index)
     if arguments.open and not open_in_browser(index.resolve().as_uri()):
         print("no browser was found; open the file yourself", file=sys.stderr)

@@ -13,7 +13,7 @@ from framegen.language.edition import is_newer, refusal
 from framegen.language.misfit import misfits
 from framegen.language.spec import Spec
 from framegen.reading.findings import Finding
-from framegen.reading.source import Source
+from framegen.reading.source import Source, below_root
 from framegen.reading.yamltree import Tree, Unusable, read_tree
 
 if TYPE_CHECKING:
@@ -62,7 +62,7 @@ def read_source(file: Path) -> Source:
             f"{name} is not UTF-8 text: byte {error.start} is 0x{data[error.start]:02X}",
             hint="save it as UTF-8",
         ) from None
-    return Source(name, text.replace("\r\n", "\n"))
+    return Source(name, text.replace("\r\n", "\n"), below_root(file.parent.resolve() / file.name))
 
 
 def load(source: Source) -> Loaded:

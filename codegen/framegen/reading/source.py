@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 from hashlib import sha256
+from pathlib import PurePath
 
 
 @dataclass(frozen=True, slots=True, order=True)
@@ -17,14 +18,21 @@ class Span:
 
 @dataclass(frozen=True, slots=True)
 class Source:
-    """A spec as text. `name` is how its reader knows it: the path as it was given."""
+    """A spec as text. `name` is how its reader knows it: the path as it was given.
+
+    `path` is where it lies below the root of its project, wherever that is: spec/NAME, or NAME
+    for a spec that lies in no folder `spec`. Without one it follows from the name.
+    """
 
     name: str
     text: str
+    path: str = ""
     lines: list[str] = field(init=False, repr=False)
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "lines", self.text.split("\n"))
+        if not self.path:
+            object.__setattr__(self, "path", below_root(PurePath(self.name)))
 
     @property
     def digest(self) -> str:
@@ -34,3 +42,8 @@ class Source:
     def line(self, number: int) -> str:
         """Line `number`, counted from 1; empty past the end of the text."""
         return self.lines[number - 1] if 0 < number <= len(self.lines) else ""
+
+
+def below_root(file: PurePath) -> str:
+    """Give the path of a spec below the root of its project: the folder that holds spec/."""
+    return f"spec/{file.name}" if file.parent.name == "spec" else file.name

@@ -5,10 +5,12 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+from framegen.reading.yamltree import dotted
+
 if TYPE_CHECKING:
     from framegen.language.spec import Spec
     from framegen.language.values import Citation
-    from framegen.reading.yamltree import KeyPath, Tree
+    from framegen.reading.yamltree import KeyPath
 
 
 @dataclass(frozen=True, slots=True)
@@ -40,31 +42,17 @@ def cite_view(spec: Spec, cite: Citation) -> CiteView:
 
 
 @dataclass(frozen=True, slots=True)
-class Lines:
-    """Lines of the spec, counted from 1, both ends among them."""
+class Place:
+    """A place in the spec, by the keys that lead to it: it stays where lines come and go."""
 
-    first: int
-    last: int
+    keys: KeyPath
 
     @property
     def text(self) -> str:
-        """Which lines they are, in words."""
-        if self.first == self.last:
-            return f"line {self.first}"
-        return f"lines {self.first} to {self.last}"
+        """The keys as people write them: `messages.ServoMove.fields.time_ms`."""
+        return dotted(self.keys)
 
     @property
     def html(self) -> str:
         """The address in the reference, without the way to its root."""
-        return f"spec.html#L{self.first}"
-
-    @property
-    def forge(self) -> str:
-        """The fragment that forges understand."""
-        return f"#L{self.first}" if self.first == self.last else f"#L{self.first}-L{self.last}"
-
-
-def lines_of(tree: Tree, path: KeyPath) -> Lines:
-    """Find the lines that a value takes, its key among them."""
-    first = tree.key_at(path).line
-    return Lines(first, max(first, tree.last_line(path)))
+        return f"spec.html#{self.text}"

@@ -9,6 +9,8 @@ from urllib.parse import quote
 
 from markupsafe import Markup, escape
 
+from framegen.targets.docs.address import message_page
+
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
@@ -52,12 +54,12 @@ def verbatim(value: object) -> Safe:
 
 def address(value: object) -> Safe:
     """Put text into the target of a link, which it must not be able to leave."""
-    return Safe(quote(str(value), safe="#"))
+    return Safe(quote(str(value), safe="#/"))
 
 
 def named(name: str, root: str) -> Safe:
     """Make a message name lead to its page; the names of messages are plain words."""
-    return Safe(f"[{markdown(name)}]({root}messages/{quote(name)}.md)")
+    return Safe(f"[{markdown(name)}]({root}{quote(message_page(name))}.md)")
 
 
 def linked(text: str, addresses: Mapping[str, str], root: str) -> Markup:

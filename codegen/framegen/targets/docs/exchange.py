@@ -6,7 +6,8 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from framegen.language.values import to_hex
-from framegen.targets.docs.cite import CiteView, Lines, cite_view, lines_of
+from framegen.targets.docs.address import message_page
+from framegen.targets.docs.cite import CiteView, Place, cite_view
 from framegen.targets.docs.strip import Cell, frame_strip
 
 if TYPE_CHECKING:
@@ -15,7 +16,6 @@ if TYPE_CHECKING:
     from framegen.language.spec import Example
     from framegen.model.layout import MessageLayout
     from framegen.model.model import Model
-    from framegen.reading.yamltree import Tree
 
 
 @dataclass(frozen=True, slots=True)
@@ -31,7 +31,12 @@ class ExampleView:
     cells: list[Cell]
     cite: CiteView | None
     constructed: str
-    lines: Lines
+    place: Place
+
+    @property
+    def page(self) -> str:
+        """The page of its message."""
+        return message_page(self.message)
 
     @property
     def hex(self) -> str:
@@ -58,7 +63,7 @@ class Exchange:
     certain: bool
 
 
-def example_views(model: Model, tree: Tree, message: MessageLayout) -> list[ExampleView]:
+def example_views(model: Model, message: MessageLayout) -> list[ExampleView]:
     """Every example of a message."""
     return [
         ExampleView(
@@ -71,15 +76,15 @@ def example_views(model: Model, tree: Tree, message: MessageLayout) -> list[Exam
             frame_strip(model, message, example.hex),
             None if example.cite is None else cite_view(model.spec, example.cite),
             example.constructed,
-            lines_of(tree, ("messages", message.name, "examples", number - 1)),
+            Place(("messages", message.name, "examples", number - 1)),
         )
         for number, example in enumerate(message.message.examples, 1)
     ]
 
 
-def exchanges(model: Model, tree: Tree) -> list[Exchange]:
+def exchanges(model: Model) -> list[Exchange]:
     """Every documented frame once: requests with what answers them, then what is left over."""
-    views = {name: example_views(model, tree, message) for name, message in model.messages.items()}
+    views = {name: example_views(model, message) for name, message in model.messages.items()}
     told: set[tuple[str, int]] = set()
     found: list[Exchange] = []
     for name, message in model.messages.items():

@@ -6,14 +6,14 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from framegen.language.spec import NumberField
-from framegen.targets.docs.cite import CiteView, Lines, cite_view, lines_of
+from framegen.targets.docs.cite import CiteView, Place, cite_view
 from framegen.targets.docs.strip import repeated
 
 if TYPE_CHECKING:
     from framegen.language.spec import GroupField
     from framegen.model.layout import MessageLayout, WireField
     from framegen.model.model import Model
-    from framegen.reading.yamltree import KeyPath, Tree
+    from framegen.reading.yamltree import KeyPath
 
 
 @dataclass(frozen=True, slots=True)
@@ -48,7 +48,7 @@ class FieldView:
     notes: list[NoteView]
     beside: list[str]
     cite: CiteView
-    lines: Lines
+    place: Place
     derived: bool
 
     @property
@@ -57,9 +57,9 @@ class FieldView:
         return "field-" + self.path.replace("[i]", "").replace(".", "-")
 
 
-def field_views(model: Model, tree: Tree, message: MessageLayout) -> list[FieldView]:
+def field_views(model: Model, message: MessageLayout) -> list[FieldView]:
     """Every field of a message in the order of the frame; those of an element after their list."""
-    maker = _Maker(model, tree, message)
+    maker = _Maker(model, message)
     views = [
         maker.number(field, field.name, str(field.offset), ("fields", field.name))
         for field in message.numbers
@@ -92,7 +92,6 @@ def field_views(model: Model, tree: Tree, message: MessageLayout) -> list[FieldV
 @dataclass(frozen=True, slots=True)
 class _Maker:
     model: Model
-    tree: Tree
     message: MessageLayout
 
     def number(
@@ -143,7 +142,7 @@ class _Maker:
             beside=_beside(path.rpartition(".")[2], field),
             notes=[NoteView(note.text, cite_view(spec, note.cite)) for note in field.notes],
             cite=cite_view(spec, field.cite or self.message.message.cite),
-            lines=lines_of(self.tree, ("messages", self.message.name, *key)),
+            place=Place(("messages", self.message.name, *key)),
             derived=derived,
         )
 

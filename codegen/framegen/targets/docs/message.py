@@ -6,7 +6,8 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING
 
-from framegen.targets.docs.cite import CiteView, Lines, cite_view, lines_of
+from framegen.targets.docs.address import message_page
+from framegen.targets.docs.cite import CiteView, Place, cite_view
 from framegen.targets.docs.drawing import Drawing, drawing
 from framegen.targets.docs.escape import paragraphs
 from framegen.targets.docs.exchange import ExampleView, example_views
@@ -19,7 +20,6 @@ if TYPE_CHECKING:
     from framegen.language.spec import Message
     from framegen.model.layout import MessageLayout
     from framegen.model.model import Model
-    from framegen.reading.yamltree import Tree
     from framegen.targets.target import Snippets
 
 
@@ -28,7 +28,6 @@ class MessageView:
     """The facts of one message, each ready to be shown."""
 
     model: Model
-    tree: Tree
     layout: MessageLayout
     snippets: Snippets
 
@@ -43,9 +42,9 @@ class MessageView:
         return self.layout.name
 
     @property
-    def address(self) -> str:
-        """Its page, from the root of the reference."""
-        return f"messages/{self.name}.html"
+    def page(self) -> str:
+        """Its page, from the root of the reference, whatever it is written in."""
+        return message_page(self.name)
 
     @property
     def code(self) -> int:
@@ -77,10 +76,10 @@ class MessageView:
         """Where it is known from."""
         return cite_view(self.model.spec, self.said.cite)
 
-    @cached_property
-    def lines(self) -> Lines:
+    @property
+    def place(self) -> Place:
         """Where the spec says all this."""
-        return lines_of(self.tree, ("messages", self.name))
+        return Place(("messages", self.name))
 
     @property
     def answers(self) -> list[str]:
@@ -139,12 +138,12 @@ class MessageView:
     @cached_property
     def fields(self) -> list[FieldView]:
         """Its fields, in the order of the frame."""
-        return field_views(self.model, self.tree, self.layout)
+        return field_views(self.model, self.layout)
 
     @cached_property
     def examples(self) -> list[ExampleView]:
         """Its documented frames."""
-        return example_views(self.model, self.tree, self.layout)
+        return example_views(self.model, self.layout)
 
     @property
     def sends(self) -> bool:

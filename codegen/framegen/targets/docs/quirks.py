@@ -9,14 +9,13 @@ from framegen.language.formula import Formula
 from framegen.language.values import to_hex
 from framegen.model.codec import NotAFrame, decode
 from framegen.model.lookalikes import recognise
-from framegen.targets.docs.cite import CiteView, Lines, cite_view, lines_of
+from framegen.targets.docs.cite import CiteView, Place, cite_view
 from framegen.targets.docs.escape import paragraphs
 from framegen.targets.docs.strip import Cell, given_strip, parts_strip
 
 if TYPE_CHECKING:
     from framegen.language.spec import Concern, Lookalike
     from framegen.model.model import Model
-    from framegen.reading.yamltree import Tree
 
 
 @dataclass(frozen=True, slots=True)
@@ -32,7 +31,7 @@ class ErratumView:
     bytes: str
     here: str
     why: str
-    lines: Lines
+    place: Place
 
 
 @dataclass(frozen=True, slots=True)
@@ -78,7 +77,7 @@ class LookalikeView:
     codes: list[ForeignCode]
 
 
-def erratum_views(model: Model, tree: Tree) -> list[ErratumView]:
+def erratum_views(model: Model) -> list[ErratumView]:
     """Every erratum, in the order of the spec."""
     return [
         ErratumView(
@@ -91,7 +90,7 @@ def erratum_views(model: Model, tree: Tree) -> list[ErratumView]:
             _shown(erratum.bytes_),
             erratum.here,
             erratum.why,
-            lines_of(tree, ("errata", number - 1)),
+            Place(("errata", number - 1)),
         )
         for number, erratum in enumerate(model.spec.errata, 1)
     ]

@@ -6,12 +6,12 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING
 
-from framegen import __version__
 from framegen.targets.docs.cite import CiteView, cite_view
 from framegen.targets.docs.drawing import Drawing, interruption
 from framegen.targets.docs.escape import paragraphs
 from framegen.targets.docs.exchange import Exchange, exchanges
 from framegen.targets.docs.lessons import Lesson, lessons
+from framegen.targets.docs.listing import Line, listing
 from framegen.targets.docs.message import MessageView
 from framegen.targets.docs.quirks import (
     ErratumView,
@@ -25,28 +25,41 @@ from framegen.targets.docs.strip import Cell, parts_strip
 from framegen.targets.docs.timing import RoundTrip, Timing, bytes_a_second, round_trips, timings
 
 if TYPE_CHECKING:
+    from framegen.compile import Compiled
     from framegen.language.spec import HidBoard, Protocol, Release, Reserved, SourceDocument
     from framegen.model.model import Model
-    from framegen.reading.source import Source
-    from framegen.reading.yamltree import Tree
     from framegen.targets.target import Snippets
+
+# From docs/reference/<name> to the root of the project.
+_TO_ROOT = "../../../"
 
 
 @dataclass(frozen=True, slots=True)
 class PageView:
-    """One page: its file below the root, its template, what leads to it, and its scripts."""
+    """One page: its name below the root, its template, what leads to it, and its scripts."""
 
-    path: str
+    name: str
     template: str
     title: str
     label: str
     scripts: tuple[str, ...] = ("page",)
+    twin: bool = True
     message: MessageView | None = None
+
+    @property
+    def html(self) -> str:
+        """Its file in HTML, from the root of the reference."""
+        return f"{self.name}.html"
+
+    @property
+    def markdown(self) -> str:
+        """Its file in Markdown; what forges show of a folder is its README."""
+        return "README.md" if self.name == "index" else f"{self.name}.md"
 
     @property
     def root(self) -> str:
         """The way from the page to the root of the reference."""
-        return "../" * self.path.count("/")
+        return "../" * self.name.count("/")
 
 
 @dataclass(frozen=True, slots=True)
@@ -81,10 +94,13 @@ class ReservedView:
 class SiteView:
     """Everything that pages are made of."""
 
-    source: Source
-    model: Model
-    tree: Tree
+    compiled: Compiled
     snippets: Snippets
+
+    @property
+    def model(self) -> Model:
+        """What follows from the spec."""
+        return self.compiled.model
 
     @property
     def protocol(self) -> Protocol:
@@ -92,19 +108,14 @@ class SiteView:
         return self.model.spec.protocol
 
     @property
-    def spec_name(self) -> str:
-        """The file name of the spec, without its folder: that differs from place to place."""
-        return self.source.name.rpartition("/")[2]
+    def spec(self) -> str:
+        """The path of the spec, below the root of its project."""
+        return self.compiled.source.path
 
     @property
-    def digest(self) -> str:
-        """What pins the spec."""
-        return self.source.digest
-
-    @property
-    def framegen(self) -> str:
-        """The version of the generator."""
-        return __version__
+    def spec_link(self) -> str:
+        """The way from the root of the reference to the spec; empty where it lies elsewhere."""
+        return f"{_TO_ROOT}{self.spec}" if self.spec.startswith("spec/") else ""
 
     @property
     def description(self) -> list[str]:
@@ -171,7 +182,7 @@ class SiteView:
     def messages(self) -> list[MessageView]:
         """Every message, in the order of the spec."""
         return [
-            MessageView(self.model, self.tree, message, self.snippets)
+            MessageView(self.model, message, self.snippets)
             for message in self.model.messages.values()
         ]
 
@@ -182,13 +193,13 @@ class SiteView:
 
     @cached_property
     def addresses(self) -> dict[str, str]:
-        """The page of each message."""
-        return {message.name: message.address for message in self.messages}
+        """The page of each message, in HTML."""
+        return {message.name: f"{message.page}.html" for message in self.messages}
 
     @cached_property
     def exchanges(self) -> list[Exchange]:
         """Every documented frame, requests with what comes back."""
-        return exchanges(self.model, self.tree)
+        return exchanges(self.model)
 
     @cached_property
     def lessons(self) -> list[Lesson]:
@@ -221,7 +232,7 @@ class SiteView:
     @cached_property
     def errata(self) -> list[ErratumView]:
         """Where the documents are wrong."""
-        return erratum_views(self.model, self.tree)
+        return erratum_views(self.model)
 
     @cached_property
     def unknowns(self) -> list[UnknownView]:
@@ -250,36 +261,32 @@ class SiteView:
         return self.model.spec.history[::-1]
 
     @property
-    def spec_lines(self) -> list[str]:
-        """The spec itself, without the blank line at its end."""
-        return self.source.text.rstrip("\n").split("\n")
+    def listing(self) -> list[Line]:
+        """The spec itself."""
+        return listing(self.compiled.source, self.compiled.tree)
 
     @cached_property
     def pages(self) -> list[PageView]:
         """The pages that the navigation leads to."""
+        # The decoder needs a script, the cheat sheet paper, and the spec is YAML: no twin.
+        decoder = ("codec", "page", "decoder")
         return [
-            PageView("index.html", "index", self.protocol.title, "Frames"),
-            PageView("examples.html", "examples", "Examples, byte by byte", "Examples"),
-            PageView(
-                "decoder.html",
-                "decoder",
-                "Decoder and encoder",
-                "Decoder",
-                ("codec", "page", "decoder"),
-            ),
-            PageView("stream.html", "stream", "How the stream is decoded", "Stream"),
-            PageView("sequences.html", "sequences", "Sequences and timing", "Sequences"),
-            PageView("errata.html", "errata", "Errata and unknowns", "Errata"),
-            PageView("lookalikes.html", "lookalikes", "Is this your protocol?", "Look-alikes"),
-            PageView("cheatsheet.html", "cheatsheet", "Cheat sheet", "Cheat sheet"),
-            PageView("changelog.html", "changelog", "Changelog", "Changelog"),
-            PageView("spec.html", "spec", "The spec", "Spec", ()),
+            PageView("index", "index", self.protocol.title, "Frames"),
+            PageView("examples", "examples", "Examples, byte by byte", "Examples"),
+            PageView("decoder", "decoder", "Decoder and encoder", "Decoder", decoder, twin=False),
+            PageView("stream", "stream", "How the stream is decoded", "Stream"),
+            PageView("sequences", "sequences", "Sequences and timing", "Sequences"),
+            PageView("errata", "errata", "Errata and unknowns", "Errata"),
+            PageView("lookalikes", "lookalikes", "Is this your protocol?", "Look-alikes"),
+            PageView("cheatsheet", "cheatsheet", "Cheat sheet", "Cheat sheet", twin=False),
+            PageView("changelog", "changelog", "Changelog", "Changelog"),
+            PageView("spec", "spec", "The spec", "Spec", (), twin=False),
         ]
 
     @cached_property
     def message_pages(self) -> list[PageView]:
         """A page for each message."""
         return [
-            PageView(message.address, "message", message.name, message.name, message=message)
+            PageView(message.page, "message", message.name, message.name, message=message)
             for message in self.messages
         ]

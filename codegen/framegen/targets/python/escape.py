@@ -15,19 +15,12 @@ if TYPE_CHECKING:
 WIDTH = 100
 # A quote that stands first, last or before another could begin or end a docstring.
 _RISKY_QUOTE = re.compile(r'\A"|"(?="|\Z)')
-# In a comment at the top of a file, `coding:` would change how Python reads the rest.
-_RISKY_IN_COMMENT = re.compile(r"[^A-Za-z0-9 ._+-]")
 
 
 def literal(text: str) -> str:
     """`text` as a string literal, in the quotes that the formatter would choose."""
     quote = "'" if text.count('"') > text.count("'") else '"'
     return quote + "".join(_escaped(character, f"{quote}\\") for character in text) + quote
-
-
-def comment(text: str) -> str:
-    """`text` for a comment: all that it can do is to be read."""
-    return _RISKY_IN_COMMENT.sub("_", text)
 
 
 def prose(text: str) -> str:

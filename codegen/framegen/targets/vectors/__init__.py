@@ -9,10 +9,10 @@ from __future__ import annotations
 import json
 from typing import TYPE_CHECKING, Any
 
-from framegen import __version__
 from framegen.language.values import to_hex
 from framegen.model.codec import NotAFrame, decode, encode
 from framegen.model.layout import Repeat
+from framegen.output import banner
 from framegen.targets.target import Target
 
 if TYPE_CHECKING:
@@ -31,10 +31,9 @@ def render(compiled: Compiled, _snippets: Snippets) -> dict[str, str]:
     protocol = model.spec.protocol
     valid = [vector for message in model.messages.values() for vector in _valid(model, message)]
     document = {
-        "generated_by": f"framegen {__version__}",
+        "comment": banner(compiled.source.path),
         "protocol": protocol.name,
         "version": protocol.version,
-        "spec_sha256": compiled.source.digest,
         "valid": valid,
         "invalid": list(_invalid(model)),
     }

@@ -1,0 +1,62 @@
+"""The spec to the letter, each of its keys an anchor."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from framegen.reading.yamltree import dotted
+
+if TYPE_CHECKING:
+    from framegen.reading.source import Source
+    from framegen.reading.yamltree import Tree
+
+
+@dataclass(frozen=True, slots=True)
+class Piece:
+    """Some text of a line, which a key begins. `anchor` is empty where it begins none."""
+
+    anchor: str
+    text: str
+
+
+@dataclass(frozen=True, slots=True)
+class Line:
+    """One line of the spec: `anchor` names what begins first on it, if anything does."""
+
+    number: int
+    anchor: str
+    pieces: list[Piece]
+
+
+def listing(source: Source, tree: Tree) -> list[Line]:
+    """Every line, but for the blank one at the end."""
+    begins = _begins(tree)
+    lines = source.text.rstrip("\n").split("\n")
+    return [_line(number, text, begins.get(number, [])) for number, text in enumerate(lines, 1)]
+
+
+def _line(number: int, text: str, begins: list[tuple[int, str]]) -> Line:
+    if not begins:
+        return Line(number, "", [Piece("", text)])
+    (_, anchor), *others = begins
+    starts = [(0, ""), *others]
+    ends = [*(start for start, _ in others), len(text)]
+    pieces = [Piece(name, text[start:end]) for (start, name), end in zip(starts, ends, strict=True)]
+    return Line(number, anchor, pieces)
+
+
+def _begins(tree: Tree) -> dict[int, list[tuple[int, str]]]:
+    """What begins on each line: columns, counted from 0, with anchors; what is around first."""
+    found: dict[int, list[tuple[int, str]]] = {}
+    for keys in sorted({*tree.keys, *tree.values} - {()}, key=len):
+        if all(map(_plain, keys)):
+            span = tree.key_at(keys)
+            found.setdefault(span.line, []).append((span.column - 1, dotted(keys)))
+    return {line: sorted(each, key=lambda begin: begin[0]) for line, each in found.items()}
+
+
+def _plain(step: str | int) -> bool:
+    """Whether a key can be part of an anchor: a word or a number, and no text of the author's."""
+    return isinstance(step, int) or re.fullmatch(r"\w+", step, re.ASCII) is not None
