@@ -143,8 +143,8 @@ def test_only_what_can_work_is_offered(folder: Path, name: str, verbs: list[str]
 
 
 MISSING = (
-    "greenhouse: error: the package greenhouse_simulator is not installed here; where there is "
-    "none, greenhouse.Device is what a virtual device can be made of\n"
+    "greenhouse: error: the package greenhouse_simulator is not installed here: install it, or "
+    "else make a virtual device of greenhouse.Device\n"
 )
 
 
