@@ -791,15 +791,15 @@ def tool(name: str) -> str:
     return found
 
 
-# Protocols in which one end alone speaks, by the names of their files.
-ONE_WAY = ("lamp", "weather")
+# Other protocols, by the names of their files: one with poses, two in which one end alone speaks.
+OTHERS = ("blinds", "lamp", "weather")
 
 
 @pytest.fixture(scope="module")
 def many(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """The libraries of the demo spec and the guide, of all the shapes above, of hardly anything."""
     folder = tmp_path_factory.mktemp("many")
-    specs = [SPEC, kiln(), *(data_of(DEMO.with_name(f"{name}.yaml")) for name in ONE_WAY)]
+    specs = [SPEC, kiln(), *(data_of(DEMO.with_name(f"{name}.yaml")) for name in OTHERS)]
     for name, shapes in {"shapes": list(SHAPES), "bare": ["no fields at all"]}.items():
         messages = {
             f"Made{number:02}": {**SHAPES[shape][0], "length": SHAPES[shape][1]}
@@ -864,6 +864,7 @@ def test_the_doctor_of_a_library_finds_its_way_without_a_board(many: Path, name:
             "greenhouse",
             "kiln",
             "shapes",
+            "blinds",
             "stage_lamp",
             "weather",
         ),

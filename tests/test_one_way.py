@@ -12,10 +12,11 @@ from framegen.model.codec import NotAFrame
 from hypothesis import given
 from hypothesis import strategies as st
 
+from tests.device_line import DeviceLine, client_of
 from tests.patience import PATIENCE
-from tests.specimens import ROOT, data_of, files_of, layout_of, library
+from tests.specimens import DEMO, data_of, files_of, layout_of, library
 
-WEATHER, LAMP = (data_of(ROOT / "tests" / "specs" / f"{name}.yaml") for name in ("weather", "lamp"))
+WEATHER, LAMP = (data_of(DEMO.with_name(f"{name}.yaml")) for name in ("weather", "lamp"))
 MODELS = {"weather": layout_of(WEATHER), "stage_lamp": layout_of(LAMP)}
 
 
@@ -32,38 +33,6 @@ def libraries(tmp_path_factory: pytest.TempPathFactory) -> Iterator[None]:
 
 def lib(name: str, module: str = "") -> Any:
     return importlib.import_module(f"{name}.{module}" if module else name)
-
-
-class Line:
-    """A line to a device, in virtual time: what the device sends waits here to be read."""
-
-    name = "line"
-
-    def __init__(self, device: Any) -> None:
-        self.device = device
-        self.now = 0.0
-
-    def clock(self) -> float:
-        return self.now
-
-    def read(self, timeout: float) -> bytes:
-        data = b"".join(message.encode() for message in self.device.take())
-        self.now += 0.0 if data else max(timeout, 1e-6)
-        return data
-
-    def write(self, data: bytes) -> None:
-        self.device.accept(data)
-
-    def drain(self, _timeout: float) -> None:
-        pass
-
-    def close(self) -> None:
-        pass
-
-
-def client(name: str, device: Any) -> Any:
-    line = Line(device)
-    return lib(name).Controller(line, background=False, clock=line.clock, settle=0)
 
 
 def public(kind: type) -> set[str]:
@@ -84,7 +53,7 @@ def test_what_a_sensor_sends_its_client_receives() -> None:
     weather = lib("weather")
     gale, gusts = weather.WindMeasured(speed=200, bearing=0), weather.GustsMeasured([210, 250])
     mast = weather.Device()
-    with client("weather", mast) as logger:
+    with client_of(mast) as logger:
         noted: list[Any] = []
         logger.on_report(noted.append)
         mast.send(gale)
@@ -102,7 +71,7 @@ def test_what_a_sensor_sends_is_received_with_asyncio() -> None:
     gusts = weather.GustsMeasured([])
     mast = weather.Device()
 
-    class RealLine(Line):
+    class RealLine(DeviceLine):
         """Asyncio has the time that it is: a read that finds nothing waits."""
 
         def read(self, timeout: float) -> bytes:
@@ -121,7 +90,7 @@ def test_what_a_sensor_sends_is_received_with_asyncio() -> None:
 
 def test_nothing_can_be_sent_to_a_sensor() -> None:
     weather = lib("weather")
-    with client("weather", weather.Device()) as logger, pytest.raises(TypeError, match="WindMea"):
+    with client_of(weather.Device()) as logger, pytest.raises(TypeError, match="WindMea"):
         logger.send(weather.WindMeasured(speed=1, bearing=0))
 
 
@@ -139,7 +108,7 @@ def test_what_a_client_sends_a_lamp_receives_and_nothing_comes_back() -> None:
         def on_darken(self, message: Any) -> None:
             shown.append(message)
 
-    with client("stage_lamp", Lamp()) as desk:
+    with client_of(Lamp()) as desk:
         desk.colour_show(1, green=2, blue=3)
         desk.darken()
         assert [*desk.reports(timeout=1)] == []

@@ -13,19 +13,20 @@ from typing import Any
 
 import pytest
 
-from tests.specimens import BUSSERVO, DEMO, ROOT, Data, data_of, files_of, leaves
+from tests.specimens import BUSSERVO, DEMO, Data, data_of, files_of, leaves
 
-# One that asks and answers, a sensor that only reports, a lamp that only takes commands.
-WEATHER, LAMP = (ROOT / "tests" / "specs" / f"{name}.yaml" for name in ("weather", "lamp"))
-OTHERS = {data_of(file)["protocol"]["name"]: file for file in (DEMO, WEATHER, LAMP)}
+# One that asks and answers, one with poses, a sensor that only reports, a lamp that only obeys.
+FILES = [DEMO, *(DEMO.with_name(f"{name}.yaml") for name in ("blinds", "weather", "lamp"))]
+OTHERS = {data_of(file)["protocol"]["name"]: file for file in FILES}
 
-# Names in busservo's spec that are plain English, or words of the language that specs are written
-# in, and may stand in any library.
+# Names in busservo's spec that are plain English, words of the language that specs are written in,
+# or (`time_ms`) a key in files of poses, and may stand in any library.
 PLAIN = {"absent", "all", "group", "host", "percent", "position", "positions", "targets", "times"}
+PLAIN |= {"time_ms"}
 # What is said of servos, of the boards that drive them, and of those who make them.
 SAID = (
     *(r"\w*servos?\w*", "arms?", "boards?", "grippers?", "robots?", "handsets?", "LED2"),
-    *("batter(?:y|ies)", "voltages?", "buzzers?", "beeps?", "torque", "limp", "action groups?"),
+    *("batter(?:y|ies)", "voltages?", "buzzers?", "beeps?", "torque", "action groups?"),
     *("hiwonder", "lewansoul", "xarm", "le-?arm", r"lx-?\w+", r"lsc-?\w*", "(?:the|a) host"),
     *("9600", "55 55", "5555", "0x55"),
 )
@@ -89,7 +90,7 @@ def test_no_library_speaks_of_another_protocol(name: str) -> None:
 def test_what_is_looked_for_is_found_where_it_belongs() -> None:
     """Else the test above would hold for want of words, or of eyes."""
     found = told(files_of(data_of(BUSSERVO)), forbidden(data_of(DEMO)))
-    for word in ("ServoMove", "time_ms", "servo", "battery", "CMD_SERVO_MOVE", "controller"):
+    for word in ("ServoMove", "servo_ids", "servo", "battery", "CMD_SERVO_MOVE", "controller"):
         assert any(word in line for line in found), word
 
 
@@ -128,12 +129,13 @@ HEARING = ["decode", "doctor", "encode", "monitor", "ports"]
     ("name", "verbs"),
     [
         ("greenhouse", ["bench-line", *HEARING, "replay", "send"]),
+        ("blinds", ["bench-line", *HEARING, "replay", "send", "play", "teach"]),
         ("weather", HEARING),
         ("stage_lamp", [*HEARING, "replay", "send"]),
     ],
 )
 def test_only_what_can_work_is_offered(folder: Path, name: str, verbs: list[str]) -> None:
-    assert verbs_of(folder, name) == verbs
+    assert verbs_of(folder, name) == sorted(verbs)
     for verb in verbs:
         code, shown, _ = command(folder, name, verb, "--help")
         assert (code, shown.startswith(f"usage: {name} {verb} ")) == (0, True)
@@ -141,13 +143,14 @@ def test_only_what_can_work_is_offered(folder: Path, name: str, verbs: list[str]
 
 
 MISSING = (
-    "greenhouse: error: the package greenhouse_simulator is not installed here; where there is "
-    "none, greenhouse.Device is what a virtual device can be made of\n"
+    "greenhouse: error: the package greenhouse_simulator is not installed here: install it, or "
+    "else make a virtual device of greenhouse.Device\n"
 )
 
 
 def test_there_is_a_simulator_where_one_is_installed(folder: Path, tmp_path: Path) -> None:
     assert command(folder, "greenhouse", "simulate") == (2, "", MISSING)
+    assert "simulate" in verbs_of(folder, "busservo")
     package = folder / "greenhouse_simulator"
     package.mkdir()
     (package / "__init__.py").touch()

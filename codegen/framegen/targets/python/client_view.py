@@ -1,4 +1,4 @@
-"""What the templates of the two clients show: one method for each message of the host.
+"""What the templates of the two clients show: one method for each message of the client.
 
 Both clients are made of this one description; they differ in `async`, `await` and their base class.
 """

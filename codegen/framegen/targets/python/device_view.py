@@ -69,24 +69,15 @@ class DeviceView:
         return direction_member(self.incoming)
 
     @property
-    def endpoint(self) -> str:
-        """What the spec calls this end."""
-        return self.incoming.receiver
-
-    @property
-    def host(self) -> str:
-        """What the spec calls the other end."""
-        return self.incoming.sender
-
-    @property
     def about(self) -> list[str]:
         """The docstring of the class."""
+        roles = self.model.roles
         use = (
-            f"Bytes of the {self.host} go in by `receive`, and what there is to send comes back. "
-            "A handler that is not overridden does nothing and answers nothing. "
+            f"Bytes of the {roles.client} go in by `receive`, and what there is to send comes "
+            "back. A handler that is not overridden does nothing and answers nothing. "
             "What is no message is counted in `rejects`, by reason."
         )
-        what = f"The {self.endpoint}'s end of the line: override a handler to say what it does."
+        what = f"The {roles.device}'s end of the line: override a handler to say what it does."
         return [what, use]
 
     @property

@@ -1,4 +1,4 @@
-"""What the templates of the two clients show of a method, which sends one message of the host."""
+"""What the templates of the two clients show of a method, which sends one message."""
 
 from __future__ import annotations
 

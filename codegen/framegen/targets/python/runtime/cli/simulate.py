@@ -22,8 +22,8 @@ def hand_over(words: Sequence[str]) -> int:
         if error.name not in {SIMULATOR, module}:
             raise
         raise UnusableError(
-            f"the package {SIMULATOR} is not installed here; where there is none, "
-            f"{PROGRAM}.Device is what a virtual device can be made of"
+            f"the package {SIMULATOR} is not installed here: install it, or else make a virtual "
+            f"device of {PROGRAM}.Device"
         ) from None
     code: int = simulator.main(list(words), program=f"{PROGRAM} simulate")
     return code

@@ -17,4 +17,5 @@ def verbs() -> dict[str, str]:
 def _is_installed() -> bool:
     """Whether the simulator would be found; it is not imported."""
     # As importlib.util.find_spec does, which in some editions of Python imports threading first.
-    return any(finder.find_spec(SIMULATOR, None) is not None for finder in sys.meta_path)
+    finders = [finder for finder in sys.meta_path if hasattr(finder, "find_spec")]
+    return any(finder.find_spec(SIMULATOR, None) is not None for finder in finders)

@@ -1,0 +1,58 @@
+"""Poses of a protocol that shares no name with the one that they were made for."""
+
+import importlib
+from collections.abc import Iterator
+from types import ModuleType
+from typing import Any
+
+import pytest
+
+from tests.device_line import client_of
+from tests.specimens import DEMO, data_of, files_of, library
+
+
+@pytest.fixture(scope="module")
+def blinds(tmp_path_factory: pytest.TempPathFactory) -> Iterator[ModuleType]:
+    files = files_of(data_of(DEMO.with_name("blinds.yaml")))
+    with library(files, tmp_path_factory.mktemp("blinds")) as made:
+        yield made
+
+
+def motor(blinds: Any, heights: dict[int, int]) -> Any:
+    """A device with blinds at these heights, which go where they are sent."""
+
+    class Motor(blinds.Device):  # type: ignore[misc]
+        def on_blinds_read(self, message: Any) -> Any:
+            there = [(each, heights[each]) for each in message.blind_ids if each in heights]
+            return blinds.BlindsState(there)
+
+        def on_blinds_roll(self, message: Any) -> None:
+            heights.update({each.blind_id: each.height for each in message.heights})
+
+        def on_blinds_release(self, message: Any) -> None:
+            heights.update(dict.fromkeys(message.blind_ids, 0))
+
+    return Motor()
+
+
+def test_who_is_there_is_found_held_and_let_go_of(blinds: Any) -> None:
+    heights = {4: 200, 9: 300}
+    with client_of(motor(blinds, heights)) as hub:
+        assert hub.present() == (4, 9)
+        found = hub.read_heights([4, 9])
+        assert [(each.blind_id, each.height) for each in found] == [(4, 200), (9, 300)]
+        hub.blinds_release([4])
+        assert heights == {4: 0, 9: 300}
+        hub.roll(hub.heights_of(found), roll_ms=10).wait()
+        assert heights == {4: 200, 9: 300}
+        hub.hold([9], roll_ms=10).wait()
+        with pytest.raises(blinds.AbsentError, match="5"):
+            hub.hold([4, 5])
+
+
+def test_what_verbs_say_of_them_is_said_in_their_words(blinds: ModuleType) -> None:
+    positions = importlib.import_module(f"{blinds.__name__}.cli.positions")
+    pose = positions.the_pose()
+    assert positions.listed(pose, [4]) == "blind 4"
+    assert positions.listed(pose, [4, 9]) == "blinds 4, 9"
+    assert list(pose.ids) == [*range(1, 21)]
