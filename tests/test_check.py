@@ -16,6 +16,7 @@ from framegen.compile import compile_spec
 from framegen.language import misfit
 from framegen.language.load import MAX_BYTES, load, read_source
 from framegen.language.spec import Spec
+from framegen.model import facts
 from framegen.model.lookalikes import recognise
 from framegen.reading.findings import MOST_FINDINGS, Finding, did_you_mean
 from framegen.reading.source import Source, Span
@@ -28,7 +29,7 @@ from tests.patience import PATIENCE
 from tests.specimens import BUSSERVO, DEMO, compiled_of, data_of, kiln
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Iterator
+    from collections.abc import Callable, Iterable, Iterator
 
     from framegen.checks.rule import AnyRule
 
@@ -321,18 +322,50 @@ def test_no_more_findings_are_told_than_can_be_mended_and_how_many_more_there_ar
     assert findings[-1].path == f"key_{MOST_FINDINGS}"
 
 
+def unknown_keys(data: Any, words: list[str]) -> None:
+    data.update(dict.fromkeys(words, 1))
+
+
+def unknown_replies(data: Any, words: list[str]) -> None:
+    question = data["messages"]["StationRead"]
+    data["messages"].update({f"Ask{word}": {**question, "reply": word} for word in words})
+
+
+def unknown_sources(data: Any, words: list[str]) -> None:
+    note = {"text": "It is so.", "cite": "manual"}
+    readings = data["messages"]["StationState"]["fields"]["readings"]
+    readings["notes"] = [{**note, "cite": word} for word in words]
+
+
+def unknown_facts(data: Any, words: list[str]) -> None:
+    data["unknowns"] = [{"concerns": {"message": word}, "what": "All."} for word in words]
+
+
+@pytest.mark.parametrize(
+    ("change", "searching"),
+    [
+        (unknown_keys, misfit),
+        (unknown_replies, checks.reply),
+        (unknown_sources, checks.unknown_source),
+        (unknown_facts, facts),
+    ],
+)
 def test_only_what_is_shown_is_searched_for_what_it_was_to_be(
-    monkeypatch: pytest.MonkeyPatch,
+    change: Callable[[Any, list[str]], None], searching: object, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     searched: list[str] = []
 
-    def noted(word: str, known: Iterable[str]) -> str:
+    def noted(word: str, known: Iterable[str], *, otherwise: str = "") -> str:
         searched.append(word)
-        return did_you_mean(word, known)
+        return did_you_mean(word, known, otherwise=otherwise)
 
-    monkeypatch.setattr(misfit, "did_you_mean", noted)
-    compiled_of({**data_of(DEMO), **{f"key_{number}": 1 for number in range(500)}})
-    assert searched == [f"key_{number}" for number in range(MOST_FINDINGS)]
+    monkeypatch.setattr(searching, "did_you_mean", noted)
+    data, words = data_of(DEMO), [f"Odd{number}" for number in range(1000, 1500)]
+    change(data, words)
+    findings = compiled_of(data).findings
+    assert findings[-1].rule == "many-findings"
+    assert set(searched) <= set(words[:MOST_FINDINGS])
+    assert len(searched) == sum(f"`{word}`" in f.message for f in findings for word in words)
 
 
 @pytest.mark.parametrize(

@@ -47,9 +47,12 @@ from framegen.checks import (
     value_range,
 )
 from framegen.checks.reading import READING_RULES
+from framegen.reading.findings import MOST_FINDINGS
 
 if TYPE_CHECKING:
-    from framegen.checks.rule import AnyRule, ModelRule, StructureRule
+    from collections.abc import Iterable
+
+    from framegen.checks.rule import AnyRule, ModelRule, Problem, StructureRule
     from framegen.language.spec import Spec
     from framegen.model.model import Model
     from framegen.reading.findings import Finding
@@ -113,15 +116,22 @@ RULES: tuple[AnyRule, ...] = (
 
 def check_structure(spec: Spec, tree: Tree) -> list[Finding]:
     """Say what can be said against a spec as it is written; without any of it, a model follows."""
-    return [
-        problem.finding(rule.id, tree) for rule in STRUCTURE_RULES for problem in rule.look(spec)
-    ]
+    return _placed(((rule.id, each) for rule in STRUCTURE_RULES for each in rule.look(spec)), tree)
 
 
 def check_model(model: Model, tree: Tree) -> list[Finding]:
     """Say what can be said against what follows from a spec, causes before what they lead to."""
     for rules in (MODEL_RULES, EVIDENCE_RULES):
-        found = [problem.finding(rule.id, tree) for rule in rules for problem in rule.look(model)]
+        found = _placed(((rule.id, each) for rule in rules for each in rule.look(model)), tree)
         if found:
             return found
     return []
+
+
+def _placed(problems: Iterable[tuple[str, Problem]], tree: Tree) -> list[Finding]:
+    """Place the problems, each once, from the top of the file down: what is shown gets its hint."""
+    unique = {(each.span(tree), rule, each.message): each for rule, each in problems}
+    return [
+        unique[key].finding(key[1], tree, hinted=number < MOST_FINDINGS)
+        for number, key in enumerate(sorted(unique))
+    ]

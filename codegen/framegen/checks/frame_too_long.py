@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from framegen.checks.rule import ModelRule, Problem
+from framegen.wording import counted
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -35,18 +36,18 @@ def _look(model: Model) -> Iterator[Problem]:
 def _list(path: KeyPath, message: MessageLayout, items: Repeat) -> Iterator[Problem]:
     fixed, declared = message.formula.constant, items.field.count
     most = items.high if declared is None else max(declared.low, declared.high or items.high)
+    at, on_key = ((*path, "count"), False) if declared is not None else (path, True)
     room, limit = _room(message, items)
     fits = (LONGEST - fixed) // items.size
     if most > fits and room > fits:
         length = fixed + most * items.size
         what = f"with {most} elements, {message.name} has a {message.frame.length_name} of {length}"
         hint = f"write `count: {items.low}..{fits}`" if items.low <= fits else ""
-        at = path if declared is None else (*path, "count")
-        yield Problem(at, f"{what}, {_OF_ANY}", hint, on_key=declared is None)
-    elif most > room:
-        what = f"{most} elements are too many: {limit} has room for {room}"
+        yield Problem(at, f"{what}, {_OF_ANY}", hint, on_key)
+    elif max(most, 1) > room:
+        what = f"{limit} has room for {counted(room, 'element')}, and not for {max(most, 1)}"
         hint = f"write {items.low}.. for as many as there is room for" if items.low <= room else ""
-        yield Problem((*path, "count"), what, hint)
+        yield Problem(at, what, hint if room else "", on_key)
 
 
 def _room(message: MessageLayout, items: Repeat) -> tuple[int, str]:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from framegen.checks.rule import Problem
-from framegen.language.spec import BodyPart, ChecksumPart, LengthPart
+from framegen.language.spec import BodyPart, ChecksumPart, ConstantPart, LengthPart
 from framegen.language.wiretypes import WIRE_TYPES
 from framegen.reading.findings import did_you_mean
 
@@ -16,6 +16,8 @@ if TYPE_CHECKING:
     from framegen.reading.yamltree import KeyPath
 
 
+# Enough to find a frame by; a document that shows more shows a whole frame.
+MOST_CONSTANT = 16
 _WITHOUT = {
     "length": "say which part it is, by `is: length`; frames without one cannot be described yet",
     "id": "say which part tells messages apart, by `is: id`; "
@@ -38,8 +40,14 @@ def part_problems(path: KeyPath, frame: dict[str, FramePart]) -> Iterator[Proble
                 on_key=True,
                 also=((*path, names[0]), "the first is here"),
             )
+    constant = 0
     for name, part in frame.items():
         yield from _type(path, name, part)
+        if isinstance(part, ConstantPart):
+            constant += len(part.bytes_)
+            if constant > MOST_CONSTANT:
+                what = f"the frame has {constant} bytes that never change up to here"
+                yield Problem((*path, name, "bytes"), f"{what}, and {MOST_CONSTANT} are the most")
         if isinstance(part, LengthPart):
             yield from _names((*path, name, "counts"), part.counts, frame)
             yield from _counts_body((*path, name, "counts"), name, part, frame)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import partial
 from typing import TYPE_CHECKING
 
 from framegen.checks.rule import Problem, StructureRule
@@ -25,7 +26,7 @@ def _look(spec: Spec) -> Iterator[Problem]:
             other = spec.messages.get(answer)
             if other is not None and other.direction == way:
                 continue
-            hint = did_you_mean(answer, sent.get(way, []))
+            hint = partial(did_you_mean, answer, sent.get(way, []))
             if other is None:
                 yield Problem(path, f"there is no message `{answer}`", hint)
             else:

@@ -13,24 +13,32 @@ if TYPE_CHECKING:
 
     from framegen.language.spec import Spec
     from framegen.model.model import Model
+    from framegen.reading.source import Span
     from framegen.reading.yamltree import KeyPath, Tree
 
 
 @dataclass(frozen=True, slots=True)
 class Problem:
-    """Something that a rule found, by path; `on_key` points at the key instead of its value."""
+    """Something that a rule found, by path; `on_key` points at the key instead of its value.
+
+    A hint that takes a search among thousands of names is given as what finds it.
+    """
 
     path: KeyPath
     message: str
-    hint: str = ""
+    hint: str | Callable[[], str] = ""
     on_key: bool = False
     also: tuple[KeyPath, str] | None = None
 
-    def finding(self, rule: str, tree: Tree) -> Finding:
-        """Place the problem in the text."""
-        span = tree.key_at(self.path) if self.on_key else tree.value_at(self.path)
+    def span(self, tree: Tree) -> Span:
+        """Find the place in the text."""
+        return tree.key_at(self.path) if self.on_key else tree.value_at(self.path)
+
+    def finding(self, rule: str, tree: Tree, *, hinted: bool = True) -> Finding:
+        """Place the problem in the text; with a hint that has to be searched for, if asked to."""
         related = () if self.also is None else (Related(tree.key_at(self.also[0]), self.also[1]),)
-        return Finding(rule, span, dotted(self.path), self.message, self.hint, related)
+        hint = self.hint if isinstance(self.hint, str) else self.hint() if hinted else ""
+        return Finding(rule, self.span(tree), dotted(self.path), self.message, hint, related)
 
 
 @dataclass(frozen=True, slots=True)

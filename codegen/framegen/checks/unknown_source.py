@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
 from pydantic import BaseModel
@@ -21,7 +22,8 @@ def _look(spec: Spec) -> Iterator[Problem]:
     cited = [(("protocol", "authority"), spec.protocol.authority), *_cited((), spec)]
     for path, source in cited:
         if source not in spec.sources:
-            hint = did_you_mean(source, spec.sources, otherwise="declare it under `sources`")
+            other = "declare it under `sources`"
+            hint = partial(did_you_mean, source, spec.sources, otherwise=other)
             yield Problem(path, f"there is no source `{source}`", hint)
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 from dataclasses import dataclass
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
 from framegen.language.formula import Formula, parse_formula
@@ -12,6 +13,8 @@ from framegen.model.codec import decode, read_number
 from framegen.reading.findings import did_you_mean
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from framegen.language.spec import Concern, Message
     from framegen.model.layout import MessageLayout, WireField
     from framegen.model.model import Model
@@ -20,7 +23,7 @@ if TYPE_CHECKING:
 class NoSuchFact(ValueError):  # noqa: N818 - says what the fact is
     """What the spec says nothing of; `key` is the key of the concern that leads nowhere."""
 
-    def __init__(self, key: str, message: str, hint: str = "") -> None:
+    def __init__(self, key: str, message: str, hint: str | Callable[[], str] = "") -> None:
         super().__init__(message)
         self.key = key
         self.hint = hint
@@ -53,7 +56,7 @@ def look_up(model: Model, concern: Concern) -> Fact:
         raise NoSuchFact(
             "message",
             f"there is no message `{concern.message}`",
-            did_you_mean(concern.message, model.messages),
+            partial(did_you_mean, concern.message, model.messages),
         )
     chosen = [key for key in ("fact", "parameter", "example") if getattr(concern, key) is not None]
     if len(chosen) > 1:
