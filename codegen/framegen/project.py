@@ -49,11 +49,6 @@ def project_root(spec: Path) -> Path:
     return folder.parent if folder.name == FOLDER else folder
 
 
-def spec_path(spec: Path) -> str:
-    """Give the path of a spec below the root of its project, wherever that is."""
-    return (spec.parent.resolve() / spec.name).relative_to(project_root(spec)).as_posix()
-
-
 def _remedy(here: Path) -> str:
     """Say what to name. A spec that merely lies here is not taken: it may be somebody's draft."""
     lying = [file.name for file in sorted(here.glob("*.yaml")) if _is_like_a_spec(file)]

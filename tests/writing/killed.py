@@ -11,6 +11,7 @@ import os
 import shutil
 import signal
 import sys
+from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -19,68 +20,82 @@ from framegen.writing import disk, write
 from tests.writing.trees import AFTER, BEFORE, RENAMED, schema
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Iterator
 
 STEPS = ("make_folder", "write_file", "move", "remove_file", "remove_folder")
 EDITIONS = {"first": [BEFORE, schema()], "next": [AFTER, schema()], "renamed": [RENAMED, schema()]}
 
 
-def patch(at: int, when: str, stop: Callable[[], None], patched: Callable[..., None]) -> list[str]:
+@contextmanager
+def patched(at: int, when: str, stop: Callable[[], None]) -> Iterator[list[str]]:
     """Have `stop` called at that step; gives the steps that are taken, as they come."""
     taken: list[str] = []
 
     def wrapped(name: str) -> Callable[..., None]:
         original = getattr(disk, name)
 
-        def step(*arguments: Any) -> None:
+        def step(*arguments: Any, **options: Any) -> None:
             taken.append(name)
             if len(taken) != at:
-                original(*arguments)
+                original(*arguments, **options)
                 return
             if when == "halfway" and name == "write_file":
                 file, data = arguments
                 original(file, data[: len(data) // 2])
             elif when == "after":
-                original(*arguments)
+                with suppress(OSError):  # such as of a folder that is not empty
+                    original(*arguments, **options)
             stop()
 
         return step
 
+    originals = {name: getattr(disk, name) for name in STEPS}
     for name in STEPS:
-        patched(disk, name, wrapped(name))
-    return taken
+        setattr(disk, name, wrapped(name))
+    try:
+        yield taken
+    finally:
+        for name, original in originals.items():
+            setattr(disk, name, original)
 
 
 def _kill() -> None:
     os.kill(os.getpid(), signal.SIGKILL)
 
 
-def _write(root: Path, edition: str, *, force: bool) -> None:
-    write(root, EDITIONS[edition], all_of="spec", force=force)
+def steps(tree: Path, copy: Path, edition: str, *, force: bool) -> list[str]:
+    """The steps that a run takes."""
+    shutil.copytree(tree, copy, symlinks=True)
+    with patched(0, "", lambda: None) as taken:
+        write(copy, EDITIONS[edition], all_of="spec", force=force)
+    shutil.rmtree(copy)
+    return taken
+
+
+def moments(steps: list[str]) -> Iterator[tuple[int, str]]:
+    """Every state of the disk there is: after each step, and within each that can be cut short."""
+    for number, name in enumerate(steps, 1):
+        if name == "write_file":
+            yield number, "halfway"
+        yield number, "after"
 
 
 def main() -> None:
     tree, folder, edition = Path(sys.argv[1]), Path(sys.argv[2]), sys.argv[3]
     force = "force" in sys.argv
     # Whoever is killed has written all that he has written.
-    os.fsync = lambda _descriptor: None
-    for when in ("before", "halfway", "after"):
-        step = 0
-        while True:
-            step += 1
-            copy = folder / f"{when}-{step}"
-            shutil.copytree(tree, copy, symlinks=True)
-            child = os.fork()
-            if child == 0:
-                patch(step, when, _kill, setattr)
-                _write(copy, edition, force=force)
-                os._exit(0)
-            _, status = os.waitpid(child, 0)
-            if not os.WIFSIGNALED(status):
-                shutil.rmtree(copy)
-                assert os.WEXITSTATUS(status) == 0
-                break
-            print(copy)
+    setattr(os, "fsync", lambda _descriptor: None)  # noqa: B010
+    for number, when in moments(steps(tree, folder / "copy", edition, force=force)):
+        copy = folder / f"{when}-{number}"
+        shutil.copytree(tree, copy, symlinks=True)
+        child = os.fork()
+        if child == 0:
+            with patched(number, when, _kill):
+                write(copy, EDITIONS[edition], all_of="spec", force=force)
+            os._exit(0)
+        _, status = os.waitpid(child, 0)
+        assert os.WIFSIGNALED(status), (number, when)
+        print(copy)
 
 
 if __name__ == "__main__":

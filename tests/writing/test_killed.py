@@ -15,10 +15,12 @@ from framegen.writing import changes, write
 from framegen.writing.workshop import NAME
 
 from tests.documents import ROOT
-from tests.writing.killed import EDITIONS, STEPS, patch
+from tests.writing.killed import EDITIONS, moments, patched, steps
 from tests.writing.trees import LIBRARY, Snapshot, put, snapshot, without_workshop
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from framegen.output import Output
 
 SPOILT = f"{LIBRARY}/changed.py"
@@ -46,12 +48,6 @@ def wholly(found: Snapshot, *whole: Snapshot) -> bool:
     """Whether each file is as in one of these states: nothing is half-written."""
     allowed = {data for state in whole for data in state.values()}
     return all(data in allowed for path, data in found.items() if not path.endswith(".manifest"))
-
-
-@pytest.fixture(autouse=True)
-def no_power_fails(monkeypatch: pytest.MonkeyPatch) -> None:
-    """To wait for the disk takes long, and makes a difference only to those who pull the plug."""
-    monkeypatch.setattr(os, "fsync", lambda _descriptor: None)
 
 
 @pytest.fixture(params=SCENES)
@@ -83,7 +79,7 @@ def test_a_run_that_is_killed_at_any_step_is_finished_by_the_next(
     assert done.returncode == 0, done.stderr
     copies = [Path(line) for line in done.stdout.splitlines()]
     after = finished(tree, EDITIONS[edition], force=force)
-    assert len(copies) > 3 * len(after)
+    assert len(copies) > 3 * len(EDITIONS[edition][0].files)
     for copy in copies:
         found = without_workshop(snapshot(copy))
         assert wholly(found, before, after), copy.name
@@ -91,17 +87,6 @@ def test_a_run_that_is_killed_at_any_step_is_finished_by_the_next(
         assert not force or b"mine\n" in found.values(), copy.name
         assert finished(copy, EDITIONS[edition], force=force) == after, copy.name
         shutil.rmtree(copy)
-
-
-def steps(tree: Path, copy: Path, edition: str, *, force: bool) -> int:
-    """How many steps a run takes."""
-    shutil.copytree(tree, copy)
-    with pytest.MonkeyPatch.context() as patched:
-        taken = patch(0, "", lambda: None, patched.setattr)
-        write(copy, EDITIONS[edition], all_of="spec", force=force)
-    shutil.rmtree(copy)
-    assert set(taken) <= set(STEPS)
-    return len(taken)
 
 
 def _full() -> None:
@@ -112,48 +97,48 @@ def _interrupted() -> None:
     raise KeyboardInterrupt
 
 
-@pytest.mark.parametrize(("fail", "when"), [(_full, "halfway"), (_interrupted, "after")])
+@pytest.mark.parametrize("fail", [_full, _interrupted])
 def test_a_disk_that_fails_at_any_step_loses_nothing(
-    scene: tuple[Path, str, bool], tmp_path: Path, when: str, fail: object
+    scene: tuple[Path, str, bool], tmp_path: Path, fail: Callable[[], None]
 ) -> None:
-    assert callable(fail)
     tree, edition, force = scene
     before = snapshot(tree)
     copy = tmp_path / "copy"
-    number = steps(tree, copy, edition, force=force)
-    assert number > 10
-    after = None
+    taken = steps(tree, copy, edition, force=force)
+    assert len(taken) > 10
+    shutil.copytree(tree, copy)
+    after = finished(copy, EDITIONS[edition], force=force)
+    shutil.rmtree(copy)
     told = set()
-    for step in range(1, number + 1):
+    for number, when in moments(taken):
         shutil.copytree(tree, copy)
-        error: BaseException | None = None
-        with pytest.MonkeyPatch.context() as patched:
-            patch(step, when, fail, patched.setattr)
-            try:
-                write(copy, EDITIONS[edition], all_of="spec", force=force)
-            except (Unusable, KeyboardInterrupt) as raised:
-                error = raised
+        with patched(number, when, fail):
+            error = failure(copy, EDITIONS[edition], force=force)
+        found = snapshot(copy)
         if isinstance(error, Unusable):
             assert str(error) == "disk cannot be written: No space left on device"
             told.add(error.hint.lstrip("0123456789").partition(" of ")[0])
         if getattr(error, "hint", "") == "nothing was changed":
-            assert without_workshop(snapshot(copy)) == before
-        found = snapshot(copy)
-        again = finished(copy, EDITIONS[edition], force=force)
-        after = after or again
+            assert without_workshop(found) == before
         assert wholly(without_workshop(found), before, after)
-        assert again == after
+        assert finished(copy, EDITIONS[edition], force=force) == after
         shutil.rmtree(copy)
     assert fail is _interrupted or told == {"nothing was changed", ""}
+
+
+def failure(root: Path, edition: list[Output], *, force: bool) -> BaseException | None:
+    try:
+        write(root, edition, all_of="spec", force=force)
+    except (Unusable, KeyboardInterrupt) as error:
+        return error
+    return None
 
 
 def test_what_was_prepared_is_swept_when_the_disk_fails(tmp_path: Path) -> None:
     tree = prepared(tmp_path / "tree", "first")
     before = snapshot(tree)
-    with pytest.MonkeyPatch.context() as patched:
-        patch(4, "halfway", _full, patched.setattr)
-        with pytest.raises(Unusable):
-            write(tree, EDITIONS["next"])
+    with patched(4, "halfway", _full), pytest.raises(Unusable):
+        write(tree, EDITIONS["next"])
     assert snapshot(tree) == before
 
 

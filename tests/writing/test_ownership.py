@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 import shutil
 from dataclasses import replace
-from pathlib import Path
+from typing import TYPE_CHECKING, Any
 
 import pytest
 from framegen.output import Output, banner
@@ -25,6 +25,9 @@ from tests.writing.trees import (
     snapshot,
     times,
 )
+
+if TYPE_CHECKING:
+    from pathlib import Path
 
 MANIFEST = "generated/kiln.manifest"
 
@@ -119,6 +122,15 @@ def test_a_comment_in_the_spec_changes_the_manifest_alone(root: Path) -> None:
     assert [change.path for change in write(root, [commented]).changes] == [MANIFEST]
 
 
+@pytest.mark.parametrize("data", ["", "\0" * 100])
+def test_a_file_that_lost_what_it_held_is_no_edit(root: Path, data: str) -> None:
+    """As a file may that was new when the power went."""
+    for name in ("changed", "gone"):
+        put(root, f"{LIBRARY}/{name}.py", data)
+    write(root, [AFTER])
+    assert changes(root, [AFTER]) == []
+
+
 def test_orphans_of_any_kind_are_known(root: Path) -> None:
     """By the manifest, since no page of HTML, no JSON and no empty file says whose it is."""
     files = {f"{LIBRARY}/{name}": "" for name in ("a.html", "b.json", "py.typed", "c")}
@@ -190,8 +202,7 @@ def test_what_is_not_our_own_is_never_replaced_or_removed(root: Path, name: str)
     with pytest.raises(Unusable) as told:
         write(root, [AFTER])
     assert f"  {why}: {path}" in str(told.value)
-    assert str(told.value).startswith("1 file would be replaced or removed")
-    assert "nothing was changed" in told.value.hint
+    assert str(told.value).startswith("the work of others would be lost, so nothing was written")
     assert "--force" in told.value.hint
     assert snapshot(root) == before
 
@@ -337,6 +348,13 @@ def test_files_in_which_git_left_a_conflict_are_nobodys_work(root: Path) -> None
     assert found[f"{LIBRARY}/gone.py"] == "orphaned"
     write(root, [AFTER])
     assert changes(root, [AFTER]) == []
+
+
+def test_after_a_conflict_the_manifest_says_what_it_said(root: Path) -> None:
+    before = snapshot(root)
+    put(root, f"{LIBRARY}/changed.py", "<<<<<<< a\n=======\n>>>>>>> b\n")
+    write(root, [BEFORE])
+    assert snapshot(root) == before
 
 
 def test_two_manifests_that_git_has_joined_know_the_files_of_both(root: Path) -> None:
@@ -533,14 +551,21 @@ def test_output_of_the_former_layout_is_taken_over_in_one_run(tmp_path: Path) ->
     assert found == fresh(tmp_path / "elsewhere", wider, schema())
 
 
-def test_many_files_cost_nothing_where_they_are_in_nobodys_way(tmp_path: Path) -> None:
+def test_many_files_cost_nothing_where_they_are_in_nobodys_way(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     """A site is written into a folder of many files without a look at any of them."""
+    put(tmp_path, "node_modules/deep/index.js", "")
+    put(tmp_path, "docs/reference/index.html", "")
     site = Output("site.manifest", SPEC, {"index.html": "<p>\n"})
-    for n in range(100):
-        put(tmp_path, f"node_modules/{n}/index.js", "")
     looked_at: list[str] = []
-    walk = os.walk
-    with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(os, "walk", lambda top: looked_at.append(str(top)) or walk(top))
-        write(tmp_path, [site])
-    assert [path for path in looked_at if Path(path).exists()] == []
+    scan = os.scandir
+
+    def noted(path: str) -> Any:
+        looked_at.append(os.fspath(path))
+        return scan(path)
+
+    monkeypatch.setattr(os, "scandir", noted)
+    write(tmp_path, [site])
+    assert [path for path in looked_at if "node_modules" in path or "reference" in path] == []
+    assert (tmp_path / "index.html").exists()

@@ -64,7 +64,7 @@ def add_arguments(parser: ArgumentParser) -> None:
 
 def run(arguments: Namespace) -> int:
     """Check the specs, render them, and bring the disk to agree. 1: findings, or with --check."""
-    from framegen.commands.spec_argument import compiled  # noqa: PLC0415
+    from framegen.commands.spec_argument import compiled, print_findings  # noqa: PLC0415
     from framegen.project import FOLDER, all_specs, project_root  # noqa: PLC0415
     from framegen.render import render, render_shared  # noqa: PLC0415
     from framegen.targets.table import TARGETS  # noqa: PLC0415
@@ -73,13 +73,13 @@ def run(arguments: Namespace) -> int:
     targets = [_target(arguments.target)] if arguments.target else TARGETS
     files: list[Path] = [arguments.spec] if arguments.spec else all_specs()
     specs = [compiled(file) for file in files]
-    if any([_has_findings(spec) for spec in specs]):
+    if print_findings(specs):
         return 1
     outputs = [*(render(spec, targets) for spec in specs), render_shared(specs[0], targets)]
     outputs = [output for output in outputs if output.files]
     root: Path = arguments.out or project_root(files[0])
     # A spec that is gone from the project takes along what came from it.
-    all_of = None if arguments.spec or arguments.out else FOLDER
+    all_of = None if arguments.spec or arguments.out or arguments.target else FOLDER
     if arguments.check or arguments.diff:
         would = survey(root, outputs, all_of=all_of)
         _show(would)
@@ -99,19 +99,8 @@ def _target(name: str) -> Target:
 
     targets = {target.name: target for target in TARGETS}
     if name not in targets:
-        guess = did_you_mean(name, targets)
-        names = f"there are {', '.join(targets)}"
-        raise Unusable(f"there is no target `{visible(name)}`", hint=guess or names)
+        raise Unusable(f"there is no target {name!r}", hint=did_you_mean(name, targets))
     return targets[name]
-
-
-def _has_findings(spec: Compiled) -> bool:
-    for finding in spec.findings:
-        print(finding.render(spec.source) + "\n")
-    if spec.findings:
-        found = counted(len(spec.findings), "finding")
-        _tell(f"{found} in {spec.source.name}: nothing was written")
-    return bool(spec.findings)
 
 
 def _show(found: Survey) -> None:

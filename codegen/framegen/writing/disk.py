@@ -14,12 +14,13 @@ def make_folder(folder: Path) -> None:
     folder.mkdir(exist_ok=True)
 
 
-def write_file(file: Path, data: bytes) -> None:
-    """Write a new file, and see that it has reached the disk before its name does."""
+def write_file(file: Path, data: bytes, *, flush: bool = False) -> None:
+    """Write a new file; with `flush`, see that it has reached the disk before what comes next."""
     with file.open("xb") as stream:
         stream.write(data)
-        stream.flush()
-        os.fsync(stream.fileno())
+        if flush:
+            stream.flush()
+            os.fsync(stream.fileno())
 
 
 def move(old: Path, new: Path) -> None:

@@ -1,4 +1,4 @@
-"""What a file says of itself: that framegen wrote it, or that git has left a conflict in it."""
+"""What a file says of itself: that framegen wrote it, that git left a conflict in it, nothing."""
 
 from __future__ import annotations
 
@@ -37,3 +37,8 @@ def is_former_page(data: bytes, spec: str) -> bool:
 def is_conflicted(data: bytes) -> bool:
     """Whether git has left all three marks of a conflict in a file."""
     return all(mark.search(data) for mark in _CONFLICT)
+
+
+def is_blank(data: bytes) -> bool:
+    """Whether a file holds nothing: it may have lost what it held together with the power."""
+    return not data.strip(b"\0")

@@ -48,13 +48,16 @@ class Places:
 
     def _look_at(self, folder: PurePosixPath) -> None:
         place = self.root / folder
-        if os.path.lexists(place):
-            self._stay(str(folder))
-            if not place.is_dir():
-                raise Unusable(
-                    f"{visible(str(folder))} is no folder, and output goes there",
-                    hint="move it elsewhere; nothing was changed",
-                )
+        self._stay(str(folder))
+        try:
+            mode = place.stat().st_mode
+        except (FileNotFoundError, NotADirectoryError):
+            return
+        if not stat.S_ISDIR(mode):
+            raise Unusable(
+                f"{visible(str(folder))} is no folder, and output goes there",
+                hint="move it elsewhere; nothing was changed",
+            )
 
     def _stay(self, path: str) -> None:
         real = Path(os.path.realpath(self.root / path))
@@ -71,8 +74,8 @@ class Places:
         try:
             kind = _kind(place.lstat().st_mode)
             # A link stands for its file, as long as there is nothing to write.
-            regular = place.is_file()
-            return Standing(place.read_bytes() if regular else b"", kind)
+            regular = kind in ("", "a link") and place.is_file()
+            return Standing(place.read_bytes() if regular or not kind else b"", kind)
         except FileNotFoundError:
             return None
         except OSError as error:

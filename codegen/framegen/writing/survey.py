@@ -6,14 +6,14 @@ from dataclasses import dataclass, field
 from difflib import unified_diff
 from io import StringIO
 from pathlib import PurePosixPath
-from typing import TYPE_CHECKING, Literal
+from typing import TYPE_CHECKING, Literal, TypeAlias
 
 from framegen.console import visible
 from framegen.reading.yamltree import Unusable
 from framegen.wording import counted
 from framegen.writing.kept import is_kept
 from framegen.writing.manifest import Manifest, file_digest, read_manifest, text_digest
-from framegen.writing.marks import is_conflicted, is_former_page, is_generated
+from framegen.writing.marks import is_blank, is_conflicted, is_former_page, is_generated
 from framegen.writing.places import Places
 
 if TYPE_CHECKING:
@@ -25,6 +25,7 @@ if TYPE_CHECKING:
 
 # Where the reference lay before each spec had a folder of its own.
 _FORMER_REFERENCE = "docs/reference"
+Lines: TypeAlias = "dict[str, frozenset[str]]"
 Why = Literal["missing", "stale", "conflicted", "orphaned", "edited by hand", "foreign"]
 
 
@@ -61,14 +62,16 @@ class Survey:
 
     `strangers` stand in folders of the output, in nobody's way. `left` are paths of what was
     removed, now or by a run that was killed: folders above them may be empty. `plans` are the
-    manifests as they are while the run goes on, `manifests` the paths of all that there are.
+    manifests as they have to be while the run goes on, where that is not how they are; `finals` are
+    all of them as they are at the end. `manifests` are the paths of these and of those that go.
     """
 
     changes: list[Change] = field(default_factory=list)
     strangers: list[str] = field(default_factory=list)
     notices: list[str] = field(default_factory=list)
     left: set[str] = field(default_factory=set)
-    plans: dict[str, Manifest] = field(default_factory=dict)
+    plans: dict[str, str] = field(default_factory=dict)
+    finals: dict[str, str] = field(default_factory=dict)
     manifests: set[str] = field(default_factory=set)
 
 
@@ -98,7 +101,7 @@ class _Surveyor:
         self._found = Survey()
         self._wanted = _owners(outputs)
         self._manifests = {output.manifest: self._read(output.manifest) for output in outputs}
-        self._known: dict[str, frozenset[str]] = {}
+        self._known: Lines = {}
         self._folded: dict[str, str] = {}
 
     def look(self, *, force: bool) -> Survey:
@@ -139,7 +142,9 @@ class _Surveyor:
     def _former(self) -> Iterable[tuple[str, Manifest]]:
         """Manifests of a spec at hand under the name that it had, and of specs that are gone."""
         own = {path.casefold() for path in self._manifests}
-        specs = {visible(output.spec) for output in self._outputs if output.spec}
+        specs = {
+            visible(output.spec) for output in self._outputs if output.spec and not output.others
+        }
         for folder in sorted({str(PurePosixPath(path).parent) for path in self._manifests}):
             for path in self._places.listed(folder, "*.manifest"):
                 manifest = None if path.casefold() in own else self._read(path)
@@ -164,9 +169,7 @@ class _Surveyor:
             else:
                 self._look_at_orphan(path)
         adopted = self._look_around(output, rebuilt=rebuilt)
-        # What a part of the output was made from says nothing of the rest.
-        digest = manifest.digest if manifest is not None and output.others else output.digest
-        self._look_at_manifest(output, digest, files, {*listed, *adopted})
+        self._look_at_manifest(output, files, adopted)
         if rebuilt and (manifest is not None or adopted or any(there)):
             state = "is not there" if manifest is None else "is damaged"
             self._found.notices.append(
@@ -201,6 +204,8 @@ class _Surveyor:
             return "foreign"
         if same or file_digest(standing.data) in known:
             return "stale"
+        if known and is_blank(standing.data):
+            return "stale"
         generated = is_generated(standing.data)
         if (known or generated) and is_conflicted(standing.data):
             return "conflicted"
@@ -216,14 +221,13 @@ class _Surveyor:
         standing = self._places.look(path)
         if standing is None or standing.kind:
             return
-        conflicted = is_conflicted(standing.data)
-        if conflicted:
+        if is_conflicted(standing.data) or is_blank(standing.data):
             self._own(path, standing)
-        own = conflicted or file_digest(standing.data) in self._known[path]
+        own = file_digest(standing.data) in self._known[path]
         why: Why = "orphaned" if own else "edited by hand"
         self._found.changes.append(Change(path, why, self._text(standing), None))
 
-    def _others(self, output: Output, *, rebuilt: bool) -> dict[str, frozenset[str]]:
+    def _others(self, output: Output, *, rebuilt: bool) -> Lines:
         """The lines of what this run leaves as it is: those that are known, or can be told."""
         kept = {}
         for path, text in output.others.items():
@@ -264,24 +268,28 @@ class _Surveyor:
         self._found.changes.append(Change(path, "orphaned", self._text(standing), None))
         return True
 
-    def _look_at_manifest(
-        self, output: Output, digest: str, files: dict[str, frozenset[str]], before: set[str]
-    ) -> None:
+    def _look_at_manifest(self, output: Output, files: Lines, adopted: list[str]) -> None:
+        manifest = self._manifests[output.manifest]
+        listed = {} if manifest is None else manifest.files
+        # What a part of the output was made from says nothing of the rest.
+        digest = manifest.digest if manifest is not None and output.others else output.digest
         plan = {
             path: files.get(path, frozenset()) | self._known.get(path, frozenset())
-            for path in {*files, *before}
+            for path in {*files, *listed, *adopted}
         }
-        self._found.manifests.add(output.manifest)
-        self._found.plans[output.manifest] = Manifest(output.spec, digest, plan)
+        path = output.manifest
         text = Manifest(output.spec, digest, files).text()
-        standing = self._places.look(output.manifest)
+        self._found.manifests.add(path)
+        self._found.finals[path] = text
+        if manifest is None or not manifest.whole or plan != listed:
+            self._found.plans[path] = Manifest(output.spec, digest, plan).text()
+        standing = self._places.look(path)
         if standing is None:
-            self._found.changes.append(Change(output.manifest, "missing", None, text))
+            self._found.changes.append(Change(path, "missing", None, text))
         elif standing.kind:
-            self._found.changes.append(Change(output.manifest, "foreign", None, text))
+            self._found.changes.append(Change(path, "foreign", None, text))
         elif file_digest(standing.data) != text_digest(text):
-            old = self._text(standing)
-            self._found.changes.append(Change(output.manifest, "stale", old, text))
+            self._found.changes.append(Change(path, "stale", self._text(standing), text))
 
     @staticmethod
     def _text(standing: Standing | None) -> str | None:
@@ -307,8 +315,8 @@ def _owners(outputs: Sequence[Output]) -> dict[str, Output]:
     return owners
 
 
-def _united(manifests: Iterable[Manifest | None]) -> dict[str, frozenset[str]]:
-    known: dict[str, frozenset[str]] = {}
+def _united(manifests: Iterable[Manifest | None]) -> Lines:
+    known: Lines = {}
     for manifest in manifests:
         for path, digests in () if manifest is None else manifest.files.items():
             known[path] = known.get(path, frozenset()) | digests

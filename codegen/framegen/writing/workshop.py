@@ -41,12 +41,12 @@ class Workshop:
         self._folders: dict[int, Path] = {}
         self._number = 0
 
-    def stage(self, data: bytes, place: Path) -> Path:
+    def stage(self, data: bytes, place: Path, *, flush: bool) -> Path:
         """Write a file that is to be moved to `place`, whose folder need not be there yet."""
         folder = self._folder(place)
         self._number += 1
         staged = folder / f"{_STAGED}{self._number}"
-        disk.write_file(staged, data)
+        disk.write_file(staged, data, flush=flush)
         return staged
 
     def _folder(self, place: Path) -> Path:
@@ -90,9 +90,18 @@ def workshop(root: Path, patience: float) -> Iterator[Workshop]:
         _unlock(lock, root / NAME)
 
 
+def _made(folder: Path) -> None:
+    if folder.is_symlink():
+        raise Unusable(
+            f"{visible(str(folder))} is a link, and a run prepares there what it writes",
+            hint="remove it; nothing was changed",
+        )
+    disk.make_folder(folder)
+
+
 def _opened(parent: Path) -> Path:
     folder = parent / NAME
-    disk.make_folder(folder)
+    _made(folder)
     _sweep_staged(folder)
     ignore = folder / _IGNORE
     if not ignore.exists():
@@ -131,11 +140,13 @@ def _locked(folder: Path, patience: float) -> int:
 
 
 def _attempt(folder: Path) -> int | None:
-    disk.make_folder(folder)
     try:
+        _made(folder)
         lock = os.open(folder / _LOCK, os.O_RDWR | os.O_CREAT, 0o666)
-    except FileNotFoundError:  # the run before has just removed the folder
-        return None
+    except (FileNotFoundError, FileExistsError):
+        if folder.is_file():
+            raise
+        return None  # the run before has just removed the folder
     try:
         held = _hold(lock) and os.path.samestat(os.fstat(lock), os.stat(folder / _LOCK))  # noqa: PTH116
     except FileNotFoundError:  # the run before has just removed what was locked here

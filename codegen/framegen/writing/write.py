@@ -15,7 +15,6 @@ from typing import TYPE_CHECKING
 
 from framegen.console import visible
 from framegen.reading.yamltree import Unusable
-from framegen.wording import counted
 from framegen.writing import disk
 from framegen.writing.kept import kept_place
 from framegen.writing.places import Places
@@ -90,10 +89,9 @@ def _expect_no_obstacle(found: Survey) -> None:
     obstacles = [change for change in found.changes if not change.ours]
     if obstacles:
         raise Unusable(
-            f"{counted(len(obstacles), 'file')} would be replaced or removed "
-            f"that framegen did not write so\n{describe(obstacles)}",
-            hint="nothing was changed; move what you need elsewhere, "
-            "or keep it beside the output, as NAME.mine: --force",
+            f"the work of others would be lost, so nothing was written\n{describe(obstacles)}",
+            hint="move it elsewhere or undo it; "
+            "or have it kept beside its place, as NAME.mine: --force",
         )
 
 
@@ -115,23 +113,38 @@ class _Writer:
             for change in self._found.changes
             if change.new is not None
         }
-        if self._files:
-            plans = {path: plan.text() for path, plan in self._found.plans.items()}
-            for path, plan in [(path, self._stage(path, text)) for path, text in plans.items()]:
-                self._put(path, plan)
-        # What goes, goes first: where capitals do not tell names apart, its place may be wanted.
-        for change in self._files:
-            if change.new is None:
-                self._remove(change)
-        for change in self._files:
-            if change.new is not None:
-                self._replace(change, staged[change.path])
-        self._remove_empty_folders()
+        plans = self._found.plans if self._files else {}
+        planned = {path: self._stage(path, text) for path, text in plans.items()}
+        # Once a plan stands, its end has to be written, even if it is what was there before.
+        for path in plans.keys() - staged.keys():
+            staged[path] = self._stage(path, self._found.finals[path])
         for change in self._manifests:
+            if not change.ours:
+                self._keep(change.path)
+        for path, plan in planned.items():
+            self._put(path, plan)
+        self._change_files(staged)
+        self._remove_empty_folders()
+        self._conclude(staged)
+
+    def _change_files(self, staged: dict[str, Path]) -> None:
+        # What goes, goes first: where capitals do not tell names apart, its place may be wanted.
+        for change in sorted(self._files, key=lambda change: change.new is not None):
+            if not change.ours:
+                self._keep(change.path)
+            elif change.new is None:
+                self._remove(change.path)
             if change.new is not None:
-                self._replace(change, staged[change.path])
-            else:
-                self._remove(change)
+                self._put(change.path, staged[change.path])
+            self.done.changes.append(change)
+
+    def _conclude(self, staged: dict[str, Path]) -> None:
+        for path in sorted(self._found.finals.keys() & staged.keys()):
+            self._put(path, staged[path])
+        for change in self._manifests:
+            if change.new is None:
+                self._remove(change.path)
+            self.done.changes.append(change)
         self.done.changes.sort(key=lambda change: change.path)
 
     def progress(self) -> str:
@@ -142,21 +155,12 @@ class _Writer:
         return f"{done} of {all_of_them} changes were made; run this again to finish"
 
     def _stage(self, path: str, text: str) -> Path:
-        return self._at.stage(text.encode(), self._places.at(path))
+        flush = path in self._found.manifests
+        return self._at.stage(text.encode(), self._places.at(path), flush=flush)
 
-    def _replace(self, change: Change, staged: Path) -> None:
-        if not change.ours:
-            self._keep(change.path)
-        self._put(change.path, staged)
-        self.done.changes.append(change)
-
-    def _remove(self, change: Change) -> None:
+    def _remove(self, path: str) -> None:
         self._begun = True
-        if change.ours:
-            disk.remove_file(self._places.at(change.path))
-        else:
-            self._keep(change.path)
-        self.done.changes.append(change)
+        disk.remove_file(self._places.at(path))
 
     def _keep(self, path: str) -> None:
         place = self._places.at(path)
