@@ -26,13 +26,13 @@ from hashlib import sha256
 from pathlib import Path
 from framegen.compile import compile_spec
 from framegen.language.load import read_source
-from framegen.render import render, snippets
+from framegen.render import render, render_shared, snippets
 from framegen.targets.docs.pages import render_site
 
 specs = [compile_spec(read_source(Path(name))) for name in sys.argv[1:]]
 files = {f"site/{path}": text for path, text in render_site(specs, snippets()).items()}
 for compiled in specs:
-    files |= render(compiled).files
+    files |= render(compiled).files | render_shared(compiled).files
 for path, text in files.items():
     print(sha256(text.encode()).hexdigest(), path)
 """

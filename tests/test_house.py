@@ -11,8 +11,8 @@ import framegen
 import pytest
 from framegen.compile import compile_spec
 from framegen.language.load import read_source
-from framegen.render import render
-from framegen.writer import changes
+from framegen.render import render, render_shared
+from framegen.writing import changes
 
 from tests.documents import ROOT
 
@@ -112,14 +112,15 @@ def test_there_is_one_version() -> None:
 def test_everything_under_generated_is_what_the_generator_makes() -> None:
     compiled = compile_spec(read_source(SPEC))
     rendered = render(compiled)
-    assert [(change.path, change.why) for change in changes(ROOT, rendered)] == []
+    found = changes(ROOT, [rendered, render_shared(compiled)])
+    assert [(change.path, change.why) for change in found] == []
     on_disk = {name for name in TEXTS if name.startswith("generated/")}
-    assert on_disk <= set(rendered.files)
+    assert on_disk <= {*rendered.files, rendered.manifest}
 
 
 def test_there_is_nothing_in_generated_but_the_library() -> None:
-    folders = [path.name for path in (ROOT / "generated").iterdir() if path.name not in LITTER]
-    assert folders == ["busservo"]
+    names = {path.name for path in (ROOT / "generated").iterdir() if path.name not in LITTER}
+    assert names == {"busservo", "busservo.manifest"}
 
 
 def test_generated_code_silences_no_checker() -> None:

@@ -1,28 +1,21 @@
-"""The project around a spec: which spec is meant when none is named, and where its root is."""
+"""The project around a spec: which specs are meant when none is named, and where its root is."""
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
 
+from framegen.console import visible
 from framegen.reading.yamltree import Unusable
 
 FOLDER = "spec"
-
-
-def default_spec() -> Path:
-    """Find the only spec/*.yaml here, or else in the nearest folder above. Raises Unusable."""
-    found = all_specs()
-    if len(found) > 1:
-        names = ", ".join(file.name for file in found)
-        raise Unusable(
-            f"there are {len(found)} specs to choose from: {names}",
-            hint=f"name the one you mean, such as {found[0].as_posix()}",
-        )
-    return found[0]
+# A key that every spec has, and hardly another file.
+_LIKE_A_SPEC = re.compile(rb"^framegen:", re.MULTILINE)
+_HEAD = 4_000
 
 
 def all_specs() -> list[Path]:
-    """Find every spec/*.yaml here, or else in the nearest folder above. Raises Unusable."""
+    """Find spec/*.yaml here, or else in the nearest folder above. Raises Unusable for none."""
     try:
         here = Path.cwd()
     except OSError:
@@ -34,11 +27,41 @@ def all_specs() -> list[Path]:
             return [Path(*[".."] * steps, FOLDER, name) for name in found]
     raise Unusable(
         f"no spec is named, and neither this folder nor any above it has {FOLDER}/*.yaml",
-        hint="name a spec file, or run this where the project is",
+        hint=_remedy(here),
     )
+
+
+def default_spec() -> Path:
+    """Find the only spec/*.yaml here, or else in the nearest folder above. Raises Unusable."""
+    specs = all_specs()
+    if len(specs) > 1:
+        names = ", ".join(visible(spec.name) for spec in specs)
+        raise Unusable(
+            f"there are {len(specs)} specs to choose from: {names}",
+            hint=f"name the one you mean, such as {visible(specs[0].as_posix())}",
+        )
+    return specs[0]
 
 
 def project_root(spec: Path) -> Path:
     """Find what output paths are relative to: the folder above `spec/`, or else the spec's own."""
     folder = spec.parent.resolve()
     return folder.parent if folder.name == FOLDER else folder
+
+
+def _remedy(here: Path) -> str:
+    """Say what to name. A spec that merely lies here is not taken: it may be somebody's draft."""
+    lying = [file.name for file in sorted(here.glob("*.yaml")) if _is_like_a_spec(file)]
+    if lying:
+        return f"name the spec, such as {visible(lying[0])}, which lies here"
+    return "name a spec file, or run this where the project is"
+
+
+def _is_like_a_spec(file: Path) -> bool:
+    try:
+        if not file.is_file():
+            return False
+        with file.open("rb") as stream:
+            return _LIKE_A_SPEC.search(stream.read(_HEAD)) is not None
+    except OSError:
+        return False

@@ -2,46 +2,62 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from pathlib import PurePosixPath
 from typing import TYPE_CHECKING
 
-from framegen.output import banner
+from framegen.output import Output, banner
 from framegen.targets.table import TARGETS
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable
+    from collections.abc import Collection
 
     from framegen.compile import Compiled
     from framegen.targets.target import Snippets, Target
 
 
-@dataclass(frozen=True, slots=True)
-class Rendered:
-    """The files, by path below the project's root, and the folders that hold nothing else."""
+def render(compiled: Compiled, targets: Collection[Target] = TARGETS) -> Output:
+    """What is made of a spec, and of no other. Raises Unusable where it has findings.
 
-    files: dict[str, str]
-    folders: tuple[str, ...]
-    digest: str
-
-
-def render(compiled: Compiled, targets: Iterable[Target] = TARGETS) -> Rendered:
-    """Everything that the targets make of a spec. Raises Unusable where it has findings."""
+    Of `targets` alone; what the others make is told apart.
+    """
     files: dict[str, str] = {}
+    others: dict[str, str] = {}
     folders: list[str] = []
+    for target in TARGETS:
+        if target.shared:
+            continue
+        if target in targets:
+            files |= _headed(target, compiled, compiled.source.path)
+            folders += target.folders(compiled.model)
+        else:
+            others |= _headed(target, compiled, compiled.source.path)
+    return Output(
+        f"generated/{compiled.spec.protocol.name}.manifest",
+        compiled.source.path,
+        dict(sorted(files.items())),
+        tuple(folders),
+        compiled.source.digest,
+        others,
+    )
+
+
+def render_shared(compiled: Compiled, targets: Collection[Target] = TARGETS) -> Output:
+    """What is the same for every spec, and framegen's own."""
+    files: dict[str, str] = {}
     for target in targets:
-        rendered = target.render(compiled, snippets())
-        files |= {path: _headed(target, path, text, compiled) for path, text in rendered.items()}
-        folders += target.folders(compiled.model)
-    return Rendered(dict(sorted(files.items())), tuple(folders), compiled.source.digest)
+        if target.shared:
+            files |= _headed(target, compiled, "")
+    return Output("spec/framegen.manifest", "", dict(sorted(files.items())))
 
 
-def _headed(target: Target, path: str, text: str, compiled: Compiled) -> str:
-    """Put the banner on top of a file whose language has comments, save for one that is empty."""
-    comment = target.comments.get(PurePosixPath(path).suffix)
-    if comment is None or not text:
-        return text
-    return f"{comment.before}{banner(compiled.source.path)}{comment.after}\n{text}"
+def _headed(target: Target, compiled: Compiled, spec: str) -> dict[str, str]:
+    """The files of a target; those whose language has comments, unless empty, with a banner."""
+    headed = target.render(compiled, snippets())
+    for path, text in headed.items():
+        comment = target.comments.get(PurePosixPath(path).suffix)
+        if comment is not None and text:
+            headed[path] = f"{comment.before}{banner(spec)}{comment.after}\n{text}"
+    return headed
 
 
 def snippets() -> Snippets:

@@ -22,7 +22,8 @@ def test_it_writes_the_pages_and_the_way_to_them(
     assert main(["docs", SPEC, "--out", str(folder)]) == 0
     assert capsys.readouterr().out.strip() == str(folder / "busservo" / "index.html")
     site = reference("busservo")
-    assert written(folder) == {"index.html", *(f"busservo/{path}" for path in site.pages)}
+    pages = {f"busservo/{path}" for path in site.pages}
+    assert written(folder) == {"index.html", "site.manifest", *pages}
     for path, page in site.pages.items():
         assert (folder / "busservo" / path).read_bytes() == page.text.encode()
 

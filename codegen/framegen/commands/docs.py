@@ -6,8 +6,6 @@ import sys
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from framegen.wording import counted
-
 if TYPE_CHECKING:
     from argparse import ArgumentParser, Namespace
 
@@ -21,36 +19,48 @@ EXAMPLES = (
 
 def add_arguments(parser: ArgumentParser) -> None:
     """Declare the arguments of the verb."""
-    parser.add_argument("spec", nargs="?", type=Path, metavar="SPEC", help="a spec file")
+    parser.add_argument(
+        "spec",
+        nargs="?",
+        type=Path,
+        metavar="SPEC",
+        help="a spec file; without it, all spec/*.yaml",
+    )
     parser.add_argument("--open", action="store_true", help="open the index in a browser")
     parser.add_argument(
         "--out", type=Path, metavar="FOLDER", help="write here, and not into a temporary folder"
     )
+    parser.add_argument(
+        "--force",
+        action="store_true",
+        help="replace files that were edited by hand or are not framegen's; "
+        "each is kept beside its place, as NAME.mine",
+    )
 
 
 def run(arguments: Namespace) -> int:
-    """Build the pages, and print where their index is. 1 where the spec has findings."""
+    """Build the pages, and print where their index is. 1 where a spec has findings."""
     from tempfile import mkdtemp  # noqa: PLC0415
     from webbrowser import open as open_in_browser  # noqa: PLC0415
 
-    from framegen.commands.spec_argument import compiled  # noqa: PLC0415
+    from framegen.commands.spec_argument import compiled, print_findings  # noqa: PLC0415
+    from framegen.output import Output  # noqa: PLC0415
+    from framegen.project import all_specs  # noqa: PLC0415
     from framegen.render import snippets  # noqa: PLC0415
     from framegen.targets.docs.pages import render_site  # noqa: PLC0415
+    from framegen.writing import write  # noqa: PLC0415
 
-    spec = compiled(arguments.spec)
-    if spec.findings:
-        for finding in spec.findings:
-            print(finding.render(spec.source) + "\n")
-        found = counted(len(spec.findings), "finding")
-        print(f"{found} in {spec.source.name}: nothing was written", file=sys.stderr)
+    files: list[Path] = [arguments.spec] if arguments.spec else all_specs()
+    specs = [compiled(file) for file in files]
+    if print_findings(specs):
         return 1
-    files = render_site([spec], snippets())
     folder: Path = arguments.out or Path(mkdtemp(prefix="framegen-docs-"))
-    for path, text in files.items():
-        file = folder / path
-        file.parent.mkdir(parents=True, exist_ok=True)
-        file.write_bytes(text.encode())
-    index = folder / spec.model.spec.protocol.name / "index.html"
+    # All pages are one output: which of the specs they come from, each of them says.
+    site = Output("site.manifest", "", render_site(specs, snippets()))
+    for notice in write(folder, [site], force=arguments.force).notices:
+        print(notice, file=sys.stderr)
+    names = [spec.spec.protocol.name for spec in specs]
+    index = Path(folder, *names, "index.html") if len(names) == 1 else folder / "index.html"
     print(index)
     if arguments.open and not open_in_browser(index.resolve().as_uri()):
         print("no browser was found; open the file yourself", file=sys.stderr)

@@ -1,7 +1,8 @@
-"""`framegen generate`: everything that follows from a spec, written, compared or shown."""
+"""`framegen generate`: everything that follows from the specs, written, compared or shown."""
 
 from __future__ import annotations
 
+import os
 import sys
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -11,59 +12,139 @@ from framegen.wording import counted
 
 if TYPE_CHECKING:
     from argparse import ArgumentParser, Namespace
+    from collections.abc import Sequence
 
-SUMMARY = "Write the library, the reference, the editor schema and the test vectors of a spec."
+    from framegen.compile import Compiled
+    from framegen.output import Output
+    from framegen.targets.target import Target
+    from framegen.writing import Survey, Written
+
+SUMMARY = "Write the libraries, the reference, the test vectors and the editor schema of all specs."
 EXAMPLES = (
     ("framegen generate", "write what spec/*.yaml asks for; only what differs is touched"),
+    ("framegen generate spec/busservo.yaml", "what this spec asks for, and no other"),
+    ("framegen generate --target python", "the libraries alone"),
     ("framegen generate --diff", "show what that would change, and change nothing"),
     ("framegen generate --check", "fail if anything would change: for CI"),
     ("framegen generate --out build", "write below another folder"),
 )
+# Of many files that are in nobody's way, as many are named.
+_NAMED = 3
 
 
 def add_arguments(parser: ArgumentParser) -> None:
     """Declare the arguments of the verb."""
-    parser.add_argument("spec", nargs="?", type=Path, metavar="SPEC", help="a spec file")
+    parser.add_argument(
+        "spec",
+        nargs="?",
+        type=Path,
+        metavar="SPEC",
+        help="a spec file; without it, all spec/*.yaml",
+    )
     how = parser.add_mutually_exclusive_group()
     how.add_argument("--check", action="store_true", help="write nothing; 1 if anything differs")
     how.add_argument("--diff", action="store_true", help="write nothing; show what would change")
+    how.add_argument(
+        "--force",
+        action="store_true",
+        help="replace files that were edited by hand or are not framegen's; "
+        "each is kept beside its place, as NAME.mine",
+    )
     parser.add_argument(
-        "--out", type=Path, metavar="FOLDER", help="write below this folder, not the spec's project"
+        "--target", metavar="NAME", help="write this target's files, and leave all others"
+    )
+    parser.add_argument(
+        "--out",
+        type=Path,
+        metavar="FOLDER",
+        help="write below this folder; otherwise below the one that holds spec/, "
+        "or that of a spec which lies elsewhere",
     )
 
 
 def run(arguments: Namespace) -> int:
-    """Check the spec, render it, and bring the disk to agree. 1 for findings, or with --check."""
-    from framegen.commands.spec_argument import compiled  # noqa: PLC0415
-    from framegen.project import default_spec, project_root  # noqa: PLC0415
-    from framegen.render import render  # noqa: PLC0415
-    from framegen.writer import changes, write  # noqa: PLC0415
+    """Check the specs, render them, and bring the disk to agree. 1: findings, or with --check."""
+    from framegen.commands.spec_argument import compiled, print_findings  # noqa: PLC0415
+    from framegen.project import FOLDER, all_specs, project_root  # noqa: PLC0415
+    from framegen.render import render, render_shared  # noqa: PLC0415
+    from framegen.targets.table import TARGETS  # noqa: PLC0415
+    from framegen.writing import survey, write  # noqa: PLC0415
 
-    file: Path = arguments.spec or default_spec()
-    spec = compiled(file)
-    if spec.findings:
-        for finding in spec.findings:
-            print(finding.render(spec.source) + "\n")
-        found = counted(len(spec.findings), "finding")
-        _tell(f"{found} in {spec.source.name}: nothing was written")
+    targets = [_target(arguments.target)] if arguments.target else TARGETS
+    files: list[Path] = [arguments.spec] if arguments.spec else all_specs()
+    specs = [compiled(file) for file in files]
+    if print_findings(specs):
         return 1
-    root: Path = arguments.out or project_root(file)
-    rendered = render(spec)
-    files = counted(len(rendered.files), "file")
-    if not (arguments.check or arguments.diff):
-        done = write(root, rendered)
-        for change in done:
-            print(f"{'removed' if change.new is None else 'wrote'} {visible(change.path)}")
-        _tell(f"{files} from {spec.source.name}: {len(done) or 'none'} changed")
-        return 0
-    differing = changes(root, rendered)
-    for change in differing:
+    outputs = [*(render(spec, targets) for spec in specs), render_shared(specs[0], targets)]
+    outputs = [output for output in outputs if output.files]
+    root: Path = arguments.out or project_root(files[0])
+    # A spec that is gone from the project takes along what came from it.
+    all_of = None if arguments.spec or arguments.out or arguments.target else FOLDER
+    if arguments.check or arguments.diff:
+        would = survey(root, outputs, all_of=all_of)
+        _show(would)
+        _sum_up(outputs, specs, root, f"{len(would.changes) or 'none'} would change")
+        return 1 if would.changes and arguments.check else 0
+    done = write(root, outputs, all_of=all_of, force=arguments.force)
+    _report(done)
+    _sum_up(outputs, specs, root, f"{len(done.changes) or 'none'} changed")
+    return 0
+
+
+def _target(name: str) -> Target:
+    """Find a target by its name. Raises Unusable where there is none."""
+    from framegen.reading.findings import did_you_mean  # noqa: PLC0415
+    from framegen.reading.yamltree import Unusable  # noqa: PLC0415
+    from framegen.targets.table import TARGETS  # noqa: PLC0415
+
+    targets = {target.name: target for target in TARGETS}
+    if name not in targets:
+        raise Unusable(f"there is no target {name!r}", hint=did_you_mean(name, targets))
+    return targets[name]
+
+
+def _show(found: Survey) -> None:
+    for change in found.changes:
         print(change.diff(), end="")
-    sys.stdout.flush()
-    for change in differing:
+    for change in found.changes:
         _tell(f"{change.why}: {visible(change.path)}")
-    _tell(f"{files} from {spec.source.name}: {len(differing) or 'none'} would change")
-    return 1 if differing and arguments.check else 0
+    _remark(found)
+
+
+def _report(done: Written) -> None:
+    for change in done.changes:
+        if change.path in done.kept:
+            print(f"kept {visible(change.path)} as {visible(done.kept[change.path])}")
+        if change.new is not None or change.path not in done.kept:
+            print(f"{'removed' if change.new is None else 'wrote'} {visible(change.path)}")
+    _remark(done)
+
+
+def _remark(found: Survey | Written) -> None:
+    """Say what a reader may want to know, and need do nothing about."""
+    for notice in found.notices:
+        _tell(visible(notice))
+    for path in found.strangers[:_NAMED]:
+        _tell(f"left alone, for framegen did not write it: {visible(path)}")
+    if len(found.strangers) > _NAMED:
+        _tell(f"left alone, too: {counted(len(found.strangers) - _NAMED, 'more file')}")
+
+
+def _sum_up(outputs: Sequence[Output], specs: Sequence[Compiled], root: Path, what: str) -> None:
+    files = counted(sum(len(output.files) + 1 for output in outputs), "file")
+    source = specs[0].source.name if len(specs) == 1 else counted(len(specs), "spec")
+    # Paths are shown as they are below the root: so it is told where that is another folder.
+    below = "" if os.path.realpath(root) == os.path.realpath(Path()) else f" below {_near(root)}"
+    _tell(f"{files} from {source}{below}: {what}")
+
+
+def _near(root: Path) -> str:
+    """Name a folder as it is seen from here, where that is shorter."""
+    try:
+        relative = os.path.relpath(root)
+    except ValueError:  # on another drive
+        return visible(str(root))
+    return visible(min(Path(relative).as_posix(), str(root), key=len))
 
 
 def _tell(text: str) -> None:

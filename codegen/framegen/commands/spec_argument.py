@@ -2,14 +2,17 @@
 
 from __future__ import annotations
 
+import sys
 from typing import TYPE_CHECKING
 
 from framegen.compile import compile_spec
 from framegen.language.load import read_source
 from framegen.project import default_spec
 from framegen.reading.yamltree import Unusable
+from framegen.wording import counted
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
     from pathlib import Path
 
     from framegen.compile import Compiled
@@ -26,3 +29,15 @@ def compiled(file: Path | None) -> Compiled:
     except Unusable as error:
         place = "" if error.finding is None else f"\n{error.finding.render(source)}"
         raise Unusable(f"{source.name}: {error}{place}", hint=error.hint) from None
+
+
+def print_findings(specs: Sequence[Compiled]) -> bool:
+    """Print what is wrong with specs of which something was to be written; whether anything is."""
+    for spec in specs:
+        for finding in spec.findings:
+            print(finding.render(spec.source) + "\n")
+        if spec.findings:
+            sys.stdout.flush()
+            found = counted(len(spec.findings), "finding")
+            print(f"{found} in {spec.source.name}: nothing was written", file=sys.stderr)
+    return any(spec.findings for spec in specs)

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 from framegen.language.spec import Spec
 from framegen.language.wiretypes import WIRE_TYPES
+from framegen.output import banner
 from framegen.reading.yamltree import Unusable
 from framegen.targets.target import Target
 
@@ -22,6 +23,7 @@ if TYPE_CHECKING:
 
 _KEYWORDS = (
     "$schema",
+    "$comment",
     "title",
     "$ref",
     "description",
@@ -67,6 +69,7 @@ def schema_text() -> str:
             signed = [name for name, wire in WIRE_TYPES.items() if wire.low < 0]
             model["properties"]["signed_as"]["anyOf"][0]["enum"] = signed
     schema["$schema"] = "https://json-schema.org/draft/2020-12/schema"
+    schema["$comment"] = banner("")
     schema["title"] = "framegen spec"
     return json.dumps(_ordered(schema), indent=2, ensure_ascii=False) + "\n"
 

@@ -1,0 +1,8 @@
+"""Puts output on disk: what is framegen's own, and only that; nothing half-written, ever."""
+
+from __future__ import annotations
+
+from framegen.writing.survey import Change, Survey, changes, survey
+from framegen.writing.write import Written, write
+
+__all__ = ["Change", "Survey", "Written", "changes", "survey", "write"]

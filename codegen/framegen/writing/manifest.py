@@ -1,0 +1,84 @@
+"""The list of what framegen wrote, which is kept beside the output: by it, own files are known."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass, field
+from hashlib import sha256
+from typing import TYPE_CHECKING
+
+from framegen import __version__
+from framegen.console import visible
+from framegen.output import banner
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+_COMMENT = re.compile(r"# (?:(spec|spec-sha256|framegen): )?(.*)")
+# As `sha256sum` writes and reads it.
+_LINE = re.compile(r"([0-9a-f]{64})  (\S.*)")
+# What no path of the output begins with, or holds: it would lead out of the root.
+_ASTRAY = re.compile(r"/|[A-Za-z]:|(?:.*/)?\.\.?(?:/|$)|.*(?:\\|//|/$)")
+
+
+def file_digest(data: bytes) -> str:
+    """SHA-256 of a file with LF line ends, so that a checkout with others is no edit."""
+    return sha256(data.replace(b"\r\n", b"\n")).hexdigest()
+
+
+def text_digest(text: str) -> str:
+    """SHA-256 of what is to be written."""
+    return file_digest(text.encode())
+
+
+@dataclass(frozen=True, slots=True)
+class Manifest:
+    """What framegen wrote from a spec: by path, the digests by which a file there is its own.
+
+    A path has several while a run is under way, and where git has joined two lists; a file that
+    matches any is framegen's. `whole` is False where the text could not be read to the letter.
+    """
+
+    spec: str
+    digest: str = ""
+    files: Mapping[str, frozenset[str]] = field(default_factory=dict)
+    version: str = __version__
+    whole: bool = True
+
+    def text(self) -> str:
+        """The manifest as it is written, one sorted line a file."""
+        facts = {
+            "spec": visible(self.spec),
+            "spec-sha256": self.digest,
+            "framegen": self.version,
+        }
+        head = [f"# {banner(self.spec)}", *(f"# {key}: {it}" for key, it in facts.items() if it)]
+        lines = [
+            f"{digest}  {path}"
+            for path in sorted(self.files)
+            for digest in sorted(self.files[path])
+        ]
+        return "".join(f"{line}\n" for line in [*head, *lines])
+
+
+def read_manifest(data: bytes) -> Manifest:
+    """Read all that can be read; what cannot, such as the marks of a conflict, is passed over."""
+    text = data.decode("utf-8", errors="replace").replace("\r\n", "\n")
+    facts: dict[str, str] = {}
+    files: dict[str, set[str]] = {}
+    whole = text.startswith(f"# {banner('')[: -len('. DO NOT EDIT.')]}") and text.endswith("\n")
+    for line in text.removesuffix("\n").split("\n"):
+        if (comment := _COMMENT.fullmatch(line)) is not None:
+            if comment[1]:
+                facts[comment[1]] = comment[2]
+        elif (listed := _LINE.fullmatch(line)) and _ASTRAY.match(listed[2]) is None:
+            files.setdefault(listed[2], set()).add(listed[1])
+        else:
+            whole = False
+    return Manifest(
+        facts.get("spec", ""),
+        facts.get("spec-sha256", ""),
+        {path: frozenset(digests) for path, digests in files.items()},
+        facts.get("framegen", ""),
+        whole,
+    )

@@ -1,0 +1,107 @@
+"""What stands where output goes, and that no path leads out of the root."""
+
+from __future__ import annotations
+
+import os
+import stat
+from dataclasses import dataclass
+from pathlib import Path, PurePosixPath
+from typing import TYPE_CHECKING
+
+from framegen.console import visible
+from framegen.reading.yamltree import Unusable
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+# What Python and the desktop leave behind in any folder, and nobody wrote.
+_LITTER = frozenset(["__pycache__", ".DS_Store", "Thumbs.db"])
+
+
+@dataclass(frozen=True, slots=True)
+class Standing:
+    """What stands at a path: a file with its bytes, or whatever else in a word or two."""
+
+    data: bytes
+    kind: str = ""
+
+
+class Places:
+    """The paths below a root. Raises Unusable where a link leads one of them out of it."""
+
+    def __init__(self, root: Path) -> None:
+        self.root = root
+        self._real = Path(os.path.realpath(root))
+        self._looked_at: set[PurePosixPath] = set()
+
+    def at(self, path: str) -> Path:
+        """Give the place of a path, all folders above it being folders below the root."""
+        pure = PurePosixPath(path)
+        if pure.parent not in self._looked_at:
+            for folder in reversed(pure.parents[:-1]):
+                self._look_at(folder)
+            self._looked_at.add(pure.parent)
+        place = self.root / path
+        if place.is_symlink():
+            self._stay(path)
+        return place
+
+    def _look_at(self, folder: PurePosixPath) -> None:
+        place = self.root / folder
+        self._stay(str(folder))
+        try:
+            mode = place.stat().st_mode
+        except (FileNotFoundError, NotADirectoryError):
+            return
+        if not stat.S_ISDIR(mode):
+            raise Unusable(
+                f"{visible(str(folder))} is no folder, and output goes there",
+                hint="move it elsewhere; nothing was changed",
+            )
+
+    def _stay(self, path: str) -> None:
+        real = Path(os.path.realpath(self.root / path))
+        if not real.is_relative_to(self._real):
+            raise Unusable(
+                f"{visible(path)} is a link that leads to {visible(str(real))}, "
+                f"out of {visible(str(self.root))}",
+                hint="remove it, or name where output is to go: --out FOLDER; nothing was changed",
+            )
+
+    def look(self, path: str) -> Standing | None:
+        """See what stands at a path; None for nothing. Raises Unusable where it cannot be read."""
+        place = self.at(path)
+        try:
+            kind = _kind(place.lstat().st_mode)
+            # A link stands for its file, as long as there is nothing to write.
+            regular = kind in ("", "a link") and place.is_file()
+            return Standing(place.read_bytes() if regular or not kind else b"", kind)
+        except FileNotFoundError:
+            return None
+        except OSError as error:
+            reason = error.strerror or str(error)
+            raise Unusable(f"{visible(str(place))} cannot be read: {reason}") from None
+
+    def listed(self, folder: str, pattern: str) -> list[str]:
+        """Give the files of a folder, not of those below, whose names match."""
+        place = self.at(f"{folder}/x").parent
+        return sorted(str(PurePosixPath(folder, file.name)) for file in place.glob(pattern))
+
+    def files_below(self, folder: str) -> Iterator[str]:
+        """Walk through the files of a folder and those below it, through no link, in any order."""
+        top = self.at(f"{folder}/x").parent
+        for above, folders, names in os.walk(top):
+            folders[:] = sorted(set(folders) - _LITTER)
+            inner = PurePosixPath(Path(above).relative_to(self.root).as_posix())
+            yield from (str(inner / name) for name in names if name not in _LITTER)
+
+
+def _kind(mode: int) -> str:
+    """Name what is no plain file."""
+    if stat.S_ISREG(mode):
+        return ""
+    if stat.S_ISDIR(mode):
+        return "a folder"
+    if stat.S_ISLNK(mode):
+        return "a link"
+    return "no file"

@@ -1,0 +1,339 @@
+"""How the disk differs from what is wanted there, and whose each file is. Changes nothing."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from difflib import unified_diff
+from io import StringIO
+from pathlib import PurePosixPath
+from typing import TYPE_CHECKING, Literal, TypeAlias
+
+from framegen.console import visible
+from framegen.reading.yamltree import Unusable
+from framegen.wording import counted
+from framegen.writing.kept import is_kept
+from framegen.writing.manifest import Manifest, file_digest, read_manifest, text_digest
+from framegen.writing.marks import is_blank, is_conflicted, is_former_page, is_generated
+from framegen.writing.places import Places
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterable, Sequence
+    from pathlib import Path
+
+    from framegen.output import Output
+    from framegen.writing.places import Standing
+
+# Where the reference lay before each spec had a folder of its own.
+_FORMER_REFERENCE = "docs/reference"
+Lines: TypeAlias = "dict[str, frozenset[str]]"
+Why = Literal["missing", "stale", "conflicted", "orphaned", "edited by hand", "foreign"]
+
+
+@dataclass(frozen=True, slots=True)
+class Change:
+    """One file that differs from what is wanted. `new` is None where no file should be."""
+
+    path: str
+    why: Why
+    old: str | None
+    new: str | None
+
+    @property
+    def ours(self) -> bool:
+        """Whether nobody loses anything by it."""
+        return self.why not in ("edited by hand", "foreign")
+
+    def diff(self) -> str:
+        """The change as a unified diff."""
+        before = "/dev/null" if self.old is None else f"a/{visible(self.path)}"
+        after = "/dev/null" if self.new is None else f"b/{visible(self.path)}"
+        old, new = (list(StringIO(text or "")) for text in (self.old, self.new))
+        shown = "".join(
+            line if line.endswith("\n") else f"{line}\n\\ No newline at end of file\n"
+            for line in unified_diff(old, new, before, after)
+        )
+        # An empty file that comes or goes has no lines to show.
+        return shown or f"--- {before}\n+++ {after}\n"
+
+
+@dataclass(slots=True)
+class Survey:
+    """What is to be done, in the order of the paths.
+
+    `strangers` stand in folders of the output, in nobody's way. `left` are paths of what was
+    removed, now or by a run that was killed: folders above them may be empty. `plans` are the
+    manifests as they have to be while the run goes on, where that is not how they are; `finals` are
+    all of them as they are at the end. `manifests` are the paths of these and of those that go.
+    """
+
+    changes: list[Change] = field(default_factory=list)
+    strangers: list[str] = field(default_factory=list)
+    notices: list[str] = field(default_factory=list)
+    left: set[str] = field(default_factory=set)
+    plans: dict[str, str] = field(default_factory=dict)
+    finals: dict[str, str] = field(default_factory=dict)
+    manifests: set[str] = field(default_factory=set)
+
+
+def changes(root: Path, outputs: Sequence[Output]) -> list[Change]:
+    """How what is on disk differs from what is wanted there."""
+    return survey(root, outputs).changes
+
+
+def survey(
+    root: Path, outputs: Sequence[Output], *, all_of: str | None = None, force: bool = False
+) -> Survey:
+    """Compare the disk with what is wanted. Raises Unusable where it cannot be looked at.
+
+    `all_of` names a folder all of whose specs are among `outputs`: what a manifest says is from
+    another spec of that folder is wanted no more. `force` takes over what another spec has made.
+    """
+    return _Surveyor(Places(root), outputs, all_of).look(force=force)
+
+
+class _Surveyor:
+    """One look at the disk: reads the manifests, then each file that they or the outputs name."""
+
+    def __init__(self, places: Places, outputs: Sequence[Output], all_of: str | None) -> None:
+        self._places = places
+        self._outputs = outputs
+        self._all_of = all_of
+        self._found = Survey()
+        self._wanted = _owners(outputs)
+        self._manifests = {output.manifest: self._read(output.manifest) for output in outputs}
+        self._known: Lines = {}
+        self._folded: dict[str, str] = {}
+
+    def look(self, *, force: bool) -> Survey:
+        for output in self._outputs:
+            self._expect_own(output, force=force)
+        former = dict(self._former())
+        self._known = _united([*self._manifests.values(), *former.values()])
+        self._folded = _folded(path for path in self._known if path not in self._wanted)
+        for output in self._outputs:
+            self._look_at(output)
+        for path, manifest in former.items():
+            for listed in manifest.files:
+                self._look_at_orphan(listed)
+            self._found.manifests.add(path)
+            text = self._text(self._places.look(path))
+            self._found.changes.append(Change(path, "orphaned", text, None))
+            self._found.left.add(path)
+        self._found.changes.sort(key=lambda change: change.path)
+        self._found.strangers.sort()
+        return self._found
+
+    def _read(self, path: str) -> Manifest | None:
+        standing = self._places.look(path)
+        return None if standing is None or standing.kind else read_manifest(standing.data)
+
+    def _expect_own(self, output: Output, *, force: bool) -> None:
+        """Refuse to take over what another spec, which is still there, has made."""
+        found = self._manifests[output.manifest]
+        if found is None or force or found.spec in ("", visible(output.spec)):
+            return
+        if (self._places.root / found.spec).is_file():
+            raise Unusable(
+                f"{output.manifest} belongs to {found.spec}, and {visible(output.spec)} "
+                "has the same `name`",
+                hint="give the protocol another name, or its output another place: --out FOLDER",
+            )
+
+    def _former(self) -> Iterable[tuple[str, Manifest]]:
+        """Manifests of a spec at hand under the name that it had, and of specs that are gone."""
+        own = {path.casefold() for path in self._manifests}
+        specs = {
+            visible(output.spec) for output in self._outputs if output.spec and not output.others
+        }
+        for folder in sorted({str(PurePosixPath(path).parent) for path in self._manifests}):
+            for path in self._places.listed(folder, "*.manifest"):
+                manifest = None if path.casefold() in own else self._read(path)
+                if manifest is None or not manifest.spec:
+                    continue
+                gone = str(PurePosixPath(manifest.spec).parent) == self._all_of
+                if gone or manifest.spec in specs:
+                    yield path, manifest
+
+    def _look_at(self, output: Output) -> None:
+        manifest = self._manifests[output.manifest]
+        listed = {} if manifest is None else manifest.files
+        rebuilt = manifest is None or not manifest.whole
+        there = [
+            self._look_at_file(path, text, rebuilt=rebuilt) for path, text in output.files.items()
+        ]
+        files = {path: frozenset([text_digest(text)]) for path, text in output.files.items()}
+        files |= self._others(output, rebuilt=rebuilt)
+        for path, digests in listed.items():
+            if output.others and not _below(path, output.folders):
+                files.setdefault(path, digests)
+            else:
+                self._look_at_orphan(path)
+        adopted = self._look_around(output, rebuilt=rebuilt)
+        self._look_at_manifest(output, files, adopted)
+        if rebuilt and (manifest is not None or adopted or any(there)):
+            state = "is not there" if manifest is None else "is damaged"
+            self._found.notices.append(
+                f"{output.manifest} {state}: own files are told by what stands in them"
+            )
+
+    def _look_at_file(self, path: str, text: str, *, rebuilt: bool) -> bool:
+        """Compare one file that is wanted. Whether it is there, and nobody else's."""
+        standing = self._places.look(path)
+        if standing is None:
+            self._found.changes.append(Change(path, "missing", None, text))
+            return False
+        same = standing.kind in ("", "a link") and file_digest(standing.data) == text_digest(text)
+        # Where capitals tell no names apart, the orphan of this name is this very file.
+        if same and path.casefold() not in self._folded:
+            return True
+        why = self._why(path, standing, same=same, rebuilt=rebuilt)
+        if why in ("stale", "conflicted"):
+            self._own(path, standing)
+        self._found.changes.append(Change(path, why, self._text(standing), text))
+        return why != "foreign"
+
+    def _own(self, path: str, standing: Standing) -> None:
+        """Know a file by what it holds now, too."""
+        digests = frozenset([file_digest(standing.data)])
+        self._known[path] = self._known.get(path, frozenset()) | digests
+
+    def _why(self, path: str, standing: Standing, *, same: bool, rebuilt: bool) -> Why:
+        twin = self._folded.get(path.casefold(), path)
+        known = self._known.get(path, frozenset()) | self._known.get(twin, frozenset())
+        if standing.kind:
+            return "foreign"
+        if same or file_digest(standing.data) in known:
+            return "stale"
+        if known and is_blank(standing.data):
+            return "stale"
+        generated = is_generated(standing.data)
+        if (known or generated) and is_conflicted(standing.data):
+            return "conflicted"
+        if rebuilt and generated:
+            return "stale"
+        return "edited by hand" if known else "foreign"
+
+    def _look_at_orphan(self, path: str) -> None:
+        """What is listed, and wanted no more. What is no file any more is in nobody's way."""
+        if path in self._wanted or path in self._found.left:
+            return
+        self._found.left.add(path)
+        standing = self._places.look(path)
+        if standing is None or standing.kind:
+            return
+        if is_conflicted(standing.data) or is_blank(standing.data):
+            self._own(path, standing)
+        own = file_digest(standing.data) in self._known[path]
+        why: Why = "orphaned" if own else "edited by hand"
+        self._found.changes.append(Change(path, why, self._text(standing), None))
+
+    def _others(self, output: Output, *, rebuilt: bool) -> Lines:
+        """The lines of what this run leaves as it is: those that are known, or can be told."""
+        kept = {}
+        for path, text in output.others.items():
+            if digests := self._known.get(path):
+                kept[path] = digests
+            elif rebuilt and (standing := self._places.look(path)) and not standing.kind:
+                digest = file_digest(standing.data)
+                if digest == text_digest(text) or is_generated(standing.data):
+                    kept[path] = frozenset([digest])
+        return kept
+
+    def _look_around(self, output: Output, *, rebuilt: bool) -> list[str]:
+        """Find what is not listed in the output's folders: somebody's, or of a lost manifest."""
+        adopted = []
+        for folder in output.folders:
+            for path in self._places.files_below(folder):
+                if path in self._wanted or path in self._known or is_kept(path):
+                    continue
+                if rebuilt and self._adopt(path, is_generated):
+                    adopted.append(path)
+                else:
+                    self._found.strangers.append(path)
+        if rebuilt and output.folders and not output.others:
+            for path in self._places.files_below(_FORMER_REFERENCE):
+                if path in self._wanted or path in self._known:
+                    continue
+                if self._adopt(path, lambda data: is_former_page(data, output.spec)):
+                    adopted.append(path)
+        return adopted
+
+    def _adopt(self, path: str, told: Callable[[bytes], bool]) -> bool:
+        """Take a file that nothing lists for an orphan, if what stands in it tells so."""
+        standing = self._places.look(path)
+        if standing is None or standing.kind or not told(standing.data):
+            return False
+        self._own(path, standing)
+        self._found.left.add(path)
+        self._found.changes.append(Change(path, "orphaned", self._text(standing), None))
+        return True
+
+    def _look_at_manifest(self, output: Output, files: Lines, adopted: list[str]) -> None:
+        manifest = self._manifests[output.manifest]
+        listed = {} if manifest is None else manifest.files
+        # What a part of the output was made from says nothing of the rest.
+        digest = manifest.digest if manifest is not None and output.others else output.digest
+        plan = {
+            path: files.get(path, frozenset()) | self._known.get(path, frozenset())
+            for path in {*files, *listed, *adopted}
+        }
+        path = output.manifest
+        text = Manifest(output.spec, digest, files).text()
+        self._found.manifests.add(path)
+        self._found.finals[path] = text
+        if manifest is None or not manifest.whole or plan != listed:
+            self._found.plans[path] = Manifest(output.spec, digest, plan).text()
+        standing = self._places.look(path)
+        if standing is None:
+            self._found.changes.append(Change(path, "missing", None, text))
+        elif standing.kind:
+            self._found.changes.append(Change(path, "foreign", None, text))
+        elif file_digest(standing.data) != text_digest(text):
+            self._found.changes.append(Change(path, "stale", self._text(standing), text))
+
+    @staticmethod
+    def _text(standing: Standing | None) -> str | None:
+        """The text of a file, every byte of it telling; None where there is none."""
+        if standing is None or standing.kind:
+            return None
+        return standing.data.decode("utf-8", errors="surrogateescape")
+
+
+def _owners(outputs: Sequence[Output]) -> dict[str, Output]:
+    """Who wants each path. Raises Unusable where two want the same, be it in other capitals."""
+    owners: dict[str, Output] = {}
+    folded: dict[str, Output] = {}
+    for output in outputs:
+        for path in (output.manifest, *output.files, *output.others):
+            other = folded.setdefault(path.casefold(), output)
+            if other is not output:
+                raise Unusable(
+                    f"{visible(other.spec)} and {visible(output.spec)} both make {visible(path)}",
+                    hint="give each protocol a `name` of its own; nothing was changed",
+                )
+            owners[path] = output
+    return owners
+
+
+def _united(manifests: Iterable[Manifest | None]) -> Lines:
+    known: Lines = {}
+    for manifest in manifests:
+        for path, digests in () if manifest is None else manifest.files.items():
+            known[path] = known.get(path, frozenset()) | digests
+    return known
+
+
+def _folded(paths: Iterable[str]) -> dict[str, str]:
+    return {path.casefold(): path for path in paths}
+
+
+def _below(path: str, folders: Iterable[str]) -> bool:
+    return any(path.startswith(f"{folder}/") for folder in folders)
+
+
+def describe(found: Sequence[Change]) -> str:
+    """Say what stands in the way, a line each; of many, how many more there are."""
+    lines = [f"{change.why}: {visible(change.path)}" for change in found[:20]]
+    if len(found) > len(lines):
+        lines.append(f"and {counted(len(found) - len(lines), 'more file')}")
+    return "\n".join(f"  {line}" for line in lines)

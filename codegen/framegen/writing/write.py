@@ -1,0 +1,197 @@
+"""Makes the disk agree with what is wanted, so that a run that is killed is finished by the next.
+
+All files are prepared first, then the manifests say what is and what will be, then file after file
+is replaced by its new one, and the manifests say at last what is. A file that matches what a
+manifest says, before or after, is framegen's own.
+"""
+
+from __future__ import annotations
+
+import errno
+from dataclasses import dataclass, field
+from glob import escape
+from pathlib import PurePosixPath
+from typing import TYPE_CHECKING
+
+from framegen.console import visible
+from framegen.reading.yamltree import Unusable
+from framegen.writing import disk
+from framegen.writing.kept import kept_place
+from framegen.writing.places import Places
+from framegen.writing.survey import Change, Survey, describe, survey
+from framegen.writing.workshop import is_left_over, workshop
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+    from pathlib import Path
+
+    from framegen.output import Output
+    from framegen.writing.workshop import Workshop
+
+# A folder that is not empty, not there, a link, or in use by somebody stays, and is no failure.
+_STAYS = (
+    errno.ENOTEMPTY,
+    errno.EEXIST,
+    errno.ENOENT,
+    errno.ENOTDIR,
+    errno.EACCES,
+    errno.EPERM,
+    errno.EBUSY,
+)
+# How long a run waits for another one to end, in seconds.
+PATIENCE = 10.0
+
+
+@dataclass(slots=True)
+class Written:
+    """What was changed; `kept` tells where files of others are now that stood in the way."""
+
+    changes: list[Change] = field(default_factory=list)
+    kept: dict[str, str] = field(default_factory=dict)
+    strangers: list[str] = field(default_factory=list)
+    notices: list[str] = field(default_factory=list)
+
+
+def write(
+    root: Path,
+    outputs: Sequence[Output],
+    *,
+    all_of: str | None = None,
+    force: bool = False,
+    patience: float = PATIENCE,
+) -> Written:
+    """Make the disk agree, and tell what was changed. `all_of` is as for `survey`.
+
+    Raises Unusable, with nothing changed, where that would replace or remove what is not
+    framegen's own; with `force` such files are kept beside. Where the disk fails in the middle,
+    another run finishes.
+    """
+    found = survey(root, outputs, all_of=all_of, force=force)
+    if not found.changes and not is_left_over(root):
+        return Written(strangers=found.strangers, notices=found.notices)
+    writer: _Writer | None = None
+    try:
+        with workshop(root, patience) as at:
+            found = survey(root, outputs, all_of=all_of, force=force)
+            if not force:
+                _expect_no_obstacle(found)
+            writer = _Writer(Places(root), at, found)
+            writer.write()
+    except OSError as error:
+        raise Unusable(
+            f"{visible(str(error.filename or root))} cannot be written: {error.strerror or error}",
+            hint="nothing was changed" if writer is None else writer.progress(),
+        ) from None
+    return writer.done
+
+
+def _expect_no_obstacle(found: Survey) -> None:
+    obstacles = [change for change in found.changes if not change.ours]
+    if obstacles:
+        raise Unusable(
+            f"the work of others would be lost, so nothing was written\n{describe(obstacles)}",
+            hint="move it elsewhere or undo it; "
+            "or have it kept beside its place, as NAME.mine: --force",
+        )
+
+
+class _Writer:
+    """One run, from preparations to the last manifest."""
+
+    def __init__(self, places: Places, at: Workshop, found: Survey) -> None:
+        self.done = Written(strangers=found.strangers, notices=found.notices)
+        self._begun = False
+        self._places = places
+        self._at = at
+        self._found = found
+        self._files = [change for change in found.changes if change.path not in found.manifests]
+        self._manifests = [change for change in found.changes if change.path in found.manifests]
+
+    def write(self) -> None:
+        staged = {
+            change.path: self._stage(change.path, change.new)
+            for change in self._found.changes
+            if change.new is not None
+        }
+        plans = self._found.plans if self._files else {}
+        planned = {path: self._stage(path, text) for path, text in plans.items()}
+        # Once a plan stands, its end has to be written, even if it is what was there before.
+        for path in plans.keys() - staged.keys():
+            staged[path] = self._stage(path, self._found.finals[path])
+        for change in self._manifests:
+            if not change.ours:
+                self._keep(change.path)
+        for path, plan in planned.items():
+            self._put(path, plan)
+        self._change_files(staged)
+        self._remove_empty_folders()
+        self._conclude(staged)
+
+    def _change_files(self, staged: dict[str, Path]) -> None:
+        # What goes, goes first: where capitals do not tell names apart, its place may be wanted.
+        for change in sorted(self._files, key=lambda change: change.new is not None):
+            if not change.ours:
+                self._keep(change.path)
+            elif change.new is None:
+                self._remove(change.path)
+            if change.new is not None:
+                self._put(change.path, staged[change.path])
+            self.done.changes.append(change)
+
+    def _conclude(self, staged: dict[str, Path]) -> None:
+        for path in sorted(self._found.finals.keys() & staged.keys()):
+            self._put(path, staged[path])
+        for change in self._manifests:
+            if change.new is None:
+                self._remove(change.path)
+            self.done.changes.append(change)
+        self.done.changes.sort(key=lambda change: change.path)
+
+    def progress(self) -> str:
+        """Say how far it got, and what is to be done."""
+        if not self._begun:
+            return "nothing was changed"
+        done, all_of_them = len(self.done.changes), len(self._found.changes)
+        return f"{done} of {all_of_them} changes were made; run this again to finish"
+
+    def _stage(self, path: str, text: str) -> Path:
+        flush = path in self._found.manifests
+        return self._at.stage(text.encode(), self._places.at(path), flush=flush)
+
+    def _remove(self, path: str) -> None:
+        self._begun = True
+        disk.remove_file(self._places.at(path))
+
+    def _keep(self, path: str) -> None:
+        place = self._places.at(path)
+        free = kept_place(place)
+        self._begun = True
+        disk.move(place, free)
+        self.done.kept[path] = path.removesuffix(place.name) + free.name
+
+    def _put(self, path: str, staged: Path) -> None:
+        self._begun = True
+        place = self._places.at(path)
+        for folder in reversed(PurePosixPath(path).parents[:-1]):
+            disk.make_folder(self._places.root / folder)
+        disk.move(staged, place)
+
+    def _remove_empty_folders(self) -> None:
+        """Remove what Python made of files that are gone, and folders that held nothing else."""
+        for path in sorted(self._found.left, reverse=True):
+            place = self._places.at(path)
+            if place.suffix == ".py" and not place.exists():
+                cache = place.parent / "__pycache__"
+                for file in cache.glob(f"{escape(place.stem)}.*.pyc"):
+                    disk.remove_file(file)
+                _remove_if_empty(cache)
+            for folder in PurePosixPath(path).parents[:-1]:
+                _remove_if_empty(self._places.root / folder)
+
+
+def _remove_if_empty(folder: Path) -> None:
+    try:
+        disk.remove_folder(folder)
+    except OSError as error:
+        if error.errno not in _STAYS:
+            raise

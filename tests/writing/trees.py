@@ -1,0 +1,75 @@
+"""Small output to write, and what a folder holds."""
+
+from __future__ import annotations
+
+import hashlib
+from typing import TYPE_CHECKING, TypeAlias
+
+from framegen.output import Output, banner
+from framegen.writing.workshop import NAME
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+Snapshot: TypeAlias = "dict[str, bytes | None]"
+
+SPEC = "spec/kiln.yaml"
+BANNER = f"# {banner(SPEC)}\n"
+LIBRARY = "generated/kiln"
+PAGES = "docs/reference/kiln"
+
+
+def snapshot(folder: Path) -> Snapshot:
+    """Every path below `folder`: the bytes of files, None for folders."""
+    return {
+        path.relative_to(folder).as_posix(): None if path.is_dir() else path.read_bytes()
+        for path in sorted(folder.rglob("*"))
+    }
+
+
+def without_workshop(found: Snapshot) -> Snapshot:
+    return {path: data for path, data in found.items() if path.split("/")[0] != NAME}
+
+
+def times(folder: Path) -> dict[str, int]:
+    return {str(path): path.stat().st_mtime_ns for path in folder.rglob("*") if path.is_file()}
+
+
+def output(name: str = "kiln", spec: str = SPEC, **bodies: str) -> Output:
+    """The output of a spec: a module for each body, and a page for each whose name is a class's."""
+    files = {}
+    for body, text in bodies.items():
+        if body[0].isupper():
+            files[f"docs/reference/{name}/messages/{body}.md"] = f"<!-- {banner(spec)} -->\n{text}"
+        else:
+            files[f"generated/{name}/{body.replace('__', '/')}.py"] = f"# {banner(spec)}\n{text}"
+    return Output(
+        f"generated/{name}.manifest",
+        spec,
+        files,
+        (f"generated/{name}", f"docs/reference/{name}"),
+        hashlib.sha256(repr(bodies).encode()).hexdigest(),
+    )
+
+
+def schema(text: str = "{}\n") -> Output:
+    return Output("spec/framegen.manifest", "", {"spec/framegen.schema.json": text})
+
+
+def put(root: Path, path: str, text: str) -> Path:
+    """Write a file as somebody else would."""
+    file = root / path
+    file.parent.mkdir(parents=True, exist_ok=True)
+    file.write_bytes(text.encode("utf-8", errors="surrogateescape"))
+    return file
+
+
+# Two editions that differ in every way: files that come, go, change and stay, and whole folders.
+BEFORE = output(
+    same="x = 1\n", changed="x = 1\n", gone="x = 1\n", old__inner="x = 1\n", Heat="old", Cool="cool"
+)
+AFTER = output(
+    same="x = 1\n", changed="x = 2\n", new="x = 1\n", deep__er__new="x = 1\n", Heat="new", Fan="fan"
+)
+# The library under another name: whole folders and a manifest go.
+RENAMED = output("furnace", SPEC, same="x = 1\n", Heat="new")
