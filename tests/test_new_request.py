@@ -225,7 +225,7 @@ def test_it_can_be_sent_from_the_command_line(project: Path) -> None:
 
 
 def test_it_is_in_the_reference_and_in_the_vectors(project: Path) -> None:
-    reference = project / "docs" / "reference"
+    reference = project / "docs" / "reference" / "busservo"
     for name in ("LampSet", "LampsRead", "LampsState"):
         assert name in (reference / "README.md").read_text(encoding="utf-8")
         assert name in (reference / "messages" / f"{name}.md").read_text(encoding="utf-8")

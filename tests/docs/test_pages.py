@@ -8,10 +8,21 @@ from pathlib import Path
 
 import pytest
 from framegen.language.values import to_hex
+from framegen.reading.source import Source
 from framegen.reading.yamltree import dotted, read_tree
-from framegen.render import render
+from framegen.render import render, snippets
+from framegen.targets import docs
+from framegen.targets.docs.pages import render_site
 
-from tests.docs.reference import ROOT, SPECS, Reference, reference, reference_of, respelled
+from tests.docs.reference import (
+    ROOT,
+    SPECS,
+    Page,
+    Reference,
+    reference,
+    reference_of,
+    respelled,
+)
 
 # Where each spec lies below the root of its project.
 SPEC_PATHS = {"busservo": "spec/busservo.yaml", "greenhouse": "demo.yaml"}
@@ -101,6 +112,37 @@ def test_style_and_scripts_keep_within_their_bounds() -> None:
     ]
     assert len([line for line in lines if line and not line.startswith("//")]) <= 420
     assert max(map(len, lines)) <= 110
+
+
+def test_protocols_of_one_project_share_nothing_but_a_front_page() -> None:
+    sites = [reference(name) for name in SPECS]
+    together = render_site([site.compiled for site in sites], snippets())
+    front = Page("index.html", together.pop("index.html"))
+    assert together == {
+        f"{name}/{path}": page.text
+        for name, site in zip(SPECS, sites, strict=True)
+        for path, page in site.pages.items()
+    }
+    assert [front.leads_to(link)[0] for link in front.links] == [
+        f"{name}/index.html" for name in SPECS
+    ]
+    for site in sites:
+        protocol = site.model.spec.protocol
+        for text in (protocol.title, protocol.version, protocol.summary):
+            assert text in front.words
+    folders = [set(docs.TARGET.folders(site.model)) for site in sites]
+    assert folders[0].isdisjoint(folders[1])
+
+
+def test_a_spec_that_lies_elsewhere_is_named_and_not_linked_to() -> None:
+    text = reference("greenhouse").source.text
+    inside, outside = (
+        reference_of(Source(name, text)) for name in ("spec/demo.yaml", "/some/where/demo.yaml")
+    )
+    assert "(../../../../spec/demo.yaml)" in inside.files["messages/VentsOpen.md"]
+    for path, page in outside.files.items():
+        assert "demo.yaml" not in page.partition("-->")[2], path
+    assert "`messages.VentsOpen` in the spec" in outside.files["messages/VentsOpen.md"]
 
 
 # ---------------------------------------------------------------------------- messages

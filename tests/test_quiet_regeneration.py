@@ -1,0 +1,280 @@
+"""Only what changed changes: a comment nothing, a word a few files, a message what shows it."""
+
+import ast
+import json
+import re
+from collections.abc import Iterator
+from functools import cache
+from typing import Any
+
+import framegen
+import pytest
+from framegen.compile import Compiled, compile_spec
+from framegen.reading.source import Source
+from framegen.render import render, snippets
+from framegen.targets.docs.pages import render_site
+
+from tests.specimens import BUSSERVO, DEMO, Data, Steps, data_of
+
+SPECS = {"busservo": BUSSERVO, "greenhouse": DEMO}
+PATH = "spec/some.yaml"
+
+# Keys of prose. A unit, a vendor's name and a version are facts: they may be code.
+PROSE = frozenset(
+    [
+        *("title", "summary", "description", "about", "text", "why", "here", "what"),
+        *("constructed", "deprecated"),
+    ]
+)
+# Of those, what is said of one thing, and shown where that thing is.
+OF_ONE_THING = PROSE - {"title"}
+MOST = 8
+
+# Modules that hold the words which the command prints; all else has words in docstrings alone.
+FOR_READERS = {"cli/examples.py", "lookalikes.py"}
+
+MESSAGE = """\
+  BuzzerBeep:
+    id: 40
+    direction: host -> controller
+    summary: Sound the buzzer on the board.
+    cite: vendor, section 1.8
+    length: 5
+    fields:
+      times: {type: u8, about: How many beeps.}
+      pause_ms: {type: u16, unit: ms, about: How long the pause between two beeps is.}
+    examples:
+      - title: Beep twice, 300 ms apart
+        hex: 55 55 05 28 02 2C 01
+        values: {times: 2, pause_ms: 300}
+        cite: vendor, section 1.8, example 1
+
+"""
+
+
+def compiled(text: str) -> Compiled:
+    found = compile_spec(Source(PATH, text))
+    assert [finding.message for finding in found.findings] == []
+    return found
+
+
+@cache
+def files(text: str) -> dict[str, str]:
+    return render(compiled(text)).files
+
+
+@cache
+def text_of(name: str) -> str:
+    return SPECS[name].read_text(encoding="utf-8")
+
+
+def as_text(data: Data) -> str:
+    """A spec as text: JSON is YAML, too."""
+    return json.dumps(data, indent=1)
+
+
+def changed(before: dict[str, str], after: dict[str, str]) -> set[str]:
+    """The paths of the files that come, go or differ."""
+    paths = before.keys() | after.keys()
+    return {path for path in paths if before.get(path) != after.get(path)}
+
+
+def replaced(text: str, old: str, new: str) -> str:
+    assert text.count(old) == 1
+    return text.replace(old, new)
+
+
+# ------------------------------------------------------------------ what nothing shows
+
+
+def commented(text: str) -> str:
+    """The same spec with comments and blank lines wherever they can be."""
+    for line, comment in (
+        (r"^framegen:", "# what this file is\n\n\n"),
+        (r"^\w+:$", "# what is next\n"),
+        (r"^  [A-Z]\w+:$", "  # a message\n\n"),
+        (r"^    fields:$", "    # its fields\n"),
+        (r"\Z", "# the end\n"),
+    ):
+        found = re.sub(line, rf"{comment}\g<0>", text, flags=re.MULTILINE)
+        assert found != text
+        text = found
+    return text
+
+
+@pytest.mark.parametrize("name", SPECS)
+def test_a_comment_changes_no_file(name: str) -> None:
+    text = text_of(name)
+    assert changed(files(text), files(commented(text))) == set()
+
+
+@pytest.mark.parametrize("name", SPECS)
+def test_a_comment_changes_only_the_page_that_shows_the_spec(name: str) -> None:
+    text = text_of(name)
+    pages = [render_site([compiled(each)], snippets()) for each in (text, commented(text))]
+    assert changed(*pages) == {f"{name}/spec.html"}
+
+
+@pytest.mark.parametrize("name", SPECS)
+def test_how_values_are_spelt_changes_no_file(name: str) -> None:
+    """In JSON nothing stands where it stood, and no line has the number that it had."""
+    text = text_of(name)
+    assert changed(files(text), files(as_text(data_of(SPECS[name])))) == set()
+
+
+@pytest.mark.parametrize("name", SPECS)
+def test_no_file_knows_the_digest_of_the_spec_or_who_generated_it_when(name: str) -> None:
+    source = Source(PATH, text_of(name))
+    told = [source.digest, f"framegen {framegen.__version__}"]
+    pages = render_site([compiled(source.text)], snippets())
+    for path, text in (files(source.text) | pages).items():
+        assert [word for word in told if word in text] == [], path
+
+
+# ------------------------------------------------------------------ words
+
+
+def prose(value: Any, path: Steps = ()) -> Iterator[Steps]:
+    """The way to each text that says something of one thing."""
+    items = value.items() if isinstance(value, dict) else enumerate(value)
+    for key, item in items:
+        here = (*path, key)
+        if isinstance(item, (dict, list)):
+            yield from prose(item, here)
+        elif key in OF_ONE_THING and isinstance(item, str):
+            yield here
+
+
+def kinds_of_prose(name: str) -> dict[str, Steps]:
+    """For each kind of place that says something, the last that does."""
+    known = {"messages", "fields", "values", "notes", "examples", "errata", "unknowns", "sources"}
+    found = {}
+    for path in prose(data_of(SPECS[name])):
+        names = [
+            "*" if isinstance(step, int) or before in known else step
+            for before, step in zip(("", *path), path, strict=False)
+        ]
+        found[".".join(names)] = path
+    return found
+
+
+PLACES = [(name, kind) for name in SPECS for kind in kinds_of_prose(name)]
+
+
+def test_the_places_are_many() -> None:
+    kinds = {kind for _, kind in PLACES}
+    assert {
+        "frame.header.about",
+        "messages.*.summary",
+        "messages.*.description",
+        "messages.*.fields.*.about",
+        "messages.*.fields.*.notes.*.text",
+        "messages.*.fields.*.fields.*.about",
+        "messages.*.fields.*.values.*.about",
+        "sources.*.about",
+        "errata.*.why",
+    } <= kinds
+
+
+@pytest.mark.parametrize(("name", "kind"), PLACES)
+def test_a_word_changes_few_files(name: str, kind: str) -> None:
+    data = data_of(SPECS[name])
+    before = files(as_text(data))
+    *steps, key = kinds_of_prose(name)[kind]
+    at: Any = data
+    for step in steps:
+        at = at[step]
+    at[key] = f"Indeed, {at[key]}"
+    touched = changed(before, files(as_text(data)))
+    assert 1 <= len(touched) <= MOST, touched
+
+
+def reworded(value: Any, key: str = "") -> Any:
+    """The same facts in other words."""
+    if isinstance(value, dict):
+        return {name: reworded(each, str(name)) for name, each in value.items()}
+    if isinstance(value, list):
+        return [f"Indeed, {each}" if key == "changes" else reworded(each) for each in value]
+    return f"Indeed, {value}" if key in PROSE and isinstance(value, str) else value
+
+
+class _Bare(ast.NodeTransformer):
+    """Drops docstrings, those below an attribute included, and on demand what all strings say."""
+
+    def __init__(self, *, strings: bool) -> None:
+        self._strings = strings
+
+    def visit_Expr(self, node: ast.Expr) -> ast.AST | None:
+        is_docstring = isinstance(node.value, ast.Constant) and isinstance(node.value.value, str)
+        return None if is_docstring else self.generic_visit(node)
+
+    def visit_Constant(self, node: ast.Constant) -> ast.AST:
+        if self._strings and isinstance(node.value, str):
+            node.value = ""
+        return node
+
+
+def bare(path: str, text: str) -> str:
+    """The code of a module: what of it is no docstring, and no word that the command prints."""
+    strings = any(path.endswith(f"/{name}") for name in FOR_READERS)
+    return ast.dump(_Bare(strings=strings).visit(ast.parse(text)))
+
+
+@pytest.mark.parametrize("name", SPECS)
+def test_other_words_leave_the_code_as_it_is(name: str) -> None:
+    data = data_of(SPECS[name])
+    before, after = files(as_text(data)), files(as_text(reworded(data)))
+    assert before.keys() == after.keys()
+    touched = {path for path in changed(before, after) if path.endswith(".py")}
+    assert {f"generated/{name}/messages.py", f"generated/{name}/cli/examples.py"} <= touched
+    for path in touched:
+        assert bare(path, before[path]) == bare(path, after[path]), path
+
+
+def test_a_value_in_the_code_would_be_seen() -> None:
+    code = 'class A:\n    """A."""\n\n    name = "x"\n    """Its name."""\n'
+    assert bare("a.py", code) == bare("a.py", code.replace("Its name", "The name"))
+    assert bare("a.py", code) != bare("a.py", code.replace('"x"', '"y"'))
+
+
+# ------------------------------------------------------------------ facts
+
+
+def test_a_new_message_changes_what_shows_it() -> None:
+    text = text_of("busservo")
+    # Before the line above the messages of the controller.
+    where = text.index("  # -----", text.index("  ServoUnload:"))
+    touched = changed(files(text), files(text[:where] + MESSAGE + text[where:]))
+    pages = {"README.md", "examples.md", "messages/BuzzerBeep.md", "sequences.md"}
+    modules = {
+        *("__init__.py", "messages.py", "strategies.py", "vectors.json", "exchanges.py"),
+        *("controller.py", "async_controller.py", "device.py"),
+    }
+    assert touched == {f"docs/reference/busservo/{page}" for page in pages} | {
+        f"generated/busservo/{module}" for module in modules
+    }
+
+
+def test_a_new_named_value_changes_what_shows_it() -> None:
+    data = data_of(BUSSERVO)
+    before = files(as_text(data))
+    values = data["messages"]["ServoMove"]["fields"]["time_ms"].setdefault("values", {})
+    values["a_second"] = {"value": 1000, "about": "A second."}
+    assert changed(before, files(as_text(data))) == {
+        "docs/reference/busservo/examples.md",
+        "docs/reference/busservo/messages/ServoMove.md",
+        "generated/busservo/async_controller.py",
+        "generated/busservo/controller.py",
+        "generated/busservo/messages.py",
+    }
+
+
+def test_a_new_version_changes_what_states_it() -> None:
+    text = text_of("busservo")
+    later = text.replace("version: 1.0.0", "version: 1.0.1").replace('"1.0.0"', '"1.0.1"')
+    assert changed(files(text), files(later)) == {
+        "docs/reference/busservo/README.md",
+        "docs/reference/busservo/changelog.md",
+        "generated/busservo/protocol.py",
+        "generated/busservo/vectors.json",
+    }
