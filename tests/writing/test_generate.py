@@ -314,7 +314,7 @@ def three(project: Path) -> Path:
     return project
 
 
-def test_all_specs_of_a_root_are_written_side_by_side(three: Path, capsys: Capture) -> None:
+def test_all_specs_of_a_root_are_written_side_by_side(capsys: Capture, three: Path) -> None:
     err = capsys.readouterr().err
     assert f"{3 * (len(OUTPUT.files) + 1) + 2} files from 3 specs: " in err
     assert main(["generate", "--check"]) == 0
