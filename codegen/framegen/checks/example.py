@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from functools import partial
 from typing import TYPE_CHECKING, Any, Literal
 
 from framegen.checks.rule import ModelRule, Problem
@@ -32,7 +33,7 @@ def _executed(
         decoded = decode(model, message.direction, example.hex)
     except NotAFrame as error:
         what = f"this is no frame of {message.name}: {error}"
-        yield Problem((*path, "hex"), what, _other_order(model, message, example))
+        yield Problem((*path, "hex"), what, partial(_other_order, model, message, example))
         return
     if decoded.layout is not message:
         at, found = message.frame.id_at, decoded.layout

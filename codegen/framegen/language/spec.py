@@ -263,7 +263,7 @@ class Example(Part):
 class Message(Part):
     """One message in one direction."""
 
-    id: Natural = Key(description="Its code.")
+    id: Natural = Key(description="Its code, which the id part of the frame holds.")
     direction: Way = Key(description="Who sends it to whom, such as `host -> controller`.")
     vendor_name: str = Key("", description="What the vendor calls it.")
     summary: str = Key(description="What it does, in one line.")
