@@ -21,6 +21,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from tests.patience import PATIENCE
+from tests.specimens import BUSSERVO, DEMO
 
 Capture: TypeAlias = "pytest.CaptureFixture[str]"
 
@@ -318,8 +319,23 @@ def test_two_specs_leave_a_choice(
     assert main(["explain", "55"]) == 2
     assert capsys.readouterr().err == (
         "framegen: error: there are 2 specs to choose from: a.yaml, b.yaml\n"
-        "  hint: name the one you mean, such as spec/a.yaml\n"
+        "  hint: name the one you mean, such as `a`\n"
     )
+
+
+def test_a_spec_of_several_is_found_by_its_name(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: Capture
+) -> None:
+    here = project(tmp_path / "here", "b.yaml", "a.yaml")
+    for name, spec in (("a", BUSSERVO), ("b", DEMO)):
+        (here / "spec" / f"{name}.yaml").write_bytes(spec.read_bytes())
+    monkeypatch.chdir(here)
+    assert main(["explain", "a", "55 55 02 07"]) == 0
+    assert capsys.readouterr().out.startswith("ActionGroupStop, ")
+    assert main(["diff", "a", "b"]) == 1
+    assert "busservo became greenhouse" in capsys.readouterr().out
+    assert main(["diff", "a", "c"]) == 2
+    assert capsys.readouterr().err.startswith("framegen: error: c does not exist\n")
 
 
 def test_without_a_spec_anywhere_the_error_says_what_to_do(

@@ -38,9 +38,17 @@ def default_spec() -> Path:
         names = ", ".join(visible(spec.name) for spec in specs)
         raise Unusable(
             f"there are {len(specs)} specs to choose from: {names}",
-            hint=f"name the one you mean, such as {visible(specs[0].as_posix())}",
+            hint=f"name the one you mean, such as `{visible(specs[0].stem)}`",
         )
     return specs[0]
+
+
+def named_spec(word: str) -> Path | None:
+    """Find the spec of the project that is called so: `busservo` is spec/busservo.yaml."""
+    try:
+        return next((spec for spec in all_specs() if spec.stem == word), None)
+    except Unusable:
+        return None
 
 
 def project_root(spec: Path) -> Path:

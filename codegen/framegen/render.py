@@ -6,7 +6,7 @@ from pathlib import PurePosixPath
 from typing import TYPE_CHECKING
 
 from framegen.output import Output, banner
-from framegen.targets.table import TARGETS
+from framegen.targets import table
 
 if TYPE_CHECKING:
     from collections.abc import Collection
@@ -15,18 +15,19 @@ if TYPE_CHECKING:
     from framegen.targets.target import Snippets, Target
 
 
-def render(compiled: Compiled, targets: Collection[Target] = TARGETS) -> Output:
+def render(compiled: Compiled, targets: Collection[Target] | None = None) -> Output:
     """What is made of a spec, and of no other. Raises Unusable where it has findings.
 
-    Of `targets` alone; what the others make is told apart.
+    Of `targets` alone, if they are given; what the others make is told apart.
     """
+    chosen = table.TARGETS if targets is None else targets
     files: dict[str, str] = {}
     others: dict[str, str] = {}
     folders: list[str] = []
-    for target in TARGETS:
+    for target in table.TARGETS:
         if target.shared:
             continue
-        if target in targets:
+        if target in chosen:
             files |= _headed(target, compiled, compiled.source.path)
             folders += target.folders(compiled.model)
         else:
@@ -41,10 +42,10 @@ def render(compiled: Compiled, targets: Collection[Target] = TARGETS) -> Output:
     )
 
 
-def render_shared(compiled: Compiled, targets: Collection[Target] = TARGETS) -> Output:
+def render_shared(compiled: Compiled, targets: Collection[Target] | None = None) -> Output:
     """What is the same for every spec, and framegen's own."""
     files: dict[str, str] = {}
-    for target in targets:
+    for target in table.TARGETS if targets is None else targets:
         if target.shared:
             files |= _headed(target, compiled, "")
     return Output("spec/framegen.manifest", "", dict(sorted(files.items())))
@@ -62,4 +63,4 @@ def _headed(target: Target, compiled: Compiled, spec: str) -> dict[str, str]:
 
 def snippets() -> Snippets:
     """How each target that is a language shows an example, by its name."""
-    return {target.name: target.snippet for target in TARGETS if target.snippet is not None}
+    return {target.name: target.snippet for target in table.TARGETS if target.snippet is not None}

@@ -23,13 +23,13 @@ EXAMPLES = (
     ("framegen explain 55 55 08 03 01 E8 03 01 20 03", "each byte, and what it says"),
     ("framegen explain 5555040F4C1D --direction controller", "as sent by the controller alone"),
     ("framegen explain 0x55,0x55,0x09,0x03,0x01,0xE8", "where and why it is no frame"),
-    ("framegen explain spec/busservo.yaml 55 55 02 07", "by this spec"),
+    ("framegen explain busservo 55 55 02 07", "by spec/busservo.yaml, where there are others"),
 )
 
 
 def add_arguments(parser: ArgumentParser) -> None:
     """Declare the arguments of the verb."""
-    parser.usage = "framegen explain [SPEC.yaml] HEX ... [--direction SENDER] [--json]"
+    parser.usage = "framegen explain [SPEC] HEX ... [--direction SENDER] [--json]"
     parser.add_argument(
         "words",
         nargs="+",
@@ -73,10 +73,12 @@ def _pointed(text: str, error: HexError) -> str:
 
 
 def _is_spec(word: str) -> bool:
+    from framegen.project import named_spec  # noqa: PLC0415
+
     if word.endswith((".yaml", ".yml")):
         return True
     try:
-        return Path(word).is_file()
+        return Path(word).is_file() or named_spec(word) is not None
     except (OSError, ValueError):  # longer than a path can be, or with a NUL in it: bytes
         return False
 

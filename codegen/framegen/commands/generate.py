@@ -67,10 +67,9 @@ def run(arguments: Namespace) -> int:
     from framegen.commands.spec_argument import compiled, print_findings  # noqa: PLC0415
     from framegen.project import FOLDER, all_specs, project_root  # noqa: PLC0415
     from framegen.render import render, render_shared  # noqa: PLC0415
-    from framegen.targets.table import TARGETS  # noqa: PLC0415
     from framegen.writing import survey, write  # noqa: PLC0415
 
-    targets = [_target(arguments.target)] if arguments.target else TARGETS
+    targets = [_target(arguments.target)] if arguments.target else None
     files: list[Path] = [arguments.spec] if arguments.spec else all_specs()
     specs = [compiled(file) for file in files]
     if print_findings(specs):

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from framegen.compile import compile_spec
 from framegen.language.load import read_source
-from framegen.project import default_spec
+from framegen.project import default_spec, named_spec
 from framegen.reading.yamltree import Unusable
 from framegen.wording import counted
 
@@ -19,11 +19,15 @@ if TYPE_CHECKING:
 
 
 def compiled(file: Path | None) -> Compiled:
-    """Compile `file`, or else the only spec of the project.
+    """Compile `file`, which may be the name of a spec of the project, or else its only spec.
 
     Raises Unusable, with the place in its text, where it is no spec at all.
     """
-    source = read_source(default_spec() if file is None else file)
+    if file is None:
+        file = default_spec()
+    elif not file.exists():
+        file = named_spec(str(file)) or file
+    source = read_source(file)
     try:
         return compile_spec(source)
     except Unusable as error:

@@ -1,0 +1,56 @@
+"""A target for a language that nobody speaks: a message a line. All that a target has to be."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from framegen.targets.target import BentName, Comment, Target
+
+if TYPE_CHECKING:
+    from framegen.compile import Compiled
+    from framegen.language.spec import Example
+    from framegen.model.layout import MessageLayout
+    from framegen.model.model import Model
+    from framegen.targets.target import Snippets
+
+# The words of the language, which no message can be called.
+RESERVED = frozenset(["VentsOpen", "Halt"])
+
+
+def render(compiled: Compiled, _snippets: Snippets) -> dict[str, str]:
+    """A list of the messages, and a file of data, which has no comments."""
+    (folder,) = folders(compiled.model)
+    lines = [f"{_name(each.name)} {each.id}\n" for each in compiled.model.messages.values()]
+    return {f"{folder}/messages.toy": "".join(lines), f"{folder}/count.dat": f"{len(lines)}\n"}
+
+
+def folders(model: Model) -> tuple[str, ...]:
+    return (f"generated/{model.spec.protocol.name}_toy",)
+
+
+def bent(model: Model) -> list[BentName]:
+    return [
+        BentName(("messages", name), name, _name(name), "the language has a word of this name")
+        for name in model.messages
+        if name != _name(name)
+    ]
+
+
+def snippet(_model: Model, message: MessageLayout, _example: Example) -> str:
+    return f"say {_name(message.name)}\n"
+
+
+def _name(name: str) -> str:
+    return f"The{name}" if name in RESERVED else name
+
+
+TARGET = Target(
+    name="toy",
+    about="A message a line.",
+    render=render,
+    folders=folders,
+    comments={".toy": Comment("(* ", " *)")},
+    reserved=RESERVED,
+    bent=bent,
+    snippet=snippet,
+)
