@@ -40,7 +40,7 @@ MILLISECONDS = 1000 * PATIENCE
 SITE = reference("busservo")
 VECTORS = vectors_of(SITE)
 NAMES = [path for path in SITE.pages if "/" not in path]
-PAGES = [*NAMES, "messages/ServoMove.html", "messages/ServoPositions.html"]
+PAGES = [*NAMES, "messages/ServoMove.html", "messages/ServoPositions.html", "../index.html"]
 
 pytestmark = pytest.mark.skipif(CHROMIUM is None, reason="chromium is not installed")
 

@@ -310,6 +310,21 @@ def test_errata_look_alikes_and_history_are_told(site: Reference) -> None:
             assert change in changelog
 
 
+def test_anchors_hold_whatever_the_spec_calls_things() -> None:
+    data = read_tree(reference("busservo").source)[0].data
+    data["lookalikes"] = {"content": data["lookalikes"].pop("lx16a"), **data["lookalikes"]}
+    data["protocol"]["version"] = data["history"][0]["version"] = "2 (a draft), März"
+    pages = reference_of(respelled(data)).pages
+    assert "lookalike-content" in pages["lookalikes.html"].ids
+    assert "v2-a-draft-März" in pages["changelog.html"].ids
+    for path in ("lookalikes.html", "changelog.html"):
+        page = pages[path]
+        assert len(page.ids) == len(set(page.ids))
+        for link in page.links:
+            where, anchor = page.leads_to(link)
+            assert not anchor or anchor in pages[where].ids, link
+
+
 def test_wire_times_are_those_of_the_line() -> None:
     words = " ".join(reference("busservo").pages["sequences.html"].words.split())
     # Six servos: 11 bytes asked, 23 answered, at 960 bytes a second.

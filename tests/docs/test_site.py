@@ -63,8 +63,9 @@ def test_every_link_of_a_guide_leads_somewhere(site: dict[str, Page]) -> None:
 
 
 @needs_validator
-def test_guides_are_valid(site: dict[str, Page], tmp_path: Path) -> None:
-    assert complaints(tmp_path, {path: page.text for path, page in guides(site).items()}) == []
+def test_guides_and_the_front_page_are_valid(site: dict[str, Page], tmp_path: Path) -> None:
+    pages = guides(site) | {"reference/index.html": site["reference/index.html"]}
+    assert complaints(tmp_path, {path: page.text for path, page in pages.items()}) == []
 
 
 def test_guides_lead_to_the_pages_of_the_reference(site: dict[str, Page]) -> None:

@@ -74,6 +74,11 @@ def linked(text: str, addresses: Mapping[str, str], root: str) -> Markup:
     return result
 
 
+def anchor(text: str) -> str:
+    """`text` as part of an anchor: what is no letter, digit or dot becomes a dash."""
+    return re.sub(r"[^\w.]+", "-", text)
+
+
 def script_json(value: Any) -> Markup:
     """`value` as JSON inside a script element, which nothing in it can close."""
     text = json.dumps(value, ensure_ascii=True, separators=(",", ":"))

@@ -12,7 +12,7 @@ from markupsafe import Markup
 
 from framegen.output import banner
 from framegen.targets.docs.data import protocol_data
-from framegen.targets.docs.escape import linked, script_json
+from framegen.targets.docs.escape import anchor, linked, script_json
 from framegen.targets.docs.site import SiteView
 from framegen.targets.templates import environment
 
@@ -70,7 +70,7 @@ def _pages(site: SiteView) -> dict[str, str]:
 @cache
 def _environment() -> Environment:
     made = environment(_HERE / "templates", "html", autoescape=True)
-    made.filters["linked"] = linked
+    made.filters |= {"anchor": anchor, "linked": linked}
     return made
 
 
