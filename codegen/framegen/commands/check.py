@@ -85,8 +85,8 @@ def _notes(each: Compiled) -> Iterator[str]:
             at = each.tree.key_at(first.path)
             also = f" (and so in {counted(len(others), 'place')} more)" if others else ""
             yield (
-                f"{each.source.name}:{at.line}:{at.column}: note: {target.name} writes `{name}` "
-                f"as `{bent}`{also}: it {first.why}"
+                f"{each.source.name}:{at.line}:{at.column}: note: {target.name} writes the "
+                f"{first.kind} `{name}` as `{bent}`{also}: it {first.why}"
             )
 
 

@@ -41,9 +41,10 @@ class Reserved:
 
 @dataclass(frozen=True, slots=True)
 class BentName:
-    """A name of the spec that a target writes otherwise, and why."""
+    """A name of a kind that a target writes otherwise, the place in the spec, and why."""
 
     path: KeyPath
+    kind: str
     name: str
     bent: str
     why: str

@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
     from typing import Any
 
-    from framegen.language.spec import AnyField, Message, NumberField, Pose, Spec
+    from framegen.language.spec import AnyField, Message, Pose, Spec
     from framegen.model.layout import MessageLayout, Repeat, WireField
     from framegen.model.model import Model
     from framegen.reading.yamltree import KeyPath
@@ -115,10 +115,10 @@ class Names:
     def _signed(self) -> frozenset[str]:
         """The properties that read a field as signed, of whichever message."""
         return frozenset(
-            signed_name(name)
-            for message in self.model.spec.messages.values()
-            for name, field in _numbers(message)
-            if field.signed_as is not None
+            signed_name(number.name)
+            for message in self.model.messages.values()
+            for number in (*message.numbers, *(message.repeat.fields if message.repeat else ()))
+            if number.field.signed_as is not None
         )
 
     @cached_property
@@ -142,7 +142,7 @@ class Names:
         for path, kind, name in self._given():
             written = self.of(kind, name)
             if written != name:
-                found.append(BentName(path, name, written, self._taken(kind, name)[0]))
+                found.append(BentName(path, kind, name, written, self._taken(kind, name)[0]))
         return found
 
     def _given(self) -> Iterator[tuple[KeyPath, str, str]]:
@@ -302,15 +302,6 @@ class Names:
 
 _POSED = ("read", "move", "release")
 _POSE_METHODS = ("hold", "present", "targets")
-
-
-def _numbers(message: Message) -> Iterator[tuple[str, NumberField]]:
-    """The numbers of a message, those of its elements among them."""
-    for name, field in message.fields.items():
-        if isinstance(field, GroupField):
-            yield from field.fields.items()
-        else:
-            yield name, field
 
 
 def _field_names(path: KeyPath, name: str, field: AnyField) -> Iterator[tuple[KeyPath, str, str]]:
