@@ -7,6 +7,7 @@ import builtins
 import importlib
 import json
 import keyword
+import re
 import subprocess
 import sys
 from pathlib import Path
@@ -18,6 +19,8 @@ from busservo.async_client import AsyncClient
 from busservo.client import Client
 from framegen.cli import main
 from framegen.model.exchanges import snake_case
+from framegen.render import render, snippets
+from framegen.targets.docs.pages import render_site
 from framegen.targets.filenames import DEVICES, file_stem
 from framegen.targets.python import reserved
 from framegen.targets.python.names import names_of
@@ -458,6 +461,37 @@ def test_the_reference_shows_the_bent_name_in_code() -> None:
 def test_a_file_has_a_name_that_windows_takes(name: str, stem: str) -> None:
     assert file_stem(name) == stem
     assert file_stem(name).lower() not in DEVICES
+
+
+def test_every_file_can_be_checked_out_on_windows() -> None:
+    crowd = Crowd("con", "host", "device")
+    for name in ["Con", "Nul", "Aux", "Prn", "Com1", "Lpt9"]:
+        crowd.command(name, ["level"])
+    spec = compiled_of(crowd.data)
+    output = render(spec)
+    paths = [*output.files, output.manifest, *render_site([spec], snippets())]
+    assert {"docs/reference/con_/messages/Nul_.md", "con_/messages/Nul_.html"} <= {*paths}
+    stems = {part.partition(".")[0].lower() for path in paths for part in path.split("/")}
+    assert stems & DEVICES == set()
+    assert len({path.lower() for path in paths}) == len(paths)
+
+
+def test_the_pages_of_odd_names_are_linked_to(tmp_path: Path) -> None:
+    crowd = Crowd("con", "host", "device")
+    crowd.report("Nul", ["level"])
+    crowd.command("Con", ["level"], reply="Nul")
+    spec = compiled_of(crowd.data)
+    for path, text in {**render(spec).files, **render_site([spec], snippets())}.items():
+        if path.endswith((".md", ".html")):
+            (tmp_path / path).parent.mkdir(parents=True, exist_ok=True)
+            (tmp_path / path).write_text(text, encoding="utf-8")
+    links = 0
+    for page in tmp_path.rglob("*"):
+        text = page.read_text(encoding="utf-8") if page.is_file() else ""
+        for link in re.findall(r'href="([^"#:?]+)', text) + re.findall(r"\]\(([^)#:?]+)", text):
+            assert (page.parent / link).exists(), (page, link)
+            links += link.endswith(("Con_.html", "Con_.md", "Nul_.html", "Nul_.md"))
+    assert links > 20
 
 
 def test_check_notes_each_bent_name_once_and_finds_nothing(

@@ -6,6 +6,7 @@ from pathlib import PurePosixPath
 from typing import TYPE_CHECKING
 
 from framegen.output import Output, banner
+from framegen.targets.filenames import file_stem
 from framegen.targets.table import TARGETS
 
 if TYPE_CHECKING:
@@ -32,7 +33,7 @@ def render(compiled: Compiled, targets: Collection[Target] = TARGETS) -> Output:
         else:
             others |= _headed(target, compiled, compiled.source.path)
     return Output(
-        f"generated/{compiled.spec.protocol.name}.manifest",
+        f"generated/{file_stem(compiled.spec.protocol.name)}.manifest",
         compiled.source.path,
         dict(sorted(files.items())),
         tuple(folders),
