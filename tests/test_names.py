@@ -1,17 +1,53 @@
-"""No message of a spec can have a name that a generated module needs for itself."""
+"""A word that Python or the library has taken is a good name: the library bends it."""
 
 from __future__ import annotations
 
 import ast
+import builtins
+import importlib
+import json
+import keyword
+import re
+import subprocess
+import sys
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import busservo
 import pytest
-from framegen.names import LIBRARY_NAMES, PYTHON_CLASSES
+from busservo.async_client import AsyncClient
+from busservo.client import Client
+from framegen.cli import main
+from framegen.model.exchanges import snake_case
+from framegen.render import render, snippets
+from framegen.targets.docs.pages import render_site
+from framegen.targets.filenames import DEVICES, file_stem
+from framegen.targets.python import reserved
+from framegen.targets.python.names import names_of
+from framegen.targets.table import TARGETS
+from framegen.targets.vectors import TARGET as VECTORS
+
+from tests.crowd import Crowd, taken, taken_elements, taken_names, taken_pose
+from tests.specimens import (
+    BUSSERVO,
+    DEMO,
+    ROOT,
+    compiled_of,
+    data_of,
+    files_of,
+    layout_of,
+    library,
+    renamed,
+)
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Callable, Iterator
+    from types import ModuleType
+
+    from framegen.model.layout import MessageLayout
+    from framegen.model.model import Model
+
+    Command = Callable[..., tuple[int, str, str]]
 
 PACKAGE = Path(busservo.__file__).parent
 # Those that import the messages by name.
@@ -21,6 +57,10 @@ MODULES = sorted(
     if "from .messages import" in path.read_text(encoding="utf-8") or path.name == "messages.py"
 )
 MINE = {kind.__name__ for kind in busservo.MESSAGES} | {"ServoTarget", "ServoPosition"}
+CROWDS = {"names": taken_names, "elements": taken_elements, "pose": taken_pose}
+
+
+# ------------------------------------------------------------------ the lists have it all
 
 
 def statements(body: list[ast.stmt]) -> Iterator[ast.stmt]:
@@ -31,7 +71,7 @@ def statements(body: list[ast.stmt]) -> Iterator[ast.stmt]:
             yield from statements([*node.body, *node.orelse])
 
 
-def names_of(module: str) -> set[str]:
+def names_in(module: str) -> set[str]:
     """What a module imports and defines at its top, and for type checkers alone."""
     found: set[str] = set()
     for node in statements(ast.parse((PACKAGE / module).read_text(encoding="utf-8")).body):
@@ -46,6 +86,23 @@ def names_of(module: str) -> set[str]:
     return {name for name in found if name[0].isupper()}
 
 
+def variables_in(module: str) -> set[str]:
+    """What the methods of a module have as variables, or as arguments that no message gives."""
+    tree = ast.parse((PACKAGE / module).read_text(encoding="utf-8"))
+    stored = {
+        node.id
+        for node in ast.walk(tree)
+        if isinstance(node, ast.Name) and isinstance(node.ctx, ast.Store)
+    }
+    functions = (ast.FunctionDef, ast.AsyncFunctionDef)
+    arguments = [node.args for node in ast.walk(tree) if isinstance(node, functions)]
+    return stored | {each.arg for args in arguments for each in args.kwonlyargs}
+
+
+def public(kind: type) -> set[str]:
+    return {name for name in dir(kind) if not name.startswith("_")}
+
+
 def test_the_modules_that_know_messages_are_known() -> None:
     assert {"device.py", "exchanges.py", "controller.py", "messages.py"} <= set(MODULES)
 
@@ -53,5 +110,428 @@ def test_the_modules_that_know_messages_are_known() -> None:
 @pytest.mark.parametrize("module", MODULES)
 def test_what_a_module_needs_is_reserved(module: str) -> None:
     # Nor has the name of a message a line below it.
-    needed = {name for name in names_of(module) - MINE if "_" not in name}
-    assert needed - LIBRARY_NAMES - PYTHON_CLASSES == set()
+    needed = {name for name in names_in(module) - MINE if "_" not in name}
+    assert needed - {*taken("message")} == needed - {*taken("element")} == set()
+
+
+@pytest.mark.parametrize("module", ["controller.py", "async_controller.py"])
+def test_what_a_method_needs_is_reserved(module: str) -> None:
+    # Comprehensions have a scope of their own; busservo's `targets` and `servo_ids` are fields.
+    needed = variables_in(module) - {"_", "each", "targets", "servo_ids"}
+    assert {"reply", "replies", "latest", "exchanged"} <= needed
+    assert needed - {*taken("field")} == set()
+
+
+def test_what_a_class_of_the_library_has_is_reserved() -> None:
+    element = type("Made", (busservo.element.Element, tuple), {"__slots__": ()})
+    assert public(Client) | public(AsyncClient) <= {*taken("method")}
+    assert public(busservo.Message) <= {*taken("field"), "COMMAND", "DIRECTION", "LENGTHS", "SHAPE"}
+    assert public(element) <= {*taken("field of an element")}
+    assert not any(name.startswith("on_") for name in public(busservo.Device) - HANDLERS)
+
+
+HANDLERS = {name for name in vars(busservo.Device) if name.startswith("on_")}
+
+
+def test_every_word_of_this_python_is_reserved() -> None:
+    """Whichever it is: the lists are of all versions, and asked of none."""
+    words = {*keyword.kwlist, *keyword.softkwlist} - {"_", "None", "True", "False"}
+    assert words <= reserved.KEYWORDS
+    present = {name for name in dir(builtins) if not name.startswith("_")}
+    assert {name for name in present if name.islower()} <= reserved.BUILTINS | reserved.KEYWORDS
+    assert {name for name in present if name[0].isupper()} <= {*taken("message")}
+    modules = {name for name in sys.stdlib_module_names if not name.startswith("_")}
+    # Names of packages are in lower case.
+    assert {name for name in modules if name.islower()} <= reserved.MODULES
+
+
+def test_no_suffix_makes_another_reserved_word() -> None:
+    """Or else two names might be bent to the same."""
+    for row in reserved.RESERVED:
+        words = taken(row.kind)
+        assert [word + row.suffix for word in words if word + row.suffix in words] == []
+
+
+# ------------------------------------------------------------------ what becomes of a name
+
+
+@pytest.mark.parametrize(
+    ("kind", "old", "name", "bent"),
+    [
+        ("package", "greenhouse", "serial", "serial_protocol"),
+        ("package", "greenhouse", "json", "json_protocol"),
+        ("package", "greenhouse", "class", "class_protocol"),
+        ("package", "greenhouse", "nul", "nul_protocol"),
+        ("package", "greenhouse", "hall_simulator", "hall_simulator_protocol"),
+        ("package", "greenhouse", "json_lines", "json_lines"),
+        ("endpoint", "station", "any", "any_"),
+        ("endpoint", "station", "noise", "noise_"),
+        ("endpoint", "station", "class", "class"),
+        ("message", "StationRead", "Controller", "ControllerMessage"),
+        ("message", "StationRead", "ValueError", "ValueErrorMessage"),
+        ("message", "StationRead", "None", "NoneMessage"),
+        ("message", "StationRead", "I", "IMessage"),
+        ("message", "StationRead", "Con", "Con"),
+        ("message", "StationRead", "Nul", "Nul"),
+        ("message", "StationRead", "Decode", "Decode"),
+        ("element", "Vent", "Number", "NumberElement"),
+        ("element", "Vent", "O", "OElement"),
+        ("field", "ramp_s", "class", "class_"),
+        ("field", "ramp_s", "match", "match_"),
+        ("field", "ramp_s", "id", "id_"),
+        ("field", "ramp_s", "l", "l_"),
+        ("field", "ramp_s", "encode", "encode_"),
+        ("field", "ramp_s", "self", "self_"),
+        ("field", "ramp_s", "timeout", "timeout_"),
+        ("field", "ramp_s", "count", "count"),
+        ("field", "vent_count", "type", "type_"),
+        ("field", "vents", "list", "list_"),
+        ("field of an element", "angle", "count", "count_"),
+        ("field of an element", "angle", "encode", "encode"),
+        ("method", "vents_open", "close", "close_"),
+        ("method", "vents_open", "import", "import_"),
+        ("method", "vents_open", "open", "open"),
+    ],
+)
+def test_a_name_is_bent_where_it_is_taken_and_only_there(
+    kind: str, old: str, name: str, bent: str
+) -> None:
+    data = data_of(DEMO)
+    if kind == "method":
+        data["messages"]["VentsOpen"]["method"] = "vents_open(vents, ramp_s)"
+    names = names_of(layout_of(renamed(data, old, name)))
+    assert names.of(kind, name) == bent
+    assert {(each.name, each.bent) for each in names.bent} == ({(name, bent)} - {(name, name)})
+
+
+def test_a_bent_name_keeps_clear_of_the_names_that_are_there() -> None:
+    data = renamed(data_of(DEMO), "StationRead", "Noise")
+    data = renamed(renamed(data, "VentJammed", "NoiseMessage"), "Vent", "Noisemessagemessage")
+    names = names_of(layout_of(data))
+    assert names.of("message", "Noise") == "NoiseMessageMessageMessage"
+    assert {each.bent for each in names.bent} == {"NoiseMessageMessageMessage"}
+
+
+def test_what_is_read_as_signed_keeps_its_name() -> None:
+    crowd = Crowd("made", "host", "device")
+    crowd.command("LevelSet", ["level", "signed_level"], signed="level")
+    crowd.command("LevelPut", ["signed_level"])
+    names = names_of(layout_of(crowd.data))
+    assert {(each.name, each.bent) for each in names.bent} == {("signed_level", "signed_level_")}
+
+
+@pytest.mark.parametrize("file", [BUSSERVO, DEMO], ids=lambda file: file.stem)
+def test_where_nothing_is_bent_the_library_is_made_of_the_model_itself(file: Path) -> None:
+    model = layout_of(data_of(file))
+    assert names_of(model).library is model
+
+
+def test_the_vectors_keep_the_names_of_the_author() -> None:
+    data = taken_names()
+    [document] = VECTORS.render(compiled_of(data), {}).values()
+    shown = json.loads(document)
+    assert shown["protocol"] == "json"
+    assert {each["message"] for each in shown["valid"]} == {*data["messages"]}
+    [told] = [each for each in shown["valid"] if each["message"] == "Call0"][:1]
+    assert told["direction"] == "any_to_noise"
+
+
+# ------------------------------------------------------------------ the libraries of such names
+
+
+@pytest.fixture(scope="module", params=CROWDS)
+def crowd(
+    request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory
+) -> Iterator[tuple[Model, ModuleType]]:
+    """A spec of taken names, and its library."""
+    data = CROWDS[request.param]()
+    with library(files_of(data), tmp_path_factory.mktemp(request.param)) as made:
+        yield layout_of(data), made
+
+
+def plain(value: Any) -> Any:
+    """A value of an example as the library takes it."""
+    if isinstance(value, list):
+        return [tuple(each.values()) if isinstance(each, dict) else each for each in value]
+    return value
+
+
+def made_of(lib: ModuleType, model: Model, message: MessageLayout) -> Any:
+    """The first example of a message, in the library's names."""
+    names = names_of(model)
+    values = names.values(message.name, message.message.examples[0].values)
+    kind = getattr(lib, names.of("message", message.name))
+    return kind(**{name: plain(value) for name, value in values.items()})
+
+
+def test_every_example_makes_its_frame_and_is_read_from_it(
+    crowd: tuple[Model, ModuleType],
+) -> None:
+    model, lib = crowd
+    for message in model.messages.values():
+        made = made_of(lib, model, message)
+        assert made.encode() == message.message.examples[0].hex
+        read = lib.decode(made.encode(), made.DIRECTION)
+        assert read == made
+        assert eval(repr(read), vars(lib.messages)) == made  # noqa: S307 - it is our own
+        assert {name: getattr(read, name) for name in read.__match_args__} == {
+            name: getattr(made, name) for name in made.__match_args__
+        }
+
+
+def test_every_method_sends_its_message_and_returns_the_reply(
+    crowd: tuple[Model, ModuleType],
+) -> None:
+    model, lib = crowd
+    names = names_of(model)
+    device = lib.Device()
+    heard: list[Any] = []
+    device.accepted = heard.append
+    pairs = [*zip(names.library.exchanges, model.exchanges, strict=True)]
+    replies = {
+        exchange.request.name: made_of(lib, model, author.reply)
+        for exchange, author in pairs
+        if author.reply is not None
+    }
+    for request, reply in replies.items():
+        setattr(device, f"on_{snake_case(request)}", lambda _message, reply=reply: reply)
+    line = Line(device)
+    with lib.Controller(line, background=False, clock=line.clock, settle=0) as controller:
+        for exchange, author in pairs:
+            message = made_of(lib, model, author.request)
+            given = {name: getattr(message, name) for name in message.__match_args__}
+            returned = getattr(controller, exchange.method.name)(**given)
+            assert heard.pop() == message
+            if exchange.method.result:
+                reply = replies[exchange.request.name]
+                assert returned == getattr(reply, exchange.method.result)
+
+
+def test_a_report_is_waited_for_by_any_of_its_fields(crowd: tuple[Model, ModuleType]) -> None:
+    model, lib = crowd
+    device = lib.Device()
+    line = Line(device)
+    with lib.Controller(line, background=False, clock=line.clock, settle=0) as controller:
+        for message in model.sent(model.roles.received).values():
+            if model.kind(message.name) == "reply":
+                continue
+            report = made_of(lib, model, message)
+            numbers = [n for n in report.__match_args__ if isinstance(getattr(report, n), int)]
+            device.send(report)
+            wanted = dict.fromkeys(numbers, 1)
+            assert controller.wait_for(type(report), timeout=1, **wanted) == report
+
+
+def test_every_message_has_a_strategy(crowd: tuple[Model, ModuleType]) -> None:
+    model, lib = crowd
+    strategies = importlib.import_module(f"{lib.__name__}.strategies")
+    assert {kind.__name__ for kind in strategies._STRATEGIES} == {*names_of(model).library.messages}
+    functions = {name for name, each in vars(strategies).items() if callable(each)}
+    assert {"messages", "noise", "noisy_streams"} <= functions
+    assert strategies.messages(lib.MESSAGES[0].DIRECTION) is not None
+
+
+class Line:
+    """A line to a device, in virtual time: what the device sends waits here to be read."""
+
+    name = "line"
+
+    def __init__(self, device: Any) -> None:
+        self.device = device
+        self.now = 0.0
+
+    def clock(self) -> float:
+        return self.now
+
+    def read(self, timeout: float) -> bytes:
+        data = b"".join(message.encode() for message in self.device.take())
+        self.now += 0.0 if data else max(timeout, 1e-6)
+        return data
+
+    def write(self, data: bytes) -> None:
+        self.device.accept(data)
+
+    def drain(self, _timeout: float) -> None:
+        pass
+
+    def close(self) -> None:
+        pass
+
+
+@pytest.fixture(scope="module")
+def on_disk(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """The libraries of all of them, side by side."""
+    folder = tmp_path_factory.mktemp("crowds")
+    for data in CROWDS.values():
+        for path, text in files_of(data()).items():
+            (folder / path).parent.mkdir(parents=True, exist_ok=True)
+            (folder / path).write_text(text, encoding="utf-8", newline="")
+    return folder / "generated"
+
+
+def run(*words: str, cwd: Path) -> str:
+    """What a tool says, where it finds anything."""
+    done = subprocess.run(
+        [sys.executable, "-m", *words], cwd=cwd, capture_output=True, text=True, check=False
+    )
+    return "" if done.returncode == 0 else done.stdout + done.stderr
+
+
+def test_linters_have_nothing_to_say(on_disk: Path) -> None:
+    # How lines are filled and sorted has nothing to do with names.
+    layout = "D200,E501,I001,RUF022"
+    config = str(ROOT / "pyproject.toml")
+    words = ("ruff", "check", "--no-cache", "--config", config, "--ignore", layout, ".")
+    assert run(*words, cwd=on_disk) == ""
+
+
+def test_type_checkers_have_nothing_to_say(on_disk: Path) -> None:
+    packages = [file.parent.name for file in on_disk.glob("*/py.typed")]
+    assert sorted(packages) == ["json_protocol", "pose", "serial_protocol"]
+    words = ("mypy", "--strict", "--cache-dir", str(on_disk.parent / "cache"), *packages)
+    assert run(*words, cwd=on_disk) == ""
+
+
+# ------------------------------------------------------------------ the command of such a library
+
+
+def said(package: str, folder: Path, *words: str) -> str:
+    done = subprocess.run(
+        [sys.executable, "-m", package, *words],
+        cwd=folder,
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    return done.stdout or done.stderr
+
+
+def test_the_command_says_the_names_that_the_library_has(on_disk: Path) -> None:
+    words = ["Ask0", "class_=7"]
+    frame = said("json_protocol", on_disk, "encode", *words).strip()
+    assert said("json_protocol", on_disk, "decode", "--direction", "any_", frame).split()[1:4] == [
+        "any_",
+        "Ask0",
+        "class_=7",
+    ]
+    shown = said("json_protocol", on_disk, "decode", "--json", "--direction", "any_", frame)
+    assert json.loads(shown)["fields"] == {"class_": 7}
+    refused = said("json_protocol", on_disk, "encode", "Ask0", "class_=700")
+    assert "class_: 700 is outside 0..255" in refused
+    assert "class_=CLASS_" in said("json_protocol", on_disk, "encode", "Ask0")
+
+
+# ------------------------------------------------------------------ what framegen says of them
+
+
+@pytest.fixture
+def framegen(capsys: pytest.CaptureFixture[str]) -> Command:
+    """The command: its exit status, its output and its error stream."""
+
+    def run_it(*words: str) -> tuple[int, str, str]:
+        code = main(words)
+        return code, *capsys.readouterr()
+
+    return run_it
+
+
+def test_the_reference_shows_the_bent_name_in_code() -> None:
+    [python] = [target for target in TARGETS if target.name == "python"]
+    assert python.snippet is not None
+    model = layout_of(renamed(renamed(data_of(DEMO), "TextShow", "Reason"), "number", "class"))
+    message = model.messages["Reason"]
+    shown = python.snippet(model, message, message.message.examples[0])
+    assert "from greenhouse import Direction, ReasonMessage, StreamDecoder" in shown
+    assert "print(event.class_)  # -2" in shown
+
+
+@pytest.mark.parametrize(
+    ("name", "stem"),
+    [
+        ("Con", "Con_"),
+        ("NUL", "NUL_"),
+        ("com1", "com1_"),
+        ("Lpt9", "Lpt9_"),
+        ("Console", "Console"),
+        ("ServoMove", "ServoMove"),
+        ("com", "com"),
+        ("com10", "com10"),
+    ],
+)
+def test_a_file_has_a_name_that_windows_takes(name: str, stem: str) -> None:
+    assert file_stem(name) == stem
+    assert file_stem(name).lower() not in DEVICES
+
+
+def test_every_file_can_be_checked_out_on_windows() -> None:
+    crowd = Crowd("con", "host", "device")
+    for name in ["Con", "Nul", "Aux", "Prn", "Com1", "Lpt9"]:
+        crowd.command(name, ["level"])
+    spec = compiled_of(crowd.data)
+    output = render(spec)
+    paths = [*output.files, output.manifest, *render_site([spec], snippets())]
+    assert {"docs/reference/con_/messages/Nul_.md", "con_/messages/Nul_.html"} <= {*paths}
+    stems = {part.partition(".")[0].lower() for path in paths for part in path.split("/")}
+    assert stems & DEVICES == set()
+    assert len({path.lower() for path in paths}) == len(paths)
+
+
+def test_the_pages_of_odd_names_are_linked_to(tmp_path: Path) -> None:
+    crowd = Crowd("con", "host", "device")
+    crowd.report("Nul", ["level"])
+    crowd.command("Con", ["level"], reply="Nul")
+    spec = compiled_of(crowd.data)
+    for path, text in {**render(spec).files, **render_site([spec], snippets())}.items():
+        if path.endswith((".md", ".html")):
+            (tmp_path / path).parent.mkdir(parents=True, exist_ok=True)
+            (tmp_path / path).write_text(text, encoding="utf-8")
+    links = 0
+    for page in tmp_path.rglob("*"):
+        text = page.read_text(encoding="utf-8") if page.is_file() else ""
+        for link in re.findall(r'href="([^"#:?]+)', text) + re.findall(r"\]\(([^)#:?]+)", text):
+            assert (page.parent / link).exists(), (page, link)
+            links += link.endswith(("Con_.html", "Con_.md", "Nul_.html", "Nul_.md"))
+    assert links > 20
+
+
+def test_check_notes_each_bent_name_once_and_finds_nothing(
+    tmp_path: Path, framegen: Command
+) -> None:
+    text = DEMO.read_text(encoding="utf-8").replace("vent_id", "id").replace("ramp_s", "class")
+    spec = tmp_path / "made.yaml"
+    spec.write_text(text, encoding="utf-8")
+    line = text[: text.index("      class:")].count("\n") + 1
+    for options in ([], ["--json"]):
+        code, out, err = framegen("check", str(spec), *options)
+        assert (code, out) == (0, "")
+        note = "note: python writes the field `class` as `class_`: it is a word of Python itself"
+        assert f"made.yaml:{line}:7: {note}\n" in err
+        assert err.count("`id` as `id_`") == 1
+        assert "`id` as `id_` (and so in 1 place more): it would hide what Python has" in err
+        assert err.endswith("nothing found\n")
+
+
+def test_targets_lists_what_there_is(framegen: Command) -> None:
+    code, out, _ = framegen("targets")
+    assert code == 0
+    assert [line.split()[0] for line in out.splitlines() if line[0] != " "] == [
+        target.name for target in TARGETS
+    ]
+    assert "generated/busservo/" in out
+
+
+def test_targets_tells_what_becomes_of_a_word(framegen: Command) -> None:
+    code, out, _ = framegen("targets", "python")
+    assert code == 0
+    assert "package: NAME becomes NAME_protocol where it is a module of Python's standard" in out
+    assert {word for row in reserved.RESERVED for word in row.words} <= {*out.split()}
+
+
+def test_a_target_without_reserved_words_says_so(framegen: Command) -> None:
+    assert framegen("targets", "vectors")[1].endswith("every name stays as it is.\n")
+
+
+def test_a_target_that_is_none_gets_a_hint(framegen: Command) -> None:
+    code, _, err = framegen("targets", "pyhton")
+    assert code == 2
+    assert "did you mean `python`?" in err

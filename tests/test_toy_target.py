@@ -41,7 +41,7 @@ def change(project: Path, old: str, new: str) -> None:
 
 def test_its_files_are_written_with_a_banner_where_there_are_comments(project: Path) -> None:
     lines = (project / MESSAGES).read_text(encoding="utf-8").split("\n")
-    assert lines[:3] == [BANNER, "TheVentsOpen 16", "StationRead 17"]
+    assert lines[:3] == [BANNER, "VentsOpen_ 16", "StationRead 17"]
     assert (project / FOLDER / "count.dat").read_text(encoding="utf-8") == "5\n"
 
 
@@ -78,6 +78,22 @@ def test_an_edit_by_hand_is_not_lost(project: Path, capsys: Capture) -> None:
     assert main(["generate"]) == 2
     assert f"edited by hand: {MESSAGES}\n" in capsys.readouterr().err
     assert (project / MESSAGES).read_text(encoding="utf-8") == edited
+
+
+def test_a_name_that_it_has_taken_is_told(project: Path, capsys: Capture) -> None:
+    capsys.readouterr()
+    assert main(["check"]) == 0
+    told = capsys.readouterr()
+    assert told.out == ""
+    place = "spec/demo.yaml:50:3: note: toy writes the message `VentsOpen` as `VentsOpen_`"
+    assert f"{place}: it is a word of the language\n" in told.err
+
+    assert main(["targets", "toy"]) == 0
+    assert "message: NAME becomes NAME_ where it is a word of the language\n  Halt VentsOpen\n" in (
+        capsys.readouterr().out
+    )
+    assert main(["targets"]) == 0
+    assert f"all of {FOLDER}/" in capsys.readouterr().out
 
 
 def test_its_snippet_is_handed_to_all(project: Path) -> None:

@@ -15,7 +15,7 @@ from framegen.reading.findings import did_you_mean
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-VERBS = ("check", "generate", "diff", "docs", "explain", "schema", "rules")
+VERBS = ("check", "generate", "diff", "docs", "explain", "schema", "rules", "targets")
 
 
 _CLOSING = """\

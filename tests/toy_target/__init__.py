@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from framegen.targets.target import BentName, Comment, Target
+from framegen.targets.target import BentName, Comment, Reserved, Target
 
 if TYPE_CHECKING:
     from framegen.compile import Compiled
@@ -13,8 +13,7 @@ if TYPE_CHECKING:
     from framegen.model.model import Model
     from framegen.targets.target import Snippets
 
-# The words of the language, which no message can be called.
-RESERVED = frozenset(["VentsOpen", "Halt"])
+WORDS = Reserved("message", frozenset(["VentsOpen", "Halt"]), "is a word of the language", "_")
 
 
 def render(compiled: Compiled, _snippets: Snippets) -> dict[str, str]:
@@ -30,7 +29,7 @@ def folders(model: Model) -> tuple[str, ...]:
 
 def bent(model: Model) -> list[BentName]:
     return [
-        BentName(("messages", name), name, _name(name), "the language has a word of this name")
+        BentName(("messages", name), WORDS.kind, name, _name(name), WORDS.why)
         for name in model.messages
         if name != _name(name)
     ]
@@ -41,7 +40,7 @@ def snippet(_model: Model, message: MessageLayout, _example: Example) -> str:
 
 
 def _name(name: str) -> str:
-    return f"The{name}" if name in RESERVED else name
+    return f"{name}{WORDS.suffix}" if name in WORDS.words else name
 
 
 TARGET = Target(
@@ -50,7 +49,7 @@ TARGET = Target(
     render=render,
     folders=folders,
     comments={".toy": Comment("(* ", " *)")},
-    reserved=RESERVED,
+    reserved=(WORDS,),
     bent=bent,
     snippet=snippet,
 )

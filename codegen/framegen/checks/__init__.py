@@ -65,7 +65,6 @@ STRUCTURE_RULES: tuple[StructureRule, ...] = (
     no_message.RULE,
     identifier.RULE,
     duplicate_name.RULE,
-    duplicate_constant.RULE,
     duplicate_id.RULE,
     id_range.RULE,
     direction.RULE,
@@ -89,6 +88,7 @@ STRUCTURE_RULES: tuple[StructureRule, ...] = (
 )
 # Looked for only where all of the above hold: what follows is known then.
 MODEL_RULES: tuple[ModelRule, ...] = (
+    duplicate_constant.RULE,
     frame_too_long.RULE,
     limits.RULE,
     lasts.RULE,

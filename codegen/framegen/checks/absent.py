@@ -25,9 +25,6 @@ def _look(spec: Spec) -> Iterator[Problem]:
             if field.counted_by is not None:
                 what = "numbers in a list have no property that could tell who is absent"
                 yield Problem(here, what, "give the list an `element` with fields", on_key=True)
-            elif "absent" in fields:
-                what = "there is a field `absent` already, and this would be called so"
-                yield Problem(here, what, "choose another name for that field", on_key=True)
             elif first is not None:
                 what = "another field tells who is absent"
                 also = (first, "it is here")
@@ -40,8 +37,8 @@ RULE = StructureRule(
     id="absent",
     title="Who is told to be absent by a value is told so by one field",
     why="Users ask an element, or a message, whether it is `absent`: one question, which has one "
-    "answer and no other field's name.",
-    bad="fields: {absent: {type: u8}, level: {values: {off: {value: 0, absent: true}}}}",
-    good="fields: {level: {values: {off: {value: 0, absent: true}}}}",
+    "answer.",
+    bad="fade: {values: {off: {absent: true, ...}}}, level: {values: {off: {absent: true, ...}}}",
+    good="fade: {values: {off: {...}}}, level: {values: {off: {absent: true, ...}}}",
     look=_look,
 )

@@ -1,24 +1,23 @@
-"""Rule: every constant that the library makes of the spec has a name of its own."""
+"""Rule: no two constants have one name."""
 
 from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from framegen.checks.rule import Problem, StructureRule
+from framegen.checks.rule import ModelRule, Problem
 from framegen.language.spec import GroupField
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from framegen.language.spec import NumberField, Spec
+    from framegen.language.spec import NumberField
+    from framegen.language.values import Direction
+    from framegen.model.model import Model
     from framegen.reading.yamltree import KeyPath
 
-# What every message class has already.
-_ATTRIBUTES = frozenset(["VENDOR_NAME", "COMMAND", "DIRECTION", "LENGTHS", "SHAPE"])
 
-
-def _look(spec: Spec) -> Iterator[Problem]:
-    for name, message in spec.messages.items():
+def _look(model: Model) -> Iterator[Problem]:
+    for name, message in model.spec.messages.items():
         path = ("messages", name, "fields")
         numbers: dict[str, NumberField] = {}
         for field_name, field in message.fields.items():
@@ -27,7 +26,7 @@ def _look(spec: Spec) -> Iterator[Problem]:
             else:
                 numbers[field_name] = field
         yield from _clashes(path, numbers)
-    yield from _directions(spec)
+    yield from _directions(model)
 
 
 def _clashes(path: KeyPath, fields: dict[str, NumberField]) -> Iterator[Problem]:
@@ -37,33 +36,37 @@ def _clashes(path: KeyPath, fields: dict[str, NumberField]) -> Iterator[Problem]
         for value_name in field.values:
             here = (*path, field_name, "values", value_name)
             constant = f"{field_name}_{value_name}".upper()
-            message = f"`{value_name}` of `{field_name}` becomes the constant {constant}, "
-            if constant in _ATTRIBUTES:
-                yield Problem(here, f"{message}which every message has", "rename it", on_key=True)
-            elif constant in first:
-                also = (first[constant], "the first is here")
-                yield Problem(here, f"{message}as another does", "rename one", True, also)
-            first.setdefault(constant, here)
+            also = (first.setdefault(constant, here), "the first is here")
+            if also[0] != here:
+                what = f"`{value_name}` of `{field_name}` becomes the constant {constant}"
+                yield Problem(here, f"{what}, as another does", "rename one", True, also)
 
 
-def _directions(spec: Spec) -> Iterator[Problem]:
-    """Directions that would become the same member of Direction."""
+def _directions(model: Model) -> Iterator[Problem]:
+    """Directions that would become the same constant, whether a message goes that way or not."""
     first: dict[str, tuple[KeyPath, str]] = {}
-    for name, message in spec.messages.items():
-        here = ("messages", name, "direction")
-        key, text = message.direction.key, str(message.direction)
-        there, other = first.setdefault(key, (here, text))
+    for path, direction in _ways(model):
+        key, text = direction.key, str(direction)
+        there, other = first.setdefault(key, (path, text))
         if other != text:
-            told = f"`{text}` and `{other}` would both be Direction.{key.upper()}"
-            yield Problem(here, told, "rename an endpoint", also=(there, "the other is here"))
+            told = f"`{text}` and `{other}` would both be the constant {key.upper()}"
+            also = (there, "the other is here")
+            yield Problem(path, told, "rename an endpoint", path[0] == "endpoints", also)
 
 
-RULE = StructureRule(
+def _ways(model: Model) -> Iterator[tuple[KeyPath, Direction]]:
+    for name, message in model.spec.messages.items():
+        yield ("messages", name, "direction"), message.direction
+    for direction in model.ways:
+        yield ("endpoints", direction.sender), direction
+
+
+RULE = ModelRule(
     id="duplicate-constant",
-    title="Every constant of the library has a name of its own",
+    title="No two constants have one name",
     why="A named value becomes FIELD_VALUE in its message, and a direction SENDER_TO_RECEIVER: of "
     "two with one name, one would vanish.",
-    bad="vendor: {type: u8, values: {name: {value: 0, ...}}}",
-    good="vendor: {type: u8, values: {none: {value: 0, ...}}}",
+    bad="{lamp: {values: {is_off: {value: 0, ...}}}, lamp_is: {values: {off: {value: 0, ...}}}}",
+    good="{lamp: {values: {off: {value: 0, ...}}}, lamp_is: {values: {off: {value: 0, ...}}}}",
     look=_look,
 )

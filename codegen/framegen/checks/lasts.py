@@ -17,8 +17,6 @@ if TYPE_CHECKING:
     from framegen.language.values import Direction
     from framegen.model.model import Model
 
-# What a client adds to the arguments of the method.
-_ADDED = "latest"
 _UNITS = " or ".join(f"`unit: {unit}`" for unit in reversed(STEPS_PER_SECOND))
 
 
@@ -39,9 +37,6 @@ def _misuse(name: str, message: Message, sent: Direction) -> tuple[str, str] | N
     if message.reply is not None:
         what = f"{name} is answered by {message.reply}, and that is what a client returns"
         return what, "leave out `lasts`, or the reply"
-    if _ADDED in message.fields:
-        what = f"a client adds an argument `{_ADDED}` to the method, and {name} has one already"
-        return what, "give the field another name, or leave out `lasts`"
     return None
 
 

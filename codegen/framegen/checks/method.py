@@ -2,12 +2,10 @@
 
 from __future__ import annotations
 
-import re
 from typing import TYPE_CHECKING
 
 from framegen.checks.rule import ModelRule, Problem
 from framegen.model.exchanges import arguments_of, method_of
-from framegen.names import CLIENT_ATTRIBUTES, PYTHON_KEYWORDS
 from framegen.reading.findings import did_you_mean
 
 if TYPE_CHECKING:
@@ -16,8 +14,6 @@ if TYPE_CHECKING:
     from framegen.language.spec import Message, Spec
     from framegen.model.model import Model
     from framegen.reading.yamltree import KeyPath
-
-_SNAKE = re.compile(r"[a-z][a-z0-9]*(?:_[a-z0-9]+)*")
 
 
 def _look(model: Model) -> Iterator[Problem]:
@@ -42,19 +38,11 @@ def _look(model: Model) -> Iterator[Problem]:
 def _name(
     path: KeyPath, name: str, first: dict[str, KeyPath], *, declared: bool
 ) -> Iterator[Problem]:
-    on_key = not declared
-    hint = "choose another name" if declared else "give the message a `method`"
-    if name in PYTHON_KEYWORDS:
-        yield Problem(path, f"`{name}` is a word of Python itself", hint, on_key)
-    elif _SNAKE.fullmatch(name) is None:
-        yield Problem(path, f"`{name}` is no name in snake_case", hint, on_key)
-    elif name in CLIENT_ATTRIBUTES:
-        yield Problem(path, f"every client has `{name}` of its own already", hint, on_key)
-    elif name in first:
-        also = (first[name], "the first is here")
-        yield Problem(path, f"there are two methods called `{name}`", hint, on_key, also)
-    else:
-        first[name] = path
+    there = first.setdefault(name, path)
+    if there != path:
+        hint = "choose another name" if declared else "give the message a `method`"
+        also = (there, "the first is here")
+        yield Problem(path, f"there are two methods called `{name}`", hint, not declared, also)
 
 
 def _arguments(path: KeyPath, name: str, message: Message) -> Iterator[Problem]:
@@ -90,9 +78,9 @@ def _result(path: KeyPath, name: str, message: Message, spec: Spec) -> Iterator[
 RULE = ModelRule(
     id="method",
     title="Every message that a client sends can be a method of it",
-    why="A client has one method for each message, with the fields as arguments: a name that is "
-    "taken hides another method, and a field that is left out cannot be sent.",
-    bad="LampsSet: {method: close(lamps)}",
+    why="A client has one method for each message, with the fields as arguments: of two with one "
+    "name, one would vanish, and a field that is left out cannot be sent.",
+    bad="LampsSet: {method: set_lamps(lamps)}",
     good="LampsSet: {method: set_lamps(lamps, fade_ms)}",
     look=_look,
 )

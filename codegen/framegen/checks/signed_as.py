@@ -1,4 +1,4 @@
-"""Rule: a number that can be read as signed is unsigned itself, as wide, and has a name for it."""
+"""Rule: a number that can be read as signed is unsigned itself, and as wide."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ def _look(spec: Spec) -> Iterator[Problem]:
             if field.signed_as is not None:
                 here = (*path, name, "signed_as")
                 yield from _type(here, field, field.signed_as)
-                yield from _name(here, name, field, [*fields])
+                yield from _listed(here, field)
 
 
 def _type(path: KeyPath, field: NumberField, signed_as: str) -> Iterator[Problem]:
@@ -37,18 +37,15 @@ def _type(path: KeyPath, field: NumberField, signed_as: str) -> Iterator[Problem
         yield Problem(path, f"{signed_as} is not as wide as {wire.name}", f"write {same}")
 
 
-def _name(path: KeyPath, name: str, field: NumberField, others: list[str]) -> Iterator[Problem]:
+def _listed(path: KeyPath, field: NumberField) -> Iterator[Problem]:
     if field.counted_by is not None:
         what = "numbers in a list have no properties that could tell them as signed"
         yield Problem(path, what, "give the list an `element` with fields", on_key=True)
-    elif f"signed_{name}" in others:
-        what = f"there is a field `signed_{name}` already, and this would be called so"
-        yield Problem(path, what, "choose another name for that field", on_key=True)
 
 
 RULE = StructureRule(
     id="signed-as",
-    title="A number that can be read as signed is unsigned itself, as wide, and has a name for it",
+    title="A number that can be read as signed is unsigned itself, and as wide",
     why="The bits are the same and only their meaning differs: `signed_position` tells what "
     "`position` is when it wraps round below zero.",
     bad="position: {type: u16, signed_as: i8}",

@@ -11,9 +11,11 @@ from framegen.wording import counted
 
 if TYPE_CHECKING:
     from argparse import ArgumentParser, Namespace
+    from collections.abc import Iterator
 
     from framegen.compile import Compiled
     from framegen.reading.findings import Finding
+    from framegen.targets.target import BentName
 
 SUMMARY = "Look for everything that is wrong with a spec, its examples and errata included."
 EXAMPLES = (
@@ -31,7 +33,11 @@ def add_arguments(parser: ArgumentParser) -> None:
 
 
 def run(arguments: Namespace) -> int:
-    """Print the findings, and to the error stream how many there are. 1 where there are any."""
+    """Print the findings; to the error stream, what is no finding. 1 where there are any.
+
+    That is how many there are, and which names a target writes otherwise: whoever counts lines of
+    the output counts findings.
+    """
     from framegen.commands.spec_argument import compiled  # noqa: PLC0415
     from framegen.project import all_specs  # noqa: PLC0415
 
@@ -40,6 +46,8 @@ def run(arguments: Namespace) -> int:
         for finding in each.findings:
             print(_json(each, finding) if arguments.json else _text(each, finding))
         sys.stdout.flush()
+        for note in _notes(each):
+            print(note, file=sys.stderr)
         print(_summary(each), file=sys.stderr)
     return 1 if any(each.findings for each in specs) else 0
 
@@ -60,6 +68,26 @@ def _json(each: Compiled, finding: Finding) -> str:
             "hint": finding.hint,
         }
     )
+
+
+def _notes(each: Compiled) -> Iterator[str]:
+    """Say each name that a target writes otherwise once, where it comes first."""
+    from framegen.targets.table import TARGETS  # noqa: PLC0415
+
+    if each.findings:
+        return
+    for target in TARGETS:
+        places: dict[tuple[str, str], list[BentName]] = {}
+        for found in target.bent(each.model):
+            places.setdefault((found.name, found.bent), []).append(found)
+        for (name, bent), found_there in places.items():
+            first, *others = found_there
+            at = each.tree.key_at(first.path)
+            also = f" (and so in {counted(len(others), 'place')} more)" if others else ""
+            yield (
+                f"{each.source.name}:{at.line}:{at.column}: note: {target.name} writes the "
+                f"{first.kind} `{name}` as `{bent}`{also}: it {first.why}"
+            )
 
 
 def _summary(each: Compiled) -> str:

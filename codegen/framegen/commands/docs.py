@@ -48,6 +48,7 @@ def run(arguments: Namespace) -> int:
     from framegen.project import all_specs  # noqa: PLC0415
     from framegen.render import snippets  # noqa: PLC0415
     from framegen.targets.docs.pages import render_site  # noqa: PLC0415
+    from framegen.targets.filenames import file_stem  # noqa: PLC0415
     from framegen.writing import write  # noqa: PLC0415
 
     files: list[Path] = [arguments.spec] if arguments.spec else all_specs()
@@ -59,8 +60,8 @@ def run(arguments: Namespace) -> int:
     site = Output("site.manifest", "", render_site(specs, snippets()))
     for notice in write(folder, [site], force=arguments.force).notices:
         print(notice, file=sys.stderr)
-    names = [spec.spec.protocol.name for spec in specs]
-    index = Path(folder, *names, "index.html") if len(names) == 1 else folder / "index.html"
+    folders = [file_stem(spec.spec.protocol.name) for spec in specs]
+    index = Path(folder, *folders, "index.html") if len(folders) == 1 else folder / "index.html"
     print(index)
     if arguments.open and not open_in_browser(index.resolve().as_uri()):
         print("no browser was found; open the file yourself", file=sys.stderr)

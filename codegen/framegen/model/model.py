@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from framegen.model.roles import Kind, Roles
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Model:
     """Everything that follows from one spec."""
 

@@ -26,10 +26,25 @@ class Comment:
 
 
 @dataclass(frozen=True, slots=True)
+class Reserved:
+    """Words that a target has taken already, for names of one kind such as `field`.
+
+    `why` goes on where the name left off ("is a word of Python itself"); a name that is one of
+    them is written with `suffix` behind it.
+    """
+
+    kind: str
+    words: frozenset[str]
+    why: str
+    suffix: str
+
+
+@dataclass(frozen=True, slots=True)
 class BentName:
-    """A name of the spec that a target writes otherwise, and why."""
+    """A name of a kind that a target writes otherwise, the place in the spec, and why."""
 
     path: KeyPath
+    kind: str
     name: str
     bent: str
     why: str
@@ -60,7 +75,7 @@ class Target:
     render: Callable[[Compiled, Snippets], dict[str, str]]
     folders: Callable[[Model], tuple[str, ...]] = _no_folders
     comments: Mapping[str, Comment] = field(default_factory=dict)
-    reserved: frozenset[str] = frozenset()
+    reserved: tuple[Reserved, ...] = ()
     bent: Callable[[Model], list[BentName]] = _nothing_bent
     snippet: Snippet | None = None
     shared: bool = False

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 from framegen.targets.docs.site import SiteView
 from framegen.targets.docs.twin import markdown_files
+from framegen.targets.filenames import file_stem
 from framegen.targets.target import Comment, Target
 
 if TYPE_CHECKING:
@@ -23,7 +24,7 @@ def render(compiled: Compiled, snippets: Snippets) -> dict[str, str]:
 
 def folders(model: Model) -> tuple[str, ...]:
     """The folder of the protocol's reference."""
-    return (f"docs/reference/{model.spec.protocol.name}",)
+    return (f"docs/reference/{file_stem(model.spec.protocol.name)}",)
 
 
 TARGET = Target(

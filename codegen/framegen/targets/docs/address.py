@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from framegen.targets.filenames import file_stem
+
 
 def message_page(name: str) -> str:
     """The page of a message, from the root of the reference, whatever it is written in."""
-    return f"messages/{name}"
+    return f"messages/{file_stem(name)}"

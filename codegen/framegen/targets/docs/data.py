@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 from framegen.language.spec import BodyPart
 from framegen.model.layout import Repeat, part_size
+from framegen.targets.docs.address import message_page
 
 if TYPE_CHECKING:
     from framegen.model.layout import MessageLayout, WireField
@@ -45,6 +46,7 @@ def _message(message: MessageLayout) -> dict[str, Any]:
     lengths, repeat = message.lengths, message.repeat
     return {
         "name": message.name,
+        "page": message_page(message.name),
         "id": message.id,
         "direction": message.direction.key,
         "summary": message.message.summary,

@@ -30,11 +30,7 @@ _HERE = Path(__file__).parent
 def render_site(specs: Iterable[Compiled], snippets: Snippets) -> dict[str, str]:
     """The references of several protocols, each in a folder of its name, and the way to them."""
     sites = [SiteView(compiled, snippets) for compiled in specs]
-    files = {
-        f"{site.protocol.name}/{path}": text
-        for site in sites
-        for path, text in _pages(site).items()
-    }
+    files = {f"{site.folder}/{path}": text for site in sites for path, text in _pages(site).items()}
     style = _static("style.css")
     front = _environment().get_template("front.html.jinja")
     files["index.html"] = front.render(

@@ -23,6 +23,7 @@ from framegen.targets.docs.quirks import (
 )
 from framegen.targets.docs.strip import Cell, parts_strip
 from framegen.targets.docs.timing import RoundTrip, Timing, bytes_a_second, round_trips, timings
+from framegen.targets.filenames import file_stem
 
 if TYPE_CHECKING:
     from framegen.compile import Compiled
@@ -106,6 +107,11 @@ class SiteView:
     def protocol(self) -> Protocol:
         """Its name, title, version and summary."""
         return self.model.spec.protocol
+
+    @property
+    def folder(self) -> str:
+        """Where its pages lie, beside those of other protocols."""
+        return file_stem(self.protocol.name)
 
     @property
     def spec(self) -> str:

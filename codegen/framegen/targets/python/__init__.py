@@ -10,6 +10,8 @@ from framegen.targets.python.client_view import ClientView
 from framegen.targets.python.device_view import DeviceView
 from framegen.targets.python.escape import docstring, literal
 from framegen.targets.python.library_view import LibraryView
+from framegen.targets.python.names import bent, names_of, package_of
+from framegen.targets.python.reserved import RESERVED
 from framegen.targets.python.snippet import snippet
 from framegen.targets.target import Comment, Target
 from framegen.targets.templates import environment
@@ -34,7 +36,8 @@ _FOR_POSES = {"cli/play.py", "cli/posefile.py", "cli/positions.py", "cli/teach.p
 
 def render(compiled: Compiled, _snippets: Snippets) -> dict[str, str]:
     """The library's files, by path below the project's root."""
-    library, poses = LibraryView(compiled.model), compiled.model.spec.pose is not None
+    library = LibraryView(names_of(compiled.model).library)
+    poses = compiled.model.spec.pose is not None
     files = dict([*_runtime(poses=poses), *_from_templates(library), ("py.typed", "")])
     (root,) = folders(compiled.model)
     return {f"{root}/{name}": text for name, text in files.items()}
@@ -42,7 +45,7 @@ def render(compiled: Compiled, _snippets: Snippets) -> dict[str, str]:
 
 def folders(model: Model) -> tuple[str, ...]:
     """The folder of the package."""
-    return (f"generated/{model.spec.protocol.name}",)
+    return (f"generated/{package_of(model)}",)
 
 
 def _runtime(*, poses: bool) -> list[tuple[str, str]]:
@@ -88,5 +91,7 @@ TARGET = Target(
     render=render,
     folders=folders,
     comments={".py": Comment("# ")},
+    reserved=RESERVED,
+    bent=bent,
     snippet=snippet,
 )

@@ -5,11 +5,10 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from framegen.model.exchanges import snake_case
 from framegen.model.layout import Repeat, WireField
-from framegen.names import PYTHON_BUILTINS, PYTHON_KEYWORDS
 from framegen.targets.python.escape import Bracketed, literal, session
 from framegen.targets.python.list_view import ListView, given
+from framegen.targets.python.names import strategy_name
 from framegen.targets.python.number_view import AbsentView, NumberView, absent_view
 from framegen.targets.python.words import direction_member, range_expression
 from framegen.wording import describe_range
@@ -21,9 +20,6 @@ if TYPE_CHECKING:
     from framegen.language.values import Citation
     from framegen.model.layout import MessageLayout
     from framegen.model.model import Model
-
-# What the function of a strategy cannot be called.
-_TAKEN_FUNCTIONS = {"messages", "noise", "noisy_streams", "st", *PYTHON_KEYWORDS, *PYTHON_BUILTINS}
 
 
 @dataclass(frozen=True, slots=True)
@@ -170,8 +166,7 @@ class MessageView:
     @property
     def function(self) -> str:
         """The name of its strategy: `servo_move` for ServoMove."""
-        name = snake_case(self.name)
-        return f"{name}_" if name in _TAKEN_FUNCTIONS else name
+        return strategy_name(self.name)
 
     @property
     def strategy(self) -> str:

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 from framegen.language.wiretypes import WIRE_TYPES
 from framegen.targets.python.escape import Bracketed, literal
+from framegen.targets.python.names import constant_name, signed_name
 
 if TYPE_CHECKING:
     from framegen.language.spec import Spec
@@ -89,7 +90,7 @@ class NumberView:
         wire = WIRE_TYPES[signed_as]
         sign = wire.high + 1
         return SignedView(
-            f"signed_{self.name}",
+            signed_name(self.name),
             [
                 f"`{self.name}` read as {signed_as}, which may be below zero.",
                 f"{wire.low}..{wire.high}. One that is `absent` has none."
@@ -107,7 +108,7 @@ class NumberView:
     @property
     def constants(self) -> list[Constant]:
         return [
-            Constant(f"{self.name}_{name}".upper(), value.value, value.about)
+            Constant(constant_name(self.name, name), value.value, value.about)
             for name, value in self.layout.field.values.items()
         ]
 

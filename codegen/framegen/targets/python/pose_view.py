@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 from framegen.model.exchanges import arguments_of
 from framegen.targets.python.escape import Bracketed, literal
 from framegen.targets.python.method_view import MethodView
+from framegen.targets.python.names import signed_name
 from framegen.targets.python.words import range_expression
 
 if TYPE_CHECKING:
@@ -187,7 +188,7 @@ class PoseView:
     @property
     def _position(self) -> str:
         field = self.told.fields[1]
-        return f"signed_{field.name}" if field.field.signed_as else field.name
+        return signed_name(field.name) if field.field.signed_as else field.name
 
     @property
     def _moved(self) -> Repeat:

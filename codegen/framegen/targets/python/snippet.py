@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 from framegen.language.values import to_hex
 from framegen.targets.python.escape import Bracketed
 from framegen.targets.python.message_view import MessageView
+from framegen.targets.python.names import names_of
 from framegen.targets.python.words import direction_member
 
 if TYPE_CHECKING:
@@ -16,9 +17,12 @@ if TYPE_CHECKING:
 
 
 def snippet(model: Model, message: MessageLayout, example: Example) -> str:
-    """Make what the library's user sends; find what it receives."""
+    """Make what the library's user sends; find what it receives: in the library's own names."""
     show = _sending if message.direction == model.roles.sent else _receiving
-    return show(model, message, example)
+    names = names_of(model)
+    values = names.values(message.name, example.values)
+    shown = example.model_copy(update={"values": values})
+    return show(names.library, names.message(message.name), shown)
 
 
 def _sending(model: Model, message: MessageLayout, example: Example) -> str:

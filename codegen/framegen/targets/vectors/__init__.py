@@ -13,6 +13,7 @@ from framegen.language.values import to_hex
 from framegen.model.codec import NotAFrame, decode, encode
 from framegen.model.layout import Repeat
 from framegen.output import banner
+from framegen.targets.filenames import file_stem
 from framegen.targets.target import Target
 
 if TYPE_CHECKING:
@@ -37,7 +38,7 @@ def render(compiled: Compiled, _snippets: Snippets) -> dict[str, str]:
         "valid": valid,
         "invalid": list(_invalid(model)),
     }
-    return {f"generated/{protocol.name}/vectors.json": _one_vector_a_line(document)}
+    return {f"generated/{file_stem(protocol.name)}/vectors.json": _one_vector_a_line(document)}
 
 
 def _one_vector_a_line(document: dict[str, Any]) -> str:

@@ -35,7 +35,7 @@ function strip(event) {
 
 function shown(event) {
   if (event.type === "message") {
-    const link = make("a", { href: `messages/${event.message}.html` }, event.message);
+    const link = make("a", { href: `${event.kind.page}.html` }, event.message);
     const way = protocol.directions.find((each) => each.key === event.kind.direction).text;
     return make("li", { class: "frame" }, make("h3", { class: "yes" }, "✓ ", link),
       make("p", {}, `${way}: ${event.kind.summary}`), strip(event));

@@ -1,0 +1,81 @@
+"""`framegen targets`: what can be made of a spec, and the words that each target has taken."""
+
+from __future__ import annotations
+
+from textwrap import wrap
+from typing import TYPE_CHECKING
+
+from framegen.wording import counted
+
+if TYPE_CHECKING:
+    from argparse import ArgumentParser, Namespace
+    from collections.abc import Iterator
+
+    from framegen.model.model import Model
+    from framegen.targets.target import Target
+
+SUMMARY = "List the targets, or the words that one of them has taken and what they become."
+EXAMPLES = (
+    ("framegen targets", "every target, with its folders"),
+    ("framegen targets python", "the words that it has taken, and what a name becomes that is one"),
+)
+_WIDTH = 100
+
+
+def add_arguments(parser: ArgumentParser) -> None:
+    """Declare the arguments of the verb."""
+    parser.add_argument("name", nargs="?", metavar="NAME", help="a target")
+
+
+def run(arguments: Namespace) -> int:
+    """Print the targets, or one of them. Raises Unusable for a target that there is not."""
+    from framegen.reading.findings import did_you_mean  # noqa: PLC0415
+    from framegen.reading.yamltree import Unusable  # noqa: PLC0415
+    from framegen.targets.table import TARGETS  # noqa: PLC0415
+
+    targets = {target.name: target for target in TARGETS}
+    if arguments.name is None:
+        print("\n".join(_listed(list(targets.values()), _models())))
+        return 0
+    if arguments.name not in targets:
+        hint = did_you_mean(arguments.name, targets, otherwise="`framegen targets` lists them")
+        raise Unusable(f"there is no target {arguments.name!r}", hint=hint)
+    print("\n".join(_described(targets[arguments.name])))
+    return 0
+
+
+def _models() -> list[Model]:
+    """What the specs at hand mean; nothing, where there are none or one has findings."""
+    from framegen.commands.spec_argument import compiled  # noqa: PLC0415
+    from framegen.project import all_specs  # noqa: PLC0415
+    from framegen.reading.yamltree import Unusable  # noqa: PLC0415
+
+    try:
+        return [compiled(file).model for file in all_specs()]
+    except Unusable:
+        return []
+
+
+def _listed(targets: list[Target], models: list[Model]) -> Iterator[str]:
+    width = max(len(target.name) for target in targets)
+    for target in targets:
+        yield f"{target.name:<{width}}  {target.about}"
+        folders = dict.fromkeys(folder for model in models for folder in target.folders(model))
+        taken = {word for row in target.reserved for word in row.words}
+        if folders:
+            yield f"{'':<{width}}  all of {', '.join(f'{folder}/' for folder in folders)}"
+        if taken:
+            yield f"{'':<{width}}  {counted(len(taken), 'word')} taken"
+
+
+def _described(target: Target) -> Iterator[str]:
+    yield f"{target.name}: {target.about}"
+    if not target.reserved:
+        yield ""
+        yield "No word is taken: every name stays as it is."
+    for row in target.reserved:
+        yield ""
+        yield f"{row.kind}: NAME becomes NAME{row.suffix} where it {row.why}"
+        yield from wrap(
+            " ".join(sorted(row.words)), _WIDTH, initial_indent="  ", subsequent_indent="  "
+        )

@@ -1,0 +1,19 @@
+"""Names of files after something of the spec: the one rule that every target asks.
+
+Every system can check them out. A name of the spec is of ASCII letters, digits and `_`, never ends
+in `_` and is no longer than the rule identifier allows; two that differ only in capitals are
+refused where both would be files. What remains are the names that Windows keeps for devices, with
+any extension and however they are capitalised.
+"""
+
+from __future__ import annotations
+
+# What Windows keeps for devices.
+DEVICES = frozenset(["con", "prn", "aux", "nul"]) | {
+    f"{port}{number}" for port in ("com", "lpt") for number in range(10)
+}
+
+
+def file_stem(name: str) -> str:
+    """What the file of `name` is called, without its extension: `Con_` for Con."""
+    return f"{name}_" if name.lower() in DEVICES else name

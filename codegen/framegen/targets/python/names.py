@@ -1,0 +1,317 @@
+"""What the names of a spec are in the library: here alone it is decided, and a name is bent.
+
+The library is made of a model in which every name is the library's own already, so that whatever
+shows one shows it as it is in code. What is on the wire, the test vectors and the reference keep
+the author's names.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from functools import cached_property, lru_cache
+from typing import TYPE_CHECKING
+
+from framegen.language.spec import GroupField
+from framegen.language.values import Direction, Method
+from framegen.model.exchanges import arguments_of, method_of, snake_case
+from framegen.model.roles import Roles
+from framegen.targets.python.reserved import RESERVED
+from framegen.targets.target import BentName
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+    from typing import Any
+
+    from framegen.language.spec import AnyField, Message, Pose, Spec
+    from framegen.model.layout import MessageLayout, Repeat, WireField
+    from framegen.model.model import Model
+    from framegen.reading.yamltree import KeyPath
+    from framegen.targets.target import Reserved
+
+_TAKEN = {(row.kind, word): row for row in reversed(RESERVED) for word in row.words}
+_CLASSES = ("message", "element")
+
+
+@lru_cache(maxsize=4)
+def names_of(model: Model) -> Names:
+    """The names of a model's library; the same object for the same model."""
+    return Names(model)
+
+
+def bent(model: Model) -> list[BentName]:
+    """The names that are another in the library, in the order of the spec."""
+    return names_of(model).bent
+
+
+def package_of(model: Model) -> str:
+    """The name of the package."""
+    return names_of(model).of("package", model.spec.protocol.name)
+
+
+def strategy_name(message: str) -> str:
+    """The function that makes any message of a class: `servo_move` for ServoMove."""
+    name = snake_case(message)
+    return _behind(_TAKEN.get(("strategy", name)), name)
+
+
+def constant_name(field: str, value: str) -> str:
+    """The constant of a named value: `TIMES_UNLIMITED`."""
+    name = f"{_plain(field)}_{value}".upper()
+    return _behind(_TAKEN.get(("constant", name)), name)
+
+
+def signed_name(field: str) -> str:
+    """The property that reads a field as signed."""
+    return f"signed_{_plain(field)}"
+
+
+def _plain(name: str) -> str:
+    """A name that may have been bent, as it stands in the middle of another."""
+    return name.rstrip("_")
+
+
+def _behind(row: Reserved | None, name: str) -> str:
+    return name if row is None else name + row.suffix
+
+
+@dataclass(frozen=True, eq=False)
+class Names:
+    """The names of one spec in its library."""
+
+    model: Model
+
+    def of(self, kind: str, name: str) -> str:
+        """What a name of a kind is in the library; the kinds are those of RESERVED."""
+        why, suffix = self._taken(kind, name)
+        if not why:
+            return name
+        found = name + suffix
+        while self._taken(kind, found)[0] or (kind in _CLASSES and found.lower() in self._classes):
+            found += suffix
+        return found
+
+    def _taken(self, kind: str, name: str) -> tuple[str, str]:
+        """Why a name cannot stand as it is, and what stands behind it then; empty if it can."""
+        row = _TAKEN.get((kind, name))
+        if row is not None:
+            return row.why, row.suffix
+        if kind == "package" and name.endswith("_simulator"):
+            return "is where another library looks for its simulator", "_protocol"
+        if kind.startswith("field"):
+            if name in self._signed:
+                return f"is where `{name.removeprefix('signed_')}` is read as signed", "_"
+            if name in self._posed:
+                return "is a variable of the client's methods", "_"
+        return "", ""
+
+    @cached_property
+    def _classes(self) -> frozenset[str]:
+        """In lower case, since those that differ only in capitals are one word as functions."""
+        repeats = (message.repeat for message in self.model.messages.values())
+        elements = [repeat.element for repeat in repeats if repeat is not None and repeat.element]
+        return frozenset(name.lower() for name in (*self.model.messages, *elements))
+
+    @cached_property
+    def _signed(self) -> frozenset[str]:
+        """The properties that read a field as signed, of whichever message."""
+        return frozenset(
+            signed_name(number.name)
+            for message in self.model.messages.values()
+            for number in (*message.numbers, *(message.repeat.fields if message.repeat else ()))
+            if number.field.signed_as is not None
+        )
+
+    @cached_property
+    def _posed(self) -> frozenset[str]:
+        """What the method that holds positions has of its own, where a field is an argument of it.
+
+        Elsewhere such a field is as good as any other.
+        """
+        pose = self.model.spec.pose
+        if pose is None:
+            return frozenset()
+        held = arguments_of(self.model.spec.messages[pose.read])
+        moved = self.model.spec.messages[pose.move]
+        held += [name for name in arguments_of(moved) if moved.fields[name].counted_by is None]
+        return frozenset(["targets"]).intersection(held)
+
+    @cached_property
+    def bent(self) -> list[BentName]:
+        """Each name that is another here, by the places that give it."""
+        found = []
+        for path, kind, name in self._given():
+            written = self.of(kind, name)
+            if written != name:
+                found.append(BentName(path, kind, name, written, self._taken(kind, name)[0]))
+        return found
+
+    def _given(self) -> Iterator[tuple[KeyPath, str, str]]:
+        """Each name that something is called after in the library: its place, kind and itself."""
+        spec = self.model.spec
+        yield ("protocol", "name"), "package", spec.protocol.name
+        for name in spec.endpoints:
+            yield ("endpoints", name), "endpoint", name
+        for name, message in spec.messages.items():
+            here: KeyPath = ("messages", name)
+            yield here, "message", name
+            yield here, "strategy", snake_case(self.of("message", name))
+            if message.direction == self.model.roles.sent:
+                declared = here if message.method is None else (*here, "method")
+                yield declared, "method", method_of(name, message).name
+            for field_name, field in message.fields.items():
+                yield from _field_names((*here, "fields", field_name), field_name, field)
+        if spec.pose is not None:
+            for key in _POSE_METHODS:
+                yield ("pose", key), "method", getattr(spec.pose, key)
+
+    @cached_property
+    def library(self) -> Model:
+        """The model in these names; where none is bent, the very model that they are of."""
+        if not self.bent:
+            return self.model
+        spec = self._spec()
+        roles = self.model.roles
+        ends = Roles(*(self.of("endpoint", end) for end in (roles.client, roles.device)))
+        layouts = [
+            self._layout(layout, spec.messages[self.of("message", name)])
+            for name, layout in self.model.messages.items()
+        ]
+        return replace(
+            self.model, spec=spec, roles=ends, messages={each.name: each for each in layouts}
+        )
+
+    def message(self, name: str) -> MessageLayout:
+        """A message of the spec, in the names of the library."""
+        return self.library.messages[self.of("message", name)]
+
+    def values(self, message: str, values: dict[str, Any]) -> dict[str, Any]:
+        """The values of an example of a message, by the names that its fields have here."""
+        fields = self.model.spec.messages[message].fields
+        return {
+            self.of("field", name): [
+                {self.of("field of an element", inner): number for inner, number in item.items()}
+                for item in value
+            ]
+            if isinstance(fields[name], GroupField)
+            else value
+            for name, value in values.items()
+        }
+
+    def _spec(self) -> Spec:
+        spec = self.model.spec
+        protocol = spec.protocol.model_copy(update={"name": self.of("package", spec.protocol.name)})
+        return spec.model_copy(
+            update={
+                "protocol": protocol,
+                "endpoints": {self.of("endpoint", n): about for n, about in spec.endpoints.items()},
+                "messages": {
+                    self.of("message", name): self._message(name, message)
+                    for name, message in spec.messages.items()
+                },
+                "pose": None if spec.pose is None else self._pose(spec.pose),
+            }
+        )
+
+    def _pose(self, pose: Pose) -> Pose:
+        messages = {key: self.of("message", getattr(pose, key)) for key in _POSED}
+        methods = {key: self.of("method", getattr(pose, key)) for key in _POSE_METHODS}
+        return pose.model_copy(update=messages | methods)
+
+    def _message(self, name: str, message: Message) -> Message:
+        examples = [
+            example.model_copy(update={"values": self.values(name, example.values)})
+            for example in message.examples
+        ]
+        sent = message.direction == self.model.roles.sent
+        return message.model_copy(
+            update={
+                "direction": self._direction(message.direction),
+                "reply": message.reply and self.of("message", message.reply),
+                "reports": [self.of("message", each) for each in message.reports],
+                "acknowledged": message.acknowledged and self.of("message", message.acknowledged),
+                "lasts": message.lasts and self.of("field", message.lasts),
+                "echoed": {
+                    self._path(asked): self._path(told) for asked, told in message.echoed.items()
+                },
+                "method": self._method(name, message) if sent else None,
+                "fields": {self.of("field", n): self._field(f) for n, f in message.fields.items()},
+                "examples": examples,
+            }
+        )
+
+    def _direction(self, direction: Direction) -> Direction:
+        ends = direction.sender, direction.receiver
+        return Direction(*(self.of("endpoint", end) for end in ends))
+
+    def _method(self, name: str, message: Message) -> Method:
+        method = method_of(name, message)
+        return Method(
+            self.of("method", method.name),
+            tuple(self.of("field", each) for each in method.arguments),
+            method.result and self.of("field", method.result),
+        )
+
+    def _path(self, path: str) -> str:
+        name, dot, inner = path.partition(".")
+        return f"{self.of('field', name)}{dot}{self.of('field of an element', inner)}"
+
+    def _field(self, field: AnyField) -> AnyField:
+        counted_by = field.counted_by and self.of("field", field.counted_by)
+        if not isinstance(field, GroupField):
+            return field.model_copy(update={"counted_by": counted_by})
+        inner = {self.of("field of an element", name): each for name, each in field.fields.items()}
+        element = self.of("element", field.element)
+        return field.model_copy(
+            update={"counted_by": counted_by, "element": element, "fields": inner}
+        )
+
+    def _layout(self, layout: MessageLayout, message: Message) -> MessageLayout:
+        """A message in its frame: all stands where it stood."""
+        numbers = {
+            field.name: self._number("field", field, message.fields) for field in layout.numbers
+        }
+        repeat = layout.repeat
+        return replace(
+            layout,
+            name=self.of("message", layout.name),
+            message=message,
+            numbers=tuple(numbers.values()),
+            repeat=None if repeat is None else self._repeat(repeat, numbers, message),
+        )
+
+    def _repeat(self, repeat: Repeat, numbers: dict[str, WireField], message: Message) -> Repeat:
+        name = self.of("field", repeat.name)
+        field = message.fields[name]
+        if isinstance(field, GroupField):
+            fields = [self._number("field of an element", f, field.fields) for f in repeat.fields]
+        else:
+            fields = [self._number("field", each, message.fields) for each in repeat.fields]
+        return replace(
+            repeat,
+            name=name,
+            element=repeat.element and self.of("element", repeat.element),
+            fields=tuple(fields),
+            counter=numbers[repeat.counter.name],
+            field=field,
+        )
+
+    def _number(self, kind: str, number: WireField, fields: Any) -> WireField:
+        name = self.of(kind, number.name)
+        return replace(number, name=name, field=fields[name])
+
+
+_POSED = ("read", "move", "release")
+_POSE_METHODS = ("hold", "present", "targets")
+
+
+def _field_names(path: KeyPath, name: str, field: AnyField) -> Iterator[tuple[KeyPath, str, str]]:
+    yield path, "field", name
+    if not isinstance(field, GroupField):
+        for value in field.values:
+            yield (*path, "values", value), "constant", f"{name}_{value}".upper()
+        return
+    yield (*path, "element"), "element", field.element
+    for inner, number in field.fields.items():
+        yield (*path, "fields", inner), "field of an element", inner
+        for value in number.values:
+            yield (*path, "fields", inner, "values", value), "constant", f"{inner}_{value}".upper()

@@ -1,0 +1,198 @@
+"""Specs in which every word that Python has taken is the name of something."""
+
+from __future__ import annotations
+
+from itertools import count
+from typing import TYPE_CHECKING, Any
+
+from framegen.targets.python.reserved import RESERVED
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from tests.specimens import Data
+
+# More fields than that, and a method has more arguments than linters like.
+_FIELDS = 6
+
+
+def taken(kind: str) -> list[str]:
+    """The words that no name of a kind can be, in the order of the alphabet."""
+    return sorted({word for row in RESERVED if row.kind == kind for word in row.words})
+
+
+def taken_names() -> Data:
+    """Every taken word but those of elements, as names of what they are taken for."""
+    crowd = Crowd("json", "any", "noise")
+    for at, words in enumerate(_in_parts(taken("field"))):
+        crowd.command(f"Told{at}", words)
+        crowd.report(f"Heard{at}", words)
+    for at, words in enumerate(_in_parts(taken("field of an element"))):
+        crowd.command(f"Listed{at}", [], listed=f"list{at}", element=f"Listed{at}Each", of=words)
+    for at, word in enumerate(["class", "latest", "reply", "replies", "self", "kind", "each"]):
+        crowd.report(f"Answer{at}", [word])
+        crowd.command(f"Ask{at}", [word], reply=f"Answer{at}", method=f"ask{at}({word}) -> {word}")
+        crowd.command(f"Many{at}", ["id"], counter=f"{word}_count", listed=word)
+        crowd.command(f"Counted{at}", [], counter=word, listed="counted")
+        crowd.command(f"Lasting{at}", [word], lasts=word)
+    # Two that differ only in capitals are refused: those all in capitals stand in the pose.
+    for name in taken("message"):
+        if not _shouted(name):
+            crowd.report(name, [])
+    for at, word in enumerate(taken("method")):
+        crowd.command(f"Call{at}", [], method=f"{word}()")
+    for at, word in enumerate(taken("strategy")):
+        # A method of its own, since these are taken for strategies.
+        name = "".join(part.capitalize() for part in word.split("_"))
+        crowd.command(name, [], method=f"make{at}()")
+    crowd.command("Vendor", ["vendor"], values={"name": {"value": 1, "about": "Nobody."}})
+    crowd.command("Reckon", ["id", "signed_id"], signed="id")
+    crowd.command("ReckonMany", ["id"], signed="id", listed="signed_id")
+    return crowd.data
+
+
+def taken_elements() -> Data:
+    """Every taken word of elements as the name of one."""
+    crowd = Crowd("serial", "host", "either")
+    for at, name in enumerate(taken("element")):
+        if not _shouted(name):
+            crowd.report(f"Heard{at}", [], listed="items", element=name, of=["id"])
+    return crowd.data
+
+
+def taken_pose() -> Data:
+    """All other messages, and a pose with names that the client has already."""
+    crowd = Crowd("pose", "host", "arm")
+    crowd.report("Places", [], listed="found", element="Place", of=["id", "position"])
+    crowd.command(
+        "PlacesRead",
+        [],
+        listed="targets",
+        reply="Places",
+        echoed={"targets": "found.id"},
+        method="read(targets) -> found",
+    )
+    pair = ["id", "position"]
+    crowd.command("Move", ["reply"], listed="goals", element="Goal", of=pair, lasts="reply")
+    crowd.command("Release", [], listed="targets")
+    for name in filter(_shouted, taken("message")):
+        crowd.report(name, [])
+    crowd.data["pose"] = {
+        "read": "PlacesRead",
+        "move": "Move",
+        "release": "Release",
+        "ids": "1..250",
+        "hold": "close",
+        "present": "int",
+        "targets": "lambda",
+    }
+    return crowd.data
+
+
+class Crowd:
+    """A spec that grows by a message at a time, each with an example in which all is 1."""
+
+    def __init__(self, name: str, client: str, device: str) -> None:
+        self._ids = count(1)
+        self._ends = client, device
+        self.data: Data = {
+            "framegen": 2,
+            "protocol": {
+                "name": name,
+                "title": "A crowd",
+                "version": "1.0.0",
+                "authority": "none",
+                "summary": "Names that are taken.",
+            },
+            "sources": {"none": {"title": "Nothing", "kind": "document"}},
+            "endpoints": {client: "Asks.", device: "Answers."},
+            "link": {"baud": 9600},
+            "byte_order": "little",
+            "frame": {
+                "header": {"is": "constant", "bytes": "AA 55"},
+                "command": {"is": "id", "type": "u16"},
+                "length": {"is": "length", "type": "u8", "counts": ["parameters"]},
+                "parameters": {"is": "body"},
+            },
+            "messages": {},
+        }
+
+    def command(self, name: str, fields: list[str], **more: Any) -> None:
+        """What the client sends."""
+        self._add(name, " -> ".join(self._ends), fields, **more)
+
+    def report(self, name: str, fields: list[str], **more: Any) -> None:
+        """What the device sends."""
+        self._add(name, " -> ".join(reversed(self._ends)), fields, **more)
+
+    def _add(
+        self,
+        name: str,
+        direction: str,
+        fields: list[str],
+        *,
+        listed: str = "",
+        counter: str = "number_of",
+        element: str = "",
+        of: list[str] | None = None,
+        signed: str = "",
+        values: Data | None = None,
+        **more: Any,
+    ) -> None:
+        number = {"type": "u8", "about": "A number."}
+        declared: Data = {field: dict(number) for field in fields}
+        example: Data = dict.fromkeys(fields, 1)
+        length, body = str(len(fields)), len(fields)
+        if listed:
+            inner = of or []
+            declared[counter] = dict(number)
+            declared[listed] = {"counted_by": counter, "about": "Numbers.", "count": "0..8"}
+            if element:
+                of_each = {field: dict(number) for field in inner}
+                declared[listed] |= {"element": element, "fields": of_each}
+                example[listed] = [dict.fromkeys(inner, 1)]
+            else:
+                declared[listed]["type"] = "u8"
+                example[listed] = [1]
+            body += 1 + (len(inner) or 1)
+            length = f"{len(inner) or 1} * {counter} + {len(fields) + 1}"
+        if "lasts" in more:
+            declared[more["lasts"]]["unit"] = "ms"
+        id_ = next(self._ids)
+        examples = [_example(id_, [1] * body, example)]
+        if signed:
+            declared[signed]["signed_as"] = "i8"
+            below = [255 if field == signed else 1 for field in fields]
+            below += [1] * (body - len(below))
+            examples.append(_example(id_, below, example | {signed: 255}))
+        if values:
+            declared[fields[0]]["values"] = values
+        self.data["messages"][name] = {
+            "id": id_,
+            "direction": direction,
+            "summary": "Say something.",
+            "cite": "none",
+            "length": length,
+            "fields": declared,
+            "examples": examples,
+            **more,
+        }
+
+
+def _example(id_: int, body: list[int], values: Data) -> Data:
+    head = bytes([0xAA, 0x55]) + id_.to_bytes(2, "little") + bytes([len(body)])
+    return {
+        "title": "An example",
+        "hex": (head + bytes(body)).hex(" "),
+        "values": values,
+        "constructed": "From nothing.",
+    }
+
+
+def _shouted(name: str) -> bool:
+    return name.isupper() and len(name) > 1
+
+
+def _in_parts(words: list[str]) -> Iterator[list[str]]:
+    for at in range(0, len(words), _FIELDS):
+        yield words[at : at + _FIELDS]

@@ -1,0 +1,81 @@
+"""Imports point only downwards: each room of the generator knows those below it, and no other."""
+
+import ast
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+
+GENERATOR = Path(__file__).parent.parent / "codegen" / "framegen"
+
+# From the ground up. What shares a line knows nothing of each other.
+STOREYS = [
+    {"__version__", "console", "hextext", "wording"},
+    {"reading"},
+    {"project", "language"},
+    {"model"},
+    {"checks"},
+    {"compile", "explain"},
+    {"explain_text", "comparison", "output"},
+    {"targets.target", "targets.templates", "targets.filenames"},
+    {"targets.python", "targets.docs", "targets.vectors", "targets.schema"},
+    {"targets.table"},
+    {"render"},
+    {"writing"},
+    {"commands"},
+    {"cli"},
+    {"__main__"},
+]
+STOREY = {room: height for height, storey in enumerate(STOREYS) for room in storey}
+
+# Who alone may ask for what: everything else is handed what came of it.
+ALONE = {
+    "yaml": {"reading"},
+    "framegen.language.load.load": {"compile"},
+    "framegen.model.model.derive": {"compile"},
+    "framegen.checks.check_model": {"compile"},
+    "framegen.checks.check_structure": {"compile"},
+    "framegen.reading.yamltree.read_tree": {"language"},
+    "framegen.model.roles.settle": {"model"},
+}
+
+
+def modules() -> Iterator[tuple[str, Path]]:
+    """Every module of the generator with its room; what is copied into libraries is none."""
+    for file in sorted(GENERATOR.rglob("*.py")):
+        parts = file.relative_to(GENERATOR).with_suffix("").parts
+        if "runtime" not in parts and parts not in (("__init__",), ("targets", "__init__")):
+            yield _room(parts), file
+
+
+def _room(parts: tuple[str, ...]) -> str:
+    return ".".join(parts[:2]) if parts[0] == "targets" else parts[0]
+
+
+def imported(file: Path) -> Iterator[str]:
+    """Everything that a module imports, for typing alone or not, in full."""
+    for node in ast.walk(ast.parse(file.read_text(encoding="utf-8"))):
+        if isinstance(node, ast.Import):
+            yield from (alias.name for alias in node.names)
+        elif isinstance(node, ast.ImportFrom):
+            yield from (f"{node.module}.{alias.name}" for alias in node.names)
+
+
+MODULES = list(modules())
+
+
+def test_every_room_has_its_storey() -> None:
+    assert {room for room, _ in MODULES} <= set(STOREY)
+
+
+@pytest.mark.parametrize(("room", "file"), MODULES, ids=lambda each: Path(str(each)).stem)
+def test_imports_point_downwards(room: str, file: Path) -> None:
+    known = [name.split(".")[1:] for name in imported(file) if name.startswith("framegen.")]
+    others = {_room(tuple(parts)) for parts in known} - {room}
+    assert {other for other in others if STOREY[other] >= STOREY[room]} == set()
+
+
+@pytest.mark.parametrize("name", ALONE)
+def test_what_is_answered_in_one_place_is_asked_there(name: str) -> None:
+    asking = {room for room, file in MODULES if name in set(imported(file))}
+    assert asking == ALONE[name]
