@@ -122,7 +122,7 @@ def library(files: dict[str, str], folder: Path) -> Iterator[ModuleType]:
     for path, text in files.items():
         (folder / path).parent.mkdir(parents=True, exist_ok=True)
         (folder / path).write_text(text, encoding="utf-8", newline="")
-    name = next(path for path in files if path.startswith("generated/")).split("/")[1]
+    name = next(path for path in files if path.endswith("/py.typed")).split("/")[1]
     # Another test may have imported a library of the same name.
     before = {key: sys.modules.pop(key) for key in [*sys.modules] if key.split(".")[0] == name}
     sys.path.insert(0, str(folder / "generated"))
