@@ -16,7 +16,9 @@ from itertools import pairwise
 from pathlib import Path, PurePosixPath
 from typing import TYPE_CHECKING
 
+from framegen.output import Output
 from framegen.targets import docs as reference
+from framegen.writing import write
 from jinja2 import Environment, StrictUndefined
 from markdown_it import MarkdownIt
 from markupsafe import Markup
@@ -58,11 +60,10 @@ PAGE = """\
 
 def build(out: Path) -> None:
     """Write every guide, and the pictures in them, below `out`."""
-    out.mkdir(parents=True, exist_ok=True)
+    pages = {_page(guide.name): _html(guide) for guide in sorted(HERE.glob("*.md"))}
+    write(out, [Output("guides.manifest", "", pages)])
     if (HERE / "images").is_dir():
         shutil.copytree(HERE / "images", out / "images", dirs_exist_ok=True)
-    for guide in sorted(HERE.glob("*.md")):
-        (out / _page(guide.name)).write_text(_html(guide), encoding="utf-8", newline="\n")
 
 
 def _page(name: str) -> str:

@@ -5,10 +5,12 @@ import json
 import re
 from collections.abc import Iterator
 from functools import cache
+from pathlib import Path
 from typing import Any
 
 import framegen
 import pytest
+from framegen.cli import main
 from framegen.compile import Compiled, compile_spec
 from framegen.reading.source import Source
 from framegen.render import render, snippets
@@ -113,6 +115,18 @@ def test_a_comment_changes_only_the_page_that_shows_the_spec(name: str) -> None:
     text = text_of(name)
     pages = [render_site([compiled(each)], snippets()) for each in (text, commented(text))]
     assert changed(*pages) == {f"{name}/spec.html"}
+
+
+def test_a_comment_changes_the_manifest_alone(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    spec = tmp_path / "spec" / "greenhouse.yaml"
+    spec.parent.mkdir()
+    for text in (text_of("greenhouse"), commented(text_of("greenhouse"))):
+        spec.write_text(text, encoding="utf-8")
+        capsys.readouterr()
+        assert main(["generate", str(spec)]) == 0
+    assert capsys.readouterr().out == "wrote generated/greenhouse.manifest\n"
 
 
 @pytest.mark.parametrize("name", SPECS)
