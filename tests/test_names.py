@@ -331,6 +331,22 @@ def test_every_message_has_a_strategy(crowd: tuple[Model, ModuleType]) -> None:
     assert strategies.messages(lib.MESSAGES[0].DIRECTION) is not None
 
 
+def test_a_pose_is_read_and_held_under_bent_names(tmp_path: Path) -> None:
+    data = taken_pose()
+    with library(files_of(data), tmp_path) as lib:
+        device = lib.Device()
+        there = lib.Places([(1, 7), (2, 8)])
+        moved: list[Any] = []
+        device.on_places_read = lambda _message: there
+        device.on_move = moved.append
+        line = Line(device)
+        with lib.Controller(line, background=False, clock=line.clock, settle=0) as controller:
+            assert controller.int_(targets_=[1, 2]) == (1, 2)
+            controller.close_([1, 2], reply_=3)
+            assert moved == [lib.Move(reply_=3, goals=[(1, 7), (2, 8)])]
+            assert controller.lambda_(there.found) == [(1, 7), (2, 8)]
+
+
 class Line:
     """A line to a device, in virtual time: what the device sends waits here to be read."""
 

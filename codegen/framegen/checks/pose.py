@@ -37,6 +37,10 @@ def _look(model: Model) -> Iterator[Problem]:
         return
     yield from _ids(spec.pose, read.fields[asked])
     yield from _move(spec.pose.move, move, told)
+    if asked in arguments_of(move) and move.fields[asked].counted_by is None:
+        what = f"`{spec.pose.hold}` would be given two things called `{asked}`"
+        hint = f"call them by different names in {spec.pose.read} and {spec.pose.move}"
+        yield Problem(("pose", "hold"), what, hint)
     if _lone_list(release) != asked:
         what = f"{spec.pose.release} does not let go of a list `{asked}` alone"
         yield Problem(("pose", "release"), what, f"{spec.pose.read} is given `{asked}`")
