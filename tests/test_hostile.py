@@ -17,7 +17,9 @@ from typing import Any, TypeAlias
 import pytest
 from framegen.output import banner
 from framegen.reading.text import is_invisible
-from framegen.targets.python.escape import docstring, literal, prose
+from framegen.targets.python.characters import columns
+from framegen.targets.python.docstring import TYPOGRAPHY, docstring, prose
+from framegen.targets.python.escape import Text, assigned, literal
 from framegen.targets.python.names import names_of
 from hypothesis import given
 from hypothesis import strategies as st
@@ -641,21 +643,34 @@ def test_a_literal_says_any_text_in_visible_characters(text: str) -> None:
     assert not any(map(is_invisible, shown))
 
 
+@given(TEXT)
+def test_a_literal_in_several_lines_says_its_text(text: str) -> None:
+    for said in (assigned(text * 9, "x", 4), f"x = f({Text(text * 9, 'y=').fitted(8)})"):
+        [statement] = ast.parse(said).body
+        assert isinstance(statement, ast.Assign)
+        told = next(node for node in ast.walk(statement.value) if isinstance(node, ast.Constant))
+        assert told.value == text * 9 or told.value == text[:1]
+        assert max(map(columns, said.split("\n"))) <= 100
+
+
 @given(st.text(), st.sampled_from([0, 4, 8]))
-def test_a_docstring_says_its_text_but_for_blanks_and_prompts(text: str, indent: int) -> None:
-    shown = docstring([text], indent)
-    said = ast.literal_eval(shown)
-    assert said.replace("> > >", ">>>").split() == text.replace("> > >", ">>>").split()
+def test_a_docstring_says_its_text_but_for_typography_and_prompts(text: str, indent: int) -> None:
+    said = ast.literal_eval(docstring(["Plain.", text], indent, "No summary."))
+    # Plain letters and digits are all that nothing is done to.
+    assert re.findall("[a-zA-Z0-9]+", said)[1:] == re.findall(
+        "[a-zA-Z0-9]+", text.translate(TYPOGRAPHY)
+    )
     assert ">>>" not in said
 
 
 @given(st.lists(st.text(), max_size=4), st.sampled_from([0, 4, 8]))
 def test_a_docstring_is_one_string_behind_its_margin(blocks: list[str], indent: int) -> None:
-    shown = docstring(blocks, indent, [">>> 1 + 1", "2"])
+    shown = docstring(blocks, indent, "No summary.", [">>> 1 + 1", "2"])
     said = ast.literal_eval(shown)
     assert [example.source for example in doctest.DocTestParser().get_examples(said)] == ["1 + 1\n"]
     first, *rest = shown.split("\n")
     assert first.startswith('"""')
+    assert first.endswith(".")
     assert all(line == "" or line.startswith(" " * indent) for line in rest)
     assert shown.endswith('"""')
 
@@ -664,29 +679,77 @@ def test_a_docstring_is_one_string_behind_its_margin(blocks: list[str], indent: 
     ("text", "said"),
     [
         ('a "quoted" word', 'a "quoted" word'),
-        ('"quoted"', '\\"quoted\\"'),
-        ('"""', '\\"\\"\\"'),
-        ('x ""', 'x \\"\\"'),
-        ('x "" y', 'x \\"" y'),
-        ("back\\slash", "back\\\\slash"),
-        ('\\"', '\\\\\\"'),
+        ('"quoted"', '"quoted"'),
+        ('"""', '""\\u0022'),
+        ('x ""', 'x ""'),
+        ("back\\slash", "back\\u005cslash"),
+        ('\\"', '\\u005c"'),
         ("  folded \n  lines ", "folded lines"),
         (">>> x", "> > > x"),
         ("", ""),
+        ("0\u20135 °C, 2\u00d73, \u2018so\u2019", "0-5 °C, 2x3, 'so'"),
+        ("打开阀门\uff0c然后\uff08等\uff09。", "打开阀门,然后(等)。"),
+        # One letter of a word is Cyrillic; all of a word; and a word that has nothing else.
+        ("p\u0430y", "p\\u0430y"),
+        ("открыть", "открыть"),
+        ("\u0441", "\\u0441"),
+        ("\U0001f600", "\\U0001f600"),
     ],
 )
 def test_prose_escapes_no_more_than_it_must(text: str, said: str) -> None:
     assert prose(text) == said
 
 
+@pytest.mark.parametrize(
+    ("text", "summary"),
+    [
+        ("Opens it.", "Opens it."),
+        ("Opens it", "Opens it."),
+        ("opens it", "Opens it."),
+        ("Opens it (fast)", "Opens it (fast)."),
+        ('Opens "it"', 'Opens "it".'),
+        ("vent_id of it", "vent_id of it."),
+        ("50 %", "50 %."),
+        ("°C", "°C."),
+        ("Opens it. " + "Waits. " * 20, "Opens it. " + "Waits. " * 11 + "Waits."),
+        # These can be no summary, and follow one that the generator has.
+        ("Is it open?", "No summary."),
+        ("Stop!", "No summary."),
+        ("Modes:", "No summary."),
+        ("Wait...", "No summary."),
+        ('"Quoted"', "No summary."),
+        ("This opens it.", "No summary."),
+        ("- Opens it", "No summary."),
+        ("Back\\", "Back\\."),
+        ("Calls f(x)", "No summary."),
+        ("word " * 30, "No summary."),
+        ("x" * 95, "No summary."),
+        ("", "No summary."),
+    ],
+)
+def test_a_summary_is_a_sentence_of_one_line(text: str, summary: str) -> None:
+    said = ast.literal_eval(docstring([text], 0, "No summary.", function="f"))
+    assert said.split("\n")[0] == summary
+    assert re.sub(r"\W", "", text).lower() in re.sub(r"\W", "", said).lower()
+
+
+def test_a_line_of_a_docstring_is_no_heading_of_a_section() -> None:
+    text = docstring(
+        ["Opens it.", "Returns:", "notes", "See also\n\n" + "x" * 99 + " args"], 4, "-"
+    )
+    headings = [line.strip() for line in text.split("\n")]
+    assert {"Returns.", "notes.", "See also.", "args."} <= set(headings)
+
+
 def test_a_docstring_breaks_its_lines_at_the_width() -> None:
-    text = docstring(["word " * 60, "word " * 30], 4)
-    assert max(map(len, (" " * 4 + text).split("\n"))) <= 100
-    assert text.count("\n\n") == 1
+    for word in ("word ", "漢字", "открыть "):
+        text = docstring([word * 60, word * 30], 4, "No summary.")
+        assert 85 < max(map(columns, (" " * 4 + text).split("\n"))) <= 100
+        assert text.count("\n\n") == 2
 
 
-def test_a_docstring_of_nothing_is_an_empty_one() -> None:
-    assert docstring([], 4) == docstring(["", " \n\n "], 4) == '""""""'
+def test_a_docstring_of_nothing_is_the_summary_that_there_is() -> None:
+    assert docstring([], 4, "So.") == docstring(["", " \n\n "], 4, "So.") == '"""So."""'
 
 
 @given(st.text())

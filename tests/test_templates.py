@@ -35,8 +35,9 @@ ALLOWED = (
     nodes.And,
     nodes.Not,
     nodes.Add,
+    nodes.Keyword,
 )
-FILTERS = {"docstring", "join", "literal"}
+FILTERS = {"assigned", "docstring", "join", "literal"}
 
 
 def named(path: Path) -> str:

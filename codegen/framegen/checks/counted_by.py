@@ -77,7 +77,7 @@ def _plain(field: AnyField) -> bool:
 
 
 def _busy(path: KeyPath, name: str, field: AnyField) -> Iterator[Problem]:
-    for key in ("range", "scale", "values"):
+    for key in ("range", "scale", "values", "limits", "signed_as"):
         if getattr(field, key, None):
             yield Problem(
                 (*path, key),

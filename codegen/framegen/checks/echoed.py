@@ -5,6 +5,8 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from framegen.checks.rule import Problem, StructureRule
+from framegen.language.spec import GroupField
+from framegen.language.wiretypes import WIRE_TYPES
 from framegen.model.exchanges import paths_of
 from framegen.reading.findings import did_you_mean
 
@@ -44,6 +46,37 @@ def _pair(
         listed, single = (asked, told) if ours[asked] else (told, asked)
         what = f"`{listed}` is in a list and `{single}` is not"
         yield Problem(path, what, "a list can repeat a list, and a number a number")
+    else:
+        yield from _room(path, (message, asked), (reply, told))
+
+
+def _room(
+    path: KeyPath, request: tuple[Message, str], answer: tuple[Message, str]
+) -> Iterator[Problem]:
+    """What is asked for and cannot be told makes questions that nothing answers."""
+    asked, told = _values(*request), _values(*answer)
+    if asked is None or told is None:
+        return
+    (low, high), (lowest, highest) = asked, told
+    if low < lowest or high > highest:
+        what = (
+            f"`{request[1]}` may be {low}..{high}, "
+            f"and `{answer[1]}` repeats {lowest}..{highest} at most"
+        )
+        yield Problem(path, what, "give both the same type and range", on_key=True)
+
+
+def _values(message: Message, path: str) -> tuple[int, int] | None:
+    """The values that a field, or one of an element, may have; None where its type is unknown."""
+    outer, _, inner = path.partition(".")
+    field = message.fields[outer]
+    number = field.fields[inner] if isinstance(field, GroupField) else field
+    wire = WIRE_TYPES.get(number.type)
+    if wire is None:
+        return None
+    declared = number.range
+    high = None if declared is None else declared.high
+    return wire.low if declared is None else declared.low, wire.high if high is None else high
 
 
 RULE = StructureRule(

@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING
 
 from framegen.targets.python.client_view import ClientView
 from framegen.targets.python.device_view import DeviceView
-from framegen.targets.python.escape import docstring, literal
+from framegen.targets.python.docstring import docstring
+from framegen.targets.python.escape import assigned, literal
 from framegen.targets.python.library_view import LibraryView
 from framegen.targets.python.names import bent, names_of, package_of
 from framegen.targets.python.reserved import RESERVED
@@ -81,7 +82,7 @@ def _from_templates(library: LibraryView) -> list[tuple[str, str]]:
 def _environment() -> Environment:
     # This is Python, not HTML: the filters escape.
     made = environment(_HERE / "templates", "python", autoescape=False)
-    made.filters.update(docstring=docstring, literal=literal)
+    made.filters.update(assigned=assigned, docstring=docstring, literal=literal)
     return made
 
 

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, ClassVar
 
 from framegen.model.exchanges import STEPS_PER_SECOND
-from framegen.targets.python.escape import Bracketed, literal
+from framegen.targets.python.escape import Bracketed, Part, Text, literal
 from framegen.targets.python.exports import relative_import
 from framegen.targets.python.method_view import Flavour, MethodView
 from framegen.targets.python.pose_view import PoseView
@@ -44,13 +44,13 @@ class ClientView:
     @property
     def about(self) -> list[str]:
         """The docstring of the client for threads."""
-        return [f"A client for threads: {self._title}.", self._shared.format("Client", "threads")]
+        return [f"A client for threads: {self._title}", self._shared.format("Client", "threads")]
 
     @property
     def async_about(self) -> list[str]:
         """The docstring of the client for asyncio."""
         return [
-            f"A client for asyncio: {self._title}.",
+            f"A client for asyncio: {self._title}",
             self._shared.format("AsyncClient", "tasks"),
         ]
 
@@ -100,12 +100,12 @@ class ClientView:
         if not limited:
             return "LIMITS = Limits()"
         limits = next(each for fields in limited.values() for each in fields.values())
-        others = [f"{literal(name)}: {_bounds(each)}" for name, each in limits.others.items()]
-        fields: list[str | Bracketed] = [
+        others = [Text(name, after=f": {_bounds(each)}") for name, each in limits.others.items()]
+        fields = [
             Bracketed(f"{name}: (", [literal(path) for path in paths], ")", lone=",")
             for name, paths in limited.items()
         ]
-        items: list[str | Bracketed] = [_bounds(limits.usual)]
+        items: list[Part] = [_bounds(limits.usual)]
         items += [Bracketed("others={", others, "}")] if others else []
         items.append(Bracketed("fields={", fields, "}"))
         pose = self.model.spec.pose
@@ -129,14 +129,14 @@ class ClientView:
         names |= {each.reply.name for each in self.model.exchanges if each.reply is not None}
         for each in self.model.exchanges:
             names |= set(each.reports)
-        return relative_import("messages", sorted(names))
+        return relative_import("messages", names)
 
     @property
     def import_requests(self) -> str:
         """The classes that the methods make and expect."""
         names = {each.request.name for each in self.model.exchanges}
         names |= {each.reply.name for each in self.model.exchanges if each.reply is not None}
-        return relative_import("messages", sorted(names))
+        return relative_import("messages", names)
 
     @property
     def import_elements(self) -> str:
@@ -145,7 +145,7 @@ class ClientView:
         lists = [each.repeat for each in self.model.messages.values()]
         elements = {each.element for each in lists if each is not None and each.element is not None}
         found = {each for each in elements if f"tuple[{each}, ...]" in shown}
-        names = sorted(found | ({self.pose.element} if self.pose else set()))
+        names = found | ({self.pose.element} if self.pose else set())
         return relative_import("messages", names, 4) if names else ""
 
     @property
@@ -154,6 +154,16 @@ class ClientView:
         return self.pose is not None or any(
             "Iterable[" in method.signature for method in self.methods
         )
+
+    @property
+    def typing(self) -> bool:
+        """Whether the client for threads imports anything for its annotations alone."""
+        return bool(self.iterables or self.import_elements or self.import_results)
+
+    @property
+    def async_typing(self) -> bool:
+        """Whether the client for asyncio does."""
+        return bool(self.iterables or self.import_elements or self.async_import_results)
 
     @property
     def import_results(self) -> list[str]:
@@ -181,10 +191,10 @@ def _bounds(range_: Range) -> str:
 
 
 def _entry(each: Exchange) -> str:
-    arguments = ", ".join(literal(name) for name in each.method.arguments)
-    items: list[str | Bracketed] = [
+    arguments = [literal(name) for name in each.method.arguments]
+    items: list[Part] = [
         literal(each.method.name),
-        f"({arguments}{',' if len(each.method.arguments) == 1 else ''})",
+        Bracketed("(", arguments, ")", lone=","),
     ]
     if each.reply is not None:
         items.append(f"reply={each.reply.name}")
@@ -196,9 +206,9 @@ def _entry(each: Exchange) -> str:
         items.append(f"acknowledged={each.acknowledged}")
     if each.lasts is not None:
         steps = STEPS_PER_SECOND[each.lasts.field.unit]
-        items.append(f"lasts=({literal(each.lasts.name)}, {steps})")
+        items.append(Bracketed("lasts=(", [literal(each.lasts.name), str(steps)], ")"))
     if each.echoed:
-        pairs = [f"({literal(one)}, {literal(other)})" for one, other in each.echoed]
+        pairs = [Bracketed("(", list(map(literal, pair)), ")") for pair in each.echoed]
         items.append(Bracketed("echoed=(", pairs, ")", lone=","))
     if each.most:
         items.append(f"most={each.most}")

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, TypeAlias
 
-from framegen.targets.python.escape import Bracketed, literal
+from framegen.targets.python.escape import Bracketed, Text
 from framegen.targets.python.message_view import MessageView
 
 if TYPE_CHECKING:
@@ -163,5 +163,6 @@ def _messages(model: Model) -> list[MessageView]:
 
 def _pairs(examples: Iterable[_Line]) -> list[str]:
     return [
-        Bracketed("(", [literal(line), literal(what)], "),").fitted(8) for line, what in examples
+        Bracketed("(", [Text(line, item=True), Text(what, item=True)], "),").fitted(8)
+        for line, what in examples
     ]

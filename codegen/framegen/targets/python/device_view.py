@@ -93,7 +93,7 @@ class DeviceView:
     @property
     def import_handled(self) -> str:
         """The import of the messages that it receives."""
-        return relative_import("messages", sorted(handler.message for handler in self.handlers))
+        return relative_import("messages", [handler.message for handler in self.handlers])
 
     @property
     def import_reports(self) -> str:

@@ -1,56 +1,84 @@
-"""Makes text from a spec safe for the place where it goes in Python source."""
+"""Makes text of a spec safe for the place where it goes in Python code; fits code to lines."""
 
 from __future__ import annotations
 
 import re
 from dataclasses import dataclass
-from textwrap import wrap
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, TypeAlias
 
-from framegen.reading.text import is_invisible
+from framegen.targets.python.characters import columns, shown
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
 WIDTH = 100
-# A quote that stands first, last or before another could begin or end a docstring.
-_RISKY_QUOTE = re.compile(r'\A"|"(?="|\Z)')
+# Linters take these for a file that others can write to, or for a server that is open to all.
+_ALARMING = re.compile(r"/(?:var/)?tmp|/dev/shm|0\.0\.0\.0\Z")
+_WORD = re.compile(r"\s*\S*")
 
 
 def literal(text: str) -> str:
     """`text` as a string literal, in the quotes that the formatter would choose."""
-    quote = "'" if text.count('"') > text.count("'") else '"'
-    return quote + "".join(_escaped(character, f"{quote}\\") for character in text) + quote
+    quote, other = "'\"" if text.count('"') > text.count("'") else "\"'"
+    if _ALARMING.match(text):
+        rest = text[1:].replace("{", "{{").replace("}", "}}")
+        return f"f{quote}{{{other}{text[0]}{other}}}{_inside(rest, quote)}{quote}"
+    return f"{quote}{_inside(text, quote)}{quote}"
 
 
-def prose(text: str) -> str:
-    """`text` for the inside of a docstring: no quote can end it, no example in it be run."""
-    folded = " ".join(text.split())
-    safe = "".join(_escaped(character, "\\") for character in folded)
-    # doctest runs what follows three of these, so prose must not be able to say them.
-    return _RISKY_QUOTE.sub(r'\\"', safe.replace(">>>", "> > >"))
-
-
-def docstring(blocks: list[str], indent: int, example: list[str] | None = None) -> str:
-    """A docstring, quotes and all: a summary, then a paragraph for each further block.
-
-    `example` goes to its end as it is: lines of Python that the generator wrote itself.
-    """
-    paragraphs = [part for block in blocks for part in block.split("\n\n") if part.strip()]
-    first, *rest = [lines(paragraph, indent) for paragraph in paragraphs] or [[""]]
+def assigned(text: str, name: str, indent: int) -> str:
+    """The assignment of a text to `name`, in brackets where it takes several lines."""
+    line = f"{name} = {literal(text)}"
+    if indent + columns(line) <= WIDTH:
+        return line
     margin = " " * indent
-    if not rest and not example and len(first) == 1 and len(first[0]) <= WIDTH - indent - 6:
-        return f'"""{first[0]}"""'
-    body = [*first, *(line for paragraph in rest for line in ["", *paragraph])]
-    body += ["", *example] if example else []
-    text = "\n".join(f"{margin}{line}" if line else "" for line in body)
-    return f'"""{text[indent:]}\n{margin}"""'
+    inside = Text(text).fitted(indent + 4)
+    return f"{name} = (\n{margin}    {inside}\n{margin})"
 
 
-def lines(text: str, indent: int) -> list[str]:
-    """Prose, wrapped to stand behind `indent` blanks, with room for the quotes of a docstring."""
-    width = WIDTH - indent - 3
-    return wrap(prose(text), width, break_long_words=False, break_on_hyphens=False)
+# A part of code: text as it is, or what can be broken.
+Part: TypeAlias = "str | Text | Bracketed"
+
+
+@dataclass(frozen=True, slots=True)
+class Text:
+    """A text as a literal, between `before` and `after`: several where it is too long for a line.
+
+    Those of an `item` of a tuple stand in brackets, lest one take them for items.
+    """
+
+    text: str
+    before: str = ""
+    after: str = ""
+    item: bool = False
+
+    def __str__(self) -> str:
+        return f"{self.before}{literal(self.text)}{self.after}"
+
+    def fitted(self, indent: int, *, last: str = "") -> str:
+        """On one line where it fits, `last` included, or else a literal a line."""
+        if indent + columns(str(self)) + len(last) <= WIDTH:
+            return str(self)
+        margin = "\n" + " " * indent
+        if self.item:
+            inside = Text(self.text, self.before, self.after).fitted(indent + 4)
+            return f"({margin}    {inside}{margin})"
+        room = WIDTH - indent - len(self.after) - len(last)
+        pieces = _pieces(self.text, room - len(self.before), room)
+        return f"{self.before}{margin.join(map(literal, pieces))}{self.after}"
+
+
+def _pieces(text: str, first: int, others: int) -> list[str]:
+    """Cut `text` into literals that fit into so many columns, between words where it can be."""
+    pieces = [""]
+    room = first
+    for word in _WORD.findall(text):
+        for part in [word] if columns(literal(word)) <= room else word:
+            if columns(literal(pieces[-1] + part)) > room:
+                pieces.append("")
+                room = others
+            pieces[-1] += part
+    return pieces
 
 
 @dataclass(frozen=True, slots=True)
@@ -58,13 +86,15 @@ class Bracketed:
     """A bracketed list of code: as text it is one line, and `fitted` breaks it where it must.
 
     `before` ends with the opening bracket and `after` begins with the closing one; `lone` follows a
-    single item, as the comma of a tuple does.
+    single item, as the comma of a tuple does. `comma` is what follows the last item on a line of
+    its own: nothing where that would make a tuple of it.
     """
 
     before: str
-    items: Sequence[str | Bracketed]
+    items: Sequence[Part]
     after: str
     lone: str = ""
+    comma: str = ","
 
     def __str__(self) -> str:
         inside = ", ".join(map(str, self.items)) + (self.lone if len(self.items) == 1 else "")
@@ -73,15 +103,17 @@ class Bracketed:
     def fitted(self, indent: int, *, last: str = "") -> str:
         """On one line where it fits, `last` included, or else an item a line: as formatters do."""
         whole = str(self)
-        if indent + len(whole) + len(last) <= WIDTH:
+        if not self.items or indent + columns(whole) + len(last) <= WIDTH:
             return whole
         margin = " " * indent
         lines = [
-            item if isinstance(item, str) else item.fitted(indent + 4, last=",")
+            f"{item}{self.comma}"
+            if isinstance(item, str)
+            else item.fitted(indent + 4, last=self.comma) + self.comma
             for item in self.items
         ]
         return "\n".join(
-            [self.before, *(f"{margin}    {line}," for line in lines), f"{margin}{self.after}"]
+            [self.before, *(f"{margin}    {line}" for line in lines), f"{margin}{self.after}"]
         )
 
 
@@ -91,18 +123,6 @@ def session(call: Bracketed, indent: int) -> list[str]:
     return [f">>> {first}", *(f"... {line[indent + len('... ') :]}" for line in others)]
 
 
-def _escaped(character: str, special: str) -> str:
-    if character in special:
-        return "\\" + character
-    if character == "\n":
-        return "\\n"
-    if not is_invisible(character):
-        return character
-    code = ord(character)
-    return (
-        f"\\x{code:02x}"
-        if code < 0x100
-        else f"\\u{code:04x}"
-        if code < 0x10000
-        else f"\\U{code:08x}"
-    )
+def _inside(text: str, quote: str) -> str:
+    safe = text.replace("\\", "\\\\").replace(quote, f"\\{quote}").replace("\n", "\\n")
+    return shown(safe)

@@ -2,7 +2,17 @@
 
 from __future__ import annotations
 
+import re
+from typing import TYPE_CHECKING, TypeAlias
+
 from framegen.targets.python.escape import WIDTH
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable
+
+_Order: TypeAlias = "tuple[int, tuple[tuple[str, int, str], ...], str]"
+# Text, and the number behind it.
+_NUMBERED = re.compile(r"(?=.)(\D*)(\d*)")
 
 # What every library exports besides its messages, and the module that each is in.
 HOMES = {
@@ -48,14 +58,32 @@ HOMES = {
 }
 
 
-def export_order(name: str) -> tuple[int, str]:
+def export_order(name: str) -> _Order:
     """The place of a name among those that a package exports, as linters want them."""
-    kind = 0 if name.isupper() else 1 if name[0].isupper() else 2
-    return kind, name
+    return _kind(name), _natural(name), ""
 
 
-def relative_import(module: str, names: list[str], indent: int = 0) -> str:
+def _import_order(name: str) -> _Order:
+    """The place of a name among those that are imported from a module."""
+    return _kind(name), _natural(name.lower()), name
+
+
+def _kind(name: str) -> int:
+    """Constants stand before classes, and classes before all else."""
+    return 0 if name.isupper() and len(name) > 1 else 1 if name[0].isupper() else 2
+
+
+def _natural(name: str) -> tuple[tuple[str, int, str], ...]:
+    """The order in which X9 stands before X10: numbers by their size, unless they begin with 0."""
+    return tuple(
+        (text, 0 if number.startswith("0") else len(number), number)
+        for text, number in _NUMBERED.findall(name)
+    )
+
+
+def relative_import(module: str, names: Iterable[str], indent: int = 0) -> str:
     """An import, indented but for its first line, an item a line where it needs to."""
+    names = sorted(names, key=_import_order)
     line = f"from .{module} import {', '.join(names)}"
     if indent + len(line) <= WIDTH:
         return line

@@ -9,7 +9,7 @@ from framegen.language.spec import IdPart, LengthPart
 from framegen.targets.python.command_lines import verbs
 from framegen.targets.python.escape import Bracketed, literal
 from framegen.targets.python.exports import HOMES, export_order, relative_import
-from framegen.targets.python.lookalike_view import LookalikeView
+from framegen.targets.python.lookalike_view import LookalikeView, byte_literal
 from framegen.targets.python.message_view import MessageView
 from framegen.targets.python.words import direction_member, struct_order
 
@@ -19,6 +19,10 @@ if TYPE_CHECKING:
     from framegen.model.model import Model
     from framegen.targets.python.command_lines import VerbView
     from framegen.targets.python.list_view import ListView
+
+
+# So many bytes have room in a line.
+_BYTES = 20
 
 
 @dataclass(frozen=True, slots=True)
@@ -36,12 +40,10 @@ class DirectionView:
         return literal(self.direction.key)
 
     @property
-    def sender(self) -> str:
-        return self.direction.sender
-
-    @property
-    def receiver(self) -> str:
-        return self.direction.receiver
+    def ends(self) -> str:
+        """The entry that says who sends and who receives."""
+        ends = [literal(self.direction.sender), literal(self.direction.receiver)]
+        return Bracketed(f"Direction.{self.member}: (", ends, "),").fitted(4)
 
 
 @dataclass(frozen=True, slots=True)
@@ -116,7 +118,7 @@ class LibraryView:
 
     @property
     def import_message_classes(self) -> str:
-        return relative_import("messages", sorted(message.name for message in self.messages))
+        return relative_import("messages", [message.name for message in self.messages])
 
     @property
     def _homes(self) -> dict[str, str]:
@@ -148,7 +150,7 @@ class LibraryView:
     def doc(self) -> list[str]:
         """The docstring of the package."""
         protocol = self.model.spec.protocol
-        return [f"{protocol.title}.", protocol.summary, protocol.description]
+        return [protocol.title, protocol.summary, protocol.description]
 
     @property
     def command_summary(self) -> str:
@@ -194,7 +196,11 @@ class LibraryView:
 
     @property
     def header(self) -> str:
-        return 'b"' + "".join(f"\\x{byte:02x}" for byte in self.model.frame.header) + '"'
+        header = self.model.frame.header
+        pieces = [header[at : at + _BYTES] for at in range(0, len(header), _BYTES)]
+        if len(pieces) == 1:
+            return byte_literal(header)
+        return "\n".join(["(", *(f"    {byte_literal(piece)}" for piece in pieces), ")"])
 
     @property
     def head(self) -> list[str]:

@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING
 
 from framegen.model.exchanges import snake_case
 from framegen.model.layout import Repeat, WireField
-from framegen.targets.python.escape import WIDTH, Bracketed, lines, literal
-from framegen.targets.python.number_view import AbsentView, NumberView, absent_view
+from framegen.targets.python.escape import WIDTH, Bracketed, Part, literal
+from framegen.targets.python.number_view import RETURN, AbsentView, NumberView, absent_view
 from framegen.targets.python.words import range_expression, struct_order
 
 if TYPE_CHECKING:
@@ -19,15 +19,17 @@ if TYPE_CHECKING:
 _COLUMNS_FOR = "For arrays and plots of a recording: several times as fast as"
 
 
-def given(argument: WireField | Repeat, value: Any, before: str = "") -> str | Bracketed:
+def given(argument: WireField | Repeat, value: Any, before: str = "") -> Part:
     """A value of an example as an argument, behind `before`; elements as plain tuples."""
     if isinstance(argument, WireField):
         return f"{before}{value}"
     if argument.element is None:
         return Bracketed(f"{before}[", [str(item) for item in value], "]")
     names = [field.name for field in argument.fields]
-    elements = [tuple(item[name] for name in names) for item in value]
-    return Bracketed(f"{before}[", [str(element) for element in elements], "]")
+    elements = [[str(item[name]) for name in names] for item in value]
+    return Bracketed(
+        f"{before}[", [Bracketed("(", element, ")", lone=",") for element in elements], "]"
+    )
 
 
 @dataclass(frozen=True, slots=True)
@@ -79,16 +81,18 @@ class ListView:
 
     @property
     def element_doc(self) -> list[str]:
-        whole = f"One of the {self.name} of a message: a tuple ({self.names}) with names."
-        # A summary has to fit into a line.
-        if len(lines(whole, 4)) == 1:
-            return [whole]
-        return [f"One of the {self.name} of a message: a tuple with names.", f"({self.names})"]
+        return [f"One of the {self.name} of a message: a tuple ({self.names}) with names."]
 
     @property
-    def types(self) -> str:
+    def declared(self) -> str:
+        """The declaration of the class of an element."""
+        bases: list[Part] = ["Element", Bracketed("tuple[", self._ints, "]")]
+        return Bracketed(f"class {self.element}(", bases, "):").fitted(0)
+
+    @property
+    def _ints(self) -> list[str]:
         """The types of its fields."""
-        return ", ".join("int" for _ in self.layout.fields)
+        return ["int" for _ in self.layout.fields]
 
     @property
     def names(self) -> str:
@@ -101,7 +105,9 @@ class ListView:
     def strategy(self) -> Bracketed:
         """Hypothesis's strategy for it, as an argument."""
         items = [field.strategy for field in self.fields]
-        element = items[0] if self.element is None else Bracketed("st.tuples(", items, ")")
+        element: Bracketed = (
+            items[0] if self.element is None else Bracketed("st.tuples(", items, ")")
+        )
         sizes = [f"min_size={self.layout.low}", f"max_size={self.layout.high}"]
         return Bracketed(f"{self.name}=st.lists(", [element, *sizes], ")")
 
@@ -111,11 +117,20 @@ class ListView:
         return snake_case(self.element or "")
 
     @property
+    def reader(self) -> str:
+        """The function that reads elements from the bytes of a frame."""
+        codes = [literal(self.codes)]
+        return Bracketed(f"_read_{self.snake} = Struct(", codes, ").iter_unpack").fitted(0)
+
+    @property
     def maker(self) -> str:
         """The function that makes an element of a tuple."""
-        name = f"_make_{self.snake}: Callable[[tuple[int, ...]], {self.element}]"
-        items = ["tuple.__new__", str(self.element)]
-        return Bracketed(f"{name} = partial(", items, ")").fitted(0)
+        element = str(self.element)
+        types = ["[tuple[int, ...]]", element]
+        kind = Bracketed(f"_make_{self.snake}: Callable[", types, "] = partial(")
+        if len(str(kind)) <= WIDTH:
+            return Bracketed(str(kind), ["tuple.__new__", element], ")").fitted(0)
+        return f"{kind.fitted(0)}tuple.__new__, {element})"
 
     @property
     def read_as(self) -> str:
@@ -127,7 +142,9 @@ class ListView:
         """The expression that reads it from the frame."""
         data = f"self._frame[{self.layout.offset}:]"
         if self.element is not None:
-            return f"tuple(map(_make_{self.snake}, _read_{self.snake}({data})))"
+            read = Bracketed(f"_read_{self.snake}(", [data], ")")
+            each = Bracketed("map(", [f"_make_{self.snake}", read], ")")
+            return Bracketed("tuple(", [each], ")").fitted(8, last=RETURN)
         if self.layout.fields[0].wire.is_byte:
             return f"tuple({data})"
         return f"tuple(chain.from_iterable(iter_unpack({literal(self.codes)}, {data})))"
@@ -167,11 +184,17 @@ class ListView:
         return f"{self.layout.low}..{self.layout.high}"
 
     @property
-    def given_as(self) -> str:
-        """The type of the argument."""
+    def argument(self) -> Part:
+        """How it is declared as an argument."""
         if self.element is None:
-            return "Iterable[int]"
-        return f"Iterable[tuple[{self.types}]]"
+            return f"{self.name}: Iterable[int]"
+        element = Bracketed("tuple[", self._ints, "]")
+        return Bracketed(f"{self.name}: Iterable[", [element], "]", comma="")
+
+    @property
+    def getter(self) -> str:
+        """The declaration of the property that reads it."""
+        return Bracketed(f"def {self.name}(", ["self"], f") -> {self.read_as}:").fitted(4)
 
     @property
     def doc(self) -> list[str]:

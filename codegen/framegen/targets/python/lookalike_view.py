@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from framegen.language.spec import BodyPart, ChecksumPart, ConstantPart, IdPart, LengthPart
 from framegen.model.layout import part_size
-from framegen.targets.python.escape import Bracketed, literal
+from framegen.targets.python.escape import Bracketed, Part, Text
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
@@ -36,7 +36,7 @@ class LookalikeView:
         sizes = {name: part_size(part) for name, part in self.frame.items()}
         uncounted = sum(size for name, size in sizes.items() if name not in counted)
         commands = [str(code) for code in sorted(self.lookalike.commands)]
-        described: list[str | Bracketed] = [
+        described: list[Part] = [
             Bracketed("constants=(", self._constants(places), ")", lone=","),
             f"length={_slice(places[self._only(LengthPart)])}",
             f"uncounted={uncounted}",
@@ -45,7 +45,7 @@ class LookalikeView:
             Bracketed("commands=(", commands, ")", lone=","),
             Bracketed("checksums=(", self._checksums(places), ")", lone=","),
         ]
-        items = [literal(self.lookalike.title), *described]
+        items = [Text(self.lookalike.title), *described]
         return Bracketed("Lookalike(", items, ")")
 
     def _only(self, kind: type[FramePart]) -> str:
@@ -68,7 +68,7 @@ class LookalikeView:
 
     def _constants(self, places: dict[str, _Place]) -> list[Bracketed]:
         return [
-            Bracketed("(", [_slice(places[name]), _bytes(part.bytes_)], ")")
+            Bracketed("(", [_slice(places[name]), byte_literal(part.bytes_)], ")")
             for name, part in self.frame.items()
             if isinstance(part, ConstantPart)
         ]
@@ -110,5 +110,6 @@ def _slice(place: _Place) -> str:
     return f"slice({start}, {end or None})"
 
 
-def _bytes(data: bytes) -> str:
+def byte_literal(data: bytes) -> str:
+    """Bytes as a literal, each as an escape."""
     return 'b"' + "".join(f"\\x{byte:02x}" for byte in data) + '"'

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from framegen.model.layout import Repeat, WireField
-from framegen.targets.python.escape import Bracketed, literal, session
+from framegen.targets.python.escape import Bracketed, Part, literal, session
 from framegen.targets.python.list_view import ListView, given
 from framegen.targets.python.names import strategy_name
 from framegen.targets.python.number_view import AbsentView, NumberView, absent_view
@@ -20,6 +20,11 @@ if TYPE_CHECKING:
     from framegen.language.values import Citation
     from framegen.model.layout import MessageLayout
     from framegen.model.model import Model
+
+
+_ASSIGNED = "self._frame = "
+# So many bytes of a frame have room in a line of an example.
+_SHOWN = 31
 
 
 @dataclass(frozen=True, slots=True)
@@ -123,14 +128,15 @@ class MessageView:
     @property
     def signature(self) -> str:
         numbers = [f"{field.name}: int" for field in self.given]
-        lists = [f"{self.repeat.name}: {self.repeat.given_as}"] if self.repeat else []
+        lists = [self.repeat.argument] if self.repeat else []
         return Bracketed("def __init__(", ["self", *numbers, *lists], ") -> None:").fitted(4)
 
     @property
-    def values(self) -> str:
-        """What the constructor was given: the numbers, and the list."""
-        numbers = f"({_items([field.name for field in self.given])})"
-        return f"{numbers}, {self.repeat.name}" if self.repeat else numbers
+    def framed(self) -> str:
+        """The call that makes the frame of what the constructor was given."""
+        numbers = Bracketed("(", [field.name for field in self.given], ")", lone=",")
+        lists = [self.repeat.name] if self.repeat else []
+        return Bracketed("self.SHAPE.frame(", [numbers, *lists], ")").fitted(8, last=_ASSIGNED)
 
     @property
     def example(self) -> Example:
@@ -141,10 +147,12 @@ class MessageView:
     def example_lines(self) -> list[str]:
         """That example as an interactive session."""
         given_values = self.given_values(self.example.values)
-        call = Bracketed(f"{self.name}(", given_values, ").encode().hex(' ')")
-        return [*session(call, 4), f"'{self.example.hex.hex(' ')}'"]
+        frame = self.example.hex
+        cut = "" if len(frame) <= _SHOWN else f"[:{_SHOWN}]"
+        call = Bracketed(f"{self.name}(", given_values, f").encode(){cut}.hex(' ')")
+        return [*session(call, 4), f"'{frame[:_SHOWN].hex(' ')}'"]
 
-    def given_values(self, values: dict[str, Any]) -> list[str | Bracketed]:
+    def given_values(self, values: dict[str, Any]) -> list[Part]:
         """The arguments that make the message of an example."""
         return [given(each, values[each.name], f"{each.name}=") for each in self.layout.arguments]
 
@@ -169,18 +177,24 @@ class MessageView:
         return strategy_name(self.name)
 
     @property
+    def strategy_declared(self) -> str:
+        """The declaration of that function."""
+        before = f"def {self.function}() -> SearchStrategy["
+        return Bracketed(before, [self.name], "]:", comma="").fitted(0)
+
+    @property
     def strategy(self) -> str:
         """The statement that makes its strategy."""
         if not self.arguments:
             return f"return st.just({self.name}())"
-        numbers = [f"{field.name}={field.strategy}" for field in self.given]
+        numbers = [field.strategy_as(f"{field.name}=") for field in self.given]
         lists = [self.repeat.strategy] if self.repeat else []
         return Bracketed("return st.builds(", [self.name, *numbers, *lists], ")").fitted(4)
 
     @property
     def shape(self) -> str:
         """The description of its wire side, for the runtime."""
-        items: list[str | Bracketed] = [str(self.command), "LENGTHS"]
+        items: list[Part] = [str(self.command), "LENGTHS"]
         if self.numbers:
             items.append(Bracketed("(", [each.described for each in self.numbers], ")", lone=","))
         if self.repeat:
@@ -191,13 +205,8 @@ class MessageView:
 
     def _items(self, repeat: ListView) -> Bracketed:
         fields = Bracketed("(", [field.described for field in repeat.fields], ")", lone=",")
-        items: list[str | Bracketed] = [literal(repeat.name), fields, repeat.counts]
+        items: list[Part] = [literal(repeat.name), fields, repeat.counts]
         items.append(f"counter={self.counter}")
         if repeat.element:
             items.append(f"element={repeat.element}")
         return Bracketed("Items(", items, ")")
-
-
-def _items(names: list[str]) -> str:
-    """Names as the inside of a tuple."""
-    return ", ".join(names) + ("," if len(names) == 1 else "")

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from framegen.model.layout import Repeat, WireField
-from framegen.targets.python.escape import Bracketed, session
+from framegen.targets.python.escape import WIDTH, Bracketed, Part, session
 from framegen.targets.python.list_view import ListView, given
 from framegen.targets.python.number_view import NumberView
 
@@ -66,7 +66,7 @@ class MethodView:
     @property
     def signature(self) -> str:
         """Its declaration."""
-        given = [f"{name}: {self._type(self._argument(name))}" for name in self._names]
+        given = [self._declared(self._argument(name)) for name in self._names]
         latest = [] if self.exchange.lasts is None else ["*", "latest: bool = False"]
         before = f"{self.flavour.define}{self.name}("
         return Bracketed(before, ["self", *given, *latest], f") -> {self.returns}:").fitted(4)
@@ -158,7 +158,18 @@ class MethodView:
                 "replies = ", "_ask_in_parts", [self._request, reply.name, split.name]
             )
         before = "reply = " if self.result else "return "
-        return self._given(before, "_ask", [str(self._made), reply.name])
+        return self._given(before, "_ask", [self._made, reply.name])
+
+    @property
+    def joined(self) -> str:
+        """What the replies to several requests say, put together."""
+        clauses = ["each", "for reply in replies", f"for each in reply.{self.result}"]
+        line = " ".join(clauses)
+        if len(f"        return tuple({line})") <= WIDTH:
+            return line
+        margin = "\n            "
+        lines = [line] if len(margin) - 1 + len(line) <= WIDTH else clauses
+        return f"{margin}{margin.join(lines)}\n        "
 
     @property
     def sent(self) -> str:
@@ -182,7 +193,7 @@ class MethodView:
         given = [f"{field.name}={field.name}" for field in self.exchange.request.arguments]
         return Bracketed(f"{self._request}(", given, ")")
 
-    def _given(self, before: str, method: str, arguments: list[str | Bracketed]) -> str:
+    def _given(self, before: str, method: str, arguments: list[Part]) -> str:
         """The arguments of a call in the body, broken where the line would be too long."""
         call = f"{before}{self.flavour.wait}self.{method}("
         return Bracketed(call, arguments, ")").fitted(8).removeprefix(call).removesuffix(")")
@@ -214,8 +225,8 @@ class MethodView:
     def _number(self, field: WireField) -> NumberView:
         return NumberView(field, self.model.spec)
 
-    def _type(self, argument: NumberView | ListView) -> str:
-        return argument.given_as if isinstance(argument, ListView) else "int"
+    def _declared(self, argument: NumberView | ListView) -> Part:
+        return argument.argument if isinstance(argument, ListView) else f"{argument.name}: int"
 
     def _session(self, before: str) -> list[str]:
         """A call of it in an interactive session: the first argument by place, others by name."""

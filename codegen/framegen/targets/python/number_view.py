@@ -6,12 +6,16 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from framegen.language.wiretypes import WIRE_TYPES
-from framegen.targets.python.escape import Bracketed, literal
+from framegen.targets.python.escape import WIDTH, Bracketed, Part, Text, literal
 from framegen.targets.python.names import constant_name, signed_name
 
 if TYPE_CHECKING:
     from framegen.language.spec import Spec
     from framegen.model.layout import WireField
+
+
+# What stands in front of an expression that a property returns, 8 columns from the left.
+RETURN = "return "
 
 
 @dataclass(frozen=True, slots=True)
@@ -97,7 +101,7 @@ class NumberView:
                 if self.absent_values
                 else f"{wire.low}..{wire.high}.",
             ],
-            f"(self.{self.name} ^ {sign:#x}) - {sign:#x}",
+            _signed(f"self.{self.name} ^ {sign:#x}", f" - {sign:#x}"),
         )
 
     @property
@@ -122,18 +126,22 @@ class NumberView:
         return f'int.from_bytes(self._frame[{start}:{end}], "{self.spec.byte_order}"{signed})'
 
     @property
-    def strategy(self) -> str:
+    def strategy(self) -> Bracketed:
         """Hypothesis's strategy for it."""
-        return f"st.integers({self.low}, {self.high})"
+        return self.strategy_as("")
+
+    def strategy_as(self, before: str) -> Bracketed:
+        """The same, as an argument behind `before`."""
+        return Bracketed(f"{before}st.integers(", [str(self.low), str(self.high)], ")")
 
     @property
     def described(self) -> Bracketed:
         """The call that describes it to the runtime."""
         field = self.layout.field
-        items: list[str | Bracketed] = [literal(self.name), literal(self.layout.wire.code)]
+        items: list[Part] = [literal(self.name), literal(self.layout.wire.code)]
         items += [str(self.low), str(self.high)]
         if field.unit:
-            items.append(f"unit={literal(field.unit)}")
+            items.append(Text(field.unit, before="unit="))
         if field.values:
             names = [f"{literal(name)}: {value.value}" for name, value in field.values.items()]
             items.append(Bracketed("names={", names, "}"))
@@ -147,10 +155,24 @@ def absent_view(fields: list[NumberView]) -> AbsentView | None:
         if values:
             named = field.layout.field.values
             about = [each.about for each in named.values() if each.absent]
-            shown = ", ".join(map(str, values))
-            test = f"== {shown}" if len(values) == 1 else f"in ({shown})"
+            whole = f"self.{field.name}"
+            test = (
+                f"{whole} == {values[0]}"
+                if len(values) == 1
+                else Bracketed(f"{whole} in (", [str(value) for value in values], ")").fitted(
+                    8, last=RETURN
+                )
+            )
             return AbsentView(
                 [f"Whether `{field.name}` says that there is nothing to tell of.", *about],
-                f"self.{field.name} {test}",
+                test,
             )
     return None
+
+
+def _signed(inner: str, outer: str) -> str:
+    """The difference of `(inner)` and `outer`, in three lines where it is too long for one."""
+    line = f"({inner}){outer}"
+    if 8 + len(RETURN) + len(line) <= WIDTH:
+        return line
+    return f"(\n            {inner}\n        ){outer}"

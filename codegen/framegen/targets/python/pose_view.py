@@ -137,6 +137,13 @@ class PoseView:
         )
 
     @property
+    def limited(self) -> str:
+        """What targets are made of: the positions, and the limits of the client."""
+        call = "return POSE.targets_of("
+        given = [self.told.name, "self._limits"]
+        return Bracketed(call, given, ")").fitted(8).removeprefix(call).removesuffix(")")
+
+    @property
     def hold_doc(self) -> list[str]:
         nearest = (
             "The nearest there is to stopping a motion where no message does that: what moves goes "

@@ -1,0 +1,175 @@
+"""A library's client and its own device, face to face: every method is called, and answered."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from types import ModuleType
+
+    from framegen.model.exchanges import Exchange
+    from framegen.model.layout import MessageLayout
+    from framegen.model.model import Model
+
+
+class Line:
+    """A transport in virtual time, with a device at its end that takes its time on the wire."""
+
+    name = "line"
+
+    def __init__(self, device: Any, seconds_per_byte: float) -> None:
+        self.device = device
+        self.now = 0.0
+        self._per_byte = seconds_per_byte
+        self._free = 0.0
+        self._arriving: list[tuple[float, bytes]] = []
+
+    def clock(self) -> float:
+        return self.now
+
+    def read(self, timeout: float) -> bytes:
+        # However short the wait, time goes on.
+        until = self.now + max(timeout, 1e-6)
+        self.now = min([until, *(at for at, _ in self._arriving)])
+        arrived = [data for at, data in self._arriving if at <= self.now]
+        self._arriving = [(at, data) for at, data in self._arriving if at > self.now]
+        return b"".join(arrived)
+
+    def write(self, data: bytes) -> None:
+        self._free = max(self._free, self.now) + len(data) * self._per_byte
+        answer = self.device.receive(data)
+        if answer:
+            self._free += len(answer) * self._per_byte + 0.001
+            self._arriving.append((max(self._free, self.now), answer))
+
+    def drain(self, timeout: float) -> None:
+        self.now += timeout
+
+    def close(self) -> None:
+        self.now += 0.0
+
+
+def converse(made: ModuleType, model: Model) -> None:
+    """Have the client of `made` call each method with each example, and its device answer.
+
+    `model` is in the names of the library.
+    """
+    _both_ways(made, model)
+    device = _device(made, model)
+    spent = made.protocol.BITS_PER_BYTE / made.protocol.BAUD
+    line = Line(device, spent)
+    # However slow the line is, and whatever is sent in front of a reply: it will come.
+    patience = {"margin": 9e9, "clock": line.clock, "background": False}
+    with made.Controller(line, limits=None, **patience) as client:
+        for exchange in model.exchanges:
+            for example in exchange.request.message.examples[:4]:
+                _ask(made, client, device, exchange, example.values)
+    assert device.noise == []
+
+
+def _both_ways(made: ModuleType, model: Model) -> None:
+    """Every example, of either end, is the frame of its message."""
+    for name, layout in model.messages.items():
+        kind = getattr(made, name)
+        for example in layout.message.examples:
+            message = _made(made, layout, example.values)
+            assert message.encode() == example.hex
+            assert made.decode(example.hex, kind.DIRECTION) == message
+
+
+def _ask(
+    made: ModuleType, client: Any, device: Any, exchange: Exchange, values: dict[str, Any]
+) -> None:
+    arguments = [_argument(values[name]) for name in exchange.method.arguments]
+    result = getattr(client, exchange.method.name)(*arguments)
+    sent = _made(made, exchange.request, values)
+    assert device.heard[-1] == sent
+    if exchange.reply is not None:
+        reply = device.said[-1]
+        assert result == (
+            getattr(reply, exchange.method.result) if exchange.method.result else reply
+        )
+
+
+def _device(made: ModuleType, model: Model) -> Any:
+    """A device that answers what it is asked with what the spec says that it would."""
+    heard: list[Any] = []
+    said: list[Any] = []
+    noise: list[Any] = []
+
+    def handler(exchange: Exchange) -> Any:
+        def handle(device: Any, message: Any) -> Any:
+            heard.append(message)
+            for name in exchange.reports:
+                device.send(_report(made, model.messages[name], message))
+            if exchange.reply is None:
+                return None
+            said.append(_reply(made, exchange, exchange.reply, message))
+            return said[-1]
+
+        return handle
+
+    handlers = {f"on_{_snake(made, each)}": handler(each) for each in model.exchanges}
+    kind = type("Answering", (made.Device,), handlers)
+    for name in handlers:
+        assert hasattr(made.Device, name), name
+    device = kind()
+    device.heard, device.said, device.noise = heard, said, noise
+    device.rejected = noise.append
+    return device
+
+
+def _snake(made: ModuleType, exchange: Exchange) -> str:
+    handlers = made.device._HANDLERS
+    name: str = handlers[getattr(made, exchange.request.name)]
+    return name.removeprefix("on_")
+
+
+def _report(made: ModuleType, layout: MessageLayout, request: Any) -> Any:
+    """A report with what the request said, where both have a field of that name."""
+    values = dict(layout.message.examples[0].values)
+    for field in layout.numbers:
+        if field.name in values:
+            asked = getattr(request, field.name, values[field.name])
+            if isinstance(asked, int) and field.low <= asked <= field.high:
+                values[field.name] = asked
+    return _made(made, layout, values)
+
+
+def _reply(made: ModuleType, exchange: Exchange, layout: MessageLayout, request: Any) -> Any:
+    """The reply of an example, which repeats what it has to."""
+    values = dict(layout.message.examples[0].values)
+    for asked, told in exchange.echoed:
+        outer, _, inner = told.partition(".")
+        value = _at(request, asked)
+        if not inner and not isinstance(value, tuple):
+            values[outer] = value
+        elif not inner:
+            values[outer] = list(value)
+        elif layout.repeat is not None:
+            blank = {field.name: field.low for field in layout.repeat.fields}
+            items = values[outer] if isinstance(values[outer], list) else []
+            asked_for = value if isinstance(value, tuple) else (value,)
+            values[outer] = [
+                {**(items[at] if at < len(items) else blank), inner: each}
+                for at, each in enumerate(asked_for)
+            ]
+    return _made(made, layout, values)
+
+
+def _at(message: Any, path: str) -> Any:
+    outer, _, inner = path.partition(".")
+    value = getattr(message, outer)
+    return tuple(getattr(each, inner) for each in value) if inner else value
+
+
+def _made(made: ModuleType, layout: MessageLayout, values: dict[str, Any]) -> Any:
+    given = {name: _argument(value) for name, value in values.items()}
+    return getattr(made, layout.name)(**given)
+
+
+def _argument(value: Any) -> Any:
+    """A value of an example as users give it: elements as tuples."""
+    if isinstance(value, list):
+        return [tuple(each.values()) if isinstance(each, dict) else each for each in value]
+    return value

@@ -1,0 +1,98 @@
+"""Lengths and examples that follow from the rest of a spec: what is changed there stays a spec."""
+
+from __future__ import annotations
+
+import copy
+from typing import TYPE_CHECKING, Any
+
+from framegen.language.wiretypes import WIRE_TYPES
+from framegen.model.codec import Unencodable, encode
+from framegen.reading.yamltree import Unusable
+
+from tests.specimens import Data, compiled_of
+
+if TYPE_CHECKING:
+    from framegen.model.layout import MessageLayout, WireField
+    from framegen.model.model import Model
+
+
+def healed(data: Data) -> Data | None:
+    """A copy whose lengths and examples are those of its fields; None where it has no layout.
+
+    What speaks of single frames is left out: errata, unknowns, examples of look-alikes.
+    """
+    whole: Data = copy.deepcopy(data)
+    try:
+        whole |= {"errata": [], "unknowns": []}
+        for lookalike in whole.get("lookalikes", {}).values():
+            lookalike.pop("examples", None)
+        for message in whole["messages"].values():
+            message |= {"length": 0, "examples": []}
+        model = compiled_of(whole).derived
+    except (AttributeError, KeyError, TypeError, Unusable):
+        return None
+    if model is None:
+        return None
+    for name, message in model.messages.items():
+        whole["messages"][name]["length"] = str(message.formula)
+        try:
+            whole["messages"][name]["examples"] = list(_examples(model, message))
+        except Unencodable:
+            return None
+    return whole
+
+
+def _examples(model: Model, message: MessageLayout) -> list[dict[str, Any]]:
+    """Frames with every value that an example has to show."""
+    fields = [*message.numbers, *(message.repeat.fields if message.repeat else ())]
+    shown = [
+        _values(model, message, number) for number in range(max(map(_many, fields), default=1))
+    ]
+    return [
+        {
+            "title": f"Example {number}",
+            "hex": encode(model, message, values).hex(" "),
+            "values": values,
+            "constructed": "From the layout.",
+        }
+        for number, values in enumerate(shown)
+    ]
+
+
+def _values(model: Model, message: MessageLayout, number: int) -> dict[str, Any]:
+    repeat = message.repeat
+    values: dict[str, Any] = {}
+    for argument in message.arguments:
+        if argument is not repeat:
+            field = next(each for each in message.numbers if each.name == argument.name)
+            values[field.name] = _shown(field, number)
+    if repeat is not None:
+        many = repeat.low if number == 1 else min(repeat.high, max(repeat.low, 2))
+        values[repeat.name] = [
+            {field.name: _shown(field, number + at) for field in repeat.fields}
+            if repeat.element is not None
+            else _shown(repeat.fields[0], number + at)
+            for at in range(many)
+        ]
+    return values
+
+
+def _shown(field: WireField, number: int) -> int:
+    found = _all_of(field)
+    return found[number % len(found)]
+
+
+def _many(field: WireField) -> int:
+    return len(_all_of(field)) + 1
+
+
+def _all_of(field: WireField) -> list[int]:
+    """The values that an example of a field has to show, inside its limits."""
+    found = [field.low, field.high, *(each.value for each in field.field.values.values())]
+    if field.field.signed_as in WIRE_TYPES:
+        found.append(WIRE_TYPES[field.field.signed_as].high + 1)
+    limits = field.field.limits
+    if limits is None:
+        return list(dict.fromkeys(found))
+    bounds = [limits.usual, *limits.others.values()]
+    return [bounds[0].low, *(each.high or 0 for each in bounds)]

@@ -1,0 +1,165 @@
+"""The libraries of many specs side by side: one run of a tool looks at all of them."""
+
+from __future__ import annotations
+
+import ast
+import importlib
+import importlib.util
+import json
+import re
+import shutil
+import subprocess
+import sys
+from contextlib import contextmanager
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from tests.specimens import ROOT
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Iterator
+    from types import ModuleType
+
+LIBRARY = ROOT / "generated" / "busservo"
+TEMPLATES = ROOT / "codegen" / "framegen" / "targets" / "python" / "templates"
+# What differs from library to library. All else is copied, and the same for every spec.
+MADE = sorted(
+    path.relative_to(TEMPLATES).as_posix().removesuffix(".jinja")
+    for path in TEMPLATES.rglob("*.jinja")
+)
+
+
+@dataclass(frozen=True)
+class Library:
+    """What was generated for one spec: its modules that are not the same in every library."""
+
+    name: str
+    modules: dict[str, str]
+
+    def write(self, folder: Path) -> None:
+        """Write its own modules, in a package of its name."""
+        for path, text in self.modules.items():
+            file = folder / self.name / path
+            file.parent.mkdir(parents=True, exist_ok=True)
+            file.write_text(text, encoding="utf-8", newline="")
+            if file.parent.name == "cli":
+                (file.parent / "__init__.py").write_text('"""The command."""\n', encoding="utf-8")
+
+    def write_whole(self, folder: Path) -> None:
+        """Write all that type checkers need: the command and the doctor do without the messages."""
+        for file in LIBRARY.glob("*.py"):
+            if file.name not in self.modules and file.name != "__main__.py":
+                (folder / self.name).mkdir(parents=True, exist_ok=True)
+                shutil.copy(file, folder / self.name)
+        for path, text in self.modules.items():
+            if "/" not in path:
+                (folder / self.name / path).write_text(text, encoding="utf-8", newline="")
+
+    @property
+    def code(self) -> str:
+        """What type checkers tell libraries apart by: the code without what its texts say."""
+        return "\n".join(_code(text) for text in self.modules.values())
+
+
+def library_of(name: str, files: dict[str, str]) -> Library:
+    """The library among the files of a spec, to be called `name`."""
+    [root] = {path.rpartition("/")[0] for path in files if path.endswith("/py.typed")}
+    return Library(name, {path: files[f"{root}/{path}"] for path in MADE})
+
+
+class _Said(ast.NodeTransformer):
+    """Makes a constant of every text that is put together."""
+
+    def visit_JoinedStr(self, _node: ast.JoinedStr) -> ast.Constant:
+        return ast.Constant("")
+
+
+def _code(text: str) -> str:
+    tree = _Said().visit(ast.parse(text))
+    for node in ast.walk(tree):
+        if isinstance(node, ast.Constant) and isinstance(node.value, str | bytes):
+            node.value = ""
+        elif isinstance(node, ast.Constant) and type(node.value) is int and node.value > 99:
+            node.value = 99
+    return ast.dump(tree)
+
+
+@contextmanager
+def imported(library: Library, folder: Path) -> Iterator[ModuleType]:
+    """A library that is written below `folder`; what is the same in all is not written again."""
+    home = folder / library.name
+    spec = importlib.util.spec_from_file_location(
+        library.name, home / "__init__.py", submodule_search_locations=[str(home), str(LIBRARY)]
+    )
+    assert spec is not None
+    assert spec.loader is not None
+    made = sys.modules[library.name] = importlib.util.module_from_spec(spec)
+    try:
+        spec.loader.exec_module(made)
+        for path in library.modules:
+            if "/" not in path and path != "__init__.py":
+                importlib.import_module(f"{library.name}.{path.removesuffix('.py')}")
+        yield made
+    finally:
+        for name in [name for name in sys.modules if name.split(".")[0] == library.name]:
+            del sys.modules[name]
+
+
+def _run(command: list[str], folder: Path) -> subprocess.CompletedProcess[str]:
+    return subprocess.run(
+        [sys.executable, "-m", *command],
+        cwd=folder,
+        capture_output=True,
+        encoding="utf-8",
+        errors="replace",
+        check=False,
+    )
+
+
+def _by_library(found: Iterable[tuple[str, str]], folder: Path) -> dict[str, list[str]]:
+    told: dict[str, list[str]] = {}
+    for file, what in found:
+        path = Path(file)
+        inside = path.relative_to(folder.resolve()) if path.is_absolute() else path
+        told.setdefault(inside.parts[0], []).append(f"{inside.as_posix()}: {what}")
+    return told
+
+
+def linted(folder: Path) -> dict[str, list[str]]:
+    """What ruff has against the libraries in a folder, by library."""
+    config = ["--no-cache", "--config", str(ROOT / "pyproject.toml")]
+    done = _run(["ruff", "check", *config, "--output-format", "json", "."], folder)
+    assert done.returncode in (0, 1), done.stderr
+    found = [
+        (each["filename"], f"{each['location']['row']}: {each['code']} {each['message']}")
+        for each in json.loads(done.stdout)
+    ]
+    shaped = _run(["ruff", "format", "--check", *config, "."], folder)
+    assert shaped.returncode in (0, 1), shaped.stderr
+    again = re.findall(r"^Would reformat: (.*)$", shaped.stdout, re.MULTILINE)
+    return _by_library([*found, *((file, "ruff would format it") for file in again)], folder)
+
+
+def type_checked(folder: Path, cache: Path) -> dict[str, list[str]]:
+    """What mypy and pyright have against the libraries in a folder, by library."""
+    names = sorted(path.name for path in folder.iterdir())
+    if not names:
+        return {}
+    (folder.parent / "mypy.ini").write_text("[mypy]\n", encoding="utf-8")
+    done = _run(
+        ["mypy", "--strict", "--config-file", str(folder.parent / "mypy.ini")]
+        + ["--no-error-summary", "--cache-dir", str(cache)]
+        + [word for name in names for word in ("-p", name)],
+        folder,
+    )
+    assert done.returncode in (0, 1), done.stdout + done.stderr
+    found = [(line.split(":")[0], line) for line in done.stdout.splitlines() if ": error:" in line]
+    files = [str(folder / name / path) for name in names for path in MADE if "/" not in path]
+    looked = _run(["pyright", "--outputjson", "--pythonpath", sys.executable, *files], folder)
+    assert looked.returncode in (0, 1), looked.stdout + looked.stderr
+    found += [
+        (each["file"], f"{each['range']['start']['line'] + 1}: {each['message']}")
+        for each in json.loads(looked.stdout)["generalDiagnostics"]
+    ]
+    return _by_library(found, folder)

@@ -1,0 +1,153 @@
+"""What `framegen check` accepts is good: whatever is changed in a spec, it says so, or all holds.
+
+Accepted means: it generates and imports; ruff, mypy and pyright have nothing against it; its client
+is answered by its own device on every method; and its pages are inert. Each run takes a sample,
+which CONTRACT_SEED chooses; CONTRACT=all takes everything, as `make fuzz` does; and CONTRACT_ONLY
+those whose description holds a text, as a failure shows it.
+"""
+
+from __future__ import annotations
+
+import os
+import random
+import shutil
+from typing import TYPE_CHECKING
+
+import pytest
+from framegen.reading.yamltree import Unusable
+from framegen.targets import python
+from framegen.targets.python.names import names_of
+
+from tests.contract.conversation import converse
+from tests.contract.healing import healed
+from tests.contract.libraries import Library, imported, library_of, linted, type_checked
+from tests.contract.mutants import rotations, singly, specs, structures, telling, told
+from tests.contract.pages import not_inert, pages_of
+from tests.specimens import compiled_of
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+    from pathlib import Path
+
+    from framegen.compile import Compiled
+
+    from tests.contract.mutants import Mutant
+    from tests.docs.reference import Reference
+    from tests.specimens import Data
+
+SEED = int(os.environ.get("CONTRACT_SEED", "8"))
+ONLY = os.environ.get("CONTRACT_ONLY", "")
+ALL = os.environ.get("CONTRACT") == "all"
+# How many of each a sample has: specs full of odd text, and specs with one thing changed.
+TOLD, CHANGED, TYPED = 4, 40, 3
+
+
+def sample(mutants: list[Mutant], many: int) -> list[Mutant]:
+    """Those that a run looks at."""
+    if ONLY:
+        return [mutant for mutant in mutants if ONLY in str(mutant)]
+    if ALL or many >= len(mutants):
+        return mutants
+    return random.Random(SEED).sample(mutants, many)  # noqa: S311
+
+
+def accepted(data: Data | None) -> Compiled | None:
+    """What follows from a spec, where nothing is found in it."""
+    try:
+        compiled = None if data is None else compiled_of(data)
+    except Unusable:
+        return None
+    return None if compiled is None or compiled.findings else compiled
+
+
+def library(name: str, compiled: Compiled) -> Library:
+    return library_of(name, python.TARGET.render(compiled, {}))
+
+
+def shown(failures: dict[str, list[str]]) -> str:
+    """Failures by mutant, each with the command that shows it alone."""
+    lines = [f"seed {SEED}"]
+    for mutant, found in list(failures.items())[:20]:
+        lines += [mutant, *(f"    {each}" for each in found[:5])]
+        lines.append(f"    CONTRACT_ONLY={mutant!r} python -m pytest tests/contract")
+    return "\n".join(lines)
+
+
+@pytest.mark.parametrize("spec", specs())
+def test_odd_text_leaves_nothing_but_itself(spec: str, tmp_path: Path) -> None:
+    plain = telling(spec, {})
+    compiled = accepted(plain.data)
+    assert compiled is not None
+    code, pages = library("plain", compiled).code, pages_of(plain.data)
+    mutants = sample([told(spec, each) for each in range(rotations())], TOLD)
+    failures = _told_wrongly(mutants, code, pages, tmp_path / "all")
+    for mutant in [each for each in mutants if str(each) in failures][:2]:
+        failures = _told_wrongly(singly(mutant), code, pages, tmp_path / "singly") | failures
+    if failures:
+        pytest.fail(shown(failures))
+
+
+def _told_wrongly(
+    mutants: list[Mutant], code: str, pages: Reference, folder: Path
+) -> dict[str, list[str]]:
+    """What odd text has done, by mutant."""
+    found: dict[str, list[str]] = {}
+    for at, mutant in enumerate(mutants):
+        compiled = compiled_of(mutant.data)
+        if compiled.findings:
+            found[str(mutant)] = [f"{each.rule}: {each.message}" for each in compiled.findings]
+            continue
+        made = library(f"m{at}", compiled)
+        made.write(folder)
+        same = [] if made.code == code else ["the code says something else"]
+        found[str(mutant)] = [*same, *not_inert(pages_of(mutant.data), pages)]
+    for name, faults in linted(folder).items():
+        found[str(mutants[int(name[1:])])] += faults
+    shutil.rmtree(folder)
+    return {mutant: faults for mutant, faults in found.items() if faults}
+
+
+@pytest.fixture(scope="module")
+def changed() -> list[tuple[Mutant, Compiled]]:
+    """Specs with one thing changed that `check` accepts: as they are, or with examples to match."""
+    everything = [mutant for spec in specs() for mutant in structures(spec)]
+    # Most are refused: many are asked for some to be accepted.
+    asked = sample(everything, 8 * CHANGED)
+    found = [(mutant, made) for mutant in asked if (made := _made(mutant)) is not None]
+    return found if ALL or ONLY else found[:CHANGED]
+
+
+def _made(mutant: Mutant) -> Compiled | None:
+    return accepted(mutant.data) or accepted(healed(mutant.data))
+
+
+def test_a_changed_spec_makes_a_good_library(
+    changed: list[tuple[Mutant, Compiled]], tmp_path: Path
+) -> None:
+    assert changed
+    failures: dict[str, list[str]] = {}
+    sources, whole = tmp_path / "sources", tmp_path / "whole"
+    whole.mkdir()
+    kinds: dict[str, Library] = {}
+    for at, (mutant, compiled) in enumerate(changed):
+        made = library(f"m{at}", compiled)
+        made.write(sources)
+        kinds.setdefault(made.code, made)
+        failures.setdefault(str(mutant), []).extend(_conversed(made, compiled, sources))
+    # To a type checker, those that differ in numbers and texts alone are one.
+    for made in list(kinds.values()) if ALL or ONLY else list(kinds.values())[:TYPED]:
+        made.write_whole(whole)
+    for checked in (linted(sources), type_checked(whole, tmp_path / "cache")):
+        for name, faults in checked.items():
+            failures[str(changed[int(name[1:])][0])] += faults
+    wrong = {mutant: faults for mutant, faults in failures.items() if faults}
+    if wrong:
+        pytest.fail(shown(wrong))
+
+
+def _conversed(made: Library, compiled: Compiled, folder: Path) -> Iterator[str]:
+    try:
+        with imported(made, folder) as module:
+            converse(module, names_of(compiled.model).library)
+    except Exception as error:  # noqa: BLE001 - whatever it is, it is told with the mutant
+        yield f"{type(error).__name__}: {error}"
