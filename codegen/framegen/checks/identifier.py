@@ -14,9 +14,6 @@ if TYPE_CHECKING:
     from framegen.language.spec import Message, Spec
     from framegen.reading.yamltree import KeyPath
 
-# Two of them and what stands between have room in a line of code.
-LONGEST = 32
-
 _PASCAL = re.compile(r"[A-Z][A-Za-z0-9]*")
 _SNAKE = re.compile(r"[a-z][a-z0-9]*(?:_[a-z0-9]+)*")
 _PLAIN = re.compile(r"[A-Za-z0-9 _-]+")
@@ -63,7 +60,6 @@ def _pascal(path: KeyPath, name: str, *, on_key: bool) -> Iterator[Problem]:
         proposed = "".join(word.capitalize() for word in _words(name))
         hint = f"write `{proposed}`" if _PASCAL.fullmatch(proposed) else ""
         yield Problem(path, f"`{name}` is no name in PascalCase", hint, on_key)
-    yield from _long(path, name, on_key=on_key)
 
 
 def _snake(path: KeyPath, name: str, *, on_key: bool = True) -> Iterator[Problem]:
@@ -71,13 +67,6 @@ def _snake(path: KeyPath, name: str, *, on_key: bool = True) -> Iterator[Problem
         proposed = "_".join(_words(name)).lower()
         hint = f"write `{proposed}`" if _SNAKE.fullmatch(proposed) else ""
         yield Problem(path, f"`{name}` is no name in snake_case", hint, on_key)
-    yield from _long(path, name, on_key=on_key)
-
-
-def _long(path: KeyPath, name: str, *, on_key: bool) -> Iterator[Problem]:
-    if len(name) > LONGEST:
-        what = f"`{name}` has {len(name)} characters, and a name has {LONGEST} at most"
-        yield Problem(path, what, "shorten it; `about` has room for the rest", on_key)
 
 
 def _words(name: str) -> list[str]:
@@ -89,8 +78,8 @@ RULE = StructureRule(
     id="identifier",
     title="Every name has the shape of one",
     why="Names go into code, files and addresses: messages and elements in PascalCase, all others "
-    f"in snake_case, of {LONGEST} characters at most. A word that a language has taken is a good "
-    "name here: whatever is written in that language bends it.",
+    "in snake_case. A word that a language has taken is a good name here: whatever is written in "
+    "that language bends it.",
     bad="fields: {Servo-ID: {type: u8}}",
     good="fields: {servo_id: {type: u8}}",
     look=_look,

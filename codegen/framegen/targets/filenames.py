@@ -1,8 +1,8 @@
 """Names of files after something of the spec: the one rule that every target asks.
 
 Every system can check them out. A name of the spec is of ASCII letters, digits and `_`, never ends
-in `_` and is no longer than the rule identifier allows; two that differ only in capitals are
-refused where both would be files. What remains are the names that Windows keeps for devices, with
+in `_` and is short enough for a line of code; two that differ only in capitals are refused where
+both would be files. What remains are the names that Windows keeps for devices, with
 any extension and however they are capitalised.
 """
 
