@@ -366,12 +366,20 @@ def test_two_manifests_that_git_has_joined_know_the_files_of_both(root: Path) ->
     put(root, MANIFEST, "\n".join(joined) + "\n")
     for path in (f"{LIBRARY}/changed.py", f"{LIBRARY}/gone.py"):
         put(root, path, BEFORE.files[path])
-    done = write(root, [AFTER])
-    assert whys(done.changes) == {
+    # And what git has joined of both is no edit, either.
+    joined_page = f"{PAGES}/messages/Heat.md"
+    put(root, joined_page, AFTER.files[joined_page] + BEFORE.files[joined_page])
+    edited = f"{LIBRARY}/same.py"
+    put(root, edited, f"{BEFORE.files[edited]}# mine\n")
+    assert whys(changes(root, [AFTER])) == {
         f"{LIBRARY}/changed.py": "stale",
         f"{LIBRARY}/gone.py": "orphaned",
+        joined_page: "stale",
+        edited: "edited by hand",
     }
-    assert done.notices == []
+    put(root, edited, BEFORE.files[edited])
+    assert write(root, [AFTER]).notices == []
+    assert changes(root, [AFTER]) == []
 
 
 @pytest.mark.parametrize(

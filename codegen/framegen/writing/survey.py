@@ -103,12 +103,15 @@ class _Surveyor:
         self._manifests = {output.manifest: self._read(output.manifest) for output in outputs}
         self._known: Lines = {}
         self._folded: dict[str, str] = {}
+        self._joined: frozenset[str] = frozenset()
 
     def look(self, *, force: bool) -> Survey:
         for output in self._outputs:
             self._expect_own(output, force=force)
         former = dict(self._former())
-        self._known = _united([*self._manifests.values(), *former.values()])
+        manifests = [*filter(None, self._manifests.values()), *former.values()]
+        self._known = _united(manifests)
+        self._joined = frozenset[str]().union(*(manifest.joined for manifest in manifests))
         self._folded = _folded(path for path in self._known if path not in self._wanted)
         for output in self._outputs:
             self._look_at(output)
@@ -209,7 +212,7 @@ class _Surveyor:
         generated = is_generated(standing.data)
         if (known or generated) and is_conflicted(standing.data):
             return "conflicted"
-        if rebuilt and generated:
+        if generated and (rebuilt or path in self._joined):
             return "stale"
         return "edited by hand" if known else "foreign"
 
@@ -221,7 +224,8 @@ class _Surveyor:
         standing = self._places.look(path)
         if standing is None or standing.kind:
             return
-        if is_conflicted(standing.data) or is_blank(standing.data):
+        joined = path in self._joined and is_generated(standing.data)
+        if joined or is_conflicted(standing.data) or is_blank(standing.data):
             self._own(path, standing)
         own = file_digest(standing.data) in self._known[path]
         why: Why = "orphaned" if own else "edited by hand"
@@ -282,7 +286,7 @@ class _Surveyor:
         self._found.manifests.add(path)
         self._found.finals[path] = text
         if manifest is None or not manifest.whole or plan != listed:
-            self._found.plans[path] = Manifest(output.spec, digest, plan).text()
+            self._found.plans[path] = Manifest(output.spec, digest, plan, under_way=True).text()
         standing = self._places.look(path)
         if standing is None:
             self._found.changes.append(Change(path, "missing", None, text))
@@ -315,10 +319,10 @@ def _owners(outputs: Sequence[Output]) -> dict[str, Output]:
     return owners
 
 
-def _united(manifests: Iterable[Manifest | None]) -> Lines:
+def _united(manifests: Iterable[Manifest]) -> Lines:
     known: Lines = {}
     for manifest in manifests:
-        for path, digests in () if manifest is None else manifest.files.items():
+        for path, digests in manifest.files.items():
             known[path] = known.get(path, frozenset()) | digests
     return known
 
