@@ -81,26 +81,36 @@ def changes(root: Path, outputs: Sequence[Output]) -> list[Change]:
 
 
 def survey(
-    root: Path, outputs: Sequence[Output], *, all_of: str | None = None, force: bool = False
+    root: Path,
+    outputs: Sequence[Output],
+    *,
+    all_of: str | None = None,
+    shared: bool = False,
+    force: bool = False,
 ) -> Survey:
     """Compare the disk with what is wanted. Raises Unusable where it cannot be looked at.
 
     `all_of` names a folder all of whose specs are among `outputs`: what a manifest says is from
-    another spec of that folder is wanted no more. `force` takes over what another spec has made.
+    another spec of that folder is wanted no more. In a `shared` root other projects have output as
+    well, and all other manifests are theirs. `force` takes over what another spec has made.
     """
-    return _Surveyor(Places(root), outputs, all_of).look(force=force)
+    return _Surveyor(Places(root), outputs, all_of, shared=shared).look(force=force)
 
 
 class _Surveyor:
     """One look at the disk: reads the manifests, then each file that they or the outputs name."""
 
-    def __init__(self, places: Places, outputs: Sequence[Output], all_of: str | None) -> None:
+    def __init__(
+        self, places: Places, outputs: Sequence[Output], all_of: str | None, *, shared: bool
+    ) -> None:
         self._places = places
         self._outputs = outputs
         self._all_of = all_of
         self._found = Survey()
         self._wanted = _owners(outputs)
         self._manifests = {output.manifest: self._read(output.manifest) for output in outputs}
+        self._shared = shared
+        self._specs = {visible(output.spec) for output in outputs}
         self._known: Lines = {}
         self._folded: dict[str, str] = {}
         self._joined: frozenset[str] = frozenset()
@@ -133,7 +143,8 @@ class _Surveyor:
     def _expect_own(self, output: Output, *, force: bool) -> None:
         """Refuse to take over what another spec, which is still there, has made."""
         found = self._manifests[output.manifest]
-        if found is None or force or found.spec in ("", visible(output.spec)):
+        # Two specs of one run may have exchanged their names.
+        if found is None or force or found.spec in {"", *self._specs}:
             return
         if (self._places.root / found.spec).is_file():
             raise Unusable(
@@ -144,10 +155,10 @@ class _Surveyor:
 
     def _former(self) -> Iterable[tuple[str, Manifest]]:
         """Manifests of a spec at hand under the name that it had, and of specs that are gone."""
+        if self._shared:
+            return
         own = {path.casefold() for path in self._manifests}
-        specs = {
-            visible(output.spec) for output in self._outputs if output.spec and not output.others
-        }
+        specs = {visible(output.spec) for output in self._outputs if not output.others}
         for folder in sorted({str(PurePosixPath(path).parent) for path in self._manifests}):
             for path in self._places.listed(folder, "*.manifest"):
                 manifest = None if path.casefold() in own else self._read(path)
