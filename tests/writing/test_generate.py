@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import shutil
+import subprocess
 from pathlib import Path
 from typing import TYPE_CHECKING, TypeAlias
 
@@ -28,6 +29,7 @@ COMPILED = compile_spec(Source("spec/demo.yaml", TEXT))
 OUTPUT, SHARED = render(COMPILED), render_shared(COMPILED)
 FILES = {**OUTPUT.files, **SHARED.files}
 MANIFESTS = {OUTPUT.manifest, SHARED.manifest}
+GIT = shutil.which("git")
 LIBRARY = "generated/greenhouse"
 CODEC = f"{LIBRARY}/codec.py"
 SCHEMA = "spec/framegen.schema.json"
@@ -314,10 +316,11 @@ def three(project: Path) -> Path:
     return project
 
 
-def test_all_specs_of_a_root_are_written_side_by_side(capsys: Capture, three: Path) -> None:
-    err = capsys.readouterr().err
-    assert f"{3 * (len(OUTPUT.files) + 1) + 2} files from 3 specs: " in err
+def test_all_specs_of_a_root_are_written_side_by_side(three: Path, capsys: Capture) -> None:
+    capsys.readouterr()
     assert main(["generate", "--check"]) == 0
+    files = 3 * (len(OUTPUT.files) + 1) + len(SHARED.files) + 1
+    assert capsys.readouterr().err == f"{files} files from 3 specs: none would change\n"
     for name in ("greenhouse", "glasshouse", "shed"):
         assert (three / "generated" / name / "codec.py").exists()
         assert (three / "generated" / f"{name}.manifest").exists()
@@ -490,3 +493,54 @@ def test_a_diff_ends_its_lines_where_the_file_does() -> None:
 def test_a_diff_tells_an_empty_file_too() -> None:
     assert Change("py.typed", "missing", None, "").diff() == "--- /dev/null\n+++ b/py.typed\n"
     assert Change("py.typed", "orphaned", "", None).diff() == "--- a/py.typed\n+++ /dev/null\n"
+
+
+# ------------------------------------------------------------------ git
+
+
+@pytest.mark.skipif(GIT is None, reason="git is not installed")
+@pytest.mark.parametrize("attributes", [True, False])
+@pytest.mark.parametrize("side", ["--ours", "--theirs"])
+def test_after_a_merge_with_conflicts_one_run_is_enough(
+    project: Path, side: str, attributes: bool
+) -> None:
+    """Whichever side of the spec is taken: conflicts and joined files are nobody's work."""
+
+    def git(*words: str, fails: bool = False) -> None:
+        identity = ("-c", "user.name=x", "-c", "user.email=x@example.org", "-c", "rerere.enabled=0")
+        done = subprocess.run(
+            [str(GIT), *identity, *words],
+            cwd=project,
+            capture_output=True,
+            encoding="utf-8",
+            check=False,
+        )
+        assert (done.returncode != 0) == fails, done.stdout + done.stderr
+
+    def edition(branch: str, text: str) -> None:
+        git("checkout", "-q", "-b", branch, "main")
+        put(project, "spec/demo.yaml", text)
+        assert main(["generate"]) == 0
+        git("add", "--all")
+        git("commit", "-q", "-m", branch)
+
+    if attributes:
+        shutil.copyfile(ROOT / ".gitattributes", project / ".gitattributes")
+    git("init", "-q", "-b", "main", ".")
+    git("add", "--all")
+    git("commit", "-q", "-m", "main")
+    summary = "summary: Open vents by a number of degrees."
+    edition("ours", RENAMED.replace(summary, "summary: Open vents a little."))
+    theirs = changed(summary, "summary: Open vents wide.")
+    edition("theirs", theirs.replace("a gateway, its stations", "a gateway, all stations"))
+    git("merge", "-q", "ours", fails=True)
+    git("checkout", side, "spec/demo.yaml")
+    assert main(["generate"]) == 0
+    assert main(["generate", "--check"]) == 0
+    git("add", "--all")
+    spec = (project / "spec" / "demo.yaml").read_text(encoding="utf-8")
+    compiled = compile_spec(Source("spec/demo.yaml", spec))
+    fresh = project / "fresh"
+    write(fresh, [render(compiled), render_shared(compiled)])
+    assert snapshot(fresh / "generated") == snapshot(project / "generated")
+    assert snapshot(fresh / "docs") == snapshot(project / "docs")

@@ -134,6 +134,18 @@ def failure(root: Path, edition: list[Output], *, force: bool) -> BaseException 
     return None
 
 
+def test_an_edit_after_a_run_was_killed_is_an_edit(tmp_path: Path) -> None:
+    """Although the manifest has both editions then, as after a merge."""
+    tree = prepared(tmp_path / "tree", "first")
+    taken = steps(tree, tmp_path / "copy", "next", force=False)
+    with patched(len(taken) - 2, "after", _interrupted):
+        assert failure(tree, EDITIONS["next"], force=False) is not None
+    file = put(tree, SPOILT, (tree / SPOILT).read_text(encoding="utf-8") + "# mine\n")
+    with pytest.raises(Unusable, match=f"edited by hand: {SPOILT}"):
+        write(tree, EDITIONS["next"])
+    assert file.read_text(encoding="utf-8").endswith("# mine\n")
+
+
 def test_what_was_prepared_is_swept_when_the_disk_fails(tmp_path: Path) -> None:
     tree = prepared(tmp_path / "tree", "first")
     before = snapshot(tree)

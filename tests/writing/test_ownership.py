@@ -366,12 +366,20 @@ def test_two_manifests_that_git_has_joined_know_the_files_of_both(root: Path) ->
     put(root, MANIFEST, "\n".join(joined) + "\n")
     for path in (f"{LIBRARY}/changed.py", f"{LIBRARY}/gone.py"):
         put(root, path, BEFORE.files[path])
-    done = write(root, [AFTER])
-    assert whys(done.changes) == {
+    # And what git has joined of both is no edit, either.
+    joined_page = f"{PAGES}/messages/Heat.md"
+    put(root, joined_page, AFTER.files[joined_page] + BEFORE.files[joined_page])
+    edited = f"{LIBRARY}/same.py"
+    put(root, edited, f"{BEFORE.files[edited]}# mine\n")
+    assert whys(changes(root, [AFTER])) == {
         f"{LIBRARY}/changed.py": "stale",
         f"{LIBRARY}/gone.py": "orphaned",
+        joined_page: "stale",
+        edited: "edited by hand",
     }
-    assert done.notices == []
+    put(root, edited, BEFORE.files[edited])
+    assert write(root, [AFTER]).notices == []
+    assert changes(root, [AFTER]) == []
 
 
 @pytest.mark.parametrize(
@@ -459,6 +467,31 @@ def test_two_specs_of_one_name_are_refused(tmp_path: Path, name: str) -> None:
         write(tmp_path, [BEFORE, twin])
     assert "`name`" in told.value.hint
     assert snapshot(tmp_path) == {}
+
+
+def test_two_specs_may_exchange_their_names(tmp_path: Path) -> None:
+    for spec in (SPEC, "spec/oven.yaml"):
+        put(tmp_path, spec, "")
+    exchanged = [
+        output("oven", SPEC, same="x = 1\n", Heat="heat"),
+        output("kiln", "spec/oven.yaml", bake="x = 1\n", Bake="bake"),
+    ]
+    write(tmp_path, [BEFORE, OTHER])
+    write(tmp_path, exchanged, all_of="spec")
+    for spec in (SPEC, "spec/oven.yaml"):
+        (tmp_path / spec).unlink()
+    (tmp_path / "spec").rmdir()
+    found = snapshot(tmp_path)
+    assert found == fresh(tmp_path / "elsewhere", *exchanged)
+
+
+def test_in_a_root_that_projects_share_no_output_of_others_goes(tmp_path: Path) -> None:
+    """Not even of a spec that has the same path in its own project."""
+    write(tmp_path, [BEFORE, OTHER])
+    before = snapshot(tmp_path)
+    renamed = output("furnace", SPEC, same="x = 1\n")
+    write(tmp_path, [renamed], all_of="spec", shared=True)
+    assert before.items() <= snapshot(tmp_path).items()
 
 
 def test_a_spec_does_not_take_over_what_another_has_made(root: Path) -> None:

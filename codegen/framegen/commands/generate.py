@@ -78,13 +78,14 @@ def run(arguments: Namespace) -> int:
     outputs = [output for output in outputs if output.files]
     root: Path = arguments.out or project_root(files[0])
     # A spec that is gone from the project takes along what came from it.
-    all_of = None if arguments.spec or arguments.out or arguments.target else FOLDER
+    all_of = None if arguments.spec or arguments.target else FOLDER
+    shared = arguments.out is not None
     if arguments.check or arguments.diff:
-        would = survey(root, outputs, all_of=all_of)
+        would = survey(root, outputs, all_of=all_of, shared=shared)
         _show(would)
         _sum_up(outputs, specs, root, f"{len(would.changes) or 'none'} would change")
         return 1 if would.changes and arguments.check else 0
-    done = write(root, outputs, all_of=all_of, force=arguments.force)
+    done = write(root, outputs, all_of=all_of, shared=shared, force=arguments.force)
     _report(done)
     _sum_up(outputs, specs, root, f"{len(done.changes) or 'none'} changed")
     return 0

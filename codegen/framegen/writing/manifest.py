@@ -14,7 +14,8 @@ from framegen.output import banner
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
-_COMMENT = re.compile(r"# (?:(spec|spec-sha256|framegen): )?(.*)")
+_COMMENT = re.compile(r"# (?:(spec|spec-sha256|framegen|state): )?(.*)")
+_UNDER_WAY = "being written, or left so by a run that was killed"
 # As `sha256sum` writes and reads it.
 _LINE = re.compile(r"([0-9a-f]{64})  (\S.*)")
 # What no path of the output begins with, or holds: it would lead out of the root.
@@ -35,7 +36,7 @@ def text_digest(text: str) -> str:
 class Manifest:
     """What framegen wrote from a spec: by path, the digests by which a file there is its own.
 
-    A path has several while a run is under way, and where git has joined two lists; a file that
+    A path has several while a run is `under_way`, and where git has joined two lists; a file that
     matches any is framegen's. `whole` is False where the text could not be read to the letter.
     """
 
@@ -44,6 +45,13 @@ class Manifest:
     files: Mapping[str, frozenset[str]] = field(default_factory=dict)
     version: str = __version__
     whole: bool = True
+    under_way: bool = False
+
+    @property
+    def joined(self) -> frozenset[str]:
+        """Paths of which git has joined the lines of two lists, and maybe the files as well."""
+        several = () if self.under_way else self.files
+        return frozenset(path for path in several if len(self.files[path]) > 1)
 
     def text(self) -> str:
         """The manifest as it is written, one sorted line a file."""
@@ -51,6 +59,7 @@ class Manifest:
             "spec": visible(self.spec),
             "spec-sha256": self.digest,
             "framegen": self.version,
+            "state": _UNDER_WAY if self.under_way else "",
         }
         head = [f"# {banner(self.spec)}", *(f"# {key}: {it}" for key, it in facts.items() if it)]
         lines = [
@@ -81,4 +90,5 @@ def read_manifest(data: bytes) -> Manifest:
         {path: frozenset(digests) for path, digests in files.items()},
         facts.get("framegen", ""),
         whole,
+        facts.get("state") == _UNDER_WAY,
     )

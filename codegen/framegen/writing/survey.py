@@ -81,34 +81,47 @@ def changes(root: Path, outputs: Sequence[Output]) -> list[Change]:
 
 
 def survey(
-    root: Path, outputs: Sequence[Output], *, all_of: str | None = None, force: bool = False
+    root: Path,
+    outputs: Sequence[Output],
+    *,
+    all_of: str | None = None,
+    shared: bool = False,
+    force: bool = False,
 ) -> Survey:
     """Compare the disk with what is wanted. Raises Unusable where it cannot be looked at.
 
     `all_of` names a folder all of whose specs are among `outputs`: what a manifest says is from
-    another spec of that folder is wanted no more. `force` takes over what another spec has made.
+    another spec of that folder is wanted no more. In a `shared` root other projects have output as
+    well, and all other manifests are theirs. `force` takes over what another spec has made.
     """
-    return _Surveyor(Places(root), outputs, all_of).look(force=force)
+    return _Surveyor(Places(root), outputs, all_of, shared=shared).look(force=force)
 
 
 class _Surveyor:
     """One look at the disk: reads the manifests, then each file that they or the outputs name."""
 
-    def __init__(self, places: Places, outputs: Sequence[Output], all_of: str | None) -> None:
+    def __init__(
+        self, places: Places, outputs: Sequence[Output], all_of: str | None, *, shared: bool
+    ) -> None:
         self._places = places
         self._outputs = outputs
         self._all_of = all_of
         self._found = Survey()
         self._wanted = _owners(outputs)
         self._manifests = {output.manifest: self._read(output.manifest) for output in outputs}
+        self._shared = shared
+        self._specs = {visible(output.spec) for output in outputs}
         self._known: Lines = {}
         self._folded: dict[str, str] = {}
+        self._joined: frozenset[str] = frozenset()
 
     def look(self, *, force: bool) -> Survey:
         for output in self._outputs:
             self._expect_own(output, force=force)
         former = dict(self._former())
-        self._known = _united([*self._manifests.values(), *former.values()])
+        manifests = [*filter(None, self._manifests.values()), *former.values()]
+        self._known = _united(manifests)
+        self._joined = frozenset[str]().union(*(manifest.joined for manifest in manifests))
         self._folded = _folded(path for path in self._known if path not in self._wanted)
         for output in self._outputs:
             self._look_at(output)
@@ -130,7 +143,8 @@ class _Surveyor:
     def _expect_own(self, output: Output, *, force: bool) -> None:
         """Refuse to take over what another spec, which is still there, has made."""
         found = self._manifests[output.manifest]
-        if found is None or force or found.spec in ("", visible(output.spec)):
+        # Two specs of one run may have exchanged their names.
+        if found is None or force or found.spec in {"", *self._specs}:
             return
         if (self._places.root / found.spec).is_file():
             raise Unusable(
@@ -141,10 +155,10 @@ class _Surveyor:
 
     def _former(self) -> Iterable[tuple[str, Manifest]]:
         """Manifests of a spec at hand under the name that it had, and of specs that are gone."""
+        if self._shared:
+            return
         own = {path.casefold() for path in self._manifests}
-        specs = {
-            visible(output.spec) for output in self._outputs if output.spec and not output.others
-        }
+        specs = {visible(output.spec) for output in self._outputs if not output.others}
         for folder in sorted({str(PurePosixPath(path).parent) for path in self._manifests}):
             for path in self._places.listed(folder, "*.manifest"):
                 manifest = None if path.casefold() in own else self._read(path)
@@ -209,7 +223,7 @@ class _Surveyor:
         generated = is_generated(standing.data)
         if (known or generated) and is_conflicted(standing.data):
             return "conflicted"
-        if rebuilt and generated:
+        if generated and (rebuilt or path in self._joined):
             return "stale"
         return "edited by hand" if known else "foreign"
 
@@ -221,7 +235,8 @@ class _Surveyor:
         standing = self._places.look(path)
         if standing is None or standing.kind:
             return
-        if is_conflicted(standing.data) or is_blank(standing.data):
+        joined = path in self._joined and is_generated(standing.data)
+        if joined or is_conflicted(standing.data) or is_blank(standing.data):
             self._own(path, standing)
         own = file_digest(standing.data) in self._known[path]
         why: Why = "orphaned" if own else "edited by hand"
@@ -282,7 +297,7 @@ class _Surveyor:
         self._found.manifests.add(path)
         self._found.finals[path] = text
         if manifest is None or not manifest.whole or plan != listed:
-            self._found.plans[path] = Manifest(output.spec, digest, plan).text()
+            self._found.plans[path] = Manifest(output.spec, digest, plan, under_way=True).text()
         standing = self._places.look(path)
         if standing is None:
             self._found.changes.append(Change(path, "missing", None, text))
@@ -315,10 +330,10 @@ def _owners(outputs: Sequence[Output]) -> dict[str, Output]:
     return owners
 
 
-def _united(manifests: Iterable[Manifest | None]) -> Lines:
+def _united(manifests: Iterable[Manifest]) -> Lines:
     known: Lines = {}
     for manifest in manifests:
-        for path, digests in () if manifest is None else manifest.files.items():
+        for path, digests in manifest.files.items():
             known[path] = known.get(path, frozenset()) | digests
     return known
 

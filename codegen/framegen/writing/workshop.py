@@ -160,9 +160,10 @@ def _attempt(folder: Path) -> int | None:
     return None
 
 
-def _hold(lock: int) -> bool:
-    """Whether the lock could be taken. What file systems without locks say is passed over."""
-    if sys.platform == "win32":
+if sys.platform == "win32":
+
+    def _hold(lock: int) -> bool:
+        """Whether the lock could be taken."""
         os.lseek(lock, _LOCKED_BYTE, os.SEEK_SET)
         try:
             msvcrt.locking(lock, msvcrt.LK_NBLCK, 1)
@@ -171,11 +172,16 @@ def _hold(lock: int) -> bool:
         finally:
             os.lseek(lock, 0, os.SEEK_SET)
         return True
-    try:
-        fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
-    except OSError as error:
-        return error.errno in (errno.ENOLCK, errno.ENOSYS, errno.ENOTSUP, errno.EOPNOTSUPP)
-    return True
+
+else:
+
+    def _hold(lock: int) -> bool:
+        """Whether the lock could be taken, or the file system knows none and has nobody wait."""
+        try:
+            fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        except OSError as error:
+            return error.errno in (errno.ENOLCK, errno.ENOSYS, errno.ENOTSUP, errno.EOPNOTSUPP)
+        return True
 
 
 def _unlock(lock: int, folder: Path) -> None:

@@ -57,22 +57,23 @@ def write(
     outputs: Sequence[Output],
     *,
     all_of: str | None = None,
+    shared: bool = False,
     force: bool = False,
     patience: float = PATIENCE,
 ) -> Written:
-    """Make the disk agree, and tell what was changed. `all_of` is as for `survey`.
+    """Make the disk agree, and tell what was changed. `all_of` and `shared` are as for `survey`.
 
     Raises Unusable, with nothing changed, where that would replace or remove what is not
     framegen's own; with `force` such files are kept beside. Where the disk fails in the middle,
     another run finishes.
     """
-    found = survey(root, outputs, all_of=all_of, force=force)
+    found = survey(root, outputs, all_of=all_of, shared=shared, force=force)
     if not found.changes and not is_left_over(root):
         return Written(strangers=found.strangers, notices=found.notices)
     writer: _Writer | None = None
     try:
         with workshop(root, patience) as at:
-            found = survey(root, outputs, all_of=all_of, force=force)
+            found = survey(root, outputs, all_of=all_of, shared=shared, force=force)
             if not force:
                 _expect_no_obstacle(found)
             writer = _Writer(Places(root), at, found)
