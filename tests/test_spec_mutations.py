@@ -274,6 +274,7 @@ def signed_and_absent() -> Iterator[Mutation]:
     for wrong in ("i8", "i32", "u16", "int"):
         yield (*PLACE, "signed_as"), wrong
     yield ("messages", "ServoUnload", "fields", "servo_ids", "type"), "i8"
+    yield (*PLACE[:-1], "servo_id", "type"), "i8"
     yield (*PLACE, "values", "absent", "absent"), "yes"
 
 
@@ -285,7 +286,7 @@ def poses() -> Iterator[Mutation]:
     for wrong in ("1..", "9..1", "0..256", "-1..9"):
         yield ("pose", "ids"), wrong
     for key in ("hold", "present", "targets"):
-        for wrong in ("move_servos", "close", "class", "Hold", "hold-servos"):
+        for wrong in ("move_servos", "Hold", "hold-servos"):
             yield ("pose", key), wrong
     yield ("pose", "present"), TREE["pose"]["hold"]
     for key in TREE["pose"]:
@@ -419,11 +420,6 @@ BLIND: list[tuple[Steps, Any, str]] = [
     (messages("ActionGroupCompleted", "fields", "group", "type"), "i8", SMALL_NUMBERS),
     (messages("ActionGroupCompleted", "fields", "times", "type"), "i16", SMALL_NUMBERS),
     (messages("BatteryVoltage", "fields", "voltage_mv", "type"), "i16", SMALL_NUMBERS),
-    (
-        messages("ServoPositions", "fields", "positions", "fields", "servo_id", "type"),
-        "i8",
-        SMALL_NUMBERS,
-    ),
     ((*POSITION, "limits", "usual"), "0..900", OUTSIDE),
     ((*POSITION, "limits", "usual"), "0..799", "the other boards take what the examples send"),
     ((*POSITION, "limits"), GONE, NOT_MISSED),

@@ -57,7 +57,7 @@ def _directions(model: Model) -> Iterator[Problem]:
 def _ways(model: Model) -> Iterator[tuple[KeyPath, Direction]]:
     for name, message in model.spec.messages.items():
         yield ("messages", name, "direction"), message.direction
-    for direction in model.ways:
+    for direction in model.roles.directions:
         yield ("endpoints", direction.sender), direction
 
 
