@@ -147,10 +147,12 @@ def test_a_name_that_changes_its_capitals_alone_keeps_its_file(root: Path) -> No
         other, files={path.replace("Heat", "HEAT"): t for path, t in other.files.items()}
     )
     write(root, [other])
-    shutil.copyfile(root / page, root / page.replace("Heat", "HEAT"))
+    twin = root / page.replace("Heat", "HEAT")
+    if not twin.exists():  # where capitals do tell names apart
+        shutil.copyfile(root / page, twin)
     done = write(root, [renamed]).changes
     assert whys(done) == {page: "orphaned", page.replace("Heat", "HEAT"): "stale"}
-    assert (root / page.replace("Heat", "HEAT")).exists()
+    assert twin.exists()
 
 
 # ------------------------------------------------------------------ edits and files of others

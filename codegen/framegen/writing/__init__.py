@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from framegen.writing.survey import Change, Survey, changes, survey
+from framegen.writing.change import Change
+from framegen.writing.survey import Survey, changes, survey
 from framegen.writing.write import Written, write
 
 __all__ = ["Change", "Survey", "Written", "changes", "survey", "write"]

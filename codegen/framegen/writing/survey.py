@@ -3,14 +3,12 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from difflib import unified_diff
-from io import StringIO
 from pathlib import PurePosixPath
-from typing import TYPE_CHECKING, Literal, TypeAlias
+from typing import TYPE_CHECKING, TypeAlias
 
 from framegen.console import visible
 from framegen.reading.yamltree import Unusable
-from framegen.wording import counted
+from framegen.writing.change import Change
 from framegen.writing.kept import is_kept
 from framegen.writing.manifest import Manifest, file_digest, read_manifest, text_digest
 from framegen.writing.marks import is_blank, is_conflicted, is_former_page, is_generated
@@ -21,39 +19,12 @@ if TYPE_CHECKING:
     from pathlib import Path
 
     from framegen.output import Output
+    from framegen.writing.change import Why
     from framegen.writing.places import Standing
 
 # Where the reference lay before each spec had a folder of its own.
 _FORMER_REFERENCE = "docs/reference"
 Lines: TypeAlias = "dict[str, frozenset[str]]"
-Why = Literal["missing", "stale", "conflicted", "orphaned", "edited by hand", "foreign"]
-
-
-@dataclass(frozen=True, slots=True)
-class Change:
-    """One file that differs from what is wanted. `new` is None where no file should be."""
-
-    path: str
-    why: Why
-    old: str | None
-    new: str | None
-
-    @property
-    def ours(self) -> bool:
-        """Whether nobody loses anything by it."""
-        return self.why not in ("edited by hand", "foreign")
-
-    def diff(self) -> str:
-        """The change as a unified diff."""
-        before = "/dev/null" if self.old is None else f"a/{visible(self.path)}"
-        after = "/dev/null" if self.new is None else f"b/{visible(self.path)}"
-        old, new = (list(StringIO(text or "")) for text in (self.old, self.new))
-        shown = "".join(
-            line if line.endswith("\n") else f"{line}\n\\ No newline at end of file\n"
-            for line in unified_diff(old, new, before, after)
-        )
-        # An empty file that comes or goes has no lines to show.
-        return shown or f"--- {before}\n+++ {after}\n"
 
 
 @dataclass(slots=True)
@@ -344,11 +315,3 @@ def _folded(paths: Iterable[str]) -> dict[str, str]:
 
 def _below(path: str, folders: Iterable[str]) -> bool:
     return any(path.startswith(f"{folder}/") for folder in folders)
-
-
-def describe(found: Sequence[Change]) -> str:
-    """Say what stands in the way, a line each; of many, how many more there are."""
-    lines = [f"{change.why}: {visible(change.path)}" for change in found[:20]]
-    if len(found) > len(lines):
-        lines.append(f"and {counted(len(found) - len(lines), 'more file')}")
-    return "\n".join(f"  {line}" for line in lines)

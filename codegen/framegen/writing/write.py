@@ -16,9 +16,10 @@ from typing import TYPE_CHECKING
 from framegen.console import visible
 from framegen.reading.yamltree import Unusable
 from framegen.writing import disk
+from framegen.writing.change import Change, describe
 from framegen.writing.kept import kept_place
 from framegen.writing.places import Places
-from framegen.writing.survey import Change, Survey, describe, survey
+from framegen.writing.survey import Survey, survey
 from framegen.writing.workshop import is_left_over, workshop
 
 if TYPE_CHECKING:
