@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, TypeAlias
 
-from framegen.targets.python.escape import Bracketed, Text
+from framegen.targets.python.escape import Bracketed, Text, literal
 from framegen.targets.python.message_view import MessageView
 
 if TYPE_CHECKING:
@@ -34,11 +34,16 @@ _ABOUT = {
 
 @dataclass(frozen=True, slots=True)
 class VerbView:
-    """A verb of the command, what it is for, and the lines of its examples."""
+    """A verb of the command, what it is for, and its examples."""
 
     name: str
     about: str
-    examples: list[str]
+    examples: list[Bracketed]
+
+    @property
+    def entry(self) -> str:
+        """Its examples as the entry of a dict."""
+        return Bracketed(f"{literal(self.name)}: (", [*self.examples], "),", lone=",").fitted(4)
 
 
 def verbs(model: Model) -> list[VerbView]:
@@ -161,8 +166,8 @@ def _messages(model: Model) -> list[MessageView]:
     return [MessageView(message, model) for message in model.messages.values()]
 
 
-def _pairs(examples: Iterable[_Line]) -> list[str]:
+def _pairs(examples: Iterable[_Line]) -> list[Bracketed]:
     return [
-        Bracketed("(", [Text(line, item=True), Text(what, item=True)], "),").fitted(8)
+        Bracketed("(", [Text(line, item=True), Text(what, item=True)], ")")
         for line, what in examples
     ]

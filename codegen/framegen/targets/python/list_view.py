@@ -163,7 +163,7 @@ class ListView:
         line = ", ".join(parts)
         if width > 1 and len("        return ") + len(line) <= WIDTH:
             return line
-        return Bracketed("(", parts, ")", lone=",").fitted(8)
+        return Bracketed("(", parts, ")", lone=",").fitted(8, last=RETURN)
 
     @property
     def columns_doc(self) -> list[str]:
