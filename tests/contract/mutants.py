@@ -5,7 +5,7 @@ from __future__ import annotations
 import copy
 import json
 from dataclasses import dataclass
-from functools import cache
+from functools import cache, partial
 from typing import TYPE_CHECKING, Any
 
 from tests.contract.odd_text import TEXTS
@@ -13,7 +13,7 @@ from tests.specimens import BUSSERVO, DEMO, Data, Steps, data_of, kiln, leaves, 
 from tests.test_hostile import HARMLESS, with_prose
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Callable, Iterator
 
 GONE = "(gone)"
 
@@ -36,7 +36,12 @@ class Mutant:
 
     spec: str
     changes: tuple[Change, ...]
-    data: Data
+    make: Callable[[], Data]
+
+    @property
+    def data(self) -> Data:
+        """What it says; made anew, since there are many."""
+        return self.make()
 
     def __str__(self) -> str:
         first = str(self.changes[0])
@@ -75,14 +80,16 @@ def told(spec: str, rotation: int) -> Mutant:
 
 def telling(spec: str, given: dict[Steps, str]) -> Mutant:
     """A spec with the texts of these labels in these places."""
-    base, _ = _places(spec)
-    data = copy.deepcopy(base)
-    changes = []
-    for path, label in given.items():
-        around, last = _around(data, path)
-        around[last] = around[last].replace(HARMLESS, TEXTS[label])
-        changes.append(Change(_dotted(path), "plain words", label))
-    return Mutant(spec, tuple(changes), data)
+
+    def make() -> Data:
+        data = copy.deepcopy(_places(spec)[0])
+        for path, label in given.items():
+            around, last = _around(data, path)
+            around[last] = around[last].replace(HARMLESS, TEXTS[label])
+        return data
+
+    changes = [Change(_dotted(path), "plain words", label) for path, label in given.items()]
+    return Mutant(spec, tuple(changes), make)
 
 
 def singly(mutant: Mutant) -> list[Mutant]:
@@ -217,8 +224,8 @@ def _renamings(spec: str) -> Iterator[Mutant]:
             found = str(value)
         if found:
             for name in _CLASSES if found[0].isupper() else _NAMES:
-                changed = renamed(data, found, name)
-                yield Mutant(spec, (Change(_dotted(path), found, name),), changed)
+                change = Change(_dotted(path), found, name)
+                yield Mutant(spec, (change,), partial(renamed, data, found, name))
 
 
 def _relations(spec: str) -> Iterator[Mutant]:
@@ -229,12 +236,9 @@ def _relations(spec: str) -> Iterator[Mutant]:
         for other in messages:
             yield _mutated(spec, (*here, "reply"), None, other)
             yield _mutated(spec, (*here, "reports"), None, [other])
-            data = _mutated(spec, (*here, "reports"), None, [other]).data
-            data["messages"][name].pop("reply", None)
-            data["messages"][name].pop("lasts", None)
-            data["messages"][name]["acknowledged"] = other
-            change = Change(_dotted((*here, "acknowledged")), "", other)
-            yield Mutant(spec, (change,), data)
+            kept = {key: messages[name][key] for key in messages[name].keys() - {"reply", "lasts"}}
+            taken = kept | {"reports": [other], "acknowledged": other}
+            yield _mutated(spec, here, name, taken, f"{name} acknowledged by {other}")
         for field in messages[name].get("fields", {}):
             yield _mutated(spec, (*here, "lasts"), None, field)
         yield _mutated(spec, (*here, "method"), None, f"go({', '.join(_given(messages[name]))})")
@@ -276,13 +280,17 @@ def _crowds(spec: str) -> Iterator[Mutant]:
 
 
 def _mutated(spec: str, path: Steps, old: Any, new: Any, shown: str = "") -> Mutant:
-    data = copy.deepcopy(specs()[spec])
-    around, last = _around(data, path)
-    if new == GONE:
-        del around[last]
-    else:
-        around[last] = copy.deepcopy(new)
-    return Mutant(spec, (Change(_dotted(path), _short(old), shown or _short(new)),), data)
+
+    def make() -> Data:
+        data = copy.deepcopy(specs()[spec])
+        around, last = _around(data, path)
+        if new == GONE:
+            del around[last]
+        else:
+            around[last] = copy.deepcopy(new)
+        return data
+
+    return Mutant(spec, (Change(_dotted(path), _short(old), shown or _short(new)),), make)
 
 
 def _around(data: Any, path: Steps) -> tuple[Any, Any]:
