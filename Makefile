@@ -49,8 +49,9 @@ format: $(READY)  ## Mend what ruff can mend
 	$(IN)/ruff check --fix
 	$(IN)/ruff format
 
-fuzz: $(READY)  ## Let Hypothesis search for new counterexamples, for long
+fuzz: $(READY)  ## Search for new counterexamples, for long, and change the specs in every way
 	HYPOTHESIS_PROFILE=fuzz $(IN)/python -m pytest
+	CONTRACT=all $(IN)/python -m pytest tests/contract
 
 bench:  ## Measure the library against its peers
 	@$(MAKE) --no-print-directory venv VENV=$(BENCH_VENV) GROUP=bench

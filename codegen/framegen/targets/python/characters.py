@@ -49,7 +49,7 @@ _LETTERS = (
 )
 # And those that are no letters: escaped wherever they stand.
 _SIGNS = (
-    "\u00b4\u00b8\u00d7\u2010-\u2013\u2018\u2019\u201b\u2024\u2032\u2035\u2039\u203a\u212e"
+    "\u00b4\u00b8\u00d7\u2010-\u2013\u2018-\u201b\u2024\u2032\u2035\u2039\u203a\u212e"
     "\u2212\u2215-\u2217\u2223\u2228\u222a\u2236\u223c\u22a4\u22c1\u22c3\u22ff\u2571\u2573"
 )
 _ODD = re.compile(f"[^{_SHOWN}]|[{_SIGNS}]")

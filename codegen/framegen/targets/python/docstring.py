@@ -13,7 +13,7 @@ _QUOTES = re.compile(r'(?<="")"')
 TYPOGRAPHY = str.maketrans(
     {
         **dict.fromkeys("\u2010\u2011\u2012\u2013\u2212", "-"),
-        **dict.fromkeys("\u2018\u2019\u201b\u2032\u00b4", "'"),
+        **dict.fromkeys("\u2018\u2019\u201a\u201b\u2032\u00b4", "'"),
         "\u00d7": "x",
         "\u2236": ":",
         "\u223c": "~",
