@@ -62,12 +62,12 @@ def _nothing_bent(_model: Model) -> list[BentName]:
 class Target:
     """One kind of output. Everything that the rest of framegen asks of a target stands here.
 
-    `render` gives the files by path below the project's root: pure, without a look at the disk. It
-    is handed the snippets of all targets, by name of the target. `folders` are those that hold
-    nothing else, `comments` how a line becomes a comment, by suffix: such files get the banner.
-    `reserved` are the words that no name may be in this target, and `bent` what became of names
-    that are. `snippet` shows an example of a message as code. `shared` says that the files are the
-    same for every spec: they belong to framegen.
+    `render` gives the files by path below the project's root: the same for the same spec, whatever
+    the disk holds. It is handed the snippets of all targets, by name of the target. `folders` are
+    those that hold nothing else, `comments` how a line becomes a comment, by suffix: such files get
+    the banner. `reserved` are the words that no name may be in this target, and `bent` what became
+    of names that are. `snippet` shows an example of a message as code. `shared` says that the files
+    are the same for every spec: they belong to framegen.
     """
 
     name: str
