@@ -228,6 +228,39 @@ def _renamings(spec: str) -> Iterator[Mutant]:
                 yield Mutant(spec, (change,), partial(renamed, data, found, name))
 
 
+def stretched(spec: str, length: int) -> Mutant:
+    """A spec whose names all have one length, as far as they may: lines that just fit, or not."""
+    messages = specs()[spec]["messages"]
+    fields = {name for message in messages.values() for name in message.get("fields", {})}
+    lists = [
+        field
+        for message in messages.values()
+        for field in message.get("fields", {}).values()
+        if "element" in field
+    ]
+    fields |= {name for field in lists for name in field["fields"]}
+    # What is a key of the language as well would be renamed there, too.
+    fields -= specs()[spec].get("pose", {}).keys()
+    classes = [*messages, *(field["element"] for field in lists)]
+    new = {name: _long(f"f{at}_", length) for at, name in enumerate(sorted(fields))}
+    new |= {name: _long(f"C{at}x", length * 2 // 3) for at, name in enumerate(classes)}
+    new |= {
+        name: _long(f"e{at}x", length // 3) for at, name in enumerate(specs()[spec]["endpoints"])
+    }
+
+    def make() -> Data:
+        data = specs()[spec]
+        for name, longer in new.items():
+            data = renamed(data, name, longer)
+        return data
+
+    return Mutant(spec, (Change("all names", "as they are", f"{length} long"),), make)
+
+
+def _long(name: str, length: int) -> str:
+    return name + "x" * (length - len(name))
+
+
 def _relations(spec: str) -> Iterator[Mutant]:
     """Each message related to each other, in each way that messages can be."""
     messages = specs()[spec]["messages"]

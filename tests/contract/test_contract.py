@@ -22,7 +22,7 @@ from framegen.targets.python.names import names_of
 from tests.contract.conversation import converse
 from tests.contract.healing import healed
 from tests.contract.libraries import Library, imported, library_of, linted, type_checked
-from tests.contract.mutants import rotations, singly, specs, structures, telling, told
+from tests.contract.mutants import rotations, singly, specs, stretched, structures, telling, told
 from tests.contract.pages import not_inert, pages_of
 from tests.specimens import compiled_of
 
@@ -41,7 +41,7 @@ ONLY = os.environ.get("CONTRACT_ONLY", "")
 ALL = os.environ.get("CONTRACT") == "all"
 # How many of each a sample has: specs full of odd text, and specs with one thing changed. Type
 # checkers look at so many of each batch: they take as long for one as all else for twenty.
-TOLD, CHANGED = 4, 30
+TOLD, STRETCHED, CHANGED = 4, 8, 30
 BATCH, TYPED = 300, (20 if ALL or ONLY else 2)
 
 
@@ -108,6 +108,16 @@ def _told_wrongly(
         found[str(mutants[int(name[1:])])] += faults
     shutil.rmtree(folder)
     return {mutant: faults for mutant, faults in found.items() if faults}
+
+
+@pytest.mark.parametrize("spec", specs())
+def test_names_of_any_length_are_fitted_to_lines(spec: str, tmp_path: Path) -> None:
+    mutants = sample([stretched(spec, length) for length in range(6, 61)], STRETCHED)
+    for at, mutant in enumerate(mutants):
+        library(f"m{at}", compiled_of(mutant.data)).write(tmp_path)
+    found = linted(tmp_path) if mutants else {}
+    if found:
+        pytest.fail(shown({str(mutants[int(name[1:])]): faults for name, faults in found.items()}))
 
 
 def test_a_changed_spec_makes_a_good_library(tmp_path: Path) -> None:

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from framegen.model.exchanges import arguments_of
-from framegen.targets.python.escape import Bracketed, literal
+from framegen.targets.python.escape import Bracketed, Part, literal
 from framegen.targets.python.method_view import MethodView
 from framegen.targets.python.names import signed_name
 from framegen.targets.python.words import range_expression
@@ -131,7 +131,8 @@ class PoseView:
     @property
     def targets(self) -> str:
         """The declaration of the method that makes targets of positions."""
-        given = ["self", f"{self.told.name}: Iterable[{self.element}]"]
+        told = Bracketed(f"{self.told.name}: Iterable[", [self.element], "]", comma="")
+        given: list[Part] = ["self", told]
         return Bracketed(f"def {self.pose.targets}(", given, ") -> list[tuple[int, int]]:").fitted(
             4
         )
