@@ -80,7 +80,7 @@ def _both_ways(made: ModuleType, model: Model) -> None:
 def _ask(
     made: ModuleType, client: Any, device: Any, exchange: Exchange, values: dict[str, Any]
 ) -> None:
-    arguments = [_argument(values[name]) for name in exchange.method.arguments]
+    arguments = [_argument(exchange.request, values[name]) for name in exchange.method.arguments]
     result = getattr(client, exchange.method.name)(*arguments)
     sent = _made(made, exchange.request, values)
     assert device.heard[-1] == sent
@@ -164,12 +164,12 @@ def _at(message: Any, path: str) -> Any:
 
 
 def _made(made: ModuleType, layout: MessageLayout, values: dict[str, Any]) -> Any:
-    given = {name: _argument(value) for name, value in values.items()}
+    given = {name: _argument(layout, value) for name, value in values.items()}
     return getattr(made, layout.name)(**given)
 
 
-def _argument(value: Any) -> Any:
-    """A value of an example as users give it: elements as tuples."""
-    if isinstance(value, list):
-        return [tuple(each.values()) if isinstance(each, dict) else each for each in value]
-    return value
+def _argument(layout: MessageLayout, value: Any) -> Any:
+    """A value of an example as users give it: elements as tuples, in the order of the frame."""
+    if not isinstance(value, list) or layout.repeat is None or layout.repeat.element is None:
+        return value
+    return [tuple(each[field.name] for field in layout.repeat.fields) for each in value]
