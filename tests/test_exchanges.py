@@ -7,31 +7,11 @@ from typing import TYPE_CHECKING, Any
 
 import pytest
 
+from tests.device_line import DeviceLine
 from tests.specimens import Data, files_of, kiln, layout_of, library
 
 if TYPE_CHECKING:
     from pathlib import Path
-
-
-class Line:
-    """A line in this process, to the library's own other end."""
-
-    def __init__(self, device: Any) -> None:
-        self._device = device
-        self._arrived = b""
-
-    def write(self, data: bytes) -> None:
-        self._arrived += self._device.receive(data)
-
-    def read(self, timeout: float) -> bytes:  # noqa: ARG002 - all that comes is there already
-        arrived, self._arrived = self._arrived, b""
-        return arrived
-
-    def drain(self, timeout: float) -> None:
-        pass
-
-    def close(self) -> None:
-        pass
 
 
 def long_question(*, echoed: bool) -> Data:
@@ -69,5 +49,7 @@ def test_a_client_is_answered_whether_or_not_a_reply_repeats_the_question(
             def on_damper_read(self, message: Any) -> Any:
                 return made.DamperPositions([(each, 10 * each) for each in message.damper_ids])
 
-        with made.Controller(Line(Board()), background=False, baud=float("inf")) as controller:
+        with made.Controller(
+            DeviceLine(Board()), background=False, baud=float("inf")
+        ) as controller:
             assert controller.read_dampers([3, 4]) == ((3, 30), (4, 40))

@@ -28,6 +28,7 @@ from framegen.targets.table import TARGETS
 from framegen.targets.vectors import TARGET as VECTORS
 
 from tests.crowd import Crowd, taken, taken_elements, taken_names, taken_pose
+from tests.device_line import DeviceLine
 from tests.specimens import (
     BUSSERVO,
     DEMO,
@@ -295,7 +296,7 @@ def test_every_method_sends_its_message_and_returns_the_reply(
     }
     for request, reply in replies.items():
         setattr(device, f"on_{snake_case(request)}", lambda _message, reply=reply: reply)
-    line = Line(device)
+    line = DeviceLine(device)
     with lib.Controller(line, background=False, clock=line.clock, settle=0) as controller:
         for exchange, author in pairs:
             message = made_of(lib, model, author.request)
@@ -310,7 +311,7 @@ def test_every_method_sends_its_message_and_returns_the_reply(
 def test_a_report_is_waited_for_by_any_of_its_fields(crowd: tuple[Model, ModuleType]) -> None:
     model, lib = crowd
     device = lib.Device()
-    line = Line(device)
+    line = DeviceLine(device)
     with lib.Controller(line, background=False, clock=line.clock, settle=0) as controller:
         for message in model.sent(model.roles.received).values():
             if model.kind(message.name) == "reply":
@@ -339,39 +340,12 @@ def test_a_pose_is_read_and_held_under_bent_names(tmp_path: Path) -> None:
         moved: list[Any] = []
         device.on_places_read = lambda _message: there
         device.on_move = moved.append
-        line = Line(device)
+        line = DeviceLine(device)
         with lib.Controller(line, background=False, clock=line.clock, settle=0) as controller:
             assert controller.int_(targets_=[1, 2]) == (1, 2)
             controller.close_([1, 2], reply_=3)
             assert moved == [lib.Move(reply_=3, goals=[(1, 7), (2, 8)])]
             assert controller.lambda_(there.found) == [(1, 7), (2, 8)]
-
-
-class Line:
-    """A line to a device, in virtual time: what the device sends waits here to be read."""
-
-    name = "line"
-
-    def __init__(self, device: Any) -> None:
-        self.device = device
-        self.now = 0.0
-
-    def clock(self) -> float:
-        return self.now
-
-    def read(self, timeout: float) -> bytes:
-        data = b"".join(message.encode() for message in self.device.take())
-        self.now += 0.0 if data else max(timeout, 1e-6)
-        return data
-
-    def write(self, data: bytes) -> None:
-        self.device.accept(data)
-
-    def drain(self, _timeout: float) -> None:
-        pass
-
-    def close(self) -> None:
-        pass
 
 
 @pytest.fixture(scope="module")

@@ -6,6 +6,8 @@ import sys
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from framegen.commands.output_arguments import add_force, add_spec
+
 if TYPE_CHECKING:
     from argparse import ArgumentParser, Namespace
 
@@ -19,23 +21,12 @@ EXAMPLES = (
 
 def add_arguments(parser: ArgumentParser) -> None:
     """Declare the arguments of the verb."""
-    parser.add_argument(
-        "spec",
-        nargs="?",
-        type=Path,
-        metavar="SPEC",
-        help="a spec file; without it, all spec/*.yaml",
-    )
+    add_spec(parser)
     parser.add_argument("--open", action="store_true", help="open the index in a browser")
     parser.add_argument(
         "--out", type=Path, metavar="FOLDER", help="write here, and not into a temporary folder"
     )
-    parser.add_argument(
-        "--force",
-        action="store_true",
-        help="replace files that were edited by hand or are not framegen's; "
-        "each is kept beside its place, as NAME.mine",
-    )
+    add_force(parser)
 
 
 def run(arguments: Namespace) -> int:

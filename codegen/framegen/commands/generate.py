@@ -7,6 +7,7 @@ import sys
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from framegen.commands.output_arguments import add_force, add_spec
 from framegen.console import visible
 from framegen.wording import counted
 
@@ -34,22 +35,11 @@ _NAMED = 3
 
 def add_arguments(parser: ArgumentParser) -> None:
     """Declare the arguments of the verb."""
-    parser.add_argument(
-        "spec",
-        nargs="?",
-        type=Path,
-        metavar="SPEC",
-        help="a spec file; without it, all spec/*.yaml",
-    )
+    add_spec(parser)
     how = parser.add_mutually_exclusive_group()
     how.add_argument("--check", action="store_true", help="write nothing; 1 if anything differs")
     how.add_argument("--diff", action="store_true", help="write nothing; show what would change")
-    how.add_argument(
-        "--force",
-        action="store_true",
-        help="replace files that were edited by hand or are not framegen's; "
-        "each is kept beside its place, as NAME.mine",
-    )
+    add_force(how)
     parser.add_argument(
         "--target", metavar="NAME", help="write this target's files, and leave all others"
     )
