@@ -361,6 +361,7 @@ def on_disk(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 def run(*words: str, cwd: Path) -> str:
     """What a tool says, where it finds anything."""
+    pytest.importorskip(words[0], reason="`pip install --group lint`")
     done = subprocess.run(
         [sys.executable, "-m", *words], cwd=cwd, capture_output=True, text=True, check=False
     )
