@@ -47,7 +47,6 @@ class Tree:
     data: dict[str, Any]
     values: dict[KeyPath, Span] = field(default_factory=dict)
     keys: dict[KeyPath, Span] = field(default_factory=dict)
-    _ends: dict[KeyPath, int] = field(default_factory=dict, init=False, repr=False)
 
     def value_at(self, path: KeyPath) -> Span:
         """Where the value at `path` stands, or the nearest value around it."""
@@ -56,15 +55,6 @@ class Tree:
     def key_at(self, path: KeyPath) -> Span:
         """Where the key at `path` stands; in a list, where the element does."""
         return self._nearest(path, self.keys, self.values)
-
-    def last_line(self, path: KeyPath) -> int:
-        """On which line the last of what is at `path` begins, or 0 where nothing is."""
-        if not self._ends:
-            for below, span in (*self.values.items(), *self.keys.items()):
-                for size in range(len(below) + 1):
-                    around = below[:size]
-                    self._ends[around] = max(span.line, self._ends.get(around, 0))
-        return self._ends.get(path, 0)
 
     @staticmethod
     def _nearest(path: KeyPath, first: dict[KeyPath, Span], second: dict[KeyPath, Span]) -> Span:
