@@ -26,7 +26,7 @@ from hypothesis import strategies as st
 from pydantic import ValidationError
 
 from tests.patience import PATIENCE
-from tests.specimens import BUSSERVO, DEMO, compiled_of, data_of, kiln
+from tests.specimens import BUSSERVO, DEMO, compiled_of, data_of, kiln, layout_of
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Iterator
@@ -454,20 +454,19 @@ def test_findings_come_from_the_top_of_the_file_down() -> None:
 def test_a_lookalike_is_recognised(
     hex_: str, name: str | None, command: int | None, meaning: str | None
 ) -> None:
-    spec = load(read_source(SPECS / "demo.yaml")).spec
-    assert spec is not None
-    found = recognise(spec, bytes.fromhex(hex_))
+    found = recognise(layout_of(data_of(DEMO)), bytes.fromhex(hex_))
     told = (None, None, None) if found is None else (found.name, found.command, found.meaning)
     assert told == (name, command, meaning)
 
 
 @pytest.mark.parametrize(("order", "size"), [("big", "00 01"), ("little", "01 00")])
 def test_a_lookalike_is_cut_into_its_parts_in_the_byte_order(order: str, size: str) -> None:
-    spec = compiled_of({**data_of(DEMO), "byte_order": order}).read
-    assert spec is not None
-    found = recognise(spec, bytes.fromhex(f"C3 5A A5 21 {size} FF"))
+    model = compiled_of({**data_of(DEMO), "byte_order": order}).derived
+    assert model is not None
+    data = bytes.fromhex(f"C3 5A A5 21 {size} FF")
+    found = recognise(model, data)
     assert found is not None
-    assert found.parts == {
+    assert {placed.path: placed.of(data) for placed in found.parts} == {
         "preamble": b"\xc3\x5a\xa5",
         "kind": b"\x21",
         "size": bytes.fromhex(size),

@@ -94,7 +94,7 @@ def test_a_list_without_declared_counts_may_be_empty() -> None:
 def test_a_length_above_127_is_no_negative_number() -> None:
     layout = layout_of(data_of(BUSSERVO))
     values = {"servo_ids": [*range(252)]}
-    frame = encode(layout, layout.messages["ServoUnload"], values)
+    frame = encode(layout.messages["ServoUnload"], values)
     assert frame[2] == 255
     assert decode(layout, Direction("host", "controller"), frame).values == values
 

@@ -9,7 +9,7 @@ from framegen.explain import Explanation, Reading, Refusal, Row, explain
 from framegen.explain_text import as_json, as_text
 from framegen.language.load import load, read_source
 from framegen.language.values import Direction
-from framegen.model import codec
+from framegen.model import codec, verdict
 from framegen.model.model import Model, derive
 from hypothesis import given, settings
 from hypothesis import strategies as st
@@ -201,7 +201,7 @@ def test_more_bytes_than_a_line_holds_are_shown_on_several() -> None:
 
 
 def test_of_a_long_paste_the_bytes_around_the_place_are_shown() -> None:
-    frame = codec.encode(LAYOUT, LAYOUT.messages["ServoUnload"], {"servo_ids": [17] * 60})
+    frame = codec.encode(LAYOUT.messages["ServoUnload"], {"servo_ids": [17] * 60})
     page = as_text(explain(LAYOUT, frame + bytes(60), [HOST]))
     assert page.splitlines()[2:10] == [
         "  ... 32 bytes before",
@@ -266,7 +266,7 @@ def test_a_frame_cut_short_is_explained_up_to_the_cut(model: Model, name: str, d
     (whole,) = explain(model, data, [direction]).readings
     for size in range(len(data)):
         (refusal,) = explain(model, data[:size], [direction]).refusals
-        assert (refusal.reason, refusal.offset) == (codec.TOO_SHORT, size)
+        assert (refusal.reason, refusal.offset) == (verdict.TOO_SHORT, size)
         paths = [row.path for row in refusal.rows]
         assert paths == [row.path for row in whole.rows if row.end <= size]
 
@@ -288,19 +288,19 @@ def test_a_deprecated_message_says_so_first() -> None:
 
 # What is wrong: hex, direction, reason, offset, how many rows are right.
 REFUSALS = [
-    ("12", HOST, codec.BAD_HEADER, 0, 0),
-    ("55", HOST, codec.TOO_SHORT, 1, 0),
-    ("55 54 02 07", HOST, codec.BAD_HEADER, 1, 0),
-    ("55 55", HOST, codec.TOO_SHORT, 2, 1),
-    ("55 55 02", HOST, codec.TOO_SHORT, 3, 2),
-    ("55 55 02 08", HOST, codec.UNKNOWN_COMMAND, 3, 2),
-    ("55 55 02 08", CONTROLLER, codec.LENGTH_MISMATCH, 2, 1),
-    ("55 55 05 06 08", HOST, codec.TOO_SHORT, 5, 4),
-    ("55 55 05 06 08 01", HOST, codec.TOO_SHORT, 6, 4),
-    ("55 55 02 07 00", HOST, codec.TRAILING_BYTES, 4, 3),
-    ("55 55 08 03 02 E8 03 01 20 03", HOST, codec.COUNT_MISMATCH, 4, 3),
-    # Short and its count wrong besides: nothing is called right from the count on.
-    ("55 55 09 15 06 01 02 03", CONTROLLER, codec.TOO_SHORT, 8, 3),
+    ("12", HOST, verdict.BAD_HEADER, 0, 0),
+    ("55", HOST, verdict.TOO_SHORT, 1, 0),
+    ("55 54 02 07", HOST, verdict.BAD_HEADER, 1, 0),
+    ("55 55", HOST, verdict.TOO_SHORT, 2, 1),
+    ("55 55 02", HOST, verdict.TOO_SHORT, 3, 2),
+    ("55 55 02 08", HOST, verdict.UNKNOWN_COMMAND, 3, 2),
+    ("55 55 02 08", CONTROLLER, verdict.LENGTH_MISMATCH, 2, 1),
+    ("55 55 05 06 08", HOST, verdict.TOO_SHORT, 5, 4),
+    ("55 55 05 06 08 01", HOST, verdict.TOO_SHORT, 6, 4),
+    ("55 55 02 07 00", HOST, verdict.TRAILING_BYTES, 4, 3),
+    ("55 55 08 03 02 E8 03 01 20 03", HOST, verdict.COUNT_MISMATCH, 4, 3),
+    # Short, and its count wrong before that shows.
+    ("55 55 09 15 06 01 02 03", CONTROLLER, verdict.COUNT_MISMATCH, 4, 3),
 ]
 
 
@@ -314,7 +314,7 @@ def test_refusal(hex_text: str, direction: Direction, reason: str, offset: int, 
 
 def test_a_value_out_of_range_is_where_the_frame_ends() -> None:
     refusal, *_ = explained("C3 5A A5 10 00 06 00 00 01 01 FC 7B", GREENHOUSE).refusals
-    assert (refusal.reason, refusal.offset) == (codec.OUT_OF_RANGE, 10)
+    assert (refusal.reason, refusal.offset) == (verdict.OUT_OF_RANGE, 10)
     assert refusal.expected == "vents[0].angle is -901, outside -900..900"
     assert refusal.rows[-1].path == "vents[0].vent_id"
 
@@ -327,8 +327,8 @@ def test_the_direction_that_came_closest_is_told_first() -> None:
     ]
     refusals = explained("55 55 02 08").refusals
     assert [refusal.reason for refusal in refusals] == [
-        codec.LENGTH_MISMATCH,
-        codec.UNKNOWN_COMMAND,
+        verdict.LENGTH_MISMATCH,
+        verdict.UNKNOWN_COMMAND,
     ]
 
 
@@ -448,7 +448,7 @@ def test_hex_longer_than_a_path_can_be_is_hex(
 ) -> None:
     monkeypatch.chdir(ROOT)
     servo_ids = list(range(252))
-    frame = codec.encode(LAYOUT, LAYOUT.messages["ServoUnload"], {"servo_ids": servo_ids})
+    frame = codec.encode(LAYOUT.messages["ServoUnload"], {"servo_ids": servo_ids})
     assert main(["explain", frame.hex()]) == 0
     assert "\n   255  FA     servo_ids[250]  250\n" in capsys.readouterr().out
     assert main(["explain", 20 * frame.hex()]) == 1

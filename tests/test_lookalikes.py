@@ -69,7 +69,7 @@ def examples(model: Model) -> list[tuple[bytes, str]]:
 
 @pytest.mark.parametrize(("data", "title"), examples(LAYOUT))
 def test_the_generator_recognises_the_same(data: bytes, title: str) -> None:
-    found = recognise(LAYOUT.spec, data)
+    found = recognise(LAYOUT, data)
     assert found is not None
     assert found.lookalike.title == lookalikes.recognise(data) == title
 

@@ -8,17 +8,18 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from framegen.language.spec import BodyPart, ConstantPart, IdPart, LengthPart
-from framegen.model.codec import UNKNOWN_COMMAND, NotAFrame, decode, read_number
-from framegen.model.layout import part_size
+from framegen.model.codec import NotAFrame, decode
 from framegen.model.lookalikes import recognise
+from framegen.model.slots import Constant, Number
+from framegen.model.verdict import UNKNOWN_COMMAND, weigh
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
 
     from framegen.language.values import Direction
-    from framegen.model.layout import MessageLayout, WireField
+    from framegen.model.layout import MessageLayout
     from framegen.model.model import Model
+    from framegen.model.slots import Placed
 
 # So many of the frames inside other bytes are told.
 _MOST_WITHIN = 8
@@ -28,12 +29,14 @@ _MOST_WITHIN = 8
 class Row:
     """Some bytes of a frame that belong together: a part of the frame, or a field.
 
-    `value` is None for constant bytes; `text` is the value as people say it, `7500 mV = 7.500 V`.
+    `role` says what its slot is there for; `value` is None for constant bytes; `text` is the value
+    as people say it, `7500 mV = 7.500 V`.
     """
 
     offset: int
     data: bytes
     path: str
+    role: str
     value: int | None
     text: str
     meaning: str
@@ -96,7 +99,8 @@ def explain(model: Model, data: bytes, directions: Sequence[Direction]) -> Expla
 
 
 def _outcome(model: Model, data: bytes, direction: Direction) -> Reading | Refusal:
-    rows = tuple(_rows(model, direction, data))
+    verdict = weigh(model, [direction], data)
+    rows = tuple(_row(placed, data, verdict.likely) for placed in verdict.seen)
     try:
         message = decode(model, direction, data).layout
     except NotAFrame as error:
@@ -111,52 +115,24 @@ def _distance(refusal: Refusal) -> tuple[bool, int]:
     return refusal.reason == UNKNOWN_COMMAND, -len(refusal.rows)
 
 
-def _rows(model: Model, direction: Direction, data: bytes) -> Iterator[Row]:
-    """Name the bytes as far as they make sense: parts, then the fields of a known command."""
-    frame = model.frame
-    if len(data) < frame.body_at:
-        message = None
-    else:
-        message = model.sent(direction).get(read_number(model, data, frame.id_at, frame.id.size))
-    at = 0
-    for name, part in model.spec.frame.items():
-        if isinstance(part, BodyPart):
-            continue
-        size = part_size(part)
-        piece = data[at : at + size]
-        if len(piece) < size:
-            return
-        value = None if isinstance(part, ConstantPart) else read_number(model, data, at, size)
-        meaning = part.about
-        if isinstance(part, LengthPart) and message is not None:
-            formula = message.formula
-            meaning = str(formula) if formula.name else f"always {formula}"
-        if isinstance(part, IdPart):
-            meaning = "" if message is None else _named(message)
-        yield Row(at, piece, name, value, "" if value is None else str(value), meaning)
-        at += size
-    if message is not None:
-        yield from _field_rows(model, message, data)
+def _row(placed: Placed, data: bytes, message: MessageLayout | None) -> Row:
+    """Say what the bytes of a slot mean; `message` is the one that they began, if one is known."""
+    slot, piece = placed.slot, placed.of(data)
+    where = (placed.at, piece, placed.path, slot.role)
+    if not isinstance(slot, Number):
+        return Row(*where, None, "", slot.about if isinstance(slot, Constant) else "")
+    value = slot.read(piece)
+    if slot.is_field:
+        return Row(*where, value, *_said(slot, value))
+    meaning = slot.field.about
+    if slot.role == "length" and message is not None:
+        meaning = str(message.formula) if message.formula.name else f"always {message.formula}"
+    elif slot.role == "id":
+        meaning = "" if message is None else _named(message)
+    return Row(*where, value, str(value), meaning)
 
 
-def _field_rows(model: Model, message: MessageLayout, data: bytes) -> Iterator[Row]:
-    frame = model.frame
-    length = read_number(model, data, frame.length_at, frame.length.size)
-    if length not in message.lengths:
-        return
-    count = message.formula.count_at(length) or 0
-    for path, offset, field in message.fields_of(count):
-        piece = data[offset : offset + field.wire.size]
-        if len(piece) < field.wire.size:
-            return
-        value = read_number(model, data, offset, field.wire.size, signed=field.wire.low < 0)
-        if not field.low <= value <= field.high or (message.counts_with(field) and value != count):
-            return
-        text, meaning = _said(field, value)
-        yield Row(offset, piece, path, value, text, meaning)
-
-
-def _said(field: WireField, value: int) -> tuple[str, str]:
+def _said(field: Number, value: int) -> tuple[str, str]:
     """Put a value in words: with its unit, in its larger unit, by its name."""
     text = f"{value} {field.field.unit}".rstrip()
     if field.field.scale is not None:
@@ -198,7 +174,7 @@ def _hints(model: Model, data: bytes, refusals: Sequence[Refusal]) -> Iterator[H
     if otherwise:
         yield Hint(f"sent the other way, they are {otherwise}")
         return
-    found = recognise(model.spec, data)
+    found = recognise(model, data)
     if found is not None and found.lookalike.frame is not None:
         title, about = found.lookalike.title, " ".join(found.lookalike.about.split())
         yield Hint(f"this looks like a frame of {_the(title)}. {about}")
@@ -215,7 +191,7 @@ def _command_hints(model: Model, data: bytes, refusals: Sequence[Refusal]) -> It
     unknown = [refusal for refusal in refusals if refusal.reason == UNKNOWN_COMMAND]
     if not unknown:
         return
-    code = read_number(model, data, model.frame.id_at, model.frame.id.size)
+    code = _number(model.frame.id, data)
     for lookalike in spec.lookalikes.values():
         if lookalike.frame is None and code in lookalike.commands:
             yield Hint(f"in {_the(lookalike.title)}, {code} {lookalike.commands[code]}")
@@ -236,16 +212,12 @@ def _length_hints(model: Model, data: bytes, refusals: Sequence[Refusal]) -> Ite
     length = len(data) - frame.uncounted
     if length not in range(frame.length.high + 1) or len(data) < frame.body_at:
         return
-    size = frame.length.size
-    mended = (
-        data[: frame.length_at]
-        + length.to_bytes(size, model.spec.byte_order)
-        + data[frame.length_at + size :]
-    )
+    at, size = frame.length.at, frame.length.size
+    mended = data[:at] + frame.length.write(length) + data[at + size :]
     names = _names(model, [refusal.direction for refusal in refusals], mended)
     if names:
         yield Hint(
-            f"{len(data)} bytes have a {frame.length_name} of {length}; with that they are {names}",
+            f"{len(data)} bytes have a {frame.length.name} of {length}; with that they are {names}",
             mended,
         )
 
@@ -270,8 +242,11 @@ def _frames_within(model: Model, data: bytes) -> Iterator[Hint]:
 
 def _claimed_size(model: Model, data: bytes, at: int) -> int:
     """Tell how many bytes a frame that begins at `at` says that it has."""
-    frame = model.frame
-    return frame.uncounted + read_number(model, data, at + frame.length_at, frame.length.size)
+    return model.frame.uncounted + _number(model.frame.length, data[at:])
+
+
+def _number(number: Number, data: bytes) -> int:
+    return number.read(data[number.at : number.at + number.size])
 
 
 def _names(model: Model, directions: Sequence[Direction], data: bytes) -> str:

@@ -51,7 +51,7 @@ def _examples(model: Model, message: MessageLayout) -> list[dict[str, Any]]:
     return [
         {
             "title": f"Example {number}",
-            "hex": encode(model, message, values).hex(" "),
+            "hex": encode(message, values).hex(" "),
             "values": values,
             "constructed": "From the layout.",
         }

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from functools import partial
-from typing import TYPE_CHECKING, Any, Literal
+from typing import TYPE_CHECKING, Any
 
 from framegen.checks.rule import ModelRule, Problem
 from framegen.language.values import to_hex
-from framegen.model.codec import NotAFrame, decode, encode
+from framegen.model.codec import NotAFrame, Unencodable, decode, encode
+from framegen.model.slots import Number
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -36,27 +36,33 @@ def _executed(
         yield Problem((*path, "hex"), what, partial(_other_order, model, message, example))
         return
     if decoded.layout is not message:
-        at, found = message.frame.id_at, decoded.layout
+        at, found = message.frame.id.at, decoded.layout
         text = f"this is a frame of {found.name}: byte {at} is {found.id}, not {message.id}"
         yield Problem((*path, "hex"), text)
         return
     differences = list(_differences((*path, "values"), decoded.values, example.values, message))
     yield from differences
-    again = encode(model, message, decoded.values)
+    again = encode(message, decoded.values)
     if again != example.hex:
         yield Problem((*path, "hex"), f"its values encode to {to_hex(again)}, which is not this")
 
 
 def _other_order(model: Model, message: MessageLayout, example: Example) -> str:
     """Hint at the byte order, if the frame would have its values in the other one."""
-    order: Literal["little", "big"] = "big" if model.spec.byte_order == "little" else "little"
-    other = replace(model, spec=model.spec.model_copy(update={"byte_order": order}))
     try:
-        decoded = decode(other, message.direction, example.hex)
-    except NotAFrame:
+        frame = encode(message, example.values)
+    except Unencodable:
         return ""
-    right = decoded.layout is message and decoded.values == example.values
-    return f"bytes swapped? with `byte_order: {order}`, it has these values" if right else ""
+    items = message.items
+    count = 0 if items is None else len(example.values[items.name])
+    swapped = b"".join(
+        placed.of(frame)[::-1] if isinstance(placed.slot, Number) else placed.of(frame)
+        for placed in message.lay_out(count)
+    )
+    if swapped != example.hex:
+        return ""
+    order = "big" if model.spec.byte_order == "little" else "little"
+    return f"bytes swapped? with `byte_order: {order}`, it has these values"
 
 
 def _differences(path: KeyPath, frame: Any, said: Any, message: MessageLayout) -> Iterator[Problem]:
@@ -67,7 +73,7 @@ def _differences(path: KeyPath, frame: Any, said: Any, message: MessageLayout) -
             if key in frame:
                 yield from _differences((*path, key), frame[key], value, message)
             else:
-                counts = message.repeat is not None and key == message.repeat.counter.name
+                counts = message.items is not None and key == message.items.counter.name
                 hint = "leave it out: the list says it" if counts else "leave it out"
                 yield Problem((*path, key), f"the frame gives no `{key}`", hint, on_key=True)
     elif isinstance(frame, list) and isinstance(said, list):
@@ -83,15 +89,12 @@ def _differences(path: KeyPath, frame: Any, said: Any, message: MessageLayout) -
 def _swapped(path: KeyPath, frame: Any, said: Any, message: MessageLayout) -> bool:
     """Whether the frame has the bytes of the number the other way round."""
     _, _, _, _, _, *steps = path
-    in_list = message.repeat is not None and steps[0] == message.repeat.name
-    fields = message.repeat.fields if in_list and message.repeat is not None else message.numbers
-    name = [step for step in steps if isinstance(step, str)][-1]
-    wire = next((field.wire for field in fields if field.name == name), None)
-    if wire is None or type(said) is not int or not wire.low <= said <= wire.high:
+    name = ".".join(step for step in steps if isinstance(step, str))
+    number = message.numbers_by_path.get(name)
+    if number is None or type(said) is not int or type(frame) is not int:
         return False
-    signed = wire.low < 0
-    there = said.to_bytes(wire.size, "big", signed=signed)
-    return type(frame) is int and int.from_bytes(there, "little", signed=signed) == frame
+    fits = number.wire.low <= said <= number.wire.high
+    return fits and number.read(number.write(said)[::-1]) == frame
 
 
 def _shown(value: object) -> str:

@@ -10,8 +10,9 @@ from framegen.wording import counted
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from framegen.model.layout import MessageLayout, Repeat
+    from framegen.model.layout import MessageLayout
     from framegen.model.model import Model
+    from framegen.model.slots import Items
     from framegen.reading.yamltree import KeyPath
 
 # What a length of two bytes can say. A decoder holds the longest legal frame, whatever arrives: of
@@ -25,15 +26,15 @@ def _look(model: Model) -> Iterator[Problem]:
         frame, fixed = message.frame, message.formula.constant
         path: KeyPath = ("messages", name)
         if fixed > min(frame.length.high, LONGEST):
-            ends = f"and a {frame.length.name} ends at {frame.length.high}"
+            ends = f"and a {frame.length.wire.name} ends at {frame.length.high}"
             bound = ends if frame.length.high <= LONGEST else _OF_ANY
-            what = f"{name} needs a {frame.length_name} of {fixed}, {bound}"
+            what = f"{name} needs a {frame.length.name} of {fixed}, {bound}"
             yield Problem(path, what, on_key=True)
-        elif message.repeat is not None:
-            yield from _list((*path, "fields", message.repeat.name), message, message.repeat)
+        elif message.items is not None:
+            yield from _list((*path, "fields", message.items.name), message, message.items)
 
 
-def _list(path: KeyPath, message: MessageLayout, items: Repeat) -> Iterator[Problem]:
+def _list(path: KeyPath, message: MessageLayout, items: Items) -> Iterator[Problem]:
     fixed, declared = message.formula.constant, items.field.count
     most = items.high if declared is None else max(declared.low, declared.high or items.high)
     at, on_key = ((*path, "count"), False) if declared is not None else (path, True)
@@ -41,7 +42,7 @@ def _list(path: KeyPath, message: MessageLayout, items: Repeat) -> Iterator[Prob
     fits = (LONGEST - fixed) // items.size
     if most > fits and room > fits:
         length = fixed + most * items.size
-        what = f"with {most} elements, {message.name} has a {message.frame.length_name} of {length}"
+        what = f"with {most} elements, {message.name} has a {message.frame.length.name} of {length}"
         hint = f"write `count: {items.low}..{fits}`" if items.low <= fits else ""
         yield Problem(at, f"{what}, {_OF_ANY}", hint, on_key)
     elif max(most, 1) > room:
@@ -50,13 +51,13 @@ def _list(path: KeyPath, message: MessageLayout, items: Repeat) -> Iterator[Prob
         yield Problem(at, what, hint if room else "", on_key)
 
 
-def _room(message: MessageLayout, items: Repeat) -> tuple[int, str]:
+def _room(message: MessageLayout, items: Items) -> tuple[int, str]:
     """Reckon how many elements length and count can tell of, and which of the two limits them."""
     by_length = (message.frame.length.high - message.formula.constant) // items.size
     by_count = items.counter.wire.high
     if by_count < by_length:
         return by_count, f"`{items.counter.name}`"
-    return by_length, f"`{message.frame.length_name}`"
+    return by_length, f"`{message.frame.length.name}`"
 
 
 RULE = ModelRule(

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 from framegen.checks import frame_parts, unknown_type
 from framegen.checks.rule import Problem, StructureRule
-from framegen.model.layout import derive_frame
+from framegen.model.envelope import derive_envelope
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -25,7 +25,7 @@ def _look(spec: Spec) -> Iterator[Problem]:
             )
     if any(True for rule in (unknown_type, frame_parts) for _ in rule.RULE.look(spec)):
         return
-    least = derive_frame(spec).body_at
+    least = derive_envelope(spec.frame, spec.byte_order).least
     for at, board in enumerate(spec.link.usb_hid):
         if board.report_size < least:
             yield Problem(

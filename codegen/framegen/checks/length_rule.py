@@ -30,7 +30,7 @@ def _fault(message: MessageLayout) -> str | None:
     # Two straight lines that agree in two places agree everywhere.
     for count in message.counts[:2]:
         if declared.at(count) != derived.at(count):
-            where = "" if message.repeat is None else f" with {derived.name} {count}"
+            where = "" if message.items is None else f" with {derived.name} {count}"
             return (
                 f"the length rule gives {declared.at(count)}{where}, "
                 f"and the fields make {derived.at(count)}"

@@ -1,4 +1,4 @@
-"""The reference codec: encodes and decodes by walking the layout, slowly and plainly.
+"""The reference codec: encodes and decodes single frames slot by slot, slowly and plainly.
 
 It executes the examples of a spec, explains frames and writes the test vectors. The generated
 libraries are held to what it says, and share no code with it.
@@ -9,21 +9,16 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
-from framegen.wording import describe_range
+from framegen.model.slots import Body, Constant, Items, Number
+from framegen.model.verdict import TRAILING_BYTES, weigh
 
 if TYPE_CHECKING:
-    from framegen.language.values import Direction
-    from framegen.model.layout import MessageLayout, Repeat, WireField
-    from framegen.model.model import Model
+    from collections.abc import Mapping
 
-# The reasons for which bytes are no frame. Every target and the test vectors use these words.
-TOO_SHORT = "too short"
-TRAILING_BYTES = "trailing bytes"
-BAD_HEADER = "bad header"
-LENGTH_MISMATCH = "length mismatch"
-COUNT_MISMATCH = "count mismatch"
-UNKNOWN_COMMAND = "unknown command"
-OUT_OF_RANGE = "out of range"
+    from framegen.language.values import Direction
+    from framegen.model.layout import MessageLayout
+    from framegen.model.model import Model
+    from framegen.model.slots import Placed
 
 
 @dataclass(frozen=True, slots=True)
@@ -48,84 +43,69 @@ class Unencodable(ValueError):  # noqa: N818 - says what the values are
     """Values that no frame can carry."""
 
 
-def decode(model: Model, direction: Direction, data: bytes) -> Decoded:
-    """Understands exactly one frame. Raises NotAFrame."""
-    frame = model.frame
-    for offset, byte in enumerate(frame.header):
-        if offset == len(data):
-            raise NotAFrame(TOO_SHORT, offset, f"a frame begins {frame.header.hex(' ').upper()}")
-        if data[offset] != byte:
-            raise NotAFrame(BAD_HEADER, offset, f"a frame begins {frame.header.hex(' ').upper()}")
-    if len(data) < frame.body_at:
-        raise NotAFrame(TOO_SHORT, len(data), f"the shortest frame has {frame.body_at} bytes")
-    length = read_number(model, data, frame.length_at, frame.length.size)
-    code = read_number(model, data, frame.id_at, frame.id.size)
-    message = model.sent(direction).get(code)
-    if message is None:
-        raise NotAFrame(
-            UNKNOWN_COMMAND, frame.id_at, f"no message {direction} has the {frame.id_name} {code}"
-        )
-    if length not in message.lengths:
-        raise NotAFrame(
-            LENGTH_MISMATCH,
-            frame.length_at,
-            f"{message.name} has a {frame.length_name} of {describe_range(message.lengths)}, "
-            f"not {length}",
-        )
-    size = length + frame.uncounted
-    if len(data) < size:
-        raise NotAFrame(
-            TOO_SHORT, len(data), f"a {frame.length_name} of {length} makes {size} bytes"
-        )
-    if len(data) > size:
-        raise NotAFrame(
-            TRAILING_BYTES, size, f"a {frame.length_name} of {length} makes {size} bytes"
-        )
-    return Decoded(message, _values(model, message, data, length))
+def decode(model: Model, direction: Direction | None, data: bytes) -> Decoded:
+    """Understand exactly one frame; with no direction, of whichever it is. Raises NotAFrame."""
+    verdict = weigh(model, model.directions if direction is None else [direction], data)
+    if verdict.message is None:
+        raise NotAFrame(verdict.reason, verdict.offset, verdict.expected)
+    if verdict.offset < len(data):
+        raise NotAFrame(TRAILING_BYTES, verdict.offset, verdict.expected)
+    return Decoded(verdict.message, values_of(verdict.message, data))
 
 
-def _values(model: Model, message: MessageLayout, data: bytes, length: int) -> dict[str, Any]:
-    count = message.formula.count_at(length)
-    if count is None:
-        raise AssertionError("a legal length has a count")
-    numbers: dict[str, int] = {}
-    for path, offset, field in message.fields_of(count):
-        value = read_number(model, data, offset, field.wire.size, signed=field.wire.low < 0)
-        if message.counts_with(field) and value != count:
-            raise NotAFrame(
-                COUNT_MISMATCH,
-                offset,
-                f"a {message.frame.length_name} of {length} makes {field.name} {count}, "
-                f"not {value}",
-            )
-        if not field.low <= value <= field.high:
-            raise NotAFrame(
-                OUT_OF_RANGE, offset, f"{path} is {value}, outside {field.low}..{field.high}"
-            )
-        numbers[path] = value
-    return _gathered(message, numbers, count)
-
-
-def _gathered(message: MessageLayout, numbers: dict[str, int], count: int) -> dict[str, Any]:
-    """Numbers by path (`targets[0].position`) as values by field."""
-    values: dict[str, Any] = {
-        f.name: numbers[f.name] for f in message.numbers if not message.counts_with(f)
+def values_of(message: MessageLayout, frame: bytes) -> dict[str, Any]:
+    """Read the values of a legal frame, by field."""
+    length = message.frame.length
+    count = message.count_at(length.read(frame[length.at : length.at + length.size]))
+    numbers = {
+        placed.path: placed.slot.read(placed.of(frame))
+        for placed in message.lay_out(count)
+        if isinstance(placed.slot, Number)
     }
-    repeat = message.repeat
-    if repeat is None:
-        return values
-    if repeat.element is None:
-        values[repeat.name] = [numbers[f"{repeat.name}[{index}]"] for index in range(count)]
-    else:
-        values[repeat.name] = [
-            {field.name: numbers[f"{repeat.name}[{index}].{field.name}"] for field in repeat.fields}
-            for index in range(count)
-        ]
+    values: dict[str, Any] = {}
+    for slot in message.arguments:
+        if isinstance(slot, Number):
+            values[slot.name] = numbers[slot.name]
+        elif slot.element is None:
+            values[slot.name] = [numbers[f"{slot.name}[{index}]"] for index in range(count)]
+        else:
+            values[slot.name] = [
+                {field.name: numbers[slot.path(index, field)] for field in slot.fields}
+                for index in range(count)
+            ]
     return values
 
 
-def encode(model: Model, message: MessageLayout, values: dict[str, Any]) -> bytes:
+def encode(message: MessageLayout, values: Mapping[str, Any]) -> bytes:
     """Encode the frame that carries `values`, keyed by field. Raises Unencodable."""
+    count, numbers = _numbers(message, values)
+    frame = bytearray(message.size_at(count))
+    for placed in message.lay_out(count):
+        frame[placed.at : placed.end] = _written(message, placed, count, numbers)
+    return bytes(frame)
+
+
+def _written(
+    message: MessageLayout, placed: Placed, count: int, numbers: Mapping[str, object]
+) -> bytes:
+    slot = placed.slot
+    match slot:
+        case Constant():
+            return slot.data
+        case Number(role="length"):
+            return slot.write(message.formula.at(count))
+        case Number(role="id"):
+            return slot.write(message.id)
+        case Number(role="count"):
+            return slot.write(_checked(slot, slot.name, count))
+        case Number():
+            return slot.write(_checked(slot, placed.path, numbers[placed.path]))
+        case Body():
+            raise AssertionError("a message has fields where its envelope has the body")
+
+
+def _numbers(message: MessageLayout, values: Mapping[str, Any]) -> tuple[int, dict[str, object]]:
+    """Gather what is given by path (`targets[0].position`), and count the elements of the list."""
     expected = {argument.name for argument in message.arguments}
     for name in sorted(values.keys() ^ expected):
         raise Unencodable(
@@ -133,63 +113,35 @@ def encode(model: Model, message: MessageLayout, values: dict[str, Any]) -> byte
             if name in expected
             else f"{message.name} has no field `{name}` to be given"
         )
-    body = b""
-    repeat = message.repeat
-    items: list[Any] = []
-    if repeat is not None:
-        if not isinstance(values[repeat.name], list):
-            raise Unencodable(f"{repeat.name} must be a list")
-        items = values[repeat.name]
-        if len(items) not in message.counts:
-            raise Unencodable(
-                f"{repeat.name}: {len(items)} items is outside {repeat.low}..{repeat.high}"
-            )
-    for field in message.numbers:
-        body += _number(
-            model,
-            field,
-            field.name,
-            len(items) if message.counts_with(field) else values[field.name],
-        )
-    if repeat is not None:
-        body += b"".join(_element(model, repeat, index, item) for index, item in enumerate(items))
-    frame = model.frame
-    data = bytearray(frame.body_at)
-    data[: len(frame.header)] = frame.header
-    length = len(body) + frame.counted
-    data[frame.length_at : frame.length_at + frame.length.size] = _number_bytes(
-        model, length, frame.length.size
-    )
-    data[frame.id_at : frame.id_at + frame.id.size] = _number_bytes(
-        model, message.id, frame.id.size
-    )
-    return bytes(data) + body
+    count = 0
+    numbers: dict[str, object] = {}
+    for slot in message.arguments:
+        if isinstance(slot, Number):
+            numbers[slot.name] = values[slot.name]
+            continue
+        items = values[slot.name]
+        if not isinstance(items, list):
+            raise Unencodable(f"{slot.name} must be a list")
+        count = len(items)
+        if count not in message.counts:
+            raise Unencodable(f"{slot.name}: {count} items is outside {slot.low}..{slot.high}")
+        for index, item in enumerate(items):
+            numbers |= _element(slot, index, item)
+    return count, numbers
 
 
-def _element(model: Model, repeat: Repeat, index: int, item: Any) -> bytes:
-    path = f"{repeat.name}[{index}]"
-    if repeat.element is None:
-        return _number(model, repeat.fields[0], path, item)
-    names = [field.name for field in repeat.fields]
+def _element(items: Items, index: int, item: Any) -> dict[str, object]:
+    if items.element is None:
+        return {f"{items.name}[{index}]": item}
+    names = [field.name for field in items.fields]
     if not isinstance(item, dict) or set(item) != set(names):
-        raise Unencodable(f"{path} must have the keys {', '.join(names)}")
-    return b"".join(
-        _number(model, field, f"{path}.{field.name}", item[field.name]) for field in repeat.fields
-    )
+        raise Unencodable(f"{items.name}[{index}] must have the keys {', '.join(names)}")
+    return {items.path(index, field): item[field.name] for field in items.fields}
 
 
-def _number(model: Model, field: WireField, path: str, value: object) -> bytes:
+def _checked(number: Number, path: str, value: object) -> int:
     if not isinstance(value, int) or isinstance(value, bool):
         raise Unencodable(f"{path}: {value!r} is not a whole number")
-    if not field.low <= value <= field.high:
-        raise Unencodable(f"{path}: {value} is outside {field.low}..{field.high}")
-    return _number_bytes(model, value, field.wire.size, signed=field.wire.low < 0)
-
-
-def _number_bytes(model: Model, value: int, size: int, *, signed: bool = False) -> bytes:
-    return value.to_bytes(size, model.spec.byte_order, signed=signed)
-
-
-def read_number(model: Model, data: bytes, offset: int, size: int, *, signed: bool = False) -> int:
-    """Read the number of `size` bytes at `offset`, in the byte order of the protocol."""
-    return int.from_bytes(data[offset : offset + size], model.spec.byte_order, signed=signed)
+    if not number.low <= value <= number.high:
+        raise Unencodable(f"{path}: {value} is outside {number.low}..{number.high}")
+    return value

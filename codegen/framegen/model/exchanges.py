@@ -13,8 +13,9 @@ if TYPE_CHECKING:
     from collections.abc import Mapping
 
     from framegen.language.spec import Message
-    from framegen.model.layout import MessageLayout, Repeat, WireField
+    from framegen.model.layout import MessageLayout
     from framegen.model.roles import Roles
+    from framegen.model.slots import Items, Number
 
 # How many of each unit of time make a second.
 STEPS_PER_SECOND = {"s": 1, "ms": 1000}
@@ -35,26 +36,26 @@ class Exchange:
     reports: tuple[str, ...]
     echoed: tuple[tuple[str, str], ...]
     acknowledged: str | None
-    lasts: WireField | None
+    lasts: Number | None
 
     @property
-    def split(self) -> Repeat | None:
+    def split(self) -> Items | None:
         """The list of the request that is asked in parts, where a reply has room for fewer.
 
         Only what is nothing but a list, and returns nothing but a list, can be put together again;
         and only where the reply repeats it is it known what of it was answered.
         """
-        asked, reply = self.request.repeat, self.reply
-        if asked is None or reply is None or reply.repeat is None or not self.most:
+        asked, reply = self.request.items, self.reply
+        if asked is None or reply is None or reply.items is None or not self.most:
             return None
-        whole = len(self.request.arguments) == 1 and self.method.result == reply.repeat.name
+        whole = len(self.request.arguments) == 1 and self.method.result == reply.items.name
         return asked if whole and self.most < asked.high else None
 
     @property
     def most(self) -> int:
         """How many elements of the request's list a reply can answer; 0 where nothing limits it."""
-        asked = self.request.repeat
-        told = None if self.reply is None else self.reply.repeat
+        asked = self.request.items
+        told = None if self.reply is None else self.reply.items
         if asked is None or told is None:
             return 0
         paired = any(
@@ -114,5 +115,5 @@ def _exchange(messages: Mapping[str, MessageLayout], request: MessageLayout) -> 
         tuple(message.reports),
         tuple(message.echoed.items()),
         message.acknowledged,
-        next((field for field in request.numbers if field.name == message.lasts), None),
+        request.numbers_by_path.get(message.lasts or ""),
     )

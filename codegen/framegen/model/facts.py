@@ -9,14 +9,15 @@ from typing import TYPE_CHECKING, Any
 
 from framegen.language.formula import Formula, parse_formula
 from framegen.language.spec import GroupField
-from framegen.model.codec import decode, read_number
+from framegen.model.codec import decode
+from framegen.model.slots import Number
 from framegen.reading.findings import did_you_mean
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
     from framegen.language.spec import Concern, Message
-    from framegen.model.layout import MessageLayout, WireField
+    from framegen.model.layout import MessageLayout
     from framegen.model.model import Model
 
 
@@ -66,7 +67,7 @@ def look_up(model: Model, concern: Concern) -> Fact:
     if concern.fact is not None:
         return _of_message(model, message, concern.fact)
     if concern.parameter is not None:
-        return Fact(_parameter(model, message, concern.parameter))
+        return Fact(_parameter(message, concern.parameter))
     if concern.example is not None:
         return _of_example(model, message, concern.example, concern.field)
     if concern.field is not None:
@@ -95,8 +96,8 @@ def _of_example(model: Model, message: MessageLayout, number: int, field: str | 
     if field in values:
         return Fact(values[field])
     if field == "length":
-        frame = message.frame
-        return Fact(read_number(model, data, frame.length_at, frame.length.size))
+        length = message.frame.length
+        return Fact(length.read(data[length.at : length.at + length.size]))
     raise NoSuchFact(
         "field",
         f"the examples of {message.name} give no field `{field}`",
@@ -114,33 +115,23 @@ def _require_field(message: Message, name: str, path: str) -> None:
         raise NoSuchFact("field", f"{name} has no field `{path}`", did_you_mean(path, known))
 
 
-def _parameter(model: Model, message: MessageLayout, number: int) -> str:
+def _parameter(message: MessageLayout, number: int) -> str:
     """Name parameter byte `number`, counted from 1: `times, low byte`."""
     at = message.frame.body_at + number - 1
-    for field in message.numbers:
-        if at < field.offset + field.wire.size:
-            return _byte(model, field.name, field, at - field.offset)
-    repeat = message.repeat
-    if repeat is not None:
-        index, rest = divmod(at - repeat.offset, repeat.size)
-        if index < repeat.high:
-            inner = next(f for f in repeat.fields if rest < f.offset + f.wire.size)
-            path = f"{repeat.name}[{index}]"
-            if repeat.element is not None:
-                path += f".{inner.name}"
-            return _byte(model, path, inner, rest - inner.offset)
-    most = message.largest - message.frame.body_at
+    for placed in message.lay_out(message.counts[-1]):
+        if isinstance(placed.slot, Number) and placed.slot.is_field and at < placed.end:
+            return _byte(placed.path, placed.slot, at - placed.at)
+    most = message.largest - message.frame.least
     raise NoSuchFact(
         "parameter", f"{message.name} has no parameter byte {number}: it has {most} at most"
     )
 
 
-def _byte(model: Model, path: str, field: WireField, offset: int) -> str:
+def _byte(path: str, number: Number, offset: int) -> str:
     """Name one byte of a number, the lowest being byte 0: `time_ms, low byte`."""
-    size = field.wire.size
-    if size == 1:
+    if number.size == 1:
         return path
-    rank = offset if model.spec.byte_order == "little" else size - 1 - offset
-    if size == 2:
+    rank = offset if number.order == "little" else number.size - 1 - offset
+    if number.size == 2:
         return f"{path}, {('low', 'high')[rank]} byte"
     return f"{path}, bits {8 * rank}..{8 * rank + 7}"

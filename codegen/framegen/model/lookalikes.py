@@ -5,20 +5,22 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from framegen.language.spec import BodyPart, ChecksumPart, ConstantPart, IdPart, LengthPart
-from framegen.model.layout import part_size
+from framegen.model.slots import Constant, Number
 
 if TYPE_CHECKING:
-    from framegen.language.spec import FramePart, Lookalike, Spec
+    from framegen.language.spec import Lookalike
+    from framegen.model.envelope import Envelope
+    from framegen.model.model import Model
+    from framegen.model.slots import Placed
 
 
 @dataclass(frozen=True, slots=True)
 class Recognised:
-    """A frame of a look-alike: whose it is, and the bytes of each of its parts."""
+    """A frame of a look-alike: whose it is, and where its parts stand."""
 
     name: str
     lookalike: Lookalike
-    parts: dict[str, bytes]
+    parts: tuple[Placed, ...]
     command: int
 
     @property
@@ -27,43 +29,39 @@ class Recognised:
         return self.lookalike.commands.get(self.command, "")
 
 
-def recognise(spec: Spec, data: bytes) -> Recognised | None:
+def recognise(model: Model, data: bytes) -> Recognised | None:
     """Find the look-alike of which `data` is exactly one frame."""
-    for name, lookalike in spec.lookalikes.items():
-        frame = spec.frame if lookalike.frame is None else lookalike.frame
-        parts = _parts(spec, frame, data)
+    for name, lookalike in model.spec.lookalikes.items():
+        frame = model.lookalikes[name]
+        parts = _parts(frame, data)
         # With neither a frame nor codes of its own, there is nothing to tell it by.
         if parts is None or not (lookalike.frame or lookalike.commands):
             continue
-        id_ = next(key for key, part in frame.items() if isinstance(part, IdPart))
-        command = int.from_bytes(parts[id_], spec.byte_order)
+        command = frame.id.read(parts[frame.id.name].of(data))
         if command in lookalike.commands or not lookalike.commands:
-            return Recognised(name, lookalike, parts, command)
+            return Recognised(name, lookalike, tuple(parts.values()), command)
     return None
 
 
-def _parts(spec: Spec, frame: dict[str, FramePart], data: bytes) -> dict[str, bytes] | None:
+def _parts(frame: Envelope, data: bytes) -> dict[str, Placed] | None:
     """Cut `data` into the parts of `frame`; None where a part says that it is no such frame."""
-    body = len(data) - sum(part_size(part) for part in frame.values())
-    if body < 0:
+    if len(data) < frame.least:
         return None
-    parts: dict[str, bytes] = {}
-    at = 0
-    for name, part in frame.items():
-        size = body if isinstance(part, BodyPart) else part_size(part)
-        parts[name] = data[at : at + size]
-        at += size
-    fits = all(_fits(spec, part, parts[name], parts) for name, part in frame.items())
-    return parts if fits else None
+    parts = {placed.path: placed for placed in frame.lay_out(len(data))}
+    return parts if all(_fits(placed, parts, data) for placed in parts.values()) else None
 
 
-def _fits(spec: Spec, part: FramePart, found: bytes, parts: dict[str, bytes]) -> bool:
-    if isinstance(part, ConstantPart):
-        return found == part.bytes_
-    number = int.from_bytes(found, spec.byte_order)
-    if isinstance(part, LengthPart):
-        return number == sum(len(parts[name]) for name in part.counts)
-    if isinstance(part, ChecksumPart):
-        total = sum(sum(parts[name]) for name in part.covers)
-        return number == ~total & ((1 << 8 * len(found)) - 1)
-    return True
+def _fits(placed: Placed, parts: dict[str, Placed], data: bytes) -> bool:
+    slot, found = placed.slot, placed.of(data)
+    if isinstance(slot, Constant):
+        return found == slot.data
+    if not isinstance(slot, Number):
+        return True
+    match slot.role:
+        case "length":
+            return slot.read(found) == sum(parts[name].size for name in slot.of)
+        case "checksum":
+            total = sum(sum(parts[name].of(data)) for name in slot.of)
+            return slot.read(found) == ~total & slot.wire.high
+        case _:
+            return True

@@ -6,8 +6,9 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING
 
+from framegen.model.envelope import derive_envelope
 from framegen.model.exchanges import exchanges
-from framegen.model.layout import derive_frame, derive_message
+from framegen.model.layout import derive_message
 from framegen.model.roles import kinds, settle
 
 if TYPE_CHECKING:
@@ -15,8 +16,9 @@ if TYPE_CHECKING:
 
     from framegen.language.spec import Spec
     from framegen.language.values import Direction
+    from framegen.model.envelope import Envelope
     from framegen.model.exchanges import Exchange
-    from framegen.model.layout import FrameLayout, MessageLayout
+    from framegen.model.layout import MessageLayout
     from framegen.model.roles import Kind, Roles
 
 
@@ -26,8 +28,18 @@ class Model:
 
     spec: Spec
     roles: Roles
-    frame: FrameLayout
+    frame: Envelope
     messages: dict[str, MessageLayout]
+
+    @cached_property
+    def lookalikes(self) -> dict[str, Envelope]:
+        """What the frames of each look-alike are; those of one without its own are ours."""
+        return {
+            name: self.frame
+            if lookalike.frame is None
+            else derive_envelope(lookalike.frame, self.spec.byte_order)
+            for name, lookalike in self.spec.lookalikes.items()
+        }
 
     @cached_property
     def ways(self) -> list[Direction]:
@@ -49,6 +61,11 @@ class Model:
         for message in self.messages.values():
             found.setdefault(message.direction, {})[message.id] = message
         return found
+
+    def largest(self, directions: Iterable[Direction]) -> int:
+        """Bytes of the largest legal frame of these directions; 0 where nothing goes."""
+        sizes = (message.largest for way in directions for message in self.sent(way).values())
+        return max(sizes, default=0)
 
     def kind(self, name: str) -> Kind:
         """What a message is: `query`, `command`, `reply` or `report`."""
@@ -86,6 +103,6 @@ def _turned(named: Mapping[str, Iterable[str]]) -> dict[str, list[str]]:
 
 def derive(spec: Spec) -> Model:
     """Work out all of it, once. Needs a spec that keeps the rules of its structure."""
-    frame = derive_frame(spec)
+    frame = derive_envelope(spec.frame, spec.byte_order)
     messages = {name: derive_message(spec, frame, name) for name in spec.messages}
     return Model(spec, settle(spec), frame, messages)

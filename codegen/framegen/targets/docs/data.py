@@ -5,7 +5,8 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from framegen.language.spec import BodyPart
-from framegen.model.layout import Repeat, part_size
+from framegen.model.envelope import part_size
+from framegen.model.layout import Repeat
 from framegen.targets.docs.address import message_page
 
 if TYPE_CHECKING:

@@ -6,13 +6,17 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from framegen.language.spec import NumberField
+from framegen.model.slots import Items
 from framegen.targets.docs.cite import CiteView, Place, cite_view
 from framegen.targets.docs.strip import repeated
 
 if TYPE_CHECKING:
+    from collections.abc import Iterator
+
     from framegen.language.spec import GroupField
-    from framegen.model.layout import MessageLayout, WireField
+    from framegen.model.layout import MessageLayout
     from framegen.model.model import Model
+    from framegen.model.slots import Number
     from framegen.reading.yamltree import KeyPath
 
 
@@ -60,33 +64,28 @@ class FieldView:
 def field_views(model: Model, message: MessageLayout) -> list[FieldView]:
     """Every field of a message in the order of the frame; those of an element after their list."""
     maker = _Maker(model, message)
-    views = [
-        maker.number(field, field.name, str(field.offset), ("fields", field.name))
-        for field in message.numbers
-    ]
-    repeat = message.repeat
-    if repeat is None:
-        return views
-    count = f"{repeat.low}..{repeat.high} of them"
-    path: KeyPath = ("fields", repeat.name)
-    if repeat.element is None:
-        name = f"{repeat.name}[i]"
-        return [*views, maker.number(repeat.fields[0], name, repeated(repeat), path, count)]
-    views.append(
-        maker.view(
-            repeat.field, repeat.name, str(repeat.offset), path, f"list of {repeat.element}", count
-        )
-    )
-    views.extend(
-        maker.number(
-            field,
-            f"{repeat.name}[i].{field.name}",
-            repeated(repeat, field.offset),
-            (*path, "fields", field.name),
-        )
-        for field in repeat.fields
-    )
+    views: list[FieldView] = []
+    for slot in message.fields:
+        if isinstance(slot, Items):
+            views.extend(_list_views(maker, slot))
+        else:
+            views.append(maker.number(slot, slot.name, str(slot.at), ("fields", slot.name)))
     return views
+
+
+def _list_views(maker: _Maker, items: Items) -> Iterator[FieldView]:
+    count = f"{items.low}..{items.high} of them"
+    path: KeyPath = ("fields", items.name)
+    if items.element is None:
+        (field,) = items.fields
+        yield maker.number(field, items.path("i", field), repeated(items), path, count)
+        return
+    yield maker.view(
+        items.field, items.name, str(items.at), path, f"list of {items.element}", count
+    )
+    for field in items.fields:
+        offset = repeated(items, field.at)
+        yield maker.number(field, items.path("i", field), offset, (*path, "fields", field.name))
 
 
 @dataclass(frozen=True, slots=True)
@@ -95,7 +94,7 @@ class _Maker:
     message: MessageLayout
 
     def number(
-        self, field: WireField, path: str, offset: str, key: KeyPath, count: str = ""
+        self, field: Number, path: str, offset: str, key: KeyPath, count: str = ""
     ) -> FieldView:
         bounds = f"{field.low}..{field.high}" + (f", {count}" if count else "")
         return self.view(
@@ -105,7 +104,7 @@ class _Maker:
             key,
             field.wire.name,
             bounds,
-            derived=self.message.counts_with(field),
+            derived=field.role == "count",
         )
 
     def view(

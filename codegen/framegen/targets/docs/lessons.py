@@ -5,7 +5,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from framegen.model.codec import COUNT_MISMATCH, Unencodable, encode
+from framegen.model.codec import Unencodable, encode
+from framegen.model.slots import Constant
+from framegen.model.verdict import COUNT_MISMATCH
 from framegen.targets.docs.walk import Walk, walk
 
 if TYPE_CHECKING:
@@ -90,7 +92,7 @@ def _frames(model: Model, way: Direction) -> list[bytes]:
 def _misread(model: Model, way: Direction) -> bytes | None:
     """Find a frame that, behind a stray header byte, begins like a frame of another length."""
     for message in model.sent(way).values():
-        for frame in _lengthened(model, message):
+        for frame in _lengthened(message):
             data = model.frame.header[-1:] + frame
             events = walk(model, way, data).events
             if [event.reason for event in events] == [COUNT_MISMATCH, ""]:
@@ -98,16 +100,16 @@ def _misread(model: Model, way: Direction) -> bytes | None:
     return None
 
 
-def _lengthened(model: Model, message: MessageLayout) -> Iterator[bytes]:
+def _lengthened(message: MessageLayout) -> Iterator[bytes]:
     """The first example of a message, with lists of other lengths."""
-    repeat, examples = message.repeat, message.message.examples
-    if repeat is None or not examples:
+    items, examples = message.items, message.message.examples
+    if items is None or not examples:
         return
     values = examples[0].values
     for count in message.counts[:_LONGEST_LIST]:
-        items = [(values[repeat.name] or [None])[0]] * count
+        listed = [(values[items.name] or [None])[0]] * count
         try:
-            yield encode(model, message, {**values, repeat.name: items})
+            yield encode(message, {**values, items.name: listed})
         except Unencodable:
             return
 
@@ -119,11 +121,9 @@ def _unknown_head(model: Model, way: Direction) -> bytes | None:
     if code is None:
         return None
     length = max(message.lengths[-1] for message in sent.values())
-    order = model.spec.byte_order
-    head = bytearray(frame.header.ljust(frame.body_at, b"\0"))
-    for at, number, size in (
-        (frame.length_at, length, frame.length.size),
-        (frame.id_at, code, frame.id.size),
-    ):
-        head[at : at + size] = number.to_bytes(size, order)
-    return bytes(head)
+    return b"".join(
+        slot.data
+        if isinstance(slot, Constant)
+        else slot.write(code if slot.role == "id" else length)
+        for slot in frame.head
+    )

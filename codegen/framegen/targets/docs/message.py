@@ -128,7 +128,7 @@ class MessageView:
     @cached_property
     def cells(self) -> list[Cell]:
         """What every frame of it looks like."""
-        return pattern_strip(self.model, self.layout)
+        return pattern_strip(self.layout)
 
     @property
     def parameters(self) -> list[Cell]:

@@ -9,6 +9,7 @@ from framegen.language.formula import Formula
 from framegen.language.values import to_hex
 from framegen.model.codec import NotAFrame, decode
 from framegen.model.lookalikes import recognise
+from framegen.model.slots import Constant
 from framegen.targets.docs.cite import CiteView, Place, cite_view
 from framegen.targets.docs.escape import paragraphs
 from framegen.targets.docs.strip import Cell, given_strip, parts_strip
@@ -16,6 +17,7 @@ from framegen.targets.docs.strip import Cell, given_strip, parts_strip
 if TYPE_CHECKING:
     from framegen.language.spec import Concern, Lookalike
     from framegen.model.model import Model
+    from framegen.model.slots import Number
 
 
 @dataclass(frozen=True, slots=True)
@@ -132,18 +134,17 @@ def lookalike_views(model: Model) -> list[LookalikeView]:
             other.title,
             paragraphs(other.about),
             cite_view(model.spec, other.cite),
-            parts_strip(other.frame) if other.frame else [],
-            [_foreign(model, other, each.title, each.hex) for each in other.examples],
+            parts_strip(model.lookalikes[key]) if other.frame else [],
+            [_foreign(model, each.title, each.hex) for each in other.examples],
             _codes(model, other),
         )
         for key, other in model.spec.lookalikes.items()
     ]
 
 
-def _foreign(model: Model, other: Lookalike, title: str, data: bytes) -> ForeignFrame:
-    recognised = recognise(model.spec, data)
-    parts = model.spec.frame if other.frame is None else other.frame
-    cells = [] if recognised is None else given_strip(parts, recognised.parts)
+def _foreign(model: Model, title: str, data: bytes) -> ForeignFrame:
+    recognised = recognise(model, data)
+    cells = [] if recognised is None else given_strip(recognised.parts, data)
     query = f"hex={data.hex()}&direction={model.directions[0].key}"
     verdicts = [_verdict(model, way, data) for way in model.directions]
     return ForeignFrame(title, to_hex(data), query, cells, verdicts)
@@ -157,16 +158,19 @@ def _verdict(model: Model, way: Any, data: bytes) -> str:
 
 
 def _codes(model: Model, other: Lookalike) -> list[ForeignCode]:
-    frame, order = model.frame, model.spec.byte_order
+    frame = model.frame
     found: list[ForeignCode] = []
     for code, there in other.commands.items():
         known = [message.name for message in model.messages.values() if message.id == code]
         pattern = ""
         if other.frame is None and code <= frame.id.high:
-            head = [*(f"{byte:02X}" for byte in frame.header)]
-            head += ["··"] * (frame.body_at - len(head))
-            at = slice(frame.id_at, frame.id_at + frame.id.size)
-            head[at] = [f"{byte:02X}" for byte in code.to_bytes(frame.id.size, order)]
-            pattern = " ".join(head)
+            pattern = " ".join(_headed(slot, code) for slot in frame.head)
         found.append(ForeignCode(code, pattern, there, known))
     return found
+
+
+def _headed(slot: Constant | Number, code: int) -> str:
+    """The bytes of a slot in front of the fields, as far as they are known of a code."""
+    if isinstance(slot, Constant):
+        return to_hex(slot.data)
+    return to_hex(slot.write(code)) if slot.role == "id" else " ".join(["··"] * slot.size)

@@ -167,7 +167,7 @@ class SiteView:
     @property
     def envelope(self) -> list[Cell]:
         """The parts of every frame."""
-        return parts_strip(self.model.spec.frame)
+        return parts_strip(self.model.frame)
 
     @property
     def parts(self) -> list[tuple[str, str]]:

@@ -66,7 +66,7 @@ def _trips(model: Model, request: MessageLayout) -> Iterator[RoundTrip]:
     reply = model.messages[request.message.reply]
     for count in _sizes(request):
         answered = min(max(count, reply.counts[0]), reply.counts[-1])
-        size = _size(request, count) + _size(reply, answered)
+        size = request.size_at(count) + reply.size_at(answered)
         seconds = request.wire_seconds(size)
         what = _what(request, count)
         if answered < count:
@@ -77,7 +77,7 @@ def _trips(model: Model, request: MessageLayout) -> Iterator[RoundTrip]:
 
 
 def _timing(message: MessageLayout, count: int) -> Timing:
-    size = _size(message, count)
+    size = message.size_at(count)
     seconds = message.wire_seconds(size)
     what = _what(message, count)
     return Timing(message.name, what, size, milliseconds(seconds), _trimmed(1 / seconds))
@@ -85,19 +85,15 @@ def _timing(message: MessageLayout, count: int) -> Timing:
 
 def _sizes(message: MessageLayout) -> list[int]:
     """Counts worth showing: the fewest, those of the examples, the most."""
-    repeat = message.repeat
-    if repeat is None:
+    items = message.items
+    if items is None:
         return [0]
-    shown = [len(example.values[repeat.name]) for example in message.message.examples]
+    shown = [len(example.values[items.name]) for example in message.message.examples]
     return sorted({message.counts[0], *shown, message.counts[-1]})
 
 
-def _size(message: MessageLayout, count: int) -> int:
-    return message.formula.at(count) + message.frame.uncounted
-
-
 def _what(message: MessageLayout, count: int) -> str:
-    return "" if message.repeat is None else f"{counted(count, 'item')} in {message.repeat.name}"
+    return "" if message.items is None else f"{counted(count, 'item')} in {message.items.name}"
 
 
 def _trimmed(number: float) -> str:

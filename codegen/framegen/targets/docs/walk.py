@@ -1,33 +1,29 @@
 """A stream decoded step by step: what can be told of each byte, and when a header is given up.
 
-Slow and plain, for a page of a dozen bytes; the tests hold it to the library's StreamDecoder.
+What it comes to is what the reference says; here it is put in words.
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, replace
+from itertools import groupby, pairwise
 from typing import TYPE_CHECKING
 
 from framegen.language.values import to_hex
-from framegen.model.codec import (
-    BAD_HEADER,
-    COUNT_MISMATCH,
-    LENGTH_MISMATCH,
-    OUT_OF_RANGE,
-    TOO_SHORT,
-    UNKNOWN_COMMAND,
-    NotAFrame,
-    decode,
-    read_number,
-)
+from framegen.model.slots import Number
+from framegen.model.stream import Line
+from framegen.model.verdict import BAD_HEADER, COUNT_MISMATCH, LENGTH_MISMATCH, TOO_SHORT
 from framegen.wording import counted, describe_range
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
+    from collections.abc import Iterator
 
     from framegen.language.values import Direction
     from framegen.model.layout import MessageLayout
     from framegen.model.model import Model
+    from framegen.model.slots import Placed
+    from framegen.model.stream import Event
+    from framegen.model.verdict import Verdict
 
 
 @dataclass(frozen=True, slots=True)
@@ -41,10 +37,9 @@ class Step:
 
 
 @dataclass(frozen=True, slots=True)
-class Event:
-    """What the decoder gives: a message by name; or noise, its reason, and no name."""
+class Piece:
+    """What the decoder gives: a message by name; or no name, and why it is none."""
 
-    offset: int
     data: bytes
     message: str
     reason: str
@@ -62,7 +57,7 @@ class Walk:
     data: bytes
     direction: Direction
     steps: list[Step]
-    events: list[Event]
+    events: list[Piece]
 
     @property
     def hex(self) -> str:
@@ -80,162 +75,107 @@ class Walk:
         return f"hex={self.data.hex()}&direction={self.direction.key}"
 
 
-class _Refused(Exception):  # noqa: N818 - says what became of the header
-    """The bytes looked at begin no frame."""
-
-    def __init__(self, reason: str) -> None:
-        super().__init__(reason)
-        self.reason = reason
-
-
 def walk(model: Model, direction: Direction, data: bytes) -> Walk:
     """Decode `data`, after which the line stays quiet."""
-    steps: list[Step] = []
-    events: list[Event] = []
+    line = Line(model, [direction])
+    events = [piece for event in line.decode(data) for piece in _pieces(model, event)]
+    steps = [step for event in events for step in _steps(line, event, data[event.at :])]
+    told = [
+        Piece(event.data, "" if event.message is None else event.message.name, event.reason)
+        for event in events
+    ]
+    return Walk(data, direction, steps, told)
+
+
+def _pieces(model: Model, event: Event) -> Iterator[Event]:
+    """Cut noise where headers stand in it, or begin at its end; all else is one piece."""
+    header = model.frame.header
+    inside = range(1, len(event.data) if event.kind == "noise" else 1)
+    starts = [at for at in inside if header.startswith(event.data[at : at + len(header)])]
+    for start, end in pairwise([0, *starts, len(event.data)]):
+        yield replace(event, at=event.at + start, data=event.data[start:end])
+
+
+def _steps(line: Line, event: Event, rest: bytes) -> Iterator[Step]:
+    """Tell one piece of the line slot by slot, until a frame is whole or there is no hope of it."""
+    verdict = line.weigh(rest)
+    if verdict.reason == BAD_HEADER:
+        text = "no frame begins so: noise up to the next header"
+        yield Step(event.at, to_hex(event.data), text, ok=False)
+        return
     at = 0
-    while at < len(data):
-        look = _Look(model, direction, data, at, steps)
-        try:
-            name, end = look.frame()
-            events.append(Event(at, data[at:end], name, ""))
-        except _Refused as refusal:
-            end = _next_header(model.frame.header, data, at + 1)
-            if refusal.reason != BAD_HEADER:
-                text = f"{counted(end - at, 'byte')} of noise: {refusal.reason}"
-                steps.append(Step(at, to_hex(data[at:end]), text, ok=False))
-            events.append(Event(at, data[at:end], "", refusal.reason))
+    for text, end in _agreed(line.model, verdict, rest):
+        yield Step(event.at + at, to_hex(rest[at:end]), text, ok=True)
         at = end
-    return Walk(data, direction, steps, events)
+    if verdict.message is not None:
+        size = counted(verdict.offset, "byte")
+        yield Step(event.at, "", f"{verdict.message.name}, whole: {size} from here", ok=True)
+        return
+    piece, text = _refusal(line.model, verdict, rest, at)
+    yield Step(event.at + at, to_hex(piece), text, ok=False)
+    size = counted(len(event.data), "byte")
+    told = f"{size} of noise: {event.reason}" if event.kind == "noise" else f"{size}: unknown frame"
+    yield Step(event.at, to_hex(event.data), told, ok=False)
 
 
-def _next_header(header: bytes, data: bytes, start: int) -> int:
-    """Find the next place where a header stands, or may begin at the very end."""
-    for at in range(start, len(data)):
-        if header.startswith(data[at : at + len(header)]):
-            return at
-    return len(data)
+def _agreed(model: Model, verdict: Verdict, data: bytes) -> Iterator[tuple[str, int]]:
+    """What the slots tell that agreed with a frame, and where each telling ends."""
+    groups = [(kind, list(slots)) for kind, slots in groupby(verdict.seen, _kind)]
+    if groups and groups[-1][0] == "values" and verdict.reason == TOO_SHORT:
+        groups.pop()  # they end in the silence
+    for number, (kind, slots) in enumerate(groups):
+        last = slots[-1]
+        value = last.slot.read(last.of(data)) if isinstance(last.slot, Number) else 0
+        name = last.path
+        match kind:
+            case "constant":
+                text = "a header: a frame may begin here"
+            case "length":
+                size = counted(value + model.frame.uncounted, "byte")
+                text = f"{name} {value}: the frame would have {size}"
+            case "id" if verdict.likely is not None:
+                text = f"{name} {value}: {verdict.likely.name}, {_rule(verdict.likely)}"
+            case "count":
+                text = f"{name} {value}: agrees with the length"
+            case _:
+                is_last = number == len(groups) - 1
+                text = "the rest of the values" if is_last else "values, which may be anything"
+        yield text, last.end
 
 
-@dataclass(slots=True)
-class _Look:
-    """One place where a frame may begin, looked at byte by byte."""
+def _kind(placed: Placed) -> str:
+    """What is told together: each number of the head and the count alone, all else as one."""
+    role = placed.slot.role
+    return role if role in ("constant", "length", "id", "count") else "values"
 
-    model: Model
-    direction: Direction
-    data: bytes
-    start: int
-    steps: list[Step]
-    at: int = field(init=False)
 
-    def __post_init__(self) -> None:
-        self.at = self.start
-
-    def frame(self) -> tuple[str, int]:
-        """Name the message that stands here, and its end. Raises _Refused."""
-        frame = self.model.frame
-        self._header(frame.header)
-        if frame.length_at < frame.id_at:
-            self._length()
-            message = self._command()
-        else:
-            message = self._command()
-            self._length()
-        length = self._number(frame.length_at, frame.length.size)
-        if length not in message.lengths:
-            legal = describe_range(message.lengths)
-            self._refuse(LENGTH_MISMATCH, f"the {frame.length_name} of {message.name} is {legal}")
-        self._count(message, length)
-        return self._rest(message, length)
-
-    def _header(self, header: bytes) -> None:
-        if not header.startswith(self.data[self.start : self.start + len(header)]):
-            end = _next_header(header, self.data, self.start + 1)
-            self._take(
-                end - self.start, "no frame begins so: noise up to the next header", ok=False
-            )
-            raise _Refused(BAD_HEADER)
-        self._take(len(header), "a header: a frame may begin here")
-
-    def _length(self) -> None:
-        frame = self.model.frame
-        length = self._number(frame.length_at, frame.length.size, keep=True)
-        longest = max(message.largest for message in self._sent().values())
-        size = length + frame.uncounted
-        if not frame.body_at <= size <= longest:
-            text = f"{frame.length_name} {length}: no frame has it"
-            self._take(frame.length.size, text, ok=False)
-            raise _Refused(LENGTH_MISMATCH)
-        text = f"{frame.length_name} {length}: the frame would have {size} bytes"
-        self._take(frame.length.size, text)
-
-    def _command(self) -> MessageLayout:
-        frame = self.model.frame
-        code = self._number(frame.id_at, frame.id.size, keep=True)
-        message = self._sent().get(code)
-        if message is None:
-            text = (
-                f"{frame.id_name} {code}: unknown in this direction, so its length is not trusted"
-            )
-            self._take(frame.id.size, text, ok=False)
-            raise _Refused(UNKNOWN_COMMAND)
-        self._take(frame.id.size, f"{frame.id_name} {code}: {message.name}, {_rule(message)}")
-        return message
-
-    def _count(self, message: MessageLayout, length: int) -> None:
-        if message.repeat is None:
-            return
-        counter = message.repeat.counter
-        before = self.start + counter.offset - self.at
-        if before > 0:
-            self._take(before, "values, which may be anything")
-        count, due = (
-            self._number(counter.offset, counter.wire.size),
-            message.formula.count_at(length),
-        )
-        if count != due:
-            name = self.model.frame.length_name
-            text = f"{counter.name} {count}: with a {name} of {length} it is {due}"
-            self._take(counter.wire.size, text, ok=False)
-            raise _Refused(COUNT_MISMATCH)
-        self._take(counter.wire.size, f"{counter.name} {count}: agrees with the length")
-
-    def _rest(self, message: MessageLayout, length: int) -> tuple[str, int]:
-        end = self.start + length + self.model.frame.uncounted
-        if end > self.at:
-            self._take(end - self.at, "the rest of the values")
-        try:
-            decode(self.model, self.direction, self.data[self.start : end])
-        except NotAFrame as error:
-            self._refuse(OUT_OF_RANGE, error.expected)
-        whole = f"{message.name}, whole: {counted(end - self.start, 'byte')} from here"
-        self.steps.append(Step(self.start, "", whole, ok=True))
-        return message.name, end
-
-    def _sent(self) -> Mapping[int, MessageLayout]:
-        return self.model.sent(self.direction)
-
-    def _number(self, offset: int, size: int, *, keep: bool = False) -> int:
-        """Read the number at `offset` of the frame; with `keep`, only if it has arrived."""
-        if keep and self.start + offset + size > len(self.data):
-            self._take(size, "", ok=True)
-        return read_number(self.model, self.data, self.start + offset, size)
-
-    def _take(self, size: int, text: str, *, ok: bool = True) -> None:
-        """Tell what the next bytes say, or that they never come."""
-        piece = self.data[self.at : self.at + size]
-        if len(piece) < size:
-            self._refuse(TOO_SHORT, "the line goes quiet before the frame is whole", piece)
-        self.steps.append(Step(self.at, to_hex(piece), text, ok))
-        self.at += size
-
-    def _refuse(self, reason: str, text: str, piece: bytes = b"") -> None:
-        self.steps.append(Step(self.at, to_hex(piece), text, ok=False))
-        raise _Refused(reason)
+def _refusal(model: Model, verdict: Verdict, data: bytes, at: int) -> tuple[bytes, str]:
+    """The bytes that end the hope of a frame, which stand at `at`, and why."""
+    frame, message, rest = model.frame, verdict.likely, data[at:]
+    if verdict.reason == TOO_SHORT:
+        return rest, "the line goes quiet before the frame is whole"
+    if verdict.reason == LENGTH_MISMATCH and frame.length.at >= at:
+        length = rest[: frame.length.size]
+        return length, f"{frame.length.name} {frame.length.read(length)}: no frame has it"
+    if message is None:
+        code = rest[: frame.id.size]
+        unknown = "unknown in this direction, so its length is not trusted"
+        return code, f"{frame.id.name} {frame.id.read(code)}: {unknown}"
+    if verdict.reason == LENGTH_MISMATCH:
+        legal = describe_range(message.lengths)
+        return b"", f"the {frame.length.name} of {message.name} is {legal}"
+    if verdict.reason == COUNT_MISMATCH and message.items is not None:
+        counter = message.items.counter
+        count = rest[: counter.size]
+        number = frame.length.read(data[frame.length.at : frame.length.at + frame.length.size])
+        due = f"with a {frame.length.name} of {number} it is {message.count_at(number)}"
+        return count, f"{counter.name} {counter.read(count)}: {due}"
+    return b"", verdict.expected
 
 
 def _rule(message: MessageLayout) -> str:
     lengths = message.lengths
-    name = message.frame.length_name
+    name = message.frame.length.name
     if len(lengths) == 1:
         return f"whose {name} is always {lengths[0]}"
     return f"whose {name} is {message.formula}: {describe_range(lengths)}"

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from framegen.language.spec import BodyPart, ChecksumPart, ConstantPart, IdPart, LengthPart
-from framegen.model.layout import part_size
+from framegen.model.envelope import part_size
 from framegen.targets.python.escape import Bracketed, Part, Text
 
 if TYPE_CHECKING:

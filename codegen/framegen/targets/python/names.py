@@ -15,6 +15,7 @@ from framegen.language.spec import GroupField
 from framegen.language.values import Direction, Method
 from framegen.model.exchanges import arguments_of, method_of, snake_case
 from framegen.model.roles import Roles
+from framegen.model.slots import Items, Number
 from framegen.targets.python.reserved import RESERVED
 from framegen.targets.target import BentName
 
@@ -23,8 +24,9 @@ if TYPE_CHECKING:
     from typing import Any
 
     from framegen.language.spec import AnyField, Message, Pose, Spec
-    from framegen.model.layout import MessageLayout, Repeat, WireField
+    from framegen.model.layout import MessageLayout
     from framegen.model.model import Model
+    from framegen.model.slots import MessageSlot
     from framegen.reading.yamltree import KeyPath
     from framegen.targets.target import Reserved
 
@@ -267,35 +269,36 @@ class Names:
 
     def _layout(self, layout: MessageLayout, message: Message) -> MessageLayout:
         """A message in its frame: all stands where it stood."""
-        numbers = {
-            field.name: self._number("field", field, message.fields) for field in layout.numbers
-        }
-        repeat = layout.repeat
-        return replace(
-            layout,
-            name=self.of("message", layout.name),
-            message=message,
-            numbers=tuple(numbers.values()),
-            repeat=None if repeat is None else self._repeat(repeat, numbers, message),
-        )
+        numbers: dict[str, Number] = {}
+        slots: list[MessageSlot] = []
+        for slot in layout.slots:
+            if isinstance(slot, Items):
+                slots.append(self._items(slot, numbers, message))
+            elif isinstance(slot, Number) and slot.is_field:
+                numbers[slot.name] = self._number("field", slot, message.fields)
+                slots.append(numbers[slot.name])
+            else:
+                slots.append(slot)
+        name = self.of("message", layout.name)
+        return replace(layout, name=name, message=message, slots=tuple(slots))
 
-    def _repeat(self, repeat: Repeat, numbers: dict[str, WireField], message: Message) -> Repeat:
-        name = self.of("field", repeat.name)
+    def _items(self, items: Items, numbers: dict[str, Number], message: Message) -> Items:
+        name = self.of("field", items.name)
         field = message.fields[name]
         if isinstance(field, GroupField):
-            fields = [self._number("field of an element", f, field.fields) for f in repeat.fields]
+            fields = [self._number("field of an element", f, field.fields) for f in items.fields]
         else:
-            fields = [self._number("field", each, message.fields) for each in repeat.fields]
+            fields = [self._number("field", each, message.fields) for each in items.fields]
         return replace(
-            repeat,
+            items,
             name=name,
-            element=repeat.element and self.of("element", repeat.element),
+            element=items.element and self.of("element", items.element),
             fields=tuple(fields),
-            counter=numbers[repeat.counter.name],
+            counter=numbers[items.counter.name],
             field=field,
         )
 
-    def _number(self, kind: str, number: WireField, fields: Any) -> WireField:
+    def _number(self, kind: str, number: Number, fields: Any) -> Number:
         name = self.of(kind, number.name)
         return replace(number, name=name, field=fields[name])
 

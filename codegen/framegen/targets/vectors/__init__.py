@@ -30,7 +30,7 @@ def render(compiled: Compiled, _snippets: Snippets) -> dict[str, str]:
     """The file of vectors, by path below the project's root."""
     model = compiled.model
     protocol = model.spec.protocol
-    valid = [vector for message in model.messages.values() for vector in _valid(model, message)]
+    valid = [vector for message in model.messages.values() for vector in _valid(message)]
     document = {
         "comment": banner(compiled.source.path),
         "protocol": protocol.name,
@@ -52,23 +52,21 @@ def _one_vector_a_line(document: dict[str, Any]) -> str:
     return "{\n" + ",\n".join(parts) + "\n}\n"
 
 
-def _valid(model: Model, message: MessageLayout) -> Iterator[dict[str, Any]]:
+def _valid(message: MessageLayout) -> Iterator[dict[str, Any]]:
     """The examples of a message, then the ends of its ranges."""
     for example in message.message.examples:
-        yield _vector(model, message, example.title, dict(example.values))
+        yield _vector(message, example.title, dict(example.values))
     for title, values in _range_ends(message):
-        yield _vector(model, message, title, values)
+        yield _vector(message, title, values)
 
 
-def _vector(
-    model: Model, message: MessageLayout, title: str, values: dict[str, Any]
-) -> dict[str, Any]:
+def _vector(message: MessageLayout, title: str, values: dict[str, Any]) -> dict[str, Any]:
     return {
         "title": title,
         "direction": message.direction.key,
         "message": message.name,
         "fields": values,
-        "hex": to_hex(encode(model, message, values)),
+        "hex": to_hex(encode(message, values)),
     }
 
 

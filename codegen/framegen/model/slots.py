@@ -1,0 +1,189 @@
+"""What a frame is: an ordered list of slots, each of them bytes that belong together.
+
+What surrounds the fields and the fields themselves are the same kind of thing: a slot has a name, a
+role, and a place, which counts from the first byte of the frame, or, below zero, from its end.
+Everybody who needs to know what stands where walks the slots of a message with `lay_out`: a new
+kind of part is a role here, a case in the codec, and a case in each target that shows it.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, ClassVar, Literal, TypeAlias
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Iterator
+
+    from framegen.language.spec import GroupField, NumberField
+    from framegen.language.wiretypes import WireType
+
+ByteOrder: TypeAlias = Literal["little", "big"]
+
+# What a number is there for. All but `field` and `address` follow from the rest of the frame.
+NumberRole: TypeAlias = Literal["length", "id", "address", "checksum", "count", "field"]
+
+
+@dataclass(frozen=True)
+class Constant:
+    """Bytes that never change."""
+
+    role: ClassVar = "constant"
+
+    name: str
+    at: int
+    data: bytes
+    about: str = ""
+
+    @property
+    def size(self) -> int:
+        """How many bytes it has."""
+        return len(self.data)
+
+
+@dataclass(frozen=True)
+class Number:
+    """A number: of the envelope, a field, or a field of an element, whose place it counts from.
+
+    `field` is what the spec says of it. `of` names the slots that it is worked out from: those that
+    a length counts, those that a checksum covers.
+    """
+
+    name: str
+    role: NumberRole
+    at: int
+    wire: WireType
+    order: ByteOrder
+    field: NumberField
+    of: tuple[str, ...] = ()
+
+    @property
+    def size(self) -> int:
+        """How many bytes it has."""
+        return self.wire.size
+
+    @property
+    def offset(self) -> int:
+        """Goes soon."""
+        return self.at
+
+    @property
+    def low(self) -> int:
+        """The lowest value allowed."""
+        return self.wire.low if self.field.range is None else self.field.range.low
+
+    @property
+    def high(self) -> int:
+        """The highest value allowed."""
+        declared = self.field.range
+        return self.wire.high if declared is None or declared.high is None else declared.high
+
+    @property
+    def narrowed(self) -> bool:
+        """Whether fewer values are allowed than the type holds."""
+        return (self.low, self.high) != (self.wire.low, self.wire.high)
+
+    @property
+    def is_field(self) -> bool:
+        """Whether it is a message's own; all others are of its envelope."""
+        return self.role in ("count", "field")
+
+    @property
+    def given(self) -> bool:
+        """Whether a user gives it; what follows from the rest of the frame is never an argument."""
+        return self.role in ("field", "address")
+
+    def read(self, data: bytes) -> int:
+        """Read it from its bytes."""
+        return int.from_bytes(data, self.order, signed=self.wire.low < 0)
+
+    def write(self, value: int) -> bytes:
+        """Make the bytes that stand for `value`. OverflowError where they do not hold it."""
+        return value.to_bytes(self.size, self.order, signed=self.wire.low < 0)
+
+
+@dataclass(frozen=True)
+class Items:
+    """A list: as many elements as its counter says, each of the same fields.
+
+    `element` is what the spec calls an element with several fields, None for bare numbers.
+    """
+
+    role: ClassVar = "list"
+
+    name: str
+    at: int
+    element: str | None
+    fields: tuple[Number, ...]
+    counter: Number
+    low: int
+    high: int
+    field: GroupField | NumberField
+
+    @property
+    def offset(self) -> int:
+        """Goes soon."""
+        return self.at
+
+    @property
+    def size(self) -> int:
+        """How many bytes an element has."""
+        return sum(field.size for field in self.fields)
+
+    def path(self, index: int | str, field: Number) -> str:
+        """Name a number of the element at `index`: `targets[0].position`, or `ids[0]`."""
+        inner = "" if self.element is None else f".{field.name}"
+        return f"{self.name}[{index}]{inner}"
+
+
+@dataclass(frozen=True)
+class Body:
+    """Where the fields of a message stand, in an envelope that is nobody's yet."""
+
+    role: ClassVar = "body"
+
+    name: str
+    at: int
+    about: str = ""
+
+
+# Those of a message, whose fields stand where its envelope has the body.
+MessageSlot: TypeAlias = Constant | Number | Items
+Slot: TypeAlias = MessageSlot | Body
+
+
+@dataclass(frozen=True, slots=True)
+class Placed:
+    """A slot in a frame of known size: what it is called there, and which bytes are its."""
+
+    path: str
+    at: int
+    size: int
+    slot: Constant | Number | Body
+
+    @property
+    def end(self) -> int:
+        """The offset behind its last byte."""
+        return self.at + self.size
+
+    def of(self, frame: bytes) -> bytes:
+        """Its bytes, as far as they are there."""
+        return frame[self.at : self.end]
+
+
+def lay_out(slots: Iterable[Slot], size: int, count: int = 0) -> Iterator[Placed]:
+    """Say what stands where in a frame of `size` bytes with `count` elements, in its order."""
+    slots = list(slots)
+    fixed = sum(slot.size for slot in slots if isinstance(slot, Constant | Number))
+    for slot in slots:
+        at = slot.at if slot.at >= 0 else size + slot.at
+        match slot:
+            case Items():
+                for index in range(count):
+                    start = at + index * slot.size
+                    for field in slot.fields:
+                        path = slot.path(index, field)
+                        yield Placed(path, start + field.at, field.size, field)
+            case Body():
+                yield Placed(slot.name, at, size - fixed, slot)
+            case _:
+                yield Placed(slot.name, at, slot.size, slot)

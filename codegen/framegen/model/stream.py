@@ -1,0 +1,123 @@
+"""The reference stream decoder: what a line says, with whatever is no frame between its messages.
+
+Slow and plain: it weighs every place anew. Every decoder, in whatever language, is held to what it
+says, joined: where noise is cut depends on how the bytes came, and its sum does not.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Literal
+
+from framegen.model.verdict import BAD_HEADER, UNKNOWN_COMMAND, weigh
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Sequence
+
+    from framegen.language.values import Direction
+    from framegen.model.layout import MessageLayout
+    from framegen.model.model import Model
+    from framegen.model.verdict import Verdict
+
+
+@dataclass(frozen=True, slots=True)
+class Event:
+    """A message, a frame of unknown id, or noise; `reason` says why those two are no message."""
+
+    kind: Literal["message", "unknown", "noise"]
+    at: int
+    data: bytes
+    message: MessageLayout | None = None
+    reason: str = ""
+
+
+@dataclass(frozen=True)
+class Line:
+    """Who can be heard on a line, and how large a frame may be there."""
+
+    model: Model
+    directions: Sequence[Direction]
+    max_frame: int | None = None
+
+    def decode(self, data: bytes) -> list[Event]:
+        """Say what one stretch of the line held, after which it stays quiet."""
+        events, _ = self._read(data, quiet=True)
+        return joined(events)
+
+    def decode_so_far(self, data: bytes) -> list[Event]:
+        """Say what can be told already while more may come; the rest of `data` is still held.
+
+        A decoder has told at least the messages among these.
+        """
+        events, _ = self._read(data, quiet=False)
+        return joined(events)
+
+    def weigh(self, data: bytes) -> Verdict:
+        """Judge what `data` begins."""
+        return weigh(self.model, self.directions, data, self.max_frame)
+
+    def _read(self, data: bytes, *, quiet: bool) -> tuple[list[Event], int]:
+        events: list[Event] = []
+        header = self.model.frame.header
+        # Why the noise at hand is none: as long as no header came, because none did.
+        reason = BAD_HEADER
+        at = 0
+        while at < len(data):
+            rest = data[at:]
+            verdict = self.weigh(rest)
+            if verdict.message is not None:
+                frame = rest[: verdict.offset]
+                events.append(Event("message", at, frame, verdict.message))
+                at, reason = at + len(frame), BAD_HEADER
+                continue
+            claim = self._claim(rest, verdict)
+            waits = verdict.undecided or (claim > len(rest) and not self._has_message(rest))
+            if waits and not quiet:
+                break
+            if 0 < claim <= len(rest) and not self._lives(rest[:claim]):
+                events.append(Event("unknown", at, rest[:claim], reason=UNKNOWN_COMMAND))
+                at, reason = at + claim, BAD_HEADER
+                continue
+            if rest.startswith(header):
+                reason = verdict.reason
+            events.append(Event("noise", at, rest[:1], reason=reason))
+            at += 1
+        return events, at
+
+    def _claim(self, data: bytes, verdict: Verdict) -> int:
+        """Tell how many bytes a frame of unknown id claims, at the least; 0 where there is none.
+
+        Its length is possible, and no more can be said for it: nothing proves it.
+        """
+        frame = self.model.frame
+        if verdict.reason != UNKNOWN_COMMAND or len(data) < frame.body_at:
+            return frame.least if verdict.reason == UNKNOWN_COMMAND else 0
+        length = frame.length
+        size = length.read(data[length.at : length.at + length.size]) + frame.uncounted
+        largest = self.model.largest(self.directions)
+        if self.max_frame is not None:
+            largest = min(largest, self.max_frame)
+        return size if frame.least <= size <= largest else 0
+
+    def _lives(self, claimed: bytes) -> bool:
+        """Tell whether a frame begins, or may begin, behind the first of the bytes claimed.
+
+        What may, by these bytes alone, is worth more than a claim that nothing proves.
+        """
+        verdicts = (self.weigh(claimed[at:]) for at in range(1, len(claimed)))
+        return any(verdict.message or verdict.undecided for verdict in verdicts)
+
+    def _has_message(self, data: bytes) -> bool:
+        return any(self.weigh(data[at:]).message for at in range(1, len(data)))
+
+
+def joined(events: Iterable[Event]) -> list[Event]:
+    """The events, with neighbouring noise of one reason made one; unknown frames stay whole."""
+    found: list[Event] = []
+    for event in events:
+        last = found[-1] if found else None
+        if last and event.kind == last.kind == "noise" and event.reason == last.reason:
+            found[-1] = Event("noise", last.at, last.data + event.data, reason=last.reason)
+        else:
+            found.append(event)
+    return found

@@ -1,0 +1,203 @@
+"""What can be told of bytes as the beginning of a frame: the one answer to "why is this none?".
+
+The bytes are tested in the order in which they come, and the first that no legal frame can have
+gives the reason and the place. Single frames and streams are judged by this alone.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from framegen.model.slots import Constant, Number
+from framegen.wording import describe_range
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from framegen.language.values import Direction
+    from framegen.model.layout import MessageLayout
+    from framegen.model.model import Model
+    from framegen.model.slots import Placed
+
+# The reasons for which bytes are no frame. Every target and the test vectors use these words.
+TOO_SHORT = "too short"
+TRAILING_BYTES = "trailing bytes"
+BAD_HEADER = "bad header"
+LENGTH_MISMATCH = "length mismatch"
+COUNT_MISMATCH = "count mismatch"
+UNKNOWN_COMMAND = "unknown command"
+OUT_OF_RANGE = "out of range"
+
+
+@dataclass(frozen=True, slots=True)
+class Verdict:
+    """What bytes begin: a message, nothing, or what may become one when more of them come.
+
+    Of a message, `offset` is where its frame ends. Else `message` is None, and `reason` and
+    `offset` say where it shows that this is no frame: `too short` is what may become one.
+    `expected` says what was due. `seen` are the slots that agreed up to there, and `likely` is the
+    message that they began, once that is known.
+    """
+
+    message: MessageLayout | None
+    reason: str
+    offset: int
+    expected: str
+    seen: tuple[Placed, ...]
+    likely: MessageLayout | None
+
+    @property
+    def undecided(self) -> bool:
+        """Whether more bytes could still make a frame of it."""
+        return self.reason == TOO_SHORT
+
+
+class _Refused(Exception):  # noqa: N818 - says what became of the bytes
+    def __init__(self, reason: str, offset: int, expected: str) -> None:
+        super().__init__(reason, offset, expected)
+        self.verdict = reason, offset, expected
+
+
+def weigh(
+    model: Model, directions: Sequence[Direction], data: bytes, max_frame: int | None = None
+) -> Verdict:
+    """Judge what `data` begins, sent in any of `directions`; it may go on behind the frame.
+
+    Frames larger than `max_frame` bytes are refused by their length. A frame that is legal in
+    several directions is the first's; where none has it, the refusal that shows last is given.
+    """
+    look = _Look(model, directions, data, max_frame)
+    try:
+        length, candidates = look.head()
+    except _Refused as refused:
+        return Verdict(None, *refused.verdict, tuple(look.seen), look.likely)
+    verdicts = [look.fields(message, length) for message in candidates]
+    legal = (verdict for verdict in verdicts if verdict.message is not None)
+    # Of equals, `max` gives the first.
+    return next(legal, None) or max(verdicts, key=lambda verdict: verdict.offset)
+
+
+class _Look:
+    """One place where a frame may begin, looked at slot by slot."""
+
+    def __init__(
+        self, model: Model, directions: Sequence[Direction], data: bytes, max_frame: int | None
+    ) -> None:
+        self.model = model
+        self.frame = model.frame
+        self.data = data
+        self.ways = " or ".join(map(str, directions))
+        self.messages: dict[int, list[MessageLayout]] = {}
+        for direction in directions:
+            for code, message in model.sent(direction).items():
+                self.messages.setdefault(code, []).append(message)
+        self.largest = model.largest(directions)
+        if max_frame is not None:
+            self.largest = min(self.largest, max_frame)
+        self.seen: list[Placed] = []
+        self.likely: MessageLayout | None = None
+
+    def head(self) -> tuple[int, list[MessageLayout]]:
+        """Read what stands in front of the fields: the length, and which messages can have it."""
+        length: int | None = None
+        candidates: list[MessageLayout] | None = None
+        shortest = f"the shortest frame has {self.frame.least} bytes"
+        for placed in self.frame.lay_out(self.frame.least):
+            slot = placed.slot
+            if placed.at >= self.frame.body_at:
+                break
+            if isinstance(slot, Constant):
+                self._constant(placed, slot)
+            elif isinstance(slot, Number):
+                number = slot.read(self._whole(placed, shortest))
+                if slot.role == "length":
+                    length = self._length(number)
+                elif slot.role == "id":
+                    candidates = self._candidates(number)
+            self.seen.append(placed)
+            if length is not None and candidates is not None:
+                candidates = self._fitting(candidates, length)
+        if length is None or candidates is None:
+            raise AssertionError("the rule frame-parts sees to both")
+        return length, candidates
+
+    def fields(self, message: MessageLayout, length: int) -> Verdict:
+        """Judge what follows the head as the fields of one message."""
+        count = message.count_at(length)
+        size = message.size_at(count)
+        due = f"a {self.frame.length.name} of {length} makes {size} bytes"
+        seen = list(self.seen)
+        try:
+            for placed in list(message.lay_out(count))[len(seen) :]:
+                self._field(placed, length, count, due)
+                seen.append(placed)
+        except _Refused as refused:
+            return Verdict(None, *refused.verdict, tuple(seen), message)
+        return Verdict(message, "", size, due, tuple(seen), message)
+
+    def _constant(self, placed: Placed, slot: Constant) -> None:
+        due = f"a frame begins {self.frame.header.hex(' ').upper()}"
+        for at, byte in enumerate(slot.data, placed.at):
+            if at >= len(self.data):
+                raise _Refused(TOO_SHORT, len(self.data), due)
+            if self.data[at] != byte:
+                raise _Refused(BAD_HEADER, at, due)
+
+    def _whole(self, placed: Placed, due: str) -> bytes:
+        if placed.end > len(self.data):
+            raise _Refused(TOO_SHORT, len(self.data), due)
+        return placed.of(self.data)
+
+    def _length(self, length: int) -> int:
+        size = length + self.frame.uncounted
+        if not self.frame.least <= size <= self.largest:
+            raise self._mismatch(length, self._named())
+        return length
+
+    def _named(self) -> list[MessageLayout]:
+        """The messages that have the id of these bytes, whatever stands in front of it."""
+        place = self.frame.id
+        code = self.data[place.at : place.at + place.size]
+        return self.messages.get(place.read(code), []) if len(code) == place.size else []
+
+    def _mismatch(self, length: int, messages: list[MessageLayout]) -> _Refused:
+        name = self.frame.length.name
+        has = " or ".join(
+            f"{message.name} has a {name} of {describe_range(message.lengths)}"
+            for message in messages
+        )
+        if not messages:
+            least, most = (each - self.frame.uncounted for each in (self.frame.least, self.largest))
+            has = f"the {name} of a frame is {least}..{most}"
+        return _Refused(LENGTH_MISMATCH, self.frame.length.at, f"{has}, not {length}")
+
+    def _candidates(self, code: int) -> list[MessageLayout]:
+        found = self.messages.get(code)
+        if found is None:
+            due = f"no message {self.ways} has the {self.frame.id.name} {code}"
+            raise _Refused(UNKNOWN_COMMAND, self.frame.id.at, due)
+        self.likely = found[0]
+        return found
+
+    def _fitting(self, candidates: list[MessageLayout], length: int) -> list[MessageLayout]:
+        fitting = [message for message in candidates if length in message.lengths]
+        if not fitting:
+            raise self._mismatch(length, candidates)
+        return fitting
+
+    def _field(self, placed: Placed, length: int, count: int, due: str) -> None:
+        slot = placed.slot
+        if isinstance(slot, Constant):
+            self._constant(placed, slot)
+        if not isinstance(slot, Number):
+            return
+        if slot.role == "count" and not slot.write(count).startswith(placed.of(self.data)):
+            value = slot.read(self._whole(placed, due)) if placed.end <= len(self.data) else None
+            has = f"a {self.frame.length.name} of {length} makes {slot.name} {count}"
+            shown = "" if value is None else f", not {value}"
+            raise _Refused(COUNT_MISMATCH, placed.at, f"{has}{shown}")
+        value = slot.read(self._whole(placed, due))
+        if not slot.low <= value <= slot.high:
+            why = f"{placed.path} is {value}, outside {slot.low}..{slot.high}"
+            raise _Refused(OUT_OF_RANGE, placed.at, why)
