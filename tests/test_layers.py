@@ -15,7 +15,7 @@ STOREYS = [
     {"project", "language"},
     {"model"},
     {"checks"},
-    {"compile", "explain"},
+    {"compile", "explain", "conformance"},
     {"explain_text", "comparison", "output"},
     {"targets.target", "targets.templates", "targets.filenames"},
     {"targets.python", "targets.docs", "targets.vectors", "targets.schema"},

@@ -1,0 +1,161 @@
+"""The line language: what is asked of a codec, and how it answers, a line each.
+
+    decode WAY HEX                   -> message NAME HEX FIELDS...  or  refused REASON OFFSET
+    encode NAME FIELDS...            -> frame HEX                   or  refused
+    stream WAY LARGEST PARTS...      -> the events, a line each
+
+A way is the key of a direction, `controller_to_host`. FIELDS are `name=value`, in the order of the
+frame without counts; a list is `targets=1:800,9:800`, apart by commas, the fields of an element by
+colons. REASON is one of the reference's words with dashes: `count-mismatch`. PARTS are chunks in
+hex, in the order in which they arrive, and `quiet` wherever the line goes quiet; no frame larger
+than LARGEST bytes is to be taken. Events are `message NAME HEX FIELDS...`, `unknown HEX`,
+`noise REASON HEX` in pieces of any size, and `quiet` for each `quiet` of the question, once all
+that it decides is told. Every answer ends with a line `end`; `unsupported` alone says that a codec
+cannot do what it was asked.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, TypeAlias
+
+from framegen.model.codec import NotAFrame, Unencodable, decode, encode, values_of
+from framegen.model.slots import Items, Number
+from framegen.model.stream import Line
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Iterator, Mapping
+
+    from framegen.language.values import Direction
+    from framegen.model.layout import MessageLayout
+    from framegen.model.model import Model
+    from framegen.model.stream import Event
+
+END = "end"
+QUIET = "quiet"
+UNSUPPORTED = "unsupported"
+
+
+@dataclass(frozen=True, slots=True)
+class Decode:
+    """What are these bytes, as one frame?"""
+
+    way: Direction
+    data: bytes
+
+    @property
+    def line(self) -> str:
+        """The question, as it is sent."""
+        return f"decode {self.way.key} {self.data.hex()}".rstrip()
+
+
+@dataclass(frozen=True)
+class Encode:
+    """Which frame carries these values?"""
+
+    message: MessageLayout
+    values: Mapping[str, Any]
+
+    @property
+    def line(self) -> str:
+        """The question, as it is sent."""
+        return " ".join(["encode", self.message.name, *fields(self.message, self.values)])
+
+
+@dataclass(frozen=True, slots=True)
+class Stream:
+    """What does this line say? None among the parts is where it goes quiet."""
+
+    way: Direction
+    max_frame: int
+    parts: tuple[bytes | None, ...]
+
+    @property
+    def line(self) -> str:
+        """The question, as it is sent."""
+        parts = [QUIET if part is None else part.hex() for part in self.parts if part != b""]
+        return " ".join(["stream", self.way.key, str(self.max_frame), *parts])
+
+
+Question: TypeAlias = Decode | Encode | Stream
+
+
+def answer(model: Model, question: Question) -> list[str]:
+    """What the reference answers, without the `end`."""
+    match question:
+        case Decode():
+            return [_decoded(model, question)]
+        case Encode():
+            try:
+                return [f"frame {encode(question.message, question.values).hex()}"]
+            except Unencodable:
+                return ["refused"]
+        case Stream():
+            return list(_streamed(model, question))
+
+
+def _decoded(model: Model, question: Decode) -> str:
+    try:
+        message = decode(model, question.way, question.data).layout
+    except NotAFrame as error:
+        return f"refused {dashed(error.reason)} {error.offset}"
+    return _message(message, question.data)
+
+
+def _streamed(model: Model, question: Stream) -> Iterator[str]:
+    """What is told up to each quiet; what is still held at the end is not."""
+    line = Line(model, [question.way], question.max_frame)
+    stretch = b""
+    for part in question.parts:
+        if part is not None:
+            stretch += part
+            continue
+        yield from map(_event, line.decode(stretch))
+        yield QUIET
+        stretch = b""
+    yield from map(_event, line.decode_so_far(stretch))
+
+
+def _event(event: Event) -> str:
+    if event.message is not None:
+        return _message(event.message, event.data)
+    if event.kind == "unknown":
+        return f"unknown {event.data.hex()}"
+    return f"noise {dashed(event.reason)} {event.data.hex()}"
+
+
+def _message(message: MessageLayout, frame: bytes) -> str:
+    said = fields(message, values_of(message, frame))
+    return " ".join(["message", message.name, frame.hex(), *said])
+
+
+def fields(message: MessageLayout, values: Mapping[str, Any]) -> list[str]:
+    """Values as the language has them: `time_ms=1000`, `targets=1:800,9:800`."""
+    return [f"{slot.name}={_value(slot, values[slot.name])}" for slot in message.arguments]
+
+
+def _value(slot: Number | Items, value: Any) -> str:
+    if isinstance(slot, Number):
+        return str(value)
+    if slot.element is None:
+        return ",".join(map(str, value))
+    names = [field.name for field in slot.fields]
+    return ",".join(":".join(str(item[name]) for name in names) for item in value)
+
+
+def dashed(reason: str) -> str:
+    """A reason as one word."""
+    return reason.replace(" ", "-")
+
+
+def joined(lines: Iterable[str]) -> list[str]:
+    """The lines of an answer, with neighbouring noise of one reason made one; in lower case hex."""
+    found: list[str] = []
+    for line in lines:
+        words = line.split()
+        last = found[-1].split() if found else []
+        if words[:1] == ["noise"] and len(words) == 3 and words[:2] == last[:2]:
+            found[-1] += words[2].lower()
+        else:
+            found.append(" ".join(words))
+    return found
