@@ -1,1 +1,1 @@
-"""Asks a codec that somebody else wrote, in any language, and holds its answers to the reference."""
+"""Asks a codec that somebody else wrote, in any language, and compares it with the reference."""

@@ -38,7 +38,7 @@ UNSUPPORTED = "unsupported"
 
 @dataclass(frozen=True, slots=True)
 class Decode:
-    """What are these bytes, as one frame?"""
+    """Asks what some bytes are, as one frame."""
 
     way: Direction
     data: bytes
@@ -51,7 +51,7 @@ class Decode:
 
 @dataclass(frozen=True)
 class Encode:
-    """Which frame carries these values?"""
+    """Asks which frame carries some values."""
 
     message: MessageLayout
     values: Mapping[str, Any]
@@ -64,7 +64,7 @@ class Encode:
 
 @dataclass(frozen=True, slots=True)
 class Stream:
-    """What does this line say? None among the parts is where it goes quiet."""
+    """Asks what a line says. None among the parts is where it goes quiet."""
 
     way: Direction
     max_frame: int
