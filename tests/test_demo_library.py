@@ -18,8 +18,9 @@ from framegen.language import wiretypes
 from framegen.language.wiretypes import WIRE_TYPES, WireType
 from framegen.model import codec
 from framegen.model.codec import NotAFrame
-from framegen.model.layout import MessageLayout, Repeat, WireField
+from framegen.model.layout import MessageLayout
 from framegen.model.model import Model
+from framegen.model.slots import Items, Number
 from hypothesis import given
 from hypothesis import strategies as st
 
@@ -59,17 +60,17 @@ def lib() -> Any:
 # ------------------------------------------------------------------ values, both ways
 
 
-def numbers(field: WireField) -> st.SearchStrategy[int]:
+def numbers(field: Number) -> st.SearchStrategy[int]:
     ends = [field.low, field.low + 1, field.high - 1, field.high, 0, 1, -1]
     legal = [end for end in ends if field.low <= end <= field.high]
     return st.sampled_from(legal) | st.integers(field.low, field.high)
 
 
-def items(repeat: Repeat) -> st.SearchStrategy[Any]:
-    if repeat.element is None:
-        return numbers(repeat.fields[0])
-    names = [field.name for field in repeat.fields]
-    return st.tuples(*map(numbers, repeat.fields)).map(
+def items(listed: Items) -> st.SearchStrategy[Any]:
+    if listed.element is None:
+        return numbers(listed.fields[0])
+    names = [field.name for field in listed.fields]
+    return st.tuples(*map(numbers, listed.fields)).map(
         lambda item: dict(zip(names, item, strict=True))
     )
 
@@ -78,7 +79,7 @@ def values_of(message: MessageLayout) -> st.SearchStrategy[dict[str, Any]]:
     return st.fixed_dictionaries(
         {
             argument.name: st.lists(items(argument), min_size=argument.low, max_size=8)
-            if isinstance(argument, Repeat)
+            if isinstance(argument, Items)
             else numbers(argument)
             for argument in message.arguments
         }

@@ -6,10 +6,10 @@ import pytest
 from framegen.language.spec import Concern, Spec
 from framegen.language.values import Direction
 from framegen.model.codec import NotAFrame, Unencodable, decode, encode
-from framegen.model.envelope import derive_envelope, part_size
+from framegen.model.envelope import derive_envelope
 from framegen.model.facts import NoSuchFact, look_up
 from framegen.model.layout import MessageLayout
-from framegen.model.model import Model
+from framegen.model.slots import Number
 from framegen.wording import describe_range
 from hypothesis import given
 from hypothesis import strategies as st
@@ -73,9 +73,7 @@ def test_the_document_names_twelve_messages() -> None:
 @pytest.mark.parametrize("name", DOCUMENT)
 def test_a_message_lies_as_the_document_has_it(name: str) -> None:
     row, message = DOCUMENT[name], SERVO.messages[name]
-    offsets = {field.name: field.offset for field in message.numbers}
-    if message.repeat is not None:
-        offsets[message.repeat.name] = message.repeat.offset
+    offsets = {slot.name: slot.at for slot in message.fields}
     assert (
         Row(
             message.id,
@@ -93,7 +91,7 @@ def test_how_many_servos_a_frame_has_room_for() -> None:
     counts = {
         name: (message.counts[0], message.counts[-1])
         for name, message in SERVO.messages.items()
-        if message.repeat is not None
+        if message.items is not None
     }
     assert counts == {
         "ServoMove": (1, 83),
@@ -161,9 +159,12 @@ def test_a_byte_has_its_start_parity_and_stop_bits(link: dict[str, Any], bits: i
     assert layout_of(data).spec.link.bits_per_byte == bits
 
 
-def test_every_number_of_a_frame_has_its_place() -> None:
+def test_every_slot_of_a_frame_has_its_place() -> None:
     move = SERVO.messages["ServoMove"]
-    assert [(path, at, field.wire.size) for path, at, field in move.fields_of(2)] == [
+    assert [(placed.path, placed.at, placed.size) for placed in move.lay_out(2)] == [
+        ("header", 0, 2),
+        ("length", 2, 1),
+        ("command", 3, 1),
         ("servo_count", 4, 1),
         ("time_ms", 5, 2),
         ("targets[0].servo_id", 7, 1),
@@ -172,13 +173,39 @@ def test_every_number_of_a_frame_has_its_place() -> None:
         ("targets[1].position", 11, 2),
     ]
     state = HOUSE.messages["StationState"]
-    assert [(path, at) for path, at, _ in state.fields_of(2)] == [
+    assert [(placed.path, placed.at) for placed in state.lay_out(2)] == [
+        ("preamble", 0),
+        ("kind", 3),
+        ("size", 4),
         ("uptime_s", 6),
         ("reading_count", 10),
         ("readings[0]", 11),
         ("readings[1]", 13),
     ]
-    assert list(SERVO.messages["ActionGroupStop"].fields_of(0)) == []
+    assert [slot.role for slot in SERVO.messages["ActionGroupStop"].slots] == [
+        "constant",
+        "length",
+        "id",
+    ]
+
+
+def test_what_stands_behind_the_body_counts_from_the_end() -> None:
+    envelope = SERVO.lookalikes["lx16a"]
+    assert [(slot.name, slot.at) for slot in envelope.slots] == [
+        ("header", 0),
+        ("servo_id", 2),
+        ("length", 3),
+        ("command", 4),
+        ("parameters", 5),
+        ("checksum", -1),
+    ]
+    placed = {each.path: (each.at, each.size) for each in envelope.lay_out(10)}
+    assert (placed["parameters"], placed["checksum"]) == ((5, 4), (9, 1))
+    assert (envelope.least, envelope.uncounted, [slot.name for slot in envelope.tail]) == (
+        6,
+        3,
+        ["checksum"],
+    )
 
 
 def every_message() -> list[Any]:
@@ -190,17 +217,13 @@ def every_message() -> list[Any]:
 
 
 @pytest.mark.parametrize("message", every_message())
-def test_the_fields_of_every_legal_frame_fill_it_without_gap_or_overlap(
+def test_the_slots_of_every_legal_frame_fill_it_without_gap_or_overlap(
     message: MessageLayout,
 ) -> None:
     for count in message.counts:
-        taken = [
-            at + byte
-            for _, at, field in message.fields_of(count)
-            for byte in range(field.wire.size)
-        ]
-        size = message.formula.at(count) + message.frame.uncounted
-        assert taken == list(range(message.frame.body_at, size))
+        laid_out = message.lay_out(count)
+        taken = [byte for placed in laid_out for byte in range(placed.at, placed.end)]
+        assert taken == list(range(message.size_at(count)))
 
 
 @pytest.mark.parametrize("message", every_message())
@@ -212,21 +235,15 @@ def test_each_legal_length_has_one_count_and_each_count_one_length(message: Mess
     assert message.largest == len(encode(message, _values(message, message.counts[-1])))
 
 
-def _layout_of(message: MessageLayout) -> Model:
-    [layout] = [each for each in LAYOUTS.values() if message in each.messages.values()]
-    return layout
-
-
 def _values(message: MessageLayout, count: int) -> dict[str, Any]:
-    values: dict[str, Any] = {field.name: field.low for field in message.numbers}
-    for field in message.numbers:
-        if message.counts_with(field):
-            del values[field.name]
-    if message.repeat is not None:
-        item: Any = {field.name: field.high for field in message.repeat.fields}
-        if message.repeat.element is None:
-            item = message.repeat.fields[0].high
-        values[message.repeat.name] = [item] * count
+    values: dict[str, Any] = {}
+    for slot in message.arguments:
+        if isinstance(slot, Number):
+            values[slot.name] = slot.low
+        elif slot.element is None:
+            values[slot.name] = [slot.fields[0].high] * count
+        else:
+            values[slot.name] = [{field.name: field.high for field in slot.fields}] * count
     return values
 
 
@@ -242,11 +259,14 @@ def test_what_a_user_gives_is_everything_but_the_count() -> None:
 
 
 def test_a_field_is_narrowed_by_a_range_of_its_own() -> None:
-    [vent_id, angle] = HOUSE.messages["VentsOpen"].repeat.fields  # type: ignore[union-attr]
+    numbers = HOUSE.messages["VentsOpen"].numbers_by_path
+    vent_id, angle = numbers["vents.vent_id"], numbers["vents.angle"]
     assert (vent_id.low, vent_id.high, vent_id.narrowed) == (0, 255, False)
     assert (angle.low, angle.high, angle.narrowed) == (-900, 900, True)
     assert not any(
-        field.narrowed for message in SERVO.messages.values() for field in message.numbers
+        number.narrowed
+        for message in SERVO.messages.values()
+        for number in message.numbers_by_path.values()
     )
 
 
@@ -268,7 +288,7 @@ def test_an_open_range_ends_where_the_type_does(declared: str | None, low: int, 
         for end in dict.fromkeys([low, high])
     ]
     changed["messages"] = {**changed["messages"], "BatteryVoltage": message}
-    [field] = layout_of(changed).messages["BatteryVoltage"].numbers
+    field = layout_of(changed).messages["BatteryVoltage"].numbers_by_path["voltage_mv"]
     assert (field.low, field.high) == (low, high)
     assert field.narrowed == ((low, high) != (0, 65535))
 
@@ -293,19 +313,6 @@ def test_kinds_are_told_by_who_asks_and_who_answers() -> None:
         "VentJammed": "report",
         "TextShow": "command",
     }
-
-
-def test_the_parts_of_a_frame_have_their_sizes() -> None:
-    spec = Spec.model_validate(SPECS["greenhouse"])
-    assert {name: part_size(part) for name, part in spec.frame.items()} == {
-        "preamble": 3,
-        "kind": 1,
-        "size": 2,
-        "payload": 0,
-    }
-    lookalike = spec.lookalikes["orchard"].frame
-    assert lookalike is not None
-    assert {name: part_size(part) for name, part in lookalike.items()}["check"] == 1
 
 
 @pytest.mark.parametrize("gone", ["length", "command"])

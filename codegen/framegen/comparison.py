@@ -8,13 +8,15 @@ from typing import TYPE_CHECKING, Literal, TypeAlias
 from framegen.language.spec import ConstantPart, GroupField, IdPart, LengthPart
 from framegen.language.values import Direction, to_hex
 from framegen.model.exchanges import method_of
+from framegen.model.slots import Number
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator, Mapping
 
     from framegen.language.spec import FramePart, Limits, Link, Message, Pose
-    from framegen.model.layout import MessageLayout, Repeat, WireField
+    from framegen.model.layout import MessageLayout
     from framegen.model.model import Model
+    from framegen.model.slots import Items
 
 Breaks: TypeAlias = Literal["wire", "programs", "nothing"]
 
@@ -160,8 +162,8 @@ def _messages(old: Model, new: Model) -> Iterator[Difference]:
         reply = was.message.reply
         reply = None if reply is None else names.get(reply, reply)
         yield from _changed("message-reply", f"{path}.reply", reply, message.message.reply)
-        yield from _fields(f"{path}.fields", was.numbers, message.numbers, message)
-        yield from _list(f"{path}.fields", was.repeat, message.repeat)
+        yield from _fields(f"{path}.fields", _numbers(was), _numbers(message))
+        yield from _list(f"{path}.fields", was.items, message.items)
         if was.direction == old.roles.sent and message.direction == new.roles.sent:
             yield from _method(f"{path}.method", was, message)
             yield from _result(path, was, message, names)
@@ -183,7 +185,7 @@ def _result(
     path: str, old: MessageLayout, new: MessageLayout, names: Mapping[str, str]
 ) -> Iterator[Difference]:
     """What the result of a command tells besides that it was sent."""
-    fields = _renamed_fields(old.numbers, new.numbers)
+    fields = _renamed_fields(_numbers(old), _numbers(new))
     for key, renamed in (("acknowledged", names), ("lasts", fields)):
         was, now = getattr(old.message, key), getattr(new.message, key)
         was = renamed.get(was, was)
@@ -191,12 +193,7 @@ def _result(
         yield from _changed(kind, f"{path}.{key}", was, now)
 
 
-def _fields(
-    path: str,
-    old: tuple[WireField, ...],
-    new: tuple[WireField, ...],
-    message: MessageLayout | None = None,
-) -> Iterator[Difference]:
+def _fields(path: str, old: tuple[Number, ...], new: tuple[Number, ...]) -> Iterator[Difference]:
     """Numbers, one behind the other: those of a message, or of an element of its list."""
     names = _renamed_fields(old, new)
     before = {names.get(field.name, field.name): field for field in old}
@@ -206,8 +203,7 @@ def _fields(
             yield Difference("field-added", here, None, field.wire.name)
             continue
         was = before[field.name]
-        counts = message is not None and message.counts_with(field)
-        kind = "count-renamed" if counts else "field-renamed"
+        kind = "count-renamed" if field.role == "count" else "field-renamed"
         yield from _changed(kind, here, was.name, field.name)
         yield from _number(here, was, field)
     after = [field.name for field in new]
@@ -220,7 +216,7 @@ def _fields(
     yield from _properties(path, [*before.values()], [*new])
 
 
-def _properties(path: str, old: list[WireField], new: list[WireField]) -> Iterator[Difference]:
+def _properties(path: str, old: list[Number], new: list[Number]) -> Iterator[Difference]:
     """What follows from the numbers of a message, or of an element, as a property of its own."""
     was, now = _told_besides(old), _told_besides(new)
     for name in dict.fromkeys([*was, *now]):
@@ -233,7 +229,7 @@ def _properties(path: str, old: list[WireField], new: list[WireField]) -> Iterat
             yield from _changed("property-changed", here, was[name], now[name])
 
 
-def _told_besides(fields: Iterable[WireField]) -> dict[str, str]:
+def _told_besides(fields: Iterable[Number]) -> dict[str, str]:
     """Each such property by its name, and what it is made of."""
     found: dict[str, str] = {}
     for each in fields:
@@ -265,7 +261,7 @@ def _pose(old: Pose | None, new: Pose | None) -> Iterator[Difference]:
         yield from _changed("pose-changed", f"pose.{name}", getattr(old, name), getattr(new, name))
 
 
-def _number(path: str, old: WireField, new: WireField) -> Iterator[Difference]:
+def _number(path: str, old: Number, new: Number) -> Iterator[Difference]:
     if old.wire != new.wire:
         yield Difference("field-type", f"{path}.type", old.wire.name, new.wire.name)
     else:
@@ -277,7 +273,7 @@ def _number(path: str, old: WireField, new: WireField) -> Iterator[Difference]:
     yield from _values(f"{path}.values", old, new)
 
 
-def _values(path: str, old: WireField, new: WireField) -> Iterator[Difference]:
+def _values(path: str, old: Number, new: Number) -> Iterator[Difference]:
     was = {name: value.value for name, value in old.field.values.items()}
     now = {name: value.value for name, value in new.field.values.items()}
     names = _renamed(was, now)
@@ -293,7 +289,7 @@ def _values(path: str, old: WireField, new: WireField) -> Iterator[Difference]:
             yield Difference("value-removed", f"{path}.{called}", str(value))
 
 
-def _list(path: str, old: Repeat | None, new: Repeat | None) -> Iterator[Difference]:
+def _list(path: str, old: Items | None, new: Items | None) -> Iterator[Difference]:
     if old is None or new is None:
         if new is not None:
             yield Difference("field-added", f"{path}.{new.name}", None, "a list")
@@ -387,7 +383,11 @@ def _renamed(old: Mapping[str, object], new: Mapping[str, object]) -> dict[str, 
     return found
 
 
-def _renamed_fields(old: tuple[WireField, ...], new: tuple[WireField, ...]) -> dict[str, str]:
+def _numbers(message: MessageLayout) -> tuple[Number, ...]:
+    return tuple(slot for slot in message.fields if isinstance(slot, Number))
+
+
+def _renamed_fields(old: tuple[Number, ...], new: tuple[Number, ...]) -> dict[str, str]:
     places = (
         {field.name: (at, field.wire) for at, field in enumerate(each)} for each in (old, new)
     )
@@ -406,8 +406,8 @@ def _seen(way: Direction, ends: Mapping[str, str]) -> Direction:
 
 def _identity(message: MessageLayout, ends: Mapping[str, str]) -> object:
     """What makes two messages of different names the same: their frames."""
-    numbers = tuple(field.wire for field in message.numbers)
-    listed = () if message.repeat is None else tuple(f.wire for f in message.repeat.fields)
+    numbers = tuple(field.wire for field in _numbers(message))
+    listed = () if message.items is None else tuple(f.wire for f in message.items.fields)
     return message.id, _seen(message.direction, ends), numbers, listed
 
 

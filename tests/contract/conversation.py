@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
+from framegen.model.slots import Number
+
 if TYPE_CHECKING:
     from types import ModuleType
 
@@ -128,11 +130,11 @@ def _snake(made: ModuleType, exchange: Exchange) -> str:
 def _report(made: ModuleType, layout: MessageLayout, request: Any) -> Any:
     """A report with what the request said, where both have a field of that name."""
     values = dict(layout.message.examples[0].values)
-    for field in layout.numbers:
-        if field.name in values:
-            asked = getattr(request, field.name, values[field.name])
-            if isinstance(asked, int) and field.low <= asked <= field.high:
-                values[field.name] = asked
+    for slot in layout.arguments:
+        if isinstance(slot, Number):
+            asked = getattr(request, slot.name, values[slot.name])
+            if isinstance(asked, int) and slot.low <= asked <= slot.high:
+                values[slot.name] = asked
     return _made(made, layout, values)
 
 
@@ -146,8 +148,8 @@ def _reply(made: ModuleType, exchange: Exchange, layout: MessageLayout, request:
             values[outer] = value
         elif not inner:
             values[outer] = list(value)
-        elif layout.repeat is not None:
-            blank = {field.name: field.low for field in layout.repeat.fields}
+        elif layout.items is not None:
+            blank = {field.name: field.low for field in layout.items.fields}
             items = values[outer] if isinstance(values[outer], list) else []
             asked_for = value if isinstance(value, tuple) else (value,)
             values[outer] = [
@@ -170,6 +172,6 @@ def _made(made: ModuleType, layout: MessageLayout, values: dict[str, Any]) -> An
 
 def _argument(layout: MessageLayout, value: Any) -> Any:
     """A value of an example as users give it: elements as tuples, in the order of the frame."""
-    if not isinstance(value, list) or layout.repeat is None or layout.repeat.element is None:
+    if not isinstance(value, list) or layout.items is None or layout.items.element is None:
         return value
-    return [tuple(each[field.name] for field in layout.repeat.fields) for each in value]
+    return [tuple(each[field.name] for field in layout.items.fields) for each in value]

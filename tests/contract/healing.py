@@ -7,12 +7,13 @@ from typing import TYPE_CHECKING, Any
 
 from framegen.language.wiretypes import WIRE_TYPES
 from framegen.model.codec import Unencodable, encode
+from framegen.model.slots import Number
 from framegen.reading.yamltree import Unusable
 
 from tests.specimens import Data, compiled_of
 
 if TYPE_CHECKING:
-    from framegen.model.layout import MessageLayout, WireField
+    from framegen.model.layout import MessageLayout
     from framegen.model.model import Model
 
 
@@ -44,10 +45,8 @@ def healed(data: Data) -> Data | None:
 
 def _examples(model: Model, message: MessageLayout) -> list[dict[str, Any]]:
     """Frames with every value that an example has to show."""
-    fields = [*message.numbers, *(message.repeat.fields if message.repeat else ())]
-    shown = [
-        _values(model, message, number) for number in range(max(map(_many, fields), default=1))
-    ]
+    fields = message.numbers_by_path.values()
+    shown = [_values(message, number) for number in range(max(map(_many, fields), default=1))]
     return [
         {
             "title": f"Example {number}",
@@ -59,34 +58,32 @@ def _examples(model: Model, message: MessageLayout) -> list[dict[str, Any]]:
     ]
 
 
-def _values(model: Model, message: MessageLayout, number: int) -> dict[str, Any]:
-    repeat = message.repeat
+def _values(message: MessageLayout, number: int) -> dict[str, Any]:
     values: dict[str, Any] = {}
-    for argument in message.arguments:
-        if argument is not repeat:
-            field = next(each for each in message.numbers if each.name == argument.name)
-            values[field.name] = _shown(field, number)
-    if repeat is not None:
-        many = repeat.low if number == 1 else min(repeat.high, max(repeat.low, 2))
-        values[repeat.name] = [
-            {field.name: _shown(field, number + at) for field in repeat.fields}
-            if repeat.element is not None
-            else _shown(repeat.fields[0], number + at)
+    for slot in message.arguments:
+        if isinstance(slot, Number):
+            values[slot.name] = _shown(slot, number)
+            continue
+        many = slot.low if number == 1 else min(slot.high, max(slot.low, 2))
+        values[slot.name] = [
+            {field.name: _shown(field, number + at) for field in slot.fields}
+            if slot.element is not None
+            else _shown(slot.fields[0], number + at)
             for at in range(many)
         ]
     return values
 
 
-def _shown(field: WireField, number: int) -> int:
+def _shown(field: Number, number: int) -> int:
     found = _all_of(field)
     return found[number % len(found)]
 
 
-def _many(field: WireField) -> int:
+def _many(field: Number) -> int:
     return len(_all_of(field)) + 1
 
 
-def _all_of(field: WireField) -> list[int]:
+def _all_of(field: Number) -> list[int]:
     """The values that an example of a field has to show, inside its limits."""
     found = [field.low, field.high, *(each.value for each in field.field.values.values())]
     if field.field.signed_as in WIRE_TYPES:
