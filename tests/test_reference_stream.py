@@ -1,0 +1,92 @@
+"""The reference stream decoder: its rules, one line of bytes each, worked out by hand."""
+
+import pytest
+from framegen.language.values import Direction
+from framegen.model.stream import Line
+from hypothesis import given
+from hypothesis import strategies as st
+
+from tests.specimens import BUSSERVO, data_of, layout_of
+
+SERVO = layout_of(data_of(BUSSERVO))
+HOST = Line(SERVO, [Direction("host", "controller")])
+SMALL = Line(SERVO, [Direction("host", "controller")], max_frame=64)
+BOTH = Line(SERVO, SERVO.directions)
+
+STOP = "55550207"
+TAIL = ("too short", "5555")
+# A line, its bytes, and what they are: a message by name, else `?` or the reason, and the bytes.
+LINES: list[tuple[Line, str, list[tuple[str, str]]]] = [
+    (HOST, "", []),
+    (HOST, STOP + STOP, [("ActionGroupStop", STOP)] * 2),
+    # Bytes without a header are one piece, and a refused header costs one byte.
+    (HOST, "0013" + STOP, [("bad header", "0013"), ("ActionGroupStop", STOP)]),
+    (HOST, "55" + STOP, [("unknown command", "55"), ("ActionGroupStop", STOP)]),
+    (HOST, "5555FF" + STOP, [("unknown command", "5555ff"), ("ActionGroupStop", STOP)]),
+    # Each refused header begins a piece; those of one reason are joined.
+    (
+        HOST,
+        "00555500111155550022",
+        [("bad header", "00"), ("length mismatch", "555500111155550022")],
+    ),
+    (HOST, "5555005555FF63", [("length mismatch", "555500"), ("unknown command", "5555ff63")]),
+    # The end of a line: what was waited for is too short, and a begun header is none.
+    (HOST, "5555", [("too short", "5555")]),
+    (HOST, "55", [("bad header", "55")]),
+    (HOST, "5555080301E80301", [("too short", "5555080301e80301")]),
+    (HOST, "5555080301" + STOP, [("too short", "5555080301"), ("ActionGroupStop", STOP)]),
+    # An unknown frame is shown where all of it came and nothing in it may begin a frame, ...
+    (HOST, "555504630102" + STOP, [("?", "555504630102"), ("ActionGroupStop", STOP)]),
+    (HOST, "555502630055", [("?", "55550263"), ("bad header", "0055")]),
+    # ... which it may not where it is cut short, holds a frame, or ends as a header begins.
+    (HOST, "5555046301", [("unknown command", "5555046301")]),
+    (HOST, "55550663" + STOP, [("unknown command", "55550663"), ("ActionGroupStop", STOP)]),
+    (HOST, "5555036355" + "00", [("unknown command", "555503635500")]),
+    (HOST, "555504635555" + "0207", [("unknown command", "55550463"), ("ActionGroupStop", STOP)]),
+    # A claim within one that is none is judged by its own bytes, too.
+    (
+        HOST,
+        "55550A63" + "5555026300000000"[:8],
+        [("unknown command", "55550a63"), ("?", "55550263")],
+    ),
+    # What is larger than there is room for is refused by its length, known or not.
+    (SMALL, "55553F63" + STOP, [("length mismatch", "55553f63"), ("ActionGroupStop", STOP)]),
+    (SMALL, "555541031355", [("length mismatch", "555541031355")]),
+    # With both ends heard, an id is unknown only where neither sends it.
+    (BOTH, "55550208" + "55550408", [("length mismatch", "5555020855550408")]),
+    (BOTH, "5555040FC91E", [("BatteryVoltage", "5555040fc91e")]),
+]
+
+
+@pytest.mark.parametrize(("line", "text", "told"), LINES)
+def test_a_line_says(line: Line, text: str, told: list[tuple[str, str]]) -> None:
+    events = line.decode(bytes.fromhex(text))
+    assert [
+        (
+            event.message.name
+            if event.message
+            else "?"
+            if event.kind == "unknown"
+            else event.reason,
+            event.data.hex(),
+        )
+        for event in events
+    ] == told
+    assert [event.at for event in events] == [
+        len(b"".join(each.data for each in events[:number])) for number in range(len(events))
+    ]
+
+
+heads = st.sampled_from(["55", "5555", "555502", "55550263", "55550463", "5555FF63", STOP, "00"])
+texts = st.lists(heads, max_size=10).map("".join).map(bytes.fromhex)
+
+
+@given(st.sampled_from([HOST, SMALL, BOTH]), texts, texts)
+def test_what_is_told_already_stands_whatever_comes(line: Line, begun: bytes, rest: bytes) -> None:
+    early = line.decode_so_far(begun)
+    messages = [(event.at, event.data) for event in early if event.kind != "noise"]
+    for whole in line.decode(begun + rest), line.decode_so_far(begun + rest):
+        later = [(event.at, event.data) for event in whole if event.kind != "noise"]
+        assert later[: len(messages)] == messages
+    held = len(begun) - sum(len(event.data) for event in early)
+    assert 0 <= held <= SERVO.largest(line.directions)

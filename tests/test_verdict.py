@@ -1,0 +1,111 @@
+"""Why bytes are no frame: the first of them that no legal frame can have says so."""
+
+import pytest
+from framegen.language.values import Direction
+from framegen.model.codec import NotAFrame, decode
+from framegen.model.model import Model
+from framegen.model.verdict import weigh
+from hypothesis import given
+from hypothesis import strategies as st
+
+from tests.specimens import BUSSERVO, DEMO, data_of, layout_of
+
+SERVO = layout_of(data_of(BUSSERVO))
+HOUSE = layout_of(data_of(DEMO))
+HOST = Direction("host", "controller")
+CONTROLLER = Direction("controller", "host")
+GATEWAY = Direction("gateway", "station")
+
+# A model, a direction (None for both), bytes, the reason, and the byte at which it shows.
+REFUSED: list[tuple[Model, Direction | None, str, str, int]] = [
+    # In the order of the bytes: the header, ...
+    (SERVO, HOST, "54 55", "bad header", 0),
+    (SERVO, HOST, "55 54 02 07", "bad header", 1),
+    # ... the length, which is refused alone where no frame of this direction has it, ...
+    (SERVO, HOST, "55 55 01", "length mismatch", 2),
+    (SERVO, HOST, "55 55 01 63", "length mismatch", 2),
+    (SERVO, HOST, "55 55 00 07", "length mismatch", 2),
+    # ... the command, ...
+    (SERVO, HOST, "55 55 FF 63", "unknown command", 3),
+    (SERVO, HOST, "55 55 02 08", "unknown command", 3),
+    (SERVO, CONTROLLER, "55 55 02 03", "unknown command", 3),
+    # ... the length that this command cannot have, ...
+    (SERVO, HOST, "55 55 03 07", "length mismatch", 2),
+    (SERVO, HOST, "55 55 05 03 01 E8 03", "length mismatch", 2),
+    # ... and the count, however much of the frame is still to come, or comes behind it.
+    (SERVO, HOST, "55 55 08 03 02", "count mismatch", 4),
+    (SERVO, HOST, "55 55 08 03 02 E8 03 01 20 03 00 00", "count mismatch", 4),
+    # What ends too early is too short, and nothing else is wrong with it.
+    (SERVO, HOST, "", "too short", 0),
+    (SERVO, HOST, "55 55 08 03 01 E8 03 01 20", "too short", 9),
+    # Here the id comes first, and the length is one of two bytes.
+    (HOUSE, GATEWAY, "C3 5A A5 77", "unknown command", 3),
+    (HOUSE, GATEWAY, "C3 5A A5 77 FF FF", "unknown command", 3),
+    (HOUSE, GATEWAY, "C3 5A A5 10 FF", "too short", 5),
+    (HOUSE, GATEWAY, "C3 5A A5 10 FF FF", "length mismatch", 4),
+    (HOUSE, GATEWAY, "C3 5A A5 10 00 04", "length mismatch", 4),
+    # A count and a range: whichever stands first.
+    (HOUSE, GATEWAY, "C3 5A A5 10 00 06 00 00 02 01 FC 7B", "count mismatch", 8),
+    (HOUSE, GATEWAY, "C3 5A A5 10 00 06 00 00 01 01 FC 7B", "out of range", 10),
+    (HOUSE, GATEWAY, "C3 5A A5 10 00 09 00 00 02 01 FC 7B 01", "out of range", 10),
+    (HOUSE, GATEWAY, "C3 5A A5 10 00 09 00 00 02 01 FC", "too short", 11),
+    # Of both directions, the one in which it goes furthest.
+    (SERVO, None, "55 55 08 15 06", "count mismatch", 4),
+    (SERVO, None, "55 55 09 15 06 01 02", "too short", 7),
+    (SERVO, None, "55 55 09 63 06", "unknown command", 3),
+]
+
+
+@pytest.mark.parametrize(("model", "way", "text", "reason", "offset"), REFUSED)
+def test_the_first_byte_that_no_frame_can_have_is_the_reason(
+    model: Model, way: Direction | None, text: str, reason: str, offset: int
+) -> None:
+    data = bytes.fromhex(text)
+    verdict = weigh(model, model.directions if way is None else [way], data)
+    assert (verdict.message, verdict.reason, verdict.offset) == (None, reason, offset)
+    with pytest.raises(NotAFrame) as refused:
+        decode(model, way, data)
+    assert (refused.value.reason, refused.value.offset) == (reason, offset)
+
+
+def test_bytes_behind_a_frame_are_told_of_a_frame_alone() -> None:
+    data = bytes.fromhex("55 55 02 07 00")
+    verdict = weigh(SERVO, [HOST], data)
+    assert verdict.message is SERVO.messages["ActionGroupStop"]
+    assert verdict.offset == 4
+    with pytest.raises(NotAFrame, match=r"^trailing bytes at byte 4: "):
+        decode(SERVO, HOST, data)
+
+
+@pytest.mark.parametrize(
+    ("largest", "reason"), [(None, "too short"), (64, "too short"), (63, "length mismatch")]
+)
+def test_a_frame_larger_than_there_is_room_for_is_refused_by_its_length(
+    largest: int | None, reason: str
+) -> None:
+    verdict = weigh(SERVO, [HOST], bytes.fromhex("55 55 3E 03"), largest)
+    assert (verdict.reason, verdict.offset) == (reason, 4 if reason == "too short" else 2)
+
+
+@given(st.sampled_from([(SERVO, HOST), (SERVO, CONTROLLER), (HOUSE, GATEWAY)]), st.data())
+def test_a_verdict_stands_whatever_comes_behind(
+    where: tuple[Model, Direction], data: st.DataObject
+) -> None:
+    model, way = where
+    examples = [
+        each.hex for message in model.messages.values() for each in message.message.examples
+    ]
+    frame = bytearray(data.draw(st.sampled_from(examples)))
+    at = data.draw(st.integers(0, len(frame) - 1))
+    frame[at] = data.draw(st.integers(0, 255))
+    whole = weigh(model, [way], bytes(frame))
+    for size in range(len(frame)):
+        begun = weigh(model, [way], bytes(frame[:size]))
+        if begun.undecided:
+            assert begun.offset == size
+        else:
+            assert (begun.message, begun.reason, begun.offset) == (
+                whole.message,
+                whole.reason,
+                whole.offset,
+            )
