@@ -26,7 +26,10 @@ HERE = Path(__file__).parent
 
 # The files that judge each package, those first that soonest cannot be imported.
 JUDGES = {
-    "framegen": ("layout", "explain", "check", "edges", "values", "formula", "scalars", "vectors"),
+    "framegen": (
+        *("verdict", "reference_stream", "layout", "explain", "check", "edges", "values"),
+        *("formula", "scalars", "vectors"),
+    ),
     "busservo": (
         *("decode", "messages", "edges", "narrow_ranges", "vectors", "stream", "oracle_agrees"),
         "stream_machine",
