@@ -1,9 +1,11 @@
 """Why bytes are no frame: the first of them that no legal frame can have says so."""
 
 import pytest
+from framegen.language.spec import Spec
 from framegen.language.values import Direction
-from framegen.model.codec import NotAFrame, decode
-from framegen.model.model import Model
+from framegen.model.codec import NotAFrame, decode, encode
+from framegen.model.model import Model, derive
+from framegen.model.stream import Line
 from framegen.model.verdict import weigh
 from hypothesis import given
 from hypothesis import strategies as st
@@ -109,3 +111,19 @@ def test_a_verdict_stands_whatever_comes_behind(
                 whole.reason,
                 whole.offset,
             )
+
+
+def test_a_part_behind_the_fields_is_a_slot_like_any_other() -> None:
+    data = data_of(BUSSERVO)
+    data["frame"]["end"] = {"is": "constant", "bytes": "0D 0A"}
+    model = derive(Spec.model_validate(data))
+    move = model.messages["ServoMove"]
+    frame = bytes.fromhex("55 55 08 03 01 E8 03 01 20 03 0D 0A")
+    values = {"time_ms": 1000, "targets": [{"servo_id": 1, "position": 800}]}
+    assert encode(move, values) == frame
+    assert decode(model, HOST, frame).values == values
+    wrong = weigh(model, [HOST], frame[:-1] + b"\x0b")
+    assert (wrong.reason, wrong.offset) == ("bad header", 11)
+    assert weigh(model, [HOST], frame[:-1]).undecided
+    told = Line(model, [HOST]).decode(b"\x55" + frame + frame[:-1])
+    assert [event.kind for event in told] == ["noise", "message", "noise"]
