@@ -6,12 +6,15 @@ from framegen.model.stream import Line
 from hypothesis import given
 from hypothesis import strategies as st
 
-from tests.specimens import BUSSERVO, data_of, layout_of
+from tests.specimens import BUSSERVO, DEMO, data_of, layout_of
 
 SERVO = layout_of(data_of(BUSSERVO))
 HOST = Line(SERVO, [Direction("host", "controller")])
 SMALL = Line(SERVO, [Direction("host", "controller")], max_frame=64)
 BOTH = Line(SERVO, SERVO.directions)
+
+HOUSE = Line(layout_of(data_of(DEMO)), [Direction("gateway", "station")])
+TIGHT = Line(HOUSE.model, HOUSE.directions, max_frame=8)
 
 STOP = "55550207"
 TAIL = ("too short", "5555")
@@ -52,6 +55,12 @@ LINES: list[tuple[Line, str, list[tuple[str, str]]]] = [
     # What is larger than there is room for is refused by its length, known or not.
     (SMALL, "55553F63" + STOP, [("length mismatch", "55553f63"), ("ActionGroupStop", STOP)]),
     (SMALL, "555541031355", [("length mismatch", "555541031355")]),
+    # Where the id comes first, it is unknown before the length is there, which still has a say.
+    (HOUSE, "C35AA577", [("unknown command", "c35aa577")]),
+    (HOUSE, "C35AA57700020000", [("?", "c35aa57700020000")]),
+    (HOUSE, "C35AA577FFFF0000", [("unknown command", "c35aa577ffff0000")]),
+    (TIGHT, "C35AA57700020000", [("?", "c35aa57700020000")]),
+    (TIGHT, "C35AA5770003000000", [("unknown command", "c35aa5770003000000")]),
     # With both ends heard, an id is unknown only where neither sends it.
     (BOTH, "55550208" + "55550408", [("length mismatch", "5555020855550408")]),
     (BOTH, "5555040FC91E", [("BatteryVoltage", "5555040fc91e")]),

@@ -54,6 +54,7 @@ REFUSED: list[tuple[Model, Direction | None, str, str, int]] = [
     # Of both directions, the one in which it goes furthest.
     (SERVO, None, "55 55 08 15 06", "count mismatch", 4),
     (SERVO, None, "55 55 09 15 06 01 02", "too short", 7),
+    (SERVO, None, "55 55 09 15 02 01 02", "too short", 7),
     (SERVO, None, "55 55 09 63 06", "unknown command", 3),
 ]
 
@@ -68,6 +69,26 @@ def test_the_first_byte_that_no_frame_can_have_is_the_reason(
     with pytest.raises(NotAFrame) as refused:
         decode(model, way, data)
     assert (refused.value.reason, refused.value.offset) == (reason, offset)
+
+
+@pytest.mark.parametrize(
+    ("text", "due"),
+    [
+        ("54", "a frame begins 55 55"),
+        ("55 55 02", "the shortest frame has 4 bytes"),
+        ("55 55 01", "the length of a frame is 2..255, not 1"),
+        ("55 55 01 07", "ActionGroupStop has a length of 2, not 1"),
+        ("55 55 02 63", "no message host -> controller has the command 99"),
+        ("55 55 03 07", "ActionGroupStop has a length of 2, not 3"),
+        ("55 55 08 03 02", "a length of 8 makes servo_count 1, not 2"),
+        ("55 55 08 03", "a length of 8 makes 10 bytes"),
+        ("55 55 02 07 00", "a length of 2 makes 4 bytes"),
+    ],
+)
+def test_a_refusal_says_what_was_due(text: str, due: str) -> None:
+    with pytest.raises(NotAFrame) as refused:
+        decode(SERVO, HOST, bytes.fromhex(text))
+    assert refused.value.expected == due
 
 
 def test_bytes_behind_a_frame_are_told_of_a_frame_alone() -> None:
