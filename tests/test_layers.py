@@ -14,7 +14,7 @@ STOREYS = [
     {"reading"},
     {"project", "language"},
     {"model"},
-    {"checks"},
+    {"checks", "cases"},
     {"compile", "explain", "conformance"},
     {"explain_text", "comparison", "output"},
     {"targets.target", "targets.templates", "targets.filenames"},

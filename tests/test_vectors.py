@@ -7,7 +7,7 @@ from typing import Any
 import busservo
 import pytest
 from busservo import MESSAGES, DecodeError, Direction, Reason
-from framegen.targets.vectors import _range_ends
+from framegen.cases.valid import range_ends
 
 from tests import oracle
 from tests.cases import CASES
@@ -124,6 +124,6 @@ def test_a_list_is_no_longer_than_to_need_two_bytes_of_its_count(
     fields["readings"]["count"] = count
     model = compiled_of(data).derived
     assert model is not None
-    ends = dict(_range_ends(model.messages["StationState"]))
+    ends = dict(range_ends(model.messages["StationState"]))
     assert [*ends] == ["every value at its lowest", title]
     assert len(ends[title]["readings"]) == items

@@ -3,11 +3,11 @@
 from pathlib import Path
 
 import pytest
+from framegen.cases.invalid import spoilt
 from framegen.model.model import derive
 from framegen.targets.docs.drawing import interruption
 from framegen.targets.docs.lessons import lessons
 from framegen.targets.docs.walk import Walk, walk
-from framegen.targets.vectors import _spoilt
 
 from tests.docs.peers import Event, library, noisy_lines, python_events
 from tests.docs.reference import SPECS, reference
@@ -82,7 +82,9 @@ def test_where_every_code_has_a_meaning_no_lesson_is_about_one_that_has_none() -
     assert spec is not None
     layout = derive(spec)
     assert "unknown" not in [lesson.id for lesson in lessons(layout)]
-    told = [said for said, _ in _spoilt(layout, layout.messages["StationRead"], bytes(6))]
+    message = layout.messages["StationRead"]
+    frame = message.message.examples[0].hex
+    told = [said for said, _ in spoilt(layout, message, frame)]
     assert "a byte too many" in told
     assert "an unknown command" not in told
 

@@ -1,0 +1,1 @@
+"""What a codec in any language is to be tried on: frames, bytes that are none, and whole lines."""

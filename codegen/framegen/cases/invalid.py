@@ -1,0 +1,94 @@
+"""Bytes that are no frame, with the reason: every documented frame, spoilt in every way."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from framegen.cases.unknown_id import unknown_id
+from framegen.model.codec import NotAFrame, decode
+from framegen.model.slots import Constant, Number
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from framegen.language.values import Direction
+    from framegen.model.layout import MessageLayout
+    from framegen.model.model import Model
+    from framegen.model.slots import Placed
+
+
+@dataclass(frozen=True, slots=True)
+class InvalidFrame:
+    """Bytes that are no frame, why, and where that shows."""
+
+    title: str
+    direction: Direction
+    data: bytes
+    reason: str
+    offset: int
+
+
+def invalid_frames(model: Model) -> Iterator[InvalidFrame]:
+    """Every example of the spec, spoilt; each bytes once."""
+    for direction in model.directions:
+        seen: set[bytes] = set()
+        for message in model.sent(direction).values():
+            for example in message.message.examples:
+                for title, data in spoilt(model, message, example.hex):
+                    if data in seen:
+                        continue
+                    seen.add(data)
+                    try:
+                        decode(model, direction, data)
+                    except NotAFrame as error:
+                        yield InvalidFrame(
+                            f"{message.name}: {title}", direction, data, error.reason, error.offset
+                        )
+
+
+def spoilt(model: Model, message: MessageLayout, frame: bytes) -> Iterator[tuple[str, bytes]]:
+    """A frame with one thing wrong with it. Some are legal frames after all."""
+    envelope = model.frame
+    for size in sorted({0, 1, len(envelope.header), envelope.body_at - 1, len(frame) - 1}):
+        yield f"only the first {size} bytes", frame[:size]
+    yield "a byte too many", frame + b"\x00"
+    for placed in _each_slot_once(message, frame):
+        for title, data in spoilt_slot(model, message, placed, placed.of(frame)):
+            yield title, frame[: placed.at] + data + frame[placed.end :]
+
+
+def _each_slot_once(message: MessageLayout, frame: bytes) -> Iterator[Placed]:
+    """Where the slots of a frame stand; of a list, the fields of its first element."""
+    length = message.frame.length
+    count = message.count_at(length.read(frame[length.at : length.at + length.size]))
+    seen: set[int] = set()
+    for placed in message.lay_out(count):
+        if id(placed.slot) not in seen:
+            seen.add(id(placed.slot))
+            yield placed
+
+
+def spoilt_slot(
+    model: Model, message: MessageLayout, placed: Placed, data: bytes
+) -> Iterator[tuple[str, bytes]]:
+    """The bytes of one slot, made wrong in every way that its role has."""
+    slot = placed.slot
+    if isinstance(slot, Constant):
+        yield "a header byte flipped", data[:-1] + bytes([data[-1] ^ 0xFF])
+    if not isinstance(slot, Number):
+        return
+    match slot.role:
+        case "length" | "count":
+            for step in -1, 1:
+                value = (slot.read(data) + step) % (slot.wire.high + 1)
+                yield f"the {slot.role} off by {step:+}", slot.write(value)
+        case "id":
+            unknown = unknown_id(model, message.direction)
+            if unknown is not None:
+                yield "an unknown command", slot.write(unknown)
+        case _:
+            if slot.high < slot.wire.high:
+                yield f"{placed.path} too high", slot.write(slot.high + 1)
+            if slot.low > slot.wire.low:
+                yield f"{placed.path} too low", slot.write(slot.low - 1)

@@ -1,0 +1,33 @@
+"""An id that no message has, for frames that nobody knows."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from framegen.language.values import Direction
+    from framegen.model.model import Model
+
+# More ids than any protocol has messages in a row.
+_TRIED = 0x1000
+
+
+def unknown_id(model: Model, direction: Direction) -> int | None:
+    """An id that no message has, in this direction at least; None where all are taken.
+
+    The highest, and none with a byte of the header, as far as there is one: new messages seldom
+    take it, so that cases stay what they are.
+    """
+    slot, header = model.frame.id, model.frame.header
+    free = [
+        number
+        for number in range(slot.high, max(slot.low - 1, slot.high - _TRIED), -1)
+        if number not in model.sent(direction)
+    ]
+    taken = {message.id for message in model.messages.values()}
+    strange = (
+        number
+        for number in free
+        if number not in taken and not set(header) & set(slot.write(number))
+    )
+    return next(strange, free[0] if free else None)
