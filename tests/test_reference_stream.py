@@ -86,6 +86,28 @@ def test_a_line_says(line: Line, text: str, told: list[tuple[str, str]]) -> None
     ]
 
 
+@pytest.mark.parametrize(
+    ("line", "text", "held"),
+    [
+        (HOST, STOP, 0),
+        (HOST, "00", 0),
+        (HOST, "0055", 1),
+        (HOST, "00555502", 3),
+        (HOST, "5555080301E803", 7),
+        # A claim waits for all of its bytes, unless a frame in it is there already.
+        (HOST, "5555046301", 5),
+        (HOST, "55550A635555", 6),
+        (HOST, "55550A63" + STOP, 0),
+        (HOST, "55550A63" + STOP + "55", 1),
+        (HOUSE, "C35AA577", 4),
+    ],
+)
+def test_what_may_become_a_frame_is_held(line: Line, text: str, held: int) -> None:
+    data = bytes.fromhex(text)
+    told = line.decode_so_far(data)
+    assert b"".join(event.data for event in told) == data[: len(data) - held]
+
+
 heads = st.sampled_from(["55", "5555", "555502", "55550263", "55550463", "5555FF63", STOP, "00"])
 texts = st.lists(heads, max_size=10).map("".join).map(bytes.fromhex)
 
