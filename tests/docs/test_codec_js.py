@@ -90,7 +90,9 @@ def test_single_frames_are_judged_as_the_reference_judges_them(page: Page) -> No
 
 
 def test_published_frames_are_decoded_and_encoded(page: Page) -> None:
-    model, questions, expected = page.model, [], []
+    model = page.model
+    questions: list[Question] = []
+    expected: list[str] = []
     for vector in vectors_of(page.compiled)["valid"]:
         message, data = model.messages[vector["message"]], bytes.fromhex(vector["hex"])
         said = " ".join(fields(message, vector["fields"]))

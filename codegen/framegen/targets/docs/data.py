@@ -28,7 +28,8 @@ _REASONS = {
 def protocol_data(model: Model) -> dict[str, Any]:
     """Everything that decoding and encoding need.
 
-    The slots of a message are those of `frame`, with its fields where the body is.
+    The slots of a message are those of `frame`, with its fields where the body is. Its frame has
+    `size` bytes and those of as many elements as `counts` allows.
     """
     return {
         "name": model.spec.protocol.name,

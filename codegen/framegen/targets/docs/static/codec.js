@@ -79,7 +79,7 @@ function makeCodec(protocol) {
     return kind.size + (kind.list ? count * kind.list.size : 0);
   }
 
-  // The frame of a message that has `size` bytes: what stands where. Null where it has none such.
+  // The frame of `size` bytes that a message has, and what stands where in it; null where it has none.
   function frameOf(kind, size) {
     const count = kind.list ? (size - kind.size) / kind.list.size : 0;
     const { low, high } = kind.counts;
@@ -119,8 +119,8 @@ function makeCodec(protocol) {
 
   const refused = (reason, offset) => ({ frame: null, reason, offset });
 
-  // Why a slot cannot be what stands in it; null where it can. As much of it as stands in front of
-  // `limit` is looked at; `at` is where the frame begins.
+  // Why the bytes `offset` bytes into a frame at `at` are not those of a slot; null where they are.
+  // Those that it must have are `expected`; nothing from `limit` on is looked at.
   function misfit(slot, offset, expected, bytes, at, limit) {
     const start = at + offset;
     const wrong = expected.findIndex((byte, i) => start + i < limit && bytes[start + i] !== byte);
@@ -132,8 +132,8 @@ function makeCodec(protocol) {
     return value < slot.low || value > slot.high ? refused(Reason.range, offset) : null;
   }
 
-  // What the bytes from `at` to `limit` begin: a frame, or the reason and the offset at which it
-  // shows that they begin none. Looked at in the order in which they come, the first that no frame
+  // What the bytes from `at` to `limit` begin: a frame; or none, for which reason, and at which
+  // offset that shows. They are tested in the order in which they come, and the first that no frame
   // can have decides. "Too short" is what may become a frame.
   function weigh(line, bytes, at, limit) {
     let size = null, named = null, frames = [];
@@ -156,6 +156,7 @@ function makeCodec(protocol) {
     return best(frames.map((frame) => weighFields(frame, bytes, at, limit)));
   }
 
+  // What follows the head, as the rest of one frame.
   function weighFields(frame, bytes, at, limit) {
     for (const placed of frame.inner) {
       const wrong = misfit(placed.slot, placed.at, placed.due, bytes, at, limit);
@@ -184,9 +185,9 @@ function makeCodec(protocol) {
   function judge(line, bytes, at) {
     const verdict = weigh(line, bytes, at, bytes.length);
     if (verdict.frame) return { type: "message", size: verdict.frame.size, ...verdict };
+    if (verdict.reason === Reason.tooShort) return { type: "begun", size: 1, ...verdict };
     const claimed = verdict.reason === Reason.unknown ? claimOf(line, bytes, at) : 0;
-    const begun = verdict.reason === Reason.tooShort ? "begun" : "noise";
-    const type = claimed ? fateOf(line, bytes, at, at + claimed) : begun;
+    const type = claimed ? fateOf(line, bytes, at, at + claimed) : "noise";
     return { type, size: type === "unknown" ? claimed : 1, ...verdict };
   }
 
@@ -209,6 +210,7 @@ function makeCodec(protocol) {
     return whole ? "unknown" : "begun";
   }
 
+  // A message or an unknown frame, as it is told.
   function eventOf({ type, frame, reason, offset }, at, bytes) {
     const said = frame ? messageOf(frame, bytes) : { reason, refusedAt: at + offset };
     return { type, at, bytes, ...said };
@@ -233,7 +235,8 @@ function makeCodec(protocol) {
       return { type: "noise", at, bytes: [], refusedAt: at + offset, ...why };
     }
 
-    function search(quiet) {
+    function search(arrived, quiet) {
+      held = [...held, ...arrived];
       const events = [];
       let at = 0;
       while (at < held.length) {
@@ -251,21 +254,16 @@ function makeCodec(protocol) {
         at += found.size;
       }
       [held, base] = [held.slice(at), base + at];
+      // What was returned is the caller's: what may follow goes into a piece of its own.
       noise = quiet || !noise ? null : { ...noise, at: base, bytes: [] };
       return events;
     }
 
     return {
       // These bytes have arrived, and more may follow.
-      feed(bytes) {
-        held = [...held, ...bytes];
-        return search(false);
-      },
+      feed: (bytes) => search(bytes, false),
       // The line has gone quiet, after these bytes: what has begun goes no further.
-      flush(bytes = []) {
-        held = [...held, ...bytes];
-        return search(true);
-      },
+      flush: (bytes = []) => search(bytes, true),
     };
   }
 
@@ -305,7 +303,7 @@ function makeCodec(protocol) {
       known.length ? known : writeNumber(slot, checked(path, values.get(path), slot)));
   }
 
-  // What is given, by path.
+  // The numbers that are given, by path.
   function valuesOf(kind, fields) {
     return new Map(kind.given.flatMap((slot) => slot.role !== "list"
       ? [[slot.name, fields[slot.name]]]

@@ -134,7 +134,8 @@ function offer() {
   byId("values").replaceChildren(...given.flatMap((slot) => [
     make("label", { for: `value-${slot.name}` }, `${slot.name} `,
       make("small", { class: "quiet" }, hint(slot, counts))),
-    make("input", { id: `value-${slot.name}`, name: slot.name, value: typed(example[slot.name]), autocomplete: "off" })]));
+    make("input", { id: `value-${slot.name}`, name: slot.name, autocomplete: "off",
+      value: typed(example[slot.name]) })]));
   encode();
 }
 
