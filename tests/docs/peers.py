@@ -9,6 +9,7 @@ from itertools import groupby
 from typing import TYPE_CHECKING, Any
 
 from framegen.conformance.language import END
+from framegen.model.codec import encode
 from framegen.model.stream import Line
 from framegen.render import snippets
 from framegen.targets import vectors
@@ -90,7 +91,11 @@ def noisy_lines(model: Model, seed: int, number: int) -> list[bytes]:
     """Lines on which frames were cut and spoilt, with noise between them that looks like frames."""
     chance = random.Random(seed)  # noqa: S311 - the same noise in every run
     messages = model.messages.values()
-    frames = [example.hex for message in messages for example in message.message.examples]
+    frames = [
+        encode(message, example.values)
+        for message in messages
+        for example in message.message.examples
+    ]
     near = [*model.frame.header, *(message.id for message in messages), 0, 1, 2, 3, 5, 99, 255]
     return [_line(chance, frames, model.frame.header, near) for _ in range(number)]
 

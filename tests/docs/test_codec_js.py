@@ -21,14 +21,17 @@ from framegen.conformance.language import (
     joined,
 )
 from framegen.language.load import read_source
+from framegen.language.spec import Spec
 from framegen.language.values import Direction
-from framegen.model.codec import NotAFrame, decode
-from framegen.model.model import Model
+from framegen.model.codec import NotAFrame, decode, encode
+from framegen.model.model import Model, derive
+from framegen.targets.docs.data import protocol_data
 
 from tests.docs import peers
 from tests.docs.peers import noisy_lines, page_command, reference_events, vectors_of
 from tests.docs.reference import NODE, ROOT, reference
 from tests.hex_cases import HEX, NO_HEX, random_texts
+from tests.specimens import BUSSERVO, data_of
 
 pytestmark = pytest.mark.skipif(NODE is None, reason="node is not installed")
 
@@ -189,14 +192,16 @@ console.log(JSON.stringify(answers));
 """
 
 
-def ask(name: str, questions: list[dict[str, Any]]) -> list[Any]:
-    """What the scripts of the page answer to each question."""
-    scripts = reference(name).pages["decoder.html"].scripts
-    (data,) = [text for given, text in scripts if given.get("type") == "application/json"]
-    (codec,) = [text for _, text in scripts if "function makeCodec" in text]
+def ask(model: Model, questions: list[dict[str, Any]]) -> list[Any]:
+    """What the scripts of the page answer to each question about a protocol."""
+    (codec,) = [
+        text
+        for _, text in reference("busservo").pages["decoder.html"].scripts
+        if "function makeCodec" in text
+    ]
     done = subprocess.run(
         [str(NODE), "--input-type=commonjs", "-e", codec + HARNESS],
-        input=json.dumps({"protocol": json.loads(data), "questions": questions}),
+        input=json.dumps({"protocol": protocol_data(model), "questions": questions}),
         capture_output=True,
         encoding="utf-8",
         check=False,
@@ -206,26 +211,63 @@ def ask(name: str, questions: list[dict[str, Any]]) -> list[Any]:
     return answers
 
 
-@pytest.mark.parametrize("name", ["busservo", "greenhouse"])
-def test_both_ways_at_once_are_decoded_as_the_reference_decodes_them(name: str) -> None:
-    model = reference(name).model
-    lines = noisy_lines(model, 5, 500)
-    told = ask(name, [{"ask": "stream", "text": line.hex()} for line in lines])
+# Other envelopes than those of the specs, whether or not a spec can have them yet.
+ENVELOPES: dict[str, dict[str, Any]] = {
+    "as it is": {},
+    "a part behind the fields": {"end": {"is": "constant", "bytes": "0D 0A"}},
+    "a header that overlaps itself": {"header": {"is": "constant", "bytes": "55 03 55"}},
+    "a header in two parts": {
+        "header": {"is": "constant", "bytes": "55"},
+        "version": {"is": "constant", "bytes": "01"},
+        "length": {"is": "length", "type": "u8", "counts": ["length", "command", "parameters"]},
+        "command": {"is": "id", "type": "u8"},
+        "parameters": {"is": "body"},
+    },
+    "an id of two bytes before a length of two": {
+        "header": {"is": "constant", "bytes": "55 55"},
+        "command": {"is": "id", "type": "u16"},
+        "length": {"is": "length", "type": "u16", "counts": ["parameters"]},
+        "parameters": {"is": "body"},
+    },
+}
+
+
+@pytest.fixture(params=ENVELOPES)
+def wrapped(request: pytest.FixtureRequest) -> Model:
+    data = data_of(BUSSERVO)
+    parts = ENVELOPES[request.param]
+    data["frame"] = parts if "parameters" in parts else {**data["frame"], **parts}
+    return derive(Spec.model_validate(data))
+
+
+def test_any_envelope_is_decoded_as_the_reference_decodes_it_both_ways(wrapped: Model) -> None:
+    lines = noisy_lines(wrapped, 5, 400)
+    told = ask(wrapped, [{"ask": "stream", "text": line.hex()} for line in lines])
     for line, events in zip(lines, told, strict=True):
         said = [
             [event["type"], bytes(event["bytes"]).hex(), event.get("message", event.get("reason"))]
             for event in events
         ]
-        assert peers.joined(said) == reference_events(model, line, None), line.hex(" ")
+        assert peers.joined(said) == reference_events(wrapped, line, None), line.hex(" ")
         ends = [event["at"] + len(event["bytes"]) for event in events]
         assert [event["at"] for event in events] == [0, *ends][: len(events)], line.hex(" ")
+
+
+def test_any_envelope_is_encoded_as_the_reference_encodes_it(wrapped: Model) -> None:
+    cases = [
+        (message, example.values)
+        for message in wrapped.messages.values()
+        for example in message.message.examples
+    ]
+    questions = [{"ask": "encode", "name": each.name, "fields": values} for each, values in cases]
+    assert ask(wrapped, questions) == [list(encode(each, values)) for each, values in cases]
 
 
 @pytest.mark.parametrize("name", ["busservo", "greenhouse"])
 def test_single_frames_of_either_way_are_judged_as_the_reference_judges_them(name: str) -> None:
     model = reference(name).model
     lines = [line[:end] for line in noisy_lines(model, 6, 300) for end in (len(line), 10)]
-    told = ask(name, [{"ask": "frame", "text": line.hex()} for line in lines])
+    told = ask(model, [{"ask": "frame", "text": line.hex()} for line in lines])
     for line, found in zip(lines, told, strict=True):
         said = found.get("message") or [found["reason"], found["offset"]]
         assert said == verdict(model, None, line), line.hex(" ")
@@ -253,7 +295,9 @@ def verdict(model: Model, way: Direction | None, data: bytes) -> Any:
     ],
 )
 def test_values_that_no_frame_can_carry_are_refused(fields: dict[str, Any], error: str) -> None:
-    (told,) = ask("busservo", [{"ask": "encode", "name": "ServoMove", "fields": fields}])
+    (told,) = ask(
+        reference("busservo").model, [{"ask": "encode", "name": "ServoMove", "fields": fields}]
+    )
     assert told["refused"].startswith(error)
 
 
@@ -265,5 +309,5 @@ def test_hex_is_read_as_the_library_reads_it() -> None:
             expected.append(list(read_hex(text)))
         except HexError:
             expected.append(None)
-    told = ask("busservo", [{"ask": "hex", "text": text} for text in texts])
+    told = ask(reference("busservo").model, [{"ask": "hex", "text": text} for text in texts])
     assert [each if isinstance(each, list) else None for each in told] == expected
