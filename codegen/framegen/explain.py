@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 
 from framegen.model.codec import NotAFrame, decode
 from framegen.model.lookalikes import recognise
-from framegen.model.slots import Constant, Number
+from framegen.model.slots import Number
 from framegen.model.verdict import UNKNOWN_COMMAND, weigh
 
 if TYPE_CHECKING:
@@ -120,7 +120,7 @@ def _row(placed: Placed, data: bytes, message: MessageLayout | None) -> Row:
     slot, piece = placed.slot, placed.of(data)
     where = (placed.at, piece, placed.path, slot.role)
     if not isinstance(slot, Number):
-        return Row(*where, None, "", slot.about if isinstance(slot, Constant) else "")
+        return Row(*where, None, "", slot.about)
     value = slot.read(piece)
     if slot.is_field:
         return Row(*where, value, *_said(slot, value))

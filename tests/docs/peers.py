@@ -1,83 +1,110 @@
-"""Python's side of every comparison with the decoder in the page: what the library says."""
+"""What every comparison with a page needs: lines, what the reference says, and the page's codec."""
 
 from __future__ import annotations
 
 import json
 import random
-import sys
-from importlib import import_module
+import subprocess
+from itertools import groupby
 from typing import TYPE_CHECKING, Any
 
-from framegen.targets import python, vectors
+from framegen.conformance.language import END
+from framegen.model.codec import encode
+from framegen.model.stream import Line
+from framegen.render import snippets
+from framegen.targets import vectors
+from framegen.targets.docs.pages import render_site
 
-from tests.docs.reference import Reference, reference
+from tests.docs.reference import NODE, ROOT
 
 if TYPE_CHECKING:
+    from collections.abc import Iterable, Sequence
     from pathlib import Path
-    from types import ModuleType
 
+    from framegen.compile import Compiled
+    from framegen.conformance.language import Question
+    from framegen.language.values import Direction
+    from framegen.model.model import Model
+
+ANSWER = ROOT / "tests" / "conformance" / "answer.js"
+
+# What a line said: the kind of the event, its bytes in hex, and the message or the reason.
 Event = list[Any]
 
 
-def library(name: str, folder: Path) -> ModuleType:
-    """The generated library of a reference: the committed one, or one written to `folder`."""
-    if name == "busservo":
-        return import_module("busservo")
-    site = reference(name)
-    for path, text in python.render(site.compiled, {}).items():
-        file = folder / path
-        file.parent.mkdir(parents=True, exist_ok=True)
-        file.write_text(text, encoding="utf-8")
-    sys.path.insert(0, str(folder / "generated"))
-    try:
-        return import_module(name)
-    finally:
-        sys.path.remove(str(folder / "generated"))
+def page_command(compiled: Compiled, folder: Path) -> list[str]:
+    """Write the page with the decoder to `folder`; the program that answers with its codec."""
+    page = folder / "decoder.html"
+    name = compiled.spec.protocol.name
+    text = render_site([compiled], snippets())[f"{name}/decoder.html"]
+    page.write_text(text, encoding="utf-8")
+    return [str(NODE), str(ANSWER), str(page)]
 
 
-def vectors_of(site: Reference) -> dict[str, Any]:
-    """The test vectors of a reference, as they are published."""
-    (text,) = vectors.render(site.compiled, {}).values()
+def ask(command: Sequence[str], questions: Iterable[Question]) -> list[list[str]]:
+    """What a program answers to each question, without the `end`."""
+    done = subprocess.run(
+        command,
+        input="".join(f"{question.line}\n" for question in questions),
+        capture_output=True,
+        encoding="utf-8",
+        check=False,
+    )
+    assert done.returncode == 0, done.stderr
+    answers: list[list[str]] = [[]]
+    for line in done.stdout.splitlines():
+        if line == END:
+            answers.append([])
+        else:
+            answers[-1].append(line)
+    assert answers.pop() == []
+    return answers
+
+
+def vectors_of(compiled: Compiled) -> dict[str, Any]:
+    """The test vectors of a protocol, as they are published."""
+    (text,) = vectors.render(compiled, {}).values()
     document: dict[str, Any] = json.loads(text)
     return document
 
 
-def python_events(module: ModuleType, data: bytes, direction: str | None) -> list[Event]:
-    """What the library's StreamDecoder makes of `data` and the silence after it."""
-    way = None if direction is None else module.Direction(direction)
-    decoder = module.StreamDecoder(way)
-    return [_plain(module, event) for event in [*decoder.feed(data), *decoder.flush()]]
+def reference_events(model: Model, data: bytes, way: Direction | None) -> list[Event]:
+    """What the reference makes of `data` and the silence after it; both ways without `way`."""
+    line = Line(model, model.directions if way is None else [way])
+    return [
+        [event.kind, event.data.hex(), event.message.name if event.message else event.reason]
+        for event in line.decode(data)
+    ]
 
 
-def _plain(module: ModuleType, event: Any) -> Event:
-    if isinstance(event, module.Noise):
-        kind = "unknown" if isinstance(event, module.UnknownFrame) else "noise"
-        return [kind, event.data.hex(), event.reason.value]
-    return ["message", event.encode().hex(), type(event).__name__]
+def joined(events: Iterable[Event]) -> list[Event]:
+    """The events, with neighbouring noise of one reason made one."""
+    found: list[Event] = []
+    for (kind, said), same in groupby(events, lambda event: (event[0], event[2])):
+        pieces = [event[1] for event in same]
+        told = ["".join(pieces)] if kind == "noise" else pieces
+        found += [[kind, piece, said] for piece in told]
+    return found
 
 
-def python_verdict(module: ModuleType, data: bytes, direction: str | None) -> Event:
-    """What the library makes of `data` as one frame: its name, or the reason and the byte."""
-    way = None if direction is None else module.Direction(direction)
-    try:
-        return ["message", type(module.decode(data, way)).__name__]
-    except module.DecodeError as error:
-        return [error.reason.value, error.offset]
-
-
-def noisy_lines(site: Reference, seed: int, number: int) -> list[bytes]:
+def noisy_lines(model: Model, seed: int, number: int) -> list[bytes]:
     """Lines on which frames were cut and spoilt, with noise between them that looks like frames."""
     chance = random.Random(seed)  # noqa: S311 - the same noise in every run
-    frames = [bytes.fromhex(each["hex"]) for each in vectors_of(site)["valid"]]
-    frames = [frame for frame in frames if len(frame) < 60]
-    return [_line(chance, frames, site.model.frame.header) for _ in range(number)]
+    messages = model.messages.values()
+    frames = [
+        encode(message, example.values)
+        for message in messages
+        for example in message.message.examples
+    ]
+    near = [*model.frame.header, *(message.id for message in messages), 0, 1, 2, 3, 5, 99, 255]
+    return [_line(chance, frames, model.frame.header, near) for _ in range(number)]
 
 
-def _line(chance: random.Random, frames: list[bytes], header: bytes) -> bytes:
+def _line(chance: random.Random, frames: list[bytes], header: bytes, near: list[int]) -> bytes:
     line = b""
     for _ in range(chance.randrange(1, 7)):
         frame = chance.choice(frames)
-        match chance.randrange(8):
+        match chance.randrange(10):
             case 0:
                 line += chance.randbytes(chance.randrange(6))
             case 1:
@@ -87,9 +114,8 @@ def _line(chance: random.Random, frames: list[bytes], header: bytes) -> bytes:
                 line += frame[:at] + bytes([chance.randrange(256)]) + frame[at + 1 :]
             case 3:
                 line += header[: chance.randrange(1, len(header) + 1)] * chance.randrange(1, 4)
-            case 4:
-                tail = bytes(chance.choices([*header, 0, 2, 3, 5, 7, 255], k=chance.randrange(9)))
-                line += header + tail
+            case 4 | 5 | 6:
+                line += header + bytes(chance.choices(near, k=chance.randrange(12)))
             case _:
                 line += frame
     return line

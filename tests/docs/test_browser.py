@@ -7,11 +7,11 @@ import re
 import shutil
 from typing import TYPE_CHECKING, Any
 
-import busservo
 import pytest
 from framegen.cli import main
+from framegen.language.values import Scale
 
-from tests.docs.peers import noisy_lines, python_events, vectors_of
+from tests.docs.peers import joined, noisy_lines, reference_events, vectors_of
 from tests.docs.reference import NODE_MODULES, SPECS, reference
 from tests.docs.test_hostile_pages import PAYLOADS, hostile
 from tests.patience import PATIENCE
@@ -38,7 +38,7 @@ ARGUMENTS = [
 # How long a browser may take for anything.
 MILLISECONDS = 1000 * PATIENCE
 SITE = reference("busservo")
-VECTORS = vectors_of(SITE)
+VECTORS = vectors_of(SITE.compiled)
 NAMES = [path for path in SITE.pages if "/" not in path]
 PAGES = [*NAMES, "messages/ServoMove.html", "messages/ServoPositions.html", "../index.html"]
 
@@ -170,7 +170,7 @@ def test_the_decoder_refuses_the_invalid_vectors(visit: Visit, direction: str) -
     tab = visit.open("decoder.html")
     tab.get_by_label("Sent").select_option(direction)
     for vector in VECTORS["invalid"]:
-        if vector["direction"] == direction:
+        if vector["direction"] == direction and vector["hex"]:
             tab.get_by_label("Bytes in hex").fill(vector["hex"])
             said = tab.locator("#decoded").inner_text()
             verdict = f"Taken as one frame: {vector['reason']} at byte {vector['offset']}."
@@ -195,18 +195,84 @@ def test_the_decoder_shows_frames_noise_and_unknown_frames(visit: Visit) -> None
     ]
 
 
-def test_noisy_streams_are_decoded_as_python_decodes_them(visit: Visit) -> None:
+@pytest.mark.parametrize(
+    ("text", "summary"),
+    [
+        ("", ""),
+        ("55 55 02 07", "Frames: 1. Bytes of noise: 0."),
+        ("55 55 02 07 55 55 02 0F", "Frames: 2. Bytes of noise: 0."),
+        ("55 55 02 07 00 55 55 02 0F", "Frames: 2. Bytes of noise: 1."),
+        (
+            "55 55 02 07 00",
+            "Frames: 1. Bytes of noise: 1. Taken as one frame: trailing bytes at byte 4.",
+        ),
+        (
+            "55 55 03 63 01",
+            "Frames: 0. Bytes of noise: 5. Taken as one frame: unknown command at byte 3.",
+        ),
+    ],
+)
+def test_why_bytes_are_no_frame_is_told_where_they_may_be_meant_as_one(
+    visit: Visit, text: str, summary: str
+) -> None:
     tab = visit.open("decoder.html")
-    ways = [None, *(way.key for way in SITE.model.directions)]
-    lines = [(line, way) for line in noisy_lines(SITE, 17, 400) for way in ways]
+    tab.get_by_label("Bytes in hex").fill(text)
+    assert tab.locator("#decoded").inner_text() == summary
+
+
+def cells(strip: Locator) -> list[str]:
+    return [" ".join(text.split()) for text in texts(strip.locator("li"))]
+
+
+def test_an_example_is_cut_into_the_same_cells_as_on_its_page(visit: Visit) -> None:
+    tab = visit.open("decoder.html")
+    for name, message in SITE.model.messages.items():
+        for number, example in enumerate(message.message.examples, 1):
+            tab = visit.open(f"messages/{name}.html")
+            shown = cells(tab.locator(".strip").nth(number))
+            way = message.direction.key
+            tab = visit.open(f"decoder.html?hex={example.hex.hex()}&direction={way}")
+            assert cells(tab.locator("#events .strip")) == shown, example.title
+
+
+def test_values_are_shown_in_their_larger_unit_as_they_are_explained(visit: Visit) -> None:
+    tab = visit.open("decoder.html")
+    scales = ["0.001 V", "0.01 K", "0.25 degrees", "12.5 m", "10 Pa", "0.000010 s"]
+    values = [0, 1, -1, 7, -150, 99, 7500, 65535, -0x8000_0000, 0xFFFF_FFFF]
+    for text in scales:
+        step, unit = text.split()
+        told = tab.evaluate(
+            "([values, scale]) => values.map((value) => scaled(value, scale))",
+            [values, {"step": step, "unit": unit}],
+        )
+        assert told == [Scale.parse(text).of(value) for value in values]
+
+
+@pytest.mark.parametrize("word", ["controller", "controller_to_host"])
+def test_an_address_names_the_direction_or_who_sends(visit: Visit, word: str) -> None:
+    tab = visit.open(f"decoder.html?hex=5555040F4C1D&direction={word}")
+    assert tab.get_by_label("Sent").input_value() == "controller_to_host"
+    assert decoded(tab) == ["✓ BatteryVoltage"]
+
+
+def test_an_address_that_names_neither_leaves_both_directions_open(visit: Visit) -> None:
+    tab = visit.open("decoder.html?hex=5555040F4C1D&direction=nobody")
+    assert tab.get_by_label("Sent").input_value() == ""
+
+
+def test_noisy_streams_are_decoded_as_the_reference_decodes_them(visit: Visit) -> None:
+    tab = visit.open("decoder.html")
+    ways = [None, *SITE.model.directions]
+    lines = [(line, way) for line in noisy_lines(SITE.model, 17, 400) for way in ways]
     answers = tab.evaluate(
-        """(lines) => lines.map(([text, way]) => codec.decodeStream(parseHex(text), way).map(
+        """(lines) => lines.map(([text, direction]) =>
+            codec.makeStream({ direction }).flush(parseHex(text)).map(
             ({ type, bytes, message, reason }) => [type, toHex(bytes), message || reason]))""",
-        [[line.hex(), way] for line, way in lines],
+        [[line.hex(), way and way.key] for line, way in lines],
     )
     for (line, way), answer in zip(lines, answers, strict=True):
         said = [[kind, text.replace(" ", "").lower(), what] for kind, text, what in answer]
-        assert said == python_events(busservo, line, way), f"{way}: {line.hex(' ')}"
+        assert joined(said) == reference_events(SITE.model, line, way), f"{way}: {line.hex(' ')}"
 
 
 def test_the_decoder_says_what_is_no_hex(visit: Visit) -> None:

@@ -1,56 +1,207 @@
-"""The codec in the page, under node: as the published vectors have it, and as Python has it."""
+"""The codec in the page, under node: held to the reference, and to the published vectors."""
 
 import json
+import random
 import subprocess
-from functools import cache
+from collections.abc import Iterator
 from pathlib import Path
-from types import ModuleType
 from typing import Any
 
 import pytest
 from busservo.hextext import HexError, read_hex
+from framegen.compile import Compiled, compile_spec
+from framegen.conformance.language import (
+    Decode,
+    Encode,
+    Question,
+    Stream,
+    answer,
+    dashed,
+    fields,
+    joined,
+)
+from framegen.language.load import read_source
+from framegen.language.spec import Spec
+from framegen.language.values import Direction
+from framegen.model.codec import NotAFrame, decode, encode
+from framegen.model.model import Model, derive
+from framegen.targets.docs.data import protocol_data
 
-from tests.docs.peers import library, noisy_lines, python_events, python_verdict, vectors_of
-from tests.docs.reference import NODE, ROOT, SPECS, reference
+from tests.docs import peers
+from tests.docs.peers import noisy_lines, page_command, reference_events, vectors_of
+from tests.docs.reference import NODE, ROOT, reference
 from tests.hex_cases import HEX, NO_HEX, random_texts
+from tests.specimens import BUSSERVO, data_of
 
 pytestmark = pytest.mark.skipif(NODE is None, reason="node is not installed")
 
-# Runs the scripts of the page as they are published, on questions from standard input.
+SPECS = [ROOT / "spec" / "busservo.yaml", *sorted((ROOT / "tests" / "specs").glob("*.yaml"))]
+
+
+class Page:
+    """The page of one protocol, and what its codec answers."""
+
+    def __init__(self, compiled: Compiled, folder: Path) -> None:
+        self.compiled = compiled
+        self.model = compiled.model
+        self.command = page_command(compiled, folder)
+
+    def answers(self, questions: list[Question]) -> list[list[str]]:
+        return [joined(lines) for lines in peers.ask(self.command, questions)]
+
+
+@pytest.fixture(params=SPECS, ids=lambda file: file.stem, scope="module")
+def page(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory) -> Page:
+    return Page(compile_spec(read_source(request.param)), tmp_path_factory.mktemp("page"))
+
+
+def test_lines_are_decoded_as_the_reference_decodes_them(page: Page) -> None:
+    questions = list(streams(page.model, 17, 600))
+    for question, told in zip(questions, page.answers(questions), strict=True):
+        assert told == joined(answer(page.model, question)), question.line
+
+
+def streams(model: Model, seed: int, number: int) -> Iterator[Question]:
+    """Noisy lines, cut anywhere, quiet anywhere, with room for frames of several sizes."""
+    chance = random.Random(seed)  # noqa: S311 - the same lines in every run
+    for line in noisy_lines(model, seed, number):
+        for way in model.directions:
+            largest = model.largest([way])
+            room = chance.choice([largest, largest, 64, model.frame.least + 8, model.frame.least])
+            yield Stream(way, max(room, model.frame.least), tuple(_parts(chance, line)))
+
+
+def _parts(chance: random.Random, line: bytes) -> Iterator[bytes | None]:
+    step = chance.choice([1, 2, 5, 64, 1000])
+    for at in range(0, len(line), step):
+        yield line[at : at + step]
+        if chance.random() < 0.1:
+            yield None
+    if chance.random() < 0.7:
+        yield None
+
+
+def test_single_frames_are_judged_as_the_reference_judges_them(page: Page) -> None:
+    questions: list[Question] = [
+        Decode(way, line[:end])
+        for line in noisy_lines(page.model, 9, 300)
+        for way in page.model.directions
+        for end in (len(line), len(line) // 2, 10)
+    ]
+    for question, told in zip(questions, page.answers(questions), strict=True):
+        assert told == joined(answer(page.model, question)), question.line
+
+
+def test_published_frames_are_decoded_and_encoded(page: Page) -> None:
+    model = page.model
+    questions: list[Question] = []
+    expected: list[str] = []
+    for vector in vectors_of(page.compiled)["valid"]:
+        message, data = model.messages[vector["message"]], bytes.fromhex(vector["hex"])
+        said = " ".join(fields(message, vector["fields"]))
+        questions += [Decode(message.direction, data), Encode(message, vector["fields"])]
+        expected += [f"message {message.name} {data.hex()} {said}".rstrip(), f"frame {data.hex()}"]
+    assert page.answers(questions) == [[line] for line in expected]
+
+
+def test_published_refusals_have_the_right_reason_and_byte(page: Page) -> None:
+    ways = {way.key: way for way in page.model.directions}
+    invalid = vectors_of(page.compiled)["invalid"]
+    told = page.answers([Decode(ways[v["direction"]], bytes.fromhex(v["hex"])) for v in invalid])
+    assert told == [[f"refused {dashed(v['reason'])} {v['offset']}"] for v in invalid]
+
+
+# What a line says, by the parts in which it comes.
+LINES = {
+    "a frame of unknown id is shown": (
+        "555504630102 55550207 quiet",
+        ["unknown 555504630102", "message ActionGroupStop 55550207", "quiet"],
+    ),
+    "it is shown once all of it came": ("5555046301 02", ["unknown 555504630102"]),
+    "it waits for all of it": ("5555046301", []),
+    "it ends when the line goes quiet": (
+        "5555046301 quiet 02 quiet",
+        ["noise unknown-command 5555046301", "quiet", "noise bad-header 02", "quiet"],
+    ),
+    "a message in it is worth more": (
+        "5555 08630155 5502 07",
+        ["noise unknown-command 5555086301", "message ActionGroupStop 55550207"],
+    ),
+    "and so is what may become one by its own bytes": (
+        "55550463 5555 0207 quiet",
+        ["noise unknown-command 55550463", "message ActionGroupStop 55550207", "quiet"],
+    ),
+    "whatever the bytes behind it say": (
+        "55550463 5555 01 quiet",
+        ["noise unknown-command 55550463", "noise length-mismatch 555501", "quiet"],
+    ),
+    "a refused length is no claim": (
+        "55550163 quiet",
+        ["noise length-mismatch 55550163", "quiet"],
+    ),
+    "a header that has begun waits": ("0055", ["noise bad-header 00"]),
+    "a frame that is cut short is too short": (
+        "55550803 quiet",
+        ["noise too-short 55550803", "quiet"],
+    ),
+}
+
+
+@pytest.mark.parametrize("title", LINES)
+def test_a_line_says(busservo: Page, title: str) -> None:
+    parts, expected = LINES[title]
+    way = busservo.model.directions[0]
+    chunks = tuple(None if part == "quiet" else bytes.fromhex(part) for part in parts.split())
+    assert busservo.answers([Stream(way, 257, chunks)]) == [expected]
+
+
+@pytest.fixture(scope="module")
+def busservo(tmp_path_factory: pytest.TempPathFactory) -> Page:
+    return Page(reference("busservo").compiled, tmp_path_factory.mktemp("page"))
+
+
+def test_a_recorded_line_is_decoded_as_the_reference_decodes_it(busservo: Page) -> None:
+    line = (ROOT / "tests" / "captures" / "noisy_line.bin").read_bytes()
+    model = busservo.model
+    questions: list[Question] = [
+        Stream(way, model.largest([way]), (line, None)) for way in model.directions
+    ]
+    assert busservo.answers(questions) == [
+        joined(answer(model, question)) for question in questions
+    ]
+
+
+# ---------------------------------------------------------------------------- beyond the language
+
+# Asks the scripts of the page, as they are published, what no other codec is asked.
 HARNESS = """
 const { protocol, questions } = JSON.parse(require("fs").readFileSync(0, "utf8"));
 const codec = makeCodec(protocol);
-const hex = (bytes) => bytes.map((byte) => byte.toString(16).padStart(2, "0")).join("");
-const answers = questions.map(({ ask, hex: text, direction, message, fields }) => {
-  if (ask === "hex") {
-    try { return parseHex(text); } catch (error) { return { refused: error instanceof Unusable }; }
+const answers = questions.map(({ ask, text, name, fields }) => {
+  try {
+    if (ask === "hex") return parseHex(text);
+    if (ask === "encode") return codec.encode(name, fields);
+    if (ask === "frame") return codec.decodeFrame(parseHex(text), null);
+    return codec.makeStream().flush(parseHex(text));
+  } catch (error) {
+    if (error instanceof Unusable) return { refused: error.message };
+    throw error;
   }
-  if (ask === "encode") {
-    try { return hex(codec.encode(message, fields)); }
-    catch (error) { if (error instanceof Unusable) return { error: error.message }; throw error; }
-  }
-  if (ask === "frame") {
-    const found = codec.decodeFrame(parseHex(text), direction);
-    return found.message ? { message: found.message, fields: found.fields }
-      : { reason: found.reason, offset: found.offset };
-  }
-  return codec.decodeStream(parseHex(text), direction).map((event) =>
-    [event.type, hex(event.bytes), event.message || event.reason]);
 });
 console.log(JSON.stringify(answers));
 """
 
-WAYS = {name: [way.key for way in reference(name).model.directions] for name in SPECS}
 
-
-def ask(name: str, questions: list[dict[str, Any]]) -> list[Any]:
-    """What the scripts of the page answer to each question."""
-    scripts = reference(name).pages["decoder.html"].scripts
-    (data,) = [text for given, text in scripts if given.get("type") == "application/json"]
-    (codec,) = [text for _, text in scripts if "function makeCodec" in text]
+def ask(model: Model, questions: list[dict[str, Any]]) -> list[Any]:
+    """What the scripts of the page answer to each question about a protocol."""
+    (codec,) = [
+        text
+        for _, text in reference("busservo").pages["decoder.html"].scripts
+        if "function makeCodec" in text
+    ]
     done = subprocess.run(
         [str(NODE), "--input-type=commonjs", "-e", codec + HARNESS],
-        input=json.dumps({"protocol": json.loads(data), "questions": questions}),
+        input=json.dumps({"protocol": protocol_data(model), "questions": questions}),
         capture_output=True,
         encoding="utf-8",
         check=False,
@@ -60,86 +211,74 @@ def ask(name: str, questions: list[dict[str, Any]]) -> list[Any]:
     return answers
 
 
-@cache
-def module(name: str, folder: Path) -> ModuleType:
-    return library(name, folder)
+# Other envelopes than those of the specs, whether or not a spec can have them yet.
+ENVELOPES: dict[str, dict[str, Any]] = {
+    "as it is": {},
+    "a part behind the fields": {"end": {"is": "constant", "bytes": "0D 0A"}},
+    "a header that overlaps itself": {"header": {"is": "constant", "bytes": "55 03 55"}},
+    "a header in two parts": {
+        "header": {"is": "constant", "bytes": "55"},
+        "version": {"is": "constant", "bytes": "01"},
+        "length": {"is": "length", "type": "u8", "counts": ["length", "command", "parameters"]},
+        "command": {"is": "id", "type": "u8"},
+        "parameters": {"is": "body"},
+    },
+    "an id of two bytes before a length of two": {
+        "header": {"is": "constant", "bytes": "55 55"},
+        "command": {"is": "id", "type": "u16"},
+        "length": {"is": "length", "type": "u16", "counts": ["parameters"]},
+        "parameters": {"is": "body"},
+    },
+}
 
 
-@pytest.fixture(params=SPECS, scope="module")
-def name(request: pytest.FixtureRequest) -> str:
-    return str(request.param)
+@pytest.fixture(params=ENVELOPES)
+def wrapped(request: pytest.FixtureRequest) -> Model:
+    data = data_of(BUSSERVO)
+    parts = ENVELOPES[request.param]
+    data["frame"] = parts if "parameters" in parts else {**data["frame"], **parts}
+    return derive(Spec.model_validate(data))
 
 
-@pytest.fixture(scope="module")
-def peer(name: str, tmp_path_factory: pytest.TempPathFactory) -> ModuleType:
-    return library(name, tmp_path_factory.mktemp(name))
+def test_any_envelope_is_decoded_as_the_reference_decodes_it_both_ways(wrapped: Model) -> None:
+    lines = noisy_lines(wrapped, 5, 400)
+    told = ask(wrapped, [{"ask": "stream", "text": line.hex()} for line in lines])
+    for line, events in zip(lines, told, strict=True):
+        said = [
+            [event["type"], bytes(event["bytes"]).hex(), event.get("message", event.get("reason"))]
+            for event in events
+        ]
+        assert peers.joined(said) == reference_events(wrapped, line, None), line.hex(" ")
+        ends = [event["at"] + len(event["bytes"]) for event in events]
+        assert [event["at"] for event in events] == [0, *ends][: len(events)], line.hex(" ")
 
 
-def test_valid_vectors_are_decoded_and_encoded(name: str) -> None:
-    valid = vectors_of(reference(name))["valid"]
-    decoded = ask(
-        name, [{"ask": "frame", "hex": v["hex"], "direction": v["direction"]} for v in valid]
-    )
-    assert decoded == [{"message": v["message"], "fields": v["fields"]} for v in valid]
-    encoded = ask(
-        name, [{"ask": "encode", "message": v["message"], "fields": v["fields"]} for v in valid]
-    )
-    assert encoded == [v["hex"].replace(" ", "").lower() for v in valid]
-
-
-def test_invalid_vectors_are_refused_for_the_right_reason_at_the_right_byte(name: str) -> None:
-    invalid = vectors_of(reference(name))["invalid"]
-    refused = ask(
-        name, [{"ask": "frame", "hex": v["hex"], "direction": v["direction"]} for v in invalid]
-    )
-    assert refused == [{"reason": v["reason"], "offset": v["offset"]} for v in invalid]
-
-
-@pytest.mark.parametrize("seed", range(3))
-def test_noisy_streams_are_decoded_as_python_decodes_them(
-    name: str, peer: ModuleType, seed: int
-) -> None:
-    lines = [
-        (line, way)
-        for line in noisy_lines(reference(name), seed, 500)
-        for way in (None, *WAYS[name])
+def test_any_envelope_is_encoded_as_the_reference_encodes_it(wrapped: Model) -> None:
+    cases = [
+        (message, example.values)
+        for message in wrapped.messages.values()
+        for example in message.message.examples
     ]
-    questions = [{"ask": "stream", "hex": line.hex(), "direction": way} for line, way in lines]
-    for (line, way), answer in zip(lines, ask(name, questions), strict=True):
-        assert answer == python_events(peer, line, way), f"{way}: {line.hex(' ')}"
+    questions = [{"ask": "encode", "name": each.name, "fields": values} for each, values in cases]
+    assert ask(wrapped, questions) == [list(encode(each, values)) for each, values in cases]
 
 
-def test_noisy_lines_as_single_frames_get_the_verdict_of_python(
-    name: str, peer: ModuleType
-) -> None:
-    lines = [
-        (line, way) for line in noisy_lines(reference(name), 9, 400) for way in (None, *WAYS[name])
-    ]
-    questions = [{"ask": "frame", "hex": line.hex(), "direction": way} for line, way in lines]
-    for (line, way), answer in zip(lines, ask(name, questions), strict=True):
-        said = ["message", answer["message"]] if "message" in answer else [*answer.values()]
-        assert said == python_verdict(peer, line, way), f"{way}: {line.hex(' ')}"
+@pytest.mark.parametrize("name", ["busservo", "greenhouse"])
+def test_single_frames_of_either_way_are_judged_as_the_reference_judges_them(name: str) -> None:
+    model = reference(name).model
+    lines = [line[:end] for line in noisy_lines(model, 6, 300) for end in (len(line), 10)]
+    told = ask(model, [{"ask": "frame", "text": line.hex()} for line in lines])
+    for line, found in zip(lines, told, strict=True):
+        said = found.get("message") or [found["reason"], found["offset"]]
+        assert said == verdict(model, None, line), line.hex(" ")
 
 
-def test_a_recorded_line_is_decoded_as_python_decodes_it(peer: ModuleType, name: str) -> None:
-    line = (ROOT / "tests" / "captures" / "noisy_line.bin").read_bytes()
-    for way in (None, *WAYS[name]):
-        question = {"ask": "stream", "hex": line.hex(), "direction": way}
-        assert ask(name, [question]) == [python_events(peer, line, way)]
-
-
-def test_unknown_frames_are_shown_and_never_swallow_what_follows() -> None:
-    questions = [
-        {"ask": "stream", "hex": "55 55 04 63 01 02 55 55 02 07", "direction": WAYS["busservo"][0]},
-        {"ask": "stream", "hex": "55 55 FF 55 55 02 07", "direction": WAYS["busservo"][0]},
-    ]
-    assert ask("busservo", questions) == [
-        [
-            ["unknown", "555504630102", "unknown command"],
-            ["message", "55550207", "ActionGroupStop"],
-        ],
-        [["noise", "5555ff", "unknown command"], ["message", "55550207", "ActionGroupStop"]],
-    ]
+def verdict(model: Model, way: Direction | None, data: bytes) -> Any:
+    """The name of the message that `data` is, or why and where it is none."""
+    try:
+        return decode(model, way, data).layout.name
+    except NotAFrame as error:
+        return [error.reason, error.offset]
 
 
 @pytest.mark.parametrize(
@@ -156,8 +295,10 @@ def test_unknown_frames_are_shown_and_never_swallow_what_follows() -> None:
     ],
 )
 def test_values_that_no_frame_can_carry_are_refused(fields: dict[str, Any], error: str) -> None:
-    (answer,) = ask("busservo", [{"ask": "encode", "message": "ServoMove", "fields": fields}])
-    assert answer["error"].startswith(error)
+    (told,) = ask(
+        reference("busservo").model, [{"ask": "encode", "name": "ServoMove", "fields": fields}]
+    )
+    assert told["refused"].startswith(error)
 
 
 def test_hex_is_read_as_the_library_reads_it() -> None:
@@ -167,5 +308,6 @@ def test_hex_is_read_as_the_library_reads_it() -> None:
         try:
             expected.append(list(read_hex(text)))
         except HexError:
-            expected.append({"refused": True})
-    assert ask("busservo", [{"ask": "hex", "hex": text} for text in texts]) == expected
+            expected.append(None)
+    told = ask(reference("busservo").model, [{"ask": "hex", "text": text} for text in texts])
+    assert [each if isinstance(each, list) else None for each in told] == expected

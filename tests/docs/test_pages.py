@@ -5,6 +5,7 @@ import re
 import subprocess
 import sys
 from pathlib import Path
+from typing import Any
 
 import pytest
 from framegen.language.values import to_hex
@@ -339,11 +340,18 @@ def test_the_data_of_the_decoder_is_the_layout(site: Reference) -> None:
         for given, text in site.pages["decoder.html"].scripts
         if given.get("type") == "application/json"
     ]
+    assert shape(data["frame"]["slots"]) == [
+        (slot.role, slot.name, slot.at) for slot in site.model.frame.slots
+    ]
     assert [message["name"] for message in data["messages"]] == list(site.model.messages)
-    for message in data["messages"]:
-        layout = site.model.messages[message["name"]]
-        lengths = message["lengths"]
-        assert range(lengths["first"], lengths["last"] + 1, lengths["step"]) == layout.lengths
+    for said, message in zip(data["messages"], site.model.messages.values(), strict=True):
+        assert shape(said["fields"]) == [(slot.role, slot.name, slot.at) for slot in message.fields]
+        assert range(said["counts"]["low"], said["counts"]["high"] + 1) == message.counts
+        assert said["size"] == message.size_at(0)
+
+
+def shape(slots: list[dict[str, Any]]) -> list[tuple[str, str, int]]:
+    return [(slot["role"], slot["name"], slot["at"]) for slot in slots]
 
 
 def test_a_spec_with_nothing_optional_has_a_reference() -> None:

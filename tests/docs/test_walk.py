@@ -1,6 +1,4 @@
-"""The walk through a stream that the reference shows: step by step, and true to the library."""
-
-from pathlib import Path
+"""The walk through a stream that the pages show: step by step, and true to the reference."""
 
 import pytest
 from framegen.cases.invalid import spoilt
@@ -9,7 +7,7 @@ from framegen.targets.docs.drawing import interruption
 from framegen.targets.docs.lessons import lessons
 from framegen.targets.docs.walk import Walk, walk
 
-from tests.docs.peers import Event, library, noisy_lines, python_events
+from tests.docs.peers import Event, joined, noisy_lines, reference_events
 from tests.docs.reference import SPECS, reference
 from tests.specimens import DEMO, compiled_of, data_of, layout_of
 
@@ -26,13 +24,13 @@ def events_of(shown: Walk) -> list[Event]:
 
 
 @pytest.mark.parametrize("name", SPECS)
-def test_what_is_shown_is_what_the_library_gives(name: str, tmp_path: Path) -> None:
-    module = library(name, tmp_path)
-    shown = lessons(reference(name).model)
+def test_what_is_shown_is_what_the_reference_says(name: str) -> None:
+    model = reference(name).model
+    shown = lessons(model)
     assert len(shown) >= 3
     for lesson in shown:
-        way = lesson.walk.direction.key
-        assert events_of(lesson.walk) == python_events(module, lesson.walk.data, way), lesson.id
+        data, way = lesson.walk.data, lesson.walk.direction
+        assert joined(events_of(lesson.walk)) == reference_events(model, data, way), lesson.id
 
 
 def test_the_reference_shows_every_way_to_refuse_that_noise_meets() -> None:
@@ -45,7 +43,7 @@ def test_the_reference_shows_every_way_to_refuse_that_noise_meets() -> None:
 @pytest.mark.parametrize("name", SPECS)
 def test_no_byte_is_lost_and_every_step_shows_bytes_of_the_line(name: str) -> None:
     layout = reference(name).model
-    for line in noisy_lines(reference(name), 4, 200):
+    for line in noisy_lines(layout, 4, 200):
         shown = walk(layout, layout.directions[0], line)
         assert b"".join(event.data for event in shown.events) == line
         for step in shown.steps:

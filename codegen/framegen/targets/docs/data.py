@@ -1,50 +1,53 @@
-"""The protocol as the page's own decoder reads it: the layout as plain values, nothing of prose."""
+"""The protocol as the page's own decoder reads it: slots as plain values, nothing of prose."""
 
 from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from framegen.language.spec import BodyPart
-from framegen.model.envelope import part_size
-from framegen.model.layout import Repeat
+from framegen.model import verdict
+from framegen.model.slots import Body, Constant, Items, Number
 from framegen.targets.docs.address import message_page
 
 if TYPE_CHECKING:
-    from framegen.model.layout import MessageLayout, WireField
+    from framegen.model.layout import MessageLayout
     from framegen.model.model import Model
+    from framegen.model.slots import Slot
+
+# The reasons for which bytes are no frame, by what the script calls them.
+_REASONS = {
+    "tooShort": verdict.TOO_SHORT,
+    "trailing": verdict.TRAILING_BYTES,
+    "header": verdict.BAD_HEADER,
+    "length": verdict.LENGTH_MISMATCH,
+    "count": verdict.COUNT_MISMATCH,
+    "unknown": verdict.UNKNOWN_COMMAND,
+    "range": verdict.OUT_OF_RANGE,
+}
 
 
 def protocol_data(model: Model) -> dict[str, Any]:
-    """Everything that decoding and encoding need."""
-    frame = model.frame
+    """Everything that decoding and encoding need.
+
+    The slots of a message are those of `frame`, with its fields where the body is. Its frame has
+    `size` bytes and those of as many elements as `counts` allows.
+    """
     return {
         "name": model.spec.protocol.name,
-        "byteOrder": model.spec.byte_order,
-        "header": list(frame.header),
-        "length": {"name": frame.length_name, "at": frame.length_at, "size": frame.length.size},
-        "id": {"name": frame.id_name, "at": frame.id_at, "size": frame.id.size},
-        "bodyAt": frame.body_at,
-        "uncounted": frame.uncounted,
-        "parts": _parts(model),
+        "reasons": _REASONS,
         "directions": [
-            {"key": way.key, "text": f"{way.sender} to {way.receiver}"} for way in model.directions
+            {"key": way.key, "sender": way.sender, "text": f"{way.sender} to {way.receiver}"}
+            for way in model.directions
         ],
+        "frame": {
+            "least": model.frame.least,
+            "uncounted": model.frame.uncounted,
+            "slots": [_slot(slot) for slot in model.frame.slots],
+        },
         "messages": [_message(message) for message in model.messages.values()],
     }
 
 
-def _parts(model: Model) -> list[dict[str, Any]]:
-    parts: list[dict[str, Any]] = []
-    at = 0
-    for name, part in model.spec.frame.items():
-        if not isinstance(part, BodyPart):
-            parts.append({"name": name, "is": part.is_, "at": at, "size": part_size(part)})
-        at += part_size(part)
-    return parts
-
-
 def _message(message: MessageLayout) -> dict[str, Any]:
-    lengths, repeat = message.lengths, message.repeat
     return {
         "name": message.name,
         "page": message_page(message.name),
@@ -52,20 +55,9 @@ def _message(message: MessageLayout) -> dict[str, Any]:
         "direction": message.direction.key,
         "summary": message.message.summary,
         "example": _example(message),
-        "lengths": {"first": lengths[0], "last": lengths[-1], "step": lengths.step},
-        "numbers": [_field(field) for field in message.numbers],
-        "list": None
-        if repeat is None
-        else {
-            "name": repeat.name,
-            "element": repeat.element,
-            "counter": repeat.counter.name,
-            "at": repeat.offset,
-            "size": repeat.size,
-            "low": repeat.low,
-            "high": repeat.high,
-            "fields": [_field(field) for field in repeat.fields],
-        },
+        "fields": [_slot(slot) for slot in message.fields],
+        "counts": {"low": message.counts[0], "high": message.counts[-1]},
+        "size": message.size_at(0),
     }
 
 
@@ -74,20 +66,37 @@ def _example(message: MessageLayout) -> dict[str, Any]:
     if message.message.examples:
         return dict(message.message.examples[0].values)
     return {
-        argument.name: [] if isinstance(argument, Repeat) else argument.low
+        argument.name: [] if isinstance(argument, Items) else argument.low
         for argument in message.arguments
     }
 
 
-def _field(field: WireField) -> dict[str, Any]:
-    """A number: `at` counts from the first byte of the frame, or of the element."""
+def _slot(slot: Slot) -> dict[str, Any]:
+    """A slot: `at` counts from the first byte of the frame or, below zero, from its end.
+
+    In an element of a list it counts from the first byte of the element.
+    """
+    placed = {"role": slot.role, "name": slot.name, "at": slot.at}
+    match slot:
+        case Body():
+            return placed
+        case Constant():
+            return placed | {"size": slot.size, "bytes": list(slot.data)}
+        case Number():
+            return placed | {"size": slot.size, **_number(slot)}
+        case Items():
+            fields = [_slot(field) for field in slot.fields]
+            return placed | {"size": slot.size, "element": slot.element, "fields": fields}
+
+
+def _number(number: Number) -> dict[str, Any]:
+    said, scale = number.field, number.field.scale
     return {
-        "name": field.name,
-        "at": field.offset,
-        "size": field.wire.size,
-        "signed": field.wire.low < 0,
-        "low": field.low,
-        "high": field.high,
-        "unit": field.field.unit,
-        "names": {name: value.value for name, value in field.field.values.items()},
+        "order": number.order,
+        "signed": number.wire.low < 0,
+        "low": number.low,
+        "high": number.high,
+        "unit": said.unit,
+        "scale": scale and {"step": f"{scale.step:f}", "unit": scale.unit},
+        "names": {name: value.value for name, value in said.values.items()},
     }

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 from framegen.language.spec import NumberField
 from framegen.model.slots import Items
 from framegen.targets.docs.cite import CiteView, Place, cite_view
-from framegen.targets.docs.strip import repeated
+from framegen.targets.docs.strip import place_in_each
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -78,13 +78,13 @@ def _list_views(maker: _Maker, items: Items) -> Iterator[FieldView]:
     path: KeyPath = ("fields", items.name)
     if items.element is None:
         (field,) = items.fields
-        yield maker.number(field, items.path("i", field), repeated(items), path, count)
+        yield maker.number(field, items.path("i", field), place_in_each(items), path, count)
         return
     yield maker.view(
         items.field, items.name, str(items.at), path, f"list of {items.element}", count
     )
     for field in items.fields:
-        offset = repeated(items, field.at)
+        offset = place_in_each(items, field.at)
         yield maker.number(field, items.path("i", field), offset, (*path, "fields", field.name))
 
 

@@ -112,7 +112,7 @@ class MessageView:
     @property
     def formula(self) -> str:
         """The length rule."""
-        return f"{self.layout.frame.length_name} = {self.layout.formula}"
+        return f"{self.layout.frame.length.name} = {self.layout.formula}"
 
     @property
     def lengths(self) -> str:

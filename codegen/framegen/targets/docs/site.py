@@ -177,12 +177,12 @@ class SiteView:
     @property
     def length_name(self) -> str:
         """What the length is called."""
-        return self.model.frame.length_name
+        return self.model.frame.length.name
 
     @property
     def id_name(self) -> str:
         """What the code is called."""
-        return self.model.frame.id_name
+        return self.model.frame.id.name
 
     @cached_property
     def messages(self) -> list[MessageView]:

@@ -48,7 +48,7 @@ def pattern_strip(message: MessageLayout) -> list[Cell]:
     cells: list[Cell] = []
     for slot in message.slots:
         if isinstance(slot, Items):
-            cells += [_repeated(slot, field) for field in slot.fields]
+            cells += [_in_each(slot, field) for field in slot.fields]
         else:
             cells.append(_pattern(message, slot))
     return cells
@@ -69,12 +69,12 @@ def _pattern(message: MessageLayout, slot: Constant | Number) -> Cell:
     return Cell(_place(slot), data, slot.name, value, slot.role)
 
 
-def _repeated(items: Items, field: Number) -> Cell:
-    offset = repeated(items, field.at)
+def _in_each(items: Items, field: Number) -> Cell:
+    offset = place_in_each(items, field.at)
     return Cell(offset, _dots(field.size), items.path("i", field), field.wire.name, "repeated")
 
 
-def repeated(items: Items, at: int = 0) -> str:
+def place_in_each(items: Items, at: int = 0) -> str:
     """Say where something stands in each element: `7 + 3i`."""
     step = "i" if items.size == 1 else f"{items.size}i"
     return f"{items.at + at} + {step}"

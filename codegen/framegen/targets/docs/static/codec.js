@@ -1,12 +1,6 @@
 // Reads and writes the frames of the protocol that `protocol` describes: bytes in, messages and
-// noise out. It says what the Python library's StreamDecoder says, and touches no page.
+// noise out. It says what framegen's reference says, byte for byte, and touches no page.
 "use strict";
-
-const Reason = {
-  tooShort: "too short", trailing: "trailing bytes", header: "bad header",
-  length: "length mismatch", count: "count mismatch", unknown: "unknown command",
-  range: "out of range",
-};
 
 // What was typed cannot be used; the message says why.
 class Unusable extends Error {}
@@ -33,267 +27,295 @@ function toHex(bytes) {
   return bytes.map((byte) => byte.toString(16).toUpperCase().padStart(2, "0")).join(" ");
 }
 
+// The number of a slot whose bytes begin at `at`.
+function readNumber({ size, order, signed }, bytes, at) {
+  let value = 0;
+  for (let i = 0; i < size; i++) {
+    value = value * 256 + bytes[at + (order === "little" ? size - 1 - i : i)];
+  }
+  return signed && value >= 2 ** (8 * size - 1) ? value - 2 ** (8 * size) : value;
+}
+
+// The bytes that stand for `value` in a slot.
+function writeNumber({ size, order }, value) {
+  let rest = value < 0 ? value + 2 ** (8 * size) : value;
+  const bytes = [];
+  for (let i = 0; i < size; i++, rest = Math.floor(rest / 256)) bytes.push(rest % 256);
+  return order === "little" ? bytes : bytes.reverse();
+}
+
+// A number of an element: `targets[0].position`, or `ids[0]`.
+function pathOf(list, index, field) {
+  return `${list.name}[${index}]` + (list.element === null ? "" : `.${field.name}`);
+}
+
+// What stands where in a frame of `size` bytes with `count` elements, in its order.
+function layOut(slots, size, count) {
+  return slots.flatMap((slot) => {
+    const at = slot.at < 0 ? size + slot.at : slot.at;
+    if (slot.role !== "list") return { path: slot.name, at, slot };
+    return Array.from({ length: count }, (_, index) => slot.fields.map((field) => (
+      { path: pathOf(slot, index, field), at: at + index * slot.size + field.at, slot: field }
+    ))).flat();
+  });
+}
+
 function makeCodec(protocol) {
-  const { header, length: lengthPart, id: idPart, bodyAt, uncounted } = protocol;
-  const little = protocol.byteOrder === "little";
+  const { reasons: Reason, frame: { least, uncounted, slots: envelope } } = protocol;
+  const bodyIndex = envelope.findIndex((slot) => slot.role === "body");
+  const head = envelope.slice(0, bodyIndex), tail = envelope.slice(bodyIndex + 1);
+  const bodyAt = envelope[bodyIndex].at;
+  const headerSize = envelope.find((slot) => slot.role !== "constant").at;
+  const lengthSlot = envelope.find((slot) => slot.role === "length");
+  const kinds = protocol.messages.map((message) => {
+    const list = message.fields.find((slot) => slot.role === "list");
+    const given = message.fields.filter((slot) => slot.role !== "count");
+    return { ...message, slots: [...head, ...message.fields, ...tail], list, given, frames: new Map() };
+  });
 
-  function read(bytes, at, { size, signed }) {
-    let value = 0;
-    for (let i = 0; i < size; i++) value = value * 256 + bytes[at + (little ? size - 1 - i : i)];
-    return signed && value >= 2 ** (8 * size - 1) ? value - 2 ** (8 * size) : value;
+  // ---- What frames there are
+
+  function sizeOf(kind, count) {
+    return kind.size + (kind.list ? count * kind.list.size : 0);
   }
 
-  function write(value, { size }) {
-    let rest = value < 0 ? value + 2 ** (8 * size) : value;
-    const bytes = [];
-    for (let i = 0; i < size; i++, rest = Math.floor(rest / 256)) bytes.push(rest % 256);
-    return little ? bytes : bytes.reverse();
+  // The frame of `size` bytes that a message has, and what stands where in it; null where it has none.
+  function frameOf(kind, size) {
+    const count = kind.list ? (size - kind.size) / kind.list.size : 0;
+    const { low, high } = kind.counts;
+    if (!Number.isInteger(count) || count < low || count > high || size !== sizeOf(kind, count)) {
+      return null;
+    }
+    if (!kind.frames.has(size)) {
+      const placed = layOut(kind.slots, size, count)
+        .map((each) => ({ ...each, due: due(each.slot, kind, size, count) }));
+      kind.frames.set(size, { kind, size, count, placed, inner: placed.slice(head.length) });
+    }
+    return kind.frames.get(size);
   }
 
-  // The messages of one direction, or of all where `direction` is null.
-  function tableFor(direction) {
-    const kinds = protocol.messages.filter((kind) => !direction || kind.direction === direction);
-    return { kinds, largest: Math.max(...kinds.map((kind) => kind.lengths.last)) + uncounted };
+  // The bytes that follow from the rest of the frame; none where a user gives them.
+  function due(slot, kind, size, count) {
+    switch (slot.role) {
+      case "constant": return slot.bytes;
+      case "length": return writeNumber(slot, size - uncounted);
+      case "id": return writeNumber(slot, kind.id);
+      case "count": return writeNumber(slot, count);
+      default: return [];
+    }
   }
 
-  function fits(kind, length) {
-    const { first, last, step } = kind.lengths;
-    return length >= first && length <= last && (length - first) % step === 0;
+  // What a line may carry: the messages of one direction by id, or of all where it is null; and how
+  // large their frames can be there.
+  function listenTo(direction, maxFrame) {
+    const ways = protocol.directions.filter(({ key }) => direction === null || key === direction);
+    const heard = ways.flatMap(({ key }) => kinds.filter((kind) => kind.direction === key));
+    const named = new Map(heard.map(({ id }) => [id, heard.filter((kind) => kind.id === id)]));
+    const sizes = heard.map((kind) => sizeOf(kind, kind.counts.high));
+    return { named, largest: Math.min(maxFrame, Math.max(0, ...sizes)) };
   }
 
-  function countOf(kind, length) {
-    return kind.list ? kind.list.low + (length - kind.lengths.first) / kind.lengths.step : 0;
+  // ---- Why bytes are no frame
+
+  const refused = (reason, offset) => ({ frame: null, reason, offset });
+
+  // Why the bytes `offset` bytes into a frame at `at` are not those of a slot; null where they are.
+  // Those that it must have are `expected`; nothing from `limit` on is looked at.
+  function misfit(slot, offset, expected, bytes, at, limit) {
+    const start = at + offset;
+    const wrong = expected.findIndex((byte, i) => start + i < limit && bytes[start + i] !== byte);
+    if (wrong >= 0 && slot.role === "constant") return refused(Reason.header, offset + wrong);
+    if (wrong >= 0) return refused(Reason.count, offset);
+    if (start + slot.size > limit) return refused(Reason.tooShort, limit - at);
+    if (slot.role === "constant") return null;
+    const value = readNumber(slot, bytes, start);
+    return value < slot.low || value > slot.high ? refused(Reason.range, offset) : null;
   }
 
-  // The messages whose frame may begin so, with where their count stands and what it must be.
-  function entries(table, bytes, at) {
-    const length = read(bytes, at + lengthPart.at, lengthPart);
-    const id = read(bytes, at + idPart.at, idPart);
-    return table.kinds.filter((kind) => kind.id === id && fits(kind, length)).map((kind) => {
-      const counter = kind.list && kind.numbers.find((field) => field.name === kind.list.counter);
-      const count = counter ? write(countOf(kind, length), counter) : [];
-      return { kind, size: length + uncounted, countAt: counter ? counter.at : 0, count };
-    });
-  }
-
-  // Each number of a whole frame: its path, where it stands, its field and its value.
-  function numbersOf(kind, frame) {
-    const found = kind.numbers.map((field) => ({ path: field.name, at: field.at, field }));
-    const list = kind.list;
-    for (let i = 0; list && list.at + i * list.size < frame.length; i++) {
-      for (const field of list.fields) {
-        const path = `${list.name}[${i}]` + (list.element ? `.${field.name}` : "");
-        found.push({ path, at: list.at + i * list.size + field.at, field });
+  // What the bytes from `at` to `limit` begin: a frame; or none, for which reason, and at which
+  // offset that shows. They are tested in the order in which they come, and the first that no frame
+  // can have decides. "Too short" is what may become a frame.
+  function weigh(line, bytes, at, limit) {
+    let size = null, named = null, frames = [];
+    for (const slot of head) {
+      const wrong = misfit(slot, slot.at, slot.bytes || [], bytes, at, limit);
+      if (wrong) return wrong;
+      if (slot.role === "length") {
+        size = readNumber(slot, bytes, at + slot.at) + uncounted;
+        if (size < least || size > line.largest) return refused(Reason.length, slot.at);
+      }
+      if (slot.role === "id") {
+        named = line.named.get(readNumber(slot, bytes, at + slot.at));
+        if (!named) return refused(Reason.unknown, slot.at);
+      }
+      if (size !== null && named) {
+        frames = named.map((kind) => frameOf(kind, size)).filter((frame) => frame);
+        if (!frames.length) return refused(Reason.length, lengthSlot.at);
       }
     }
-    return found.map((each) => ({ ...each, value: read(frame, each.at, each.field) }));
+    return best(frames.map((frame) => weighFields(frame, bytes, at, limit)));
   }
 
-  function outOfRange(kind, frame) {
-    return numbersOf(kind, frame).find(({ field, value }) => value < field.low || value > field.high);
+  // What follows the head, as the rest of one frame.
+  function weighFields(frame, bytes, at, limit) {
+    for (const placed of frame.inner) {
+      const wrong = misfit(placed.slot, placed.at, placed.due, bytes, at, limit);
+      if (wrong) return wrong;
+    }
+    return { frame, reason: null, offset: frame.size };
   }
 
-  function starts(bytes, at, expected, limit) {
-    for (let i = 0; i < expected.length && at + i < limit; i++) {
-      if (bytes[at + i] !== expected[i]) return false;
-    }
-    return true;
-  }
-
-  function knows(table, bytes, at) {
-    const id = read(bytes, at + idPart.at, idPart);
-    return table.kinds.some((kind) => kind.id === id);
-  }
-
-  // What stands at `at`, by the bytes in front of `limit`: a message and its end; or no message
-  // and the size at which more can be told; or neither, a reason, and the byte where it shows.
-  function weigh(table, bytes, at, limit) {
-    const no = (reason, offset) => ({ kind: null, end: 0, reason, offset });
-    const wait = (end) => ({ kind: null, end, reason: Reason.tooShort, offset: limit - at });
-    const here = limit - at;
-    if (!starts(bytes, at, header, limit)) {
-      return no(Reason.header, header.findIndex((byte, i) => bytes[at + i] !== byte));
-    }
-    const begun = here < bodyAt;
-    if (begun && here < lengthPart.at + lengthPart.size) return wait(limit + 1);
-    const size = read(bytes, at + lengthPart.at, lengthPart) + uncounted;
-    if (size < bodyAt || size > table.largest) return no(Reason.length, lengthPart.at);
-    if (begun) return wait(limit + 1);
-    let refusal = knows(table, bytes, at)
-      ? no(Reason.length, lengthPart.at) : no(Reason.unknown, idPart.at);
-    for (const { kind, size: needed, countAt, count } of entries(table, bytes, at)) {
-      const countEnd = at + countAt + count.length;
-      const misfit = !starts(bytes, at + countAt, count, limit);
-      if (misfit) { refusal = no(Reason.count, countAt); continue; }
-      if (countEnd > limit) return wait(countEnd);
-      if (at + needed > limit) return wait(at + needed);
-      const wrong = outOfRange(kind, bytes.slice(at, at + needed));
-      if (!wrong) return { kind, end: at + needed, reason: null, offset: needed };
-      refusal = no(Reason.range, wrong.at);
-    }
-    return refusal;
-  }
-
-  // Where a frame of unknown command at `at` would end; 0 where none begins.
-  function claimedEnd(table, bytes, at) {
-    if (at + bodyAt > bytes.length || !starts(bytes, at, header, bytes.length)) return 0;
-    const size = read(bytes, at + lengthPart.at, lengthPart) + uncounted;
-    const sane = size >= bodyAt && size <= table.largest;
-    return sane && !knows(table, bytes, at) ? at + size : 0;
-  }
-
-  // The next place from `at` on where a header stands, or may begin just before `limit`.
-  function nextHeader(bytes, at, limit) {
-    while (at < limit && !starts(bytes, at, header, limit)) at++;
-    return Math.min(at, limit);
-  }
-
-  // All that a stream says, to its end and the silence after it: messages, noise, unknown frames.
-  function decodeStream(bytes, direction) {
-    const table = tableFor(direction);
-    const events = [];
-    let start = 0, at = 0, candidate = 0, lastReason = Reason.header, lastOffset = 0;
-
-    function tell(type, from, to, more) {
-      if (from < to) events.push({ type, at: from, bytes: bytes.slice(from, to), ...more });
-    }
-
-    function tellPiece(from, to) {
-      tell("noise", from, to, { reason: lastReason, offset: lastOffset });
-    }
-
-    function tellUnknown(from, to) {
-      tell("unknown", from, to, { reason: Reason.unknown, offset: idPart.at });
-      [lastReason, lastOffset] = [Reason.header, 0];
-    }
-
-    // A piece of noise for each refused header and its wreck; headers in a row share one.
-    function tellNoise(from, to) {
-      let piece = from, header_ = -2;
-      for (let here = from; here < to; ) {
-        if (here + header.length <= bytes.length && starts(bytes, here, header, bytes.length)) {
-          const claimed = claimedEnd(table, bytes, here);
-          if (claimed && claimed <= to) {
-            tellPiece(piece, here);
-            tellUnknown(here, claimed);
-            piece = here = claimed;
-            continue;
-          }
-          const { reason, offset } = weigh(table, bytes, here, bytes.length);
-          if (reason !== lastReason || here !== header_ + 1) {
-            tellPiece(piece, here);
-            [piece, lastReason, lastOffset] = [here, reason, offset];
-          }
-          header_ = here;
-        }
-        here = nextHeader(bytes, here + 1, to);
-      }
-      tellPiece(piece, to);
-    }
-
-    function search(quiet) {
-      for (;;) {
-        const whole = candidate > 0 && candidate <= bytes.length;
-        const limit = whole ? candidate : bytes.length;
-        if (at === limit) {
-          if (!whole && !quiet && candidate) return;
-          if (whole) tellUnknown(start, candidate); else tellNoise(start, at);
-          [start, candidate] = [at, 0];
-          if (!whole) return;
-          continue;
-        }
-        const { kind, end } = weigh(table, bytes, at, limit);
-        if (kind) {
-          tellNoise(start, at);
-          tell("message", at, end, messageAt(kind, bytes.slice(at, end)));
-          [lastReason, lastOffset] = [Reason.header, 0];
-          [start, at, candidate] = [end, end, 0];
-        } else if (end && whole) {
-          // What may begin here goes on behind the unknown frame, and is worth more than it.
-          tellNoise(start, at);
-          [start, candidate] = [at, 0];
-        } else if (end && !quiet) {
-          if (!candidate) { tellNoise(start, at); start = at; }
-          return;
-        } else {
-          const claimed = candidate ? 0 : claimedEnd(table, bytes, at);
-          if (claimed) { tellNoise(start, at); [start, candidate] = [at, claimed]; }
-          at = nextHeader(bytes, at + 1, Math.min(bytes.length, candidate || bytes.length));
-        }
-      }
-    }
-
-    search(false);
-    search(true);
-    return events;
-  }
-
-  function messageAt(kind, frame) {
-    const rows = numbersOf(kind, frame), list = kind.list, fields = {};
-    for (const { field, value } of rows.slice(0, kind.numbers.length)) {
-      if (!list || field.name !== list.counter) fields[field.name] = value;
-    }
-    const values = rows.slice(kind.numbers.length).map((row) => row.value);
-    if (list && !list.element) fields[list.name] = values;
-    if (list && list.element) {
-      const width = list.fields.length;
-      fields[list.name] = Array.from({ length: values.length / width }, (_, i) =>
-        Object.fromEntries(list.fields.map((field, j) => [field.name, values[i * width + j]])));
-    }
-    return { kind, message: kind.name, fields, rows };
+  // Of what several directions say, the first frame; or else the first of those that came furthest.
+  function best(verdicts) {
+    const furthest = Math.max(...verdicts.map(({ offset }) => offset));
+    return verdicts.find(({ frame }) => frame) || verdicts.find(({ offset }) => offset === furthest);
   }
 
   // One frame, whole and with nothing after it: its message, or the reason and byte where not.
   function decodeFrame(bytes, direction) {
-    const table = tableFor(direction);
-    if (bytes.length < bodyAt || !starts(bytes, 0, header, bytes.length)) {
-      const at = header.findIndex((byte, i) => bytes[i] !== byte);
-      const wrong = at >= 0 && at < bytes.length;
-      return { reason: wrong ? Reason.header : Reason.tooShort, offset: wrong ? at : bytes.length };
-    }
-    if (!knows(table, bytes, 0)) return { reason: Reason.unknown, offset: idPart.at };
-    let best = { reason: Reason.length, offset: lengthPart.at, none: true };
-    for (const { kind, size, countAt, count } of entries(table, bytes, 0)) {
-      const misfit = starts(bytes, countAt, count, bytes.length) ? null : countAt;
-      const wrong = bytes.length === size && misfit === null && outOfRange(kind, bytes);
-      let refusal = null;
-      if (bytes.length < size) refusal = { reason: Reason.tooShort, offset: bytes.length };
-      else if (bytes.length > size) refusal = { reason: Reason.trailing, offset: size };
-      else if (misfit !== null) refusal = { reason: Reason.count, offset: countAt };
-      else if (wrong) refusal = { reason: Reason.range, offset: wrong.at };
-      if (!refusal) return messageAt(kind, bytes);
-      if (best.none || refusal.offset > best.offset) best = refusal;
-    }
-    return { reason: best.reason, offset: best.offset };
+    const { frame, reason, offset } = weigh(listenTo(direction, Infinity), bytes, 0, bytes.length);
+    if (!frame) return { reason, offset };
+    return frame.size < bytes.length ? { reason: Reason.trailing, offset } : messageOf(frame, bytes);
   }
 
-  function checked(path, value, field) {
-    if (!Number.isInteger(value)) throw new Unusable(`${path}: a whole number is due`);
-    if (value < field.low || value > field.high) {
-      throw new Unusable(`${path}: ${value} is outside ${field.low}..${field.high}`);
+  // ---- What a line says
+
+  // What stands at `at`: a "message", an "unknown" frame, "noise", or something "begun" that the
+  // bytes to come decide; and how many bytes go with it.
+  function judge(line, bytes, at) {
+    const verdict = weigh(line, bytes, at, bytes.length);
+    if (verdict.frame) return { type: "message", size: verdict.frame.size, ...verdict };
+    if (verdict.reason === Reason.tooShort) return { type: "begun", size: 1, ...verdict };
+    const claimed = verdict.reason === Reason.unknown ? claimOf(line, bytes, at) : 0;
+    const type = claimed ? fateOf(line, bytes, at, at + claimed) : "noise";
+    return { type, size: type === "unknown" ? claimed : 1, ...verdict };
+  }
+
+  // How many bytes a frame of unknown id says that it has, at the least; 0 where no frame has them.
+  function claimOf(line, bytes, at) {
+    if (at + bodyAt > bytes.length) return least;
+    const size = readNumber(lengthSlot, bytes, at + lengthSlot.at) + uncounted;
+    return size < least || size > line.largest ? 0 : size;
+  }
+
+  // What becomes of a frame of unknown id, from `at` to `end`. Nothing proves it: a message that
+  // begins, or may begin, among its own bytes is worth more. Looked for from the end, where a begun
+  // header is found at once.
+  function fateOf(line, bytes, at, end) {
+    const whole = end <= bytes.length, limit = whole ? end : bytes.length;
+    for (let inside = limit - 1; inside > at; inside--) {
+      const { frame, reason } = weigh(line, bytes, inside, limit);
+      if (frame || (whole && reason === Reason.tooShort)) return "noise";
     }
-    return write(value, field);
+    return whole ? "unknown" : "begun";
+  }
+
+  // A message or an unknown frame, as it is told.
+  function eventOf({ type, frame, reason, offset }, at, bytes) {
+    const said = frame ? messageOf(frame, bytes) : { reason, refusedAt: at + offset };
+    return { type, at, bytes, ...said };
+  }
+
+  // A decoder of what arrives on one line. `feed` and `flush` return events: messages, unknown
+  // frames and noise, which together hold every byte. What has begun is kept back until it is
+  // decided, at most `maxFrame` bytes, or as many as the largest frame has.
+  function makeStream({ direction = null, maxFrame = Infinity } = {}) {
+    const line = listenTo(direction, maxFrame);
+    // What is kept back, and where on the line that stands.
+    let held = [], base = 0;
+    // The noise at hand, which grows. A refused header begins a new piece of it, unless it overlaps
+    // the one before and is refused alike, as in a run of header bytes.
+    let noise = null;
+
+    function noiseWith({ reason, offset }, at) {
+      const isHeader = offset >= headerSize;
+      if (noise && !isHeader) return noise;
+      if (noise?.header === at - 1 && noise.reason === reason) return Object.assign(noise, { header: at });
+      const why = isHeader ? { reason, header: at } : { reason: Reason.header };
+      return { type: "noise", at, bytes: [], refusedAt: at + offset, ...why };
+    }
+
+    function search(arrived, quiet) {
+      held = [...held, ...arrived];
+      const events = [];
+      let at = 0;
+      while (at < held.length) {
+        const found = judge(line, held, at);
+        if (found.type === "begun" && !quiet) break;
+        const bytes = held.slice(at, at + found.size);
+        if (found.type === "message" || found.type === "unknown") {
+          noise = null;
+          events.push(eventOf(found, base + at, bytes));
+        } else {
+          noise = noiseWith(found, base + at);
+          if (events.at(-1) !== noise) events.push(noise);
+          noise.bytes.push(...bytes);
+        }
+        at += found.size;
+      }
+      [held, base] = [held.slice(at), base + at];
+      // What was returned is the caller's: what may follow goes into a piece of its own.
+      noise = quiet || !noise ? null : { ...noise, at: base, bytes: [] };
+      return events;
+    }
+
+    return {
+      // These bytes have arrived, and more may follow.
+      feed: (bytes) => search(bytes, false),
+      // The line has gone quiet, after these bytes: what has begun goes no further.
+      flush: (bytes = []) => search(bytes, true),
+    };
+  }
+
+  // ---- Values
+
+  // The message in a whole frame. Its `rows` are the slots with what stands in them.
+  function messageOf(frame, bytes) {
+    const { kind } = frame;
+    const rows = frame.placed.map((placed) => ({
+      ...placed,
+      bytes: bytes.slice(placed.at, placed.at + placed.slot.size),
+      value: placed.slot.role === "constant" ? null : readNumber(placed.slot, bytes, placed.at),
+    }));
+    const values = new Map(rows.map(({ path, value }) => [path, value]));
+    const fields = kind.given.map((slot) => [slot.name, slot.role !== "list"
+      ? values.get(slot.name)
+      : Array.from({ length: frame.count }, (_, index) => itemOf(slot, index, values))]);
+    return { kind, message: kind.name, fields: Object.fromEntries(fields), rows };
+  }
+
+  function itemOf(list, index, values) {
+    const numbers = list.fields.map((field) => [field.name, values.get(pathOf(list, index, field))]);
+    return list.element === null ? numbers[0][1] : Object.fromEntries(numbers);
   }
 
   // The frame that carries `fields`, as decodeFrame gives them. Throws Unusable.
   function encode(name, fields) {
-    const kind = protocol.messages.find((each) => each.name === name), list = kind.list;
-    const items = list ? fields[list.name] : [];
-    if (list && (items.length < list.low || items.length > list.high)) {
-      throw new Unusable(`${list.name}: ${items.length} items is outside ${list.low}..${list.high}`);
+    const kind = kinds.find((each) => each.name === name);
+    const count = kind.list ? fields[kind.list.name].length : 0;
+    const frame = frameOf(kind, sizeOf(kind, count));
+    if (!frame) {
+      const { low, high } = kind.counts;
+      throw new Unusable(`${kind.list.name}: ${count} items is outside ${low}..${high}`);
     }
-    const body = kind.numbers.flatMap((field) => list && field.name === list.counter
-      ? write(items.length, field) : checked(field.name, fields[field.name], field));
-    items.forEach((item, i) => list.fields.forEach((field) => body.push(...(list.element
-      ? checked(`${list.name}[${i}].${field.name}`, item[field.name], field)
-      : checked(`${list.name}[${i}]`, item, field)))));
-    const head = Array(bodyAt).fill(0);
-    head.splice(0, header.length, ...header);
-    const length = bodyAt + body.length - uncounted;
-    head.splice(lengthPart.at, lengthPart.size, ...write(length, lengthPart));
-    head.splice(idPart.at, idPart.size, ...write(kind.id, idPart));
-    return [...head, ...body];
+    const values = valuesOf(kind, fields);
+    return frame.placed.flatMap(({ path, slot, due: known }) =>
+      known.length ? known : writeNumber(slot, checked(path, values.get(path), slot)));
   }
 
-  return { decodeStream, decodeFrame, encode, read };
+  // The numbers that are given, by path.
+  function valuesOf(kind, fields) {
+    return new Map(kind.given.flatMap((slot) => slot.role !== "list"
+      ? [[slot.name, fields[slot.name]]]
+      : fields[slot.name].flatMap((item, index) => slot.fields.map((field) =>
+        [pathOf(slot, index, field), slot.element === null ? item : item[field.name]]))));
+  }
+
+  function checked(path, value, { low, high }) {
+    if (!Number.isInteger(value)) throw new Unusable(`${path}: a whole number is due`);
+    if (value < low || value > high) throw new Unusable(`${path}: ${value} is outside ${low}..${high}`);
+    return value;
+  }
+
+  return { kinds, makeStream, decodeFrame, encode };
 }

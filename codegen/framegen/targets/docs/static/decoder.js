@@ -19,18 +19,26 @@ function cell(role, offset, bytes, name, value) {
     make("span", { class: "name" }, name), make("span", { class: "value" }, value));
 }
 
+// A value in its larger unit, exactly: 7500 steps of 0.001 V are 7.500 V.
+function scaled(value, { step, unit }) {
+  const [whole, fraction = ""] = step.split(".");
+  const steps = BigInt(value) * BigInt(whole + fraction);
+  const digits = String(steps < 0 ? -steps : steps).padStart(fraction.length + 1, "0");
+  const point = digits.length - fraction.length;
+  const text = fraction ? `${digits.slice(0, point)}.${digits.slice(point)}` : digits;
+  return `${steps < 0 ? "-" : ""}${text} ${unit}`;
+}
+
+// A value as people say it: `7500 mV = 7.500 V`, `0 (unlimited)`.
+function inWords(value, { unit, scale, names }) {
+  const larger = scale ? ` = ${scaled(value, scale)}` : "";
+  const name = Object.keys(names).find((key) => names[key] === value);
+  return `${value} ${unit}`.trimEnd() + larger + (name ? ` (${name})` : "");
+}
+
 function strip(event) {
-  const cells = protocol.parts.map((part) => {
-    const value = part.is === "constant" ? "" : codec.read(event.bytes, part.at, part);
-    const bytes = event.bytes.slice(part.at, part.at + part.size);
-    return cell(part.is, event.at + part.at, bytes, part.name, String(value));
-  });
-  for (const { path, at, field, value } of event.rows) {
-    const name = Object.keys(field.names).find((key) => field.names[key] === value);
-    const said = `${value} ${field.unit}`.trim() + (name ? ` (${name})` : "");
-    cells.push(cell("field", event.at + at, event.bytes.slice(at, at + field.size), path, said));
-  }
-  return make("ol", { class: "strip" }, ...cells);
+  return make("ol", { class: "strip" }, ...event.rows.map(({ path, at, slot, bytes, value }) =>
+    cell(slot.role, event.at + at, bytes, path, value === null ? "" : inWords(value, slot))));
 }
 
 function shown(event) {
@@ -44,7 +52,7 @@ function shown(event) {
   const size = event.bytes.length === 1 ? "1 byte" : `${event.bytes.length} bytes`;
   return make("li", { class: "frame" },
     make("h3", { class: "no" }, `✗ ${what}: ${event.reason}`),
-    make("p", {}, `${size} from byte ${event.at} on; refused at byte ${event.at + event.offset}`),
+    make("p", {}, `${size} from byte ${event.at} on; refused at byte ${event.refusedAt}`),
     make("ol", { class: "strip" }, cell("bad", event.at, event.bytes, event.type, event.reason)));
 }
 
@@ -59,15 +67,9 @@ function decode() {
   byId("events").replaceChildren();
   try {
     const bytes = parseHex(field.value), direction = byId("direction").value || null;
-    const events = codec.decodeStream(bytes, direction);
-    const messages = events.filter((event) => event.type === "message").length;
-    const noise = events.reduce((sum, { type, bytes }) => sum + (type === "message" ? 0 : bytes.length), 0);
+    const events = codec.makeStream({ direction }).flush(bytes);
     report(field, status, "");
-    const single = codec.decodeFrame(bytes, direction);
-    status.textContent = `Frames: ${messages}. Bytes of noise: ${noise}.`;
-    if (!single.message) {
-      status.textContent += ` Taken as one frame: ${single.reason} at byte ${single.offset}.`;
-    }
+    status.textContent = summary(events, codec.decodeFrame(bytes, direction));
     byId("events").append(...events.map(shown));
   } catch (error) {
     if (!(error instanceof Unusable)) throw error;
@@ -75,23 +77,38 @@ function decode() {
   }
 }
 
+// What was decoded, in a line; and, of bytes that may have been meant as one frame, why they are none.
+function summary(events, { message, reason, offset }) {
+  if (!events.length) return "";
+  const others = events.filter(({ type }) => type !== "message");
+  const frames = events.length - others.length;
+  const noise = others.reduce((sum, { bytes }) => sum + bytes.length, 0);
+  const single = message || frames > 1 ? "" : ` Taken as one frame: ${reason} at byte ${offset}.`;
+  return `Frames: ${frames}. Bytes of noise: ${noise}.${single}`;
+}
+
 // A list is typed as `1:800, 9:800`: items apart by commas, their fields by colons.
-function valueOf(input, kind) {
-  const number = (text) => (/^\s*[-+]?(0x[0-9a-f]+|[0-9]+)\s*$/i.test(text) ? Number(text) : NaN);
-  if (!kind.list || input.name !== kind.list.name) return number(input.value);
-  return input.value.split(",").filter((item) => item.trim()).map((item) => {
+function valueOf(slot, text) {
+  const number = (digits) => (/^\s*[-+]?(0x[0-9a-f]+|[0-9]+)\s*$/i.test(digits) ? Number(digits) : NaN);
+  if (slot.role !== "list") return number(text);
+  return text.split(",").filter((item) => item.trim()).map((item) => {
     const numbers = item.split(":").map(number);
-    if (!kind.list.element) return numbers.length === 1 ? numbers[0] : NaN;
-    return Object.fromEntries(kind.list.fields.map((field, i) => [field.name, numbers[i]]));
+    if (slot.element === null) return numbers.length === 1 ? numbers[0] : NaN;
+    return Object.fromEntries(slot.fields.map((field, i) => [field.name, numbers[i]]));
   });
 }
 
+function chosen() {
+  return codec.kinds.find((kind) => kind.name === byId("message").value);
+}
+
 function encode() {
-  const kind = protocol.messages.find((each) => each.name === byId("message").value);
+  const kind = chosen();
   const inputs = [...byId("values").querySelectorAll("input")];
   const status = byId("encoded"), button = byId("copy-frame");
   try {
-    const fields = Object.fromEntries(inputs.map((input) => [input.name, valueOf(input, kind)]));
+    const fields = Object.fromEntries(
+      kind.given.map((slot) => [slot.name, valueOf(slot, byId(`value-${slot.name}`).value)]));
     const frame = toHex(codec.encode(kind.name, fields));
     inputs.forEach((input) => input.setAttribute("aria-invalid", "false"));
     report(byId("message"), status, "");
@@ -113,24 +130,30 @@ function typed(value) {
 }
 
 function offer() {
-  const { numbers, list, example } = protocol.messages.find((each) => each.name === byId("message").value);
-  const ask = (name, hint) => [
-    make("label", { for: `value-${name}` }, `${name} `, make("small", { class: "quiet" }, hint)),
-    make("input", { id: `value-${name}`, name, value: typed(example[name]), autocomplete: "off" })];
-  const rows = numbers.filter((field) => field.name in example).flatMap((field) =>
-    ask(field.name, `${field.low}..${field.high} ${field.unit}`));
-  if (list) {
-    const names = list.fields.map((field) => field.name).join(":");
-    rows.push(...ask(list.name, `${list.low}..${list.high} of ${names}, apart by commas`));
-  }
-  byId("values").replaceChildren(...rows);
+  const { given, counts, example } = chosen();
+  byId("values").replaceChildren(...given.flatMap((slot) => [
+    make("label", { for: `value-${slot.name}` }, `${slot.name} `,
+      make("small", { class: "quiet" }, hint(slot, counts))),
+    make("input", { id: `value-${slot.name}`, name: slot.name, autocomplete: "off",
+      value: typed(example[slot.name]) })]));
   encode();
+}
+
+// Which values a field takes.
+function hint(slot, counts) {
+  if (slot.role !== "list") return `${slot.low}..${slot.high} ${slot.unit}`.trimEnd();
+  return `${counts.low}..${counts.high} of ${slot.fields.map(({ name }) => name).join(":")}, apart by commas`;
+}
+
+// The direction that an address asks for: by its key, or by its sender where that sends one way.
+function wayOf(word) {
+  const ways = protocol.directions.filter(({ key, sender }) => word === key || word === sender);
+  return ways.length === 1 ? ways[0].key : "";
 }
 
 const asked = new URLSearchParams(location.search);
 byId("hex").value = asked.get("hex") || byId("hex").value;
-byId("direction").value = protocol.directions.some((each) => each.key === asked.get("direction"))
-  ? asked.get("direction") : "";
+byId("direction").value = wayOf(asked.get("direction"));
 byId("hex").addEventListener("input", decode);
 byId("direction").addEventListener("change", decode);
 byId("message").addEventListener("change", offer);
