@@ -46,18 +46,20 @@ def run(_arguments: Namespace) -> int:
     """Answers until the input ends; goes on behind a question that makes no sense."""
     status = DONE
     for line in sys.stdin.buffer:
-        words = line.decode("utf-8", "replace").split()
-        if not words:
+        question = line.decode("utf-8", "replace").strip()
+        if not question:
             continue
         try:
-            answer = _answer(words[0], words[1:])
+            said = answer(question)
         except UnusableError as error:
-            answer, status = [f"error {visible(str(error))}"], UNUSABLE
-        print(*answer, "end", sep="\n", flush=True)
+            said, status = [f"error {visible(str(error))}"], UNUSABLE
+        print(*said, "end", sep="\n", flush=True)
     return status
 
 
-def _answer(verb: str, words: list[str]) -> list[str]:
+def answer(question: str) -> list[str]:
+    """The lines of an answer, without the `end`. Raises UnusableError."""
+    verb, *words = question.split()
     if verb == "encode" and words:
         return [_encoded(words[0], words[1:])]
     if verb == "decode" and words:
