@@ -313,6 +313,7 @@ FILE = str(ROOT / "tests" / "captures" / "noisy_line.bin")
     [
         ["decode", "55"],
         ["encode", "ActionGroupStop"],
+        ["answer"],
         ["--help"],
         ["decode", "--help"],
     ],
