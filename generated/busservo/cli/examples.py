@@ -22,12 +22,7 @@ VERBS = {
 }
 
 EXAMPLES = {
-    "answer": (
-        (
-            "busservo answer < questions.txt",
-            "`decode WAY HEX` and others, a line each; --help shows all",
-        ),
-    ),
+    "answer": (("busservo answer", "what is asked on standard input, until that ends"),),
     "bench-line": (
         (
             "busservo bench-line --port COM7 BatteryVoltageRead",

@@ -61,9 +61,7 @@ def _examples(model: Model) -> dict[str, list[_Line]]:
     """What stands behind each verb in its examples, and what it does."""
     commands, questions = _commands(model), _questions(model)
     found = {
-        "answer": [
-            ("< questions.txt", "`decode WAY HEX` and others, a line each; --help shows all"),
-        ],
+        "answer": [("", "what is asked on standard input, until that ends")],
         "decode": _decode_lines(model),
         "doctor": [
             ("", "the port that is plugged in, and the device behind it"),
