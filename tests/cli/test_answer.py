@@ -30,7 +30,7 @@ def exchanges() -> Iterator[tuple[str, list[str]]]:
         yield question, answers
 
 
-@pytest.mark.parametrize(("question", "answers"), exchanges())
+@pytest.mark.parametrize(("question", "answers"), [*exchanges()])
 def test_it_answers_as_the_guide_says(question: str, answers: list[str]) -> None:
     assert answer(question) == answers
 

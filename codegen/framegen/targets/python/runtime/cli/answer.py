@@ -20,6 +20,7 @@ from .values import fields_as_json, fields_from_text
 TYPE_CHECKING = False
 if TYPE_CHECKING:
     from argparse import ArgumentParser, Namespace
+    from collections.abc import Iterator
     from typing import Any
 
     from ..message import Message
@@ -44,16 +45,24 @@ def add_arguments(_parser: ArgumentParser) -> None:
 def run(_arguments: Namespace) -> int:
     """Answers until the input ends; goes on behind a question that makes no sense."""
     status = DONE
-    for line in sys.stdin.buffer:
-        question = line.decode("utf-8", "replace").strip()
-        if not question:
-            continue
+    for question in _questions():
         try:
             said = answer(question)
         except UnusableError as error:
             said, status = [f"error {visible(str(error))}"], UNUSABLE
         print(*said, "end", sep="\n", flush=True)
     return status
+
+
+def _questions() -> Iterator[str]:
+    try:
+        for line in sys.stdin.buffer:
+            question = line.decode("utf-8", "replace").strip()
+            if question:
+                yield question
+    except OSError as error:
+        why = error.strerror or error
+        raise UnusableError(f"standard input cannot be read: {why}") from None
 
 
 def answer(question: str) -> list[str]:
