@@ -74,7 +74,7 @@ def test_what_makes_no_sense_stops_nothing(
     assert main(["answer"]) == 2
     output, errors = capsys.readouterr()
     first, *rest = output.splitlines()
-    assert first.startswith(r"error there is no way '\\x1b")
+    assert first.startswith(r"error there is no way '\x1b")
     assert rest == ["end", "frame 55550207", "end"]
     assert errors == ""
 
