@@ -55,6 +55,7 @@ COMMANDS = [
     Command(["-m", "busservo", "--version"]),
     Command(["-m", "busservo", "decode"], "4 bytes: 1 message, 0 bytes of noise\n", "55 55 02 07"),
     Command(["-m", "busservo", "encode", "--raw", "ActionGroupStop"]),
+    Command(["-m", "busservo", "answer"], stdin="encode ActionGroupStop\n"),
     Command(["-m", "framegen", "--help"]),
     Command(["-m", "busservo_simulator", "--help"]),
 ]

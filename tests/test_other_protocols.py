@@ -122,7 +122,7 @@ def verbs_of(folder: Path, name: str) -> list[str]:
     return [line.split()[0] for line in table.split("\n")]
 
 
-HEARING = ["decode", "doctor", "encode", "monitor", "ports"]
+HEARING = ["answer", "decode", "doctor", "encode", "monitor", "ports"]
 
 
 @pytest.mark.parametrize(

@@ -313,6 +313,7 @@ FILE = str(ROOT / "tests" / "captures" / "noisy_line.bin")
     [
         ["decode", "55"],
         ["encode", "ActionGroupStop"],
+        ["answer"],
         ["--help"],
         ["decode", "--help"],
     ],
@@ -347,6 +348,7 @@ def imported(words: list[str], *names: str) -> list[str]:
     )
     done = subprocess.run(
         [sys.executable, "-S", "-c", f"import sys; sys.path[:] = {sys.path!r}; {program}"],
+        stdin=subprocess.DEVNULL,
         capture_output=True,
         text=True,
         check=True,

@@ -53,13 +53,16 @@ def spoilt(model: Model, message: MessageLayout, frame: bytes) -> Iterator[tuple
     for size in sorted({0, 1, len(envelope.header), envelope.body_at - 1, len(frame) - 1}):
         yield f"only the first {size} bytes", frame[:size]
     yield "a byte too many", frame + b"\x00"
-    for placed in _each_slot_once(message, frame):
+    for placed in slots_once(message, frame):
         for title, data in spoilt_slot(model, message, placed, placed.of(frame)):
-            yield title, frame[: placed.at] + data + frame[placed.end :]
+            wrong = frame[: placed.at] + data
+            yield title, wrong + frame[placed.end :]
+            if placed.at >= envelope.body_at and placed.end < len(frame):
+                yield f"{title}, and nothing behind it", wrong
 
 
-def _each_slot_once(message: MessageLayout, frame: bytes) -> Iterator[Placed]:
-    """Where the slots of a frame stand; of a list, the fields of its first element."""
+def slots_once(message: MessageLayout, frame: bytes) -> Iterator[Placed]:
+    """Where the slots of a legal frame stand; of a list, those of its first element."""
     length = message.frame.length
     count = message.count_at(length.read(frame[length.at : length.at + length.size]))
     seen: set[int] = set()
@@ -72,7 +75,7 @@ def _each_slot_once(message: MessageLayout, frame: bytes) -> Iterator[Placed]:
 def spoilt_slot(
     model: Model, message: MessageLayout, placed: Placed, data: bytes
 ) -> Iterator[tuple[str, bytes]]:
-    """The bytes of one slot, made wrong in every way that its role has."""
+    """The bytes of one slot, wrong in every way that its role has."""
     slot = placed.slot
     if isinstance(slot, Constant):
         yield "a header byte flipped", data[:-1] + bytes([data[-1] ^ 0xFF])

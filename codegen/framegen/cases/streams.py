@@ -1,50 +1,30 @@
-"""Lines to decode: frames among noise, cut, doubled and wrecked, each to show one thing."""
+"""Lines to decode: frames among noise, cut, doubled and in pieces, each to show one thing."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from framegen.cases.invalid import spoilt
-from framegen.cases.valid import frames_of
+from framegen.cases.large_streams import large_streams
+from framegen.cases.message_streams import message_streams
+from framegen.cases.noise_streams import noise_streams
+from framegen.cases.sender import Sender
+from framegen.cases.unknown_streams import unknown_streams
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from framegen.language.values import Direction
-    from framegen.model.layout import MessageLayout
+    from framegen.cases.stream_case import StreamCase
     from framegen.model.model import Model
-
-# Where the line goes quiet.
-QUIET = None
-
-
-@dataclass(frozen=True, slots=True)
-class StreamCase:
-    """What arrives, in which pieces, and how large a frame may be, where that has a bound."""
-
-    title: str
-    direction: Direction
-    parts: tuple[bytes | None, ...]
-    max_frame: int | None = None
 
 
 def streams(model: Model) -> Iterator[StreamCase]:
-    """The lines of every message."""
-    for message in model.messages.values():
-        for title, parts in _lines_of(model, message):
-            yield StreamCase(f"{message.name}: {title}", message.direction, parts)
-
-
-def _lines_of(
-    model: Model, message: MessageLayout
-) -> Iterator[tuple[str, tuple[bytes | None, ...]]]:
-    frame = next(frames_of(message)).data
-    yield "byte by byte", (*_single_bytes(frame), QUIET)
-    yield "told before the line goes quiet", (frame,)
-    for title, data in spoilt(model, message, frame):
-        yield f"{title}, then whole", (data + frame, QUIET)
-
-
-def _single_bytes(data: bytes) -> list[bytes]:
-    return [data[at : at + 1] for at in range(len(data))]
+    """The lines of each direction; one that says nothing new is left out."""
+    for direction in model.directions:
+        sender = Sender(model, direction)
+        seen: set[object] = set()
+        for family in message_streams, noise_streams, unknown_streams, large_streams:
+            for case in family(sender):
+                line = case.parts, case.max_frame
+                if line not in seen:
+                    seen.add(line)
+                    yield case

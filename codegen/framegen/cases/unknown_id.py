@@ -18,16 +18,14 @@ def unknown_id(model: Model, direction: Direction) -> int | None:
     The highest, and none with a byte of the header, as far as there is one: new messages seldom
     take it, so that cases stay what they are.
     """
-    slot, header = model.frame.id, model.frame.header
-    free = [
-        number
-        for number in range(slot.high, max(slot.low - 1, slot.high - _TRIED), -1)
-        if number not in model.sent(direction)
-    ]
-    taken = {message.id for message in model.messages.values()}
-    strange = (
-        number
-        for number in free
-        if number not in taken and not set(header) & set(slot.write(number))
-    )
-    return next(strange, free[0] if free else None)
+    slot, header = model.frame.id, set(model.frame.header)
+    known = model.sent(direction)
+    others = [model.sent(way) for way in model.directions if way != direction]
+    spare = None
+    for number in range(slot.high, max(slot.low - 1, slot.high - _TRIED), -1):
+        if number in known:
+            continue
+        if not header & set(slot.write(number)) and not any(number in each for each in others):
+            return number
+        spare = number if spare is None else spare
+    return spare

@@ -58,10 +58,11 @@ def range_ends(message: MessageLayout) -> Iterator[tuple[str, dict[str, Any]]]:
     ends: list[tuple[_End, str, int]] = [("low", "lowest", fewest), ("high", "highest", many)]
     for end, word, count in ends:
         shortened = "" if count in (fewest, most) else f", {count} items of up to {most}"
-        yield f"every value at its {word}{shortened}", _values(message, end, count)
+        yield f"every value at its {word}{shortened}", values_at(message, end, count)
 
 
-def _values(message: MessageLayout, end: _End, count: int) -> dict[str, Any]:
+def values_at(message: MessageLayout, end: _End, count: int) -> dict[str, Any]:
+    """Every field at one end of its range; a list with `count` elements."""
     return {
         slot.name: [_item(slot, end) for _ in range(count)]
         if isinstance(slot, Items)

@@ -105,15 +105,8 @@ def _decoded(model: Model, question: Decode) -> str:
 def _streamed(model: Model, question: Stream) -> Iterator[str]:
     """What is told up to each quiet; what is still held at the end is not."""
     line = Line(model, [question.way], question.max_frame)
-    stretch = b""
-    for part in question.parts:
-        if part is not None:
-            stretch += part
-            continue
-        yield from map(_event, line.decode(stretch))
-        yield QUIET
-        stretch = b""
-    yield from map(_event, line.decode_so_far(stretch))
+    for event in line.follow(question.parts):
+        yield QUIET if event is None else _event(event)
 
 
 def _event(event: Event) -> str:

@@ -64,8 +64,14 @@ class Model:
 
     def largest(self, directions: Iterable[Direction]) -> int:
         """Bytes of the largest legal frame of these directions; 0 where nothing goes."""
-        sizes = (message.largest for way in directions for message in self.sent(way).values())
-        return max(sizes, default=0)
+        return max((self._largest.get(way, 0) for way in directions), default=0)
+
+    @cached_property
+    def _largest(self) -> dict[Direction, int]:
+        return {
+            way: max(message.largest for message in sent.values())
+            for way, sent in self._sent.items()
+        }
 
     def kind(self, name: str) -> Kind:
         """What a message is: `query`, `command`, `reply` or `report`."""

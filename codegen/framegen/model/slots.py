@@ -173,7 +173,6 @@ class Placed:
 def lay_out(slots: Iterable[Slot], size: int, count: int = 0) -> Iterator[Placed]:
     """Say what stands where in a frame of `size` bytes with `count` elements, in its order."""
     slots = list(slots)
-    fixed = sum(slot.size for slot in slots if isinstance(slot, Constant | Number))
     for slot in slots:
         at = slot.at if slot.at >= 0 else size + slot.at
         match slot:
@@ -184,6 +183,7 @@ def lay_out(slots: Iterable[Slot], size: int, count: int = 0) -> Iterator[Placed
                         path = slot.path(index, field)
                         yield Placed(path, start + field.at, field.size, field)
             case Body():
+                fixed = sum(each.size for each in slots if isinstance(each, Constant | Number))
                 yield Placed(slot.name, at, size - fixed, slot)
             case _:
                 yield Placed(slot.name, at, slot.size, slot)

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Literal
 from framegen.model.verdict import BAD_HEADER, UNKNOWN_COMMAND, weigh
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Sequence
+    from collections.abc import Iterable, Iterator, Sequence
 
     from framegen.language.values import Direction
     from framegen.model.layout import MessageLayout
@@ -43,6 +43,21 @@ class Line:
         """Say what one stretch of the line held, after which it stays quiet."""
         events, _ = self._read(data, quiet=True)
         return joined(events)
+
+    def follow(self, parts: Iterable[bytes | None]) -> Iterator[Event | None]:
+        """Say what a line brings in pieces; None is where it goes quiet, in `parts` and here.
+
+        What is still held at the end is not told.
+        """
+        stretch = b""
+        for part in parts:
+            if part is not None:
+                stretch += part
+                continue
+            yield from self.decode(stretch)
+            yield None
+            stretch = b""
+        yield from self.decode_so_far(stretch)
 
     def decode_so_far(self, data: bytes) -> list[Event]:
         """Say what can be told already while more may come; the rest of `data` is still held.

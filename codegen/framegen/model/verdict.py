@@ -86,15 +86,9 @@ class _Look:
     ) -> None:
         self.model = model
         self.frame = model.frame
+        self.directions = directions
         self.data = data
-        self.ways = " or ".join(map(str, directions))
-        self.messages: dict[int, list[MessageLayout]] = {}
-        for direction in directions:
-            for code, message in model.sent(direction).items():
-                self.messages.setdefault(code, []).append(message)
-        self.largest = model.largest(directions)
-        if max_frame is not None:
-            self.largest = min(self.largest, max_frame)
+        self.max_frame = max_frame
         self.seen: list[Placed] = []
         self.likely: MessageLayout | None = None
 
@@ -155,11 +149,21 @@ class _Look:
             raise self._mismatch(length, self._named())
         return length
 
+    @property
+    def largest(self) -> int:
+        """How many bytes a frame may have here."""
+        largest = self.model.largest(self.directions)
+        return largest if self.max_frame is None else min(largest, self.max_frame)
+
+    def _messages(self, code: int) -> list[MessageLayout]:
+        sent = (self.model.sent(direction).get(code) for direction in self.directions)
+        return [message for message in sent if message is not None]
+
     def _named(self) -> list[MessageLayout]:
         """The messages that have the id of these bytes, whatever stands in front of it."""
         place = self.frame.id
         code = self.data[place.at : place.at + place.size]
-        return self.messages.get(place.read(code), []) if len(code) == place.size else []
+        return self._messages(place.read(code)) if len(code) == place.size else []
 
     def _mismatch(self, length: int, messages: list[MessageLayout]) -> _Refused:
         name = self.frame.length.name
@@ -173,9 +177,10 @@ class _Look:
         return _Refused(LENGTH_MISMATCH, self.frame.length.at, f"{has}, not {length}")
 
     def _candidates(self, code: int) -> list[MessageLayout]:
-        found = self.messages.get(code)
-        if found is None:
-            due = f"no message {self.ways} has the {self.frame.id.name} {code}"
+        found = self._messages(code)
+        if not found:
+            ways = " or ".join(map(str, self.directions))
+            due = f"no message {ways} has the {self.frame.id.name} {code}"
             raise _Refused(UNKNOWN_COMMAND, self.frame.id.at, due)
         self.likely = found[0]
         return found

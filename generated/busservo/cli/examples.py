@@ -7,6 +7,7 @@ PROGRAM = "busservo"
 SUMMARY = "Send, read and replay frames of: Hiwonder bus servo controller."
 
 VERBS = {
+    "answer": "Answer questions on standard input: a codec for programs in any language.",
     "bench-line": "Measure how long questions take on a line, against what it allows.",
     "decode": "Tell what bytes mean: messages, noise, and why noise is noise.",
     "doctor": "Find out what is wrong with a port, a line or a device.",
@@ -21,6 +22,7 @@ VERBS = {
 }
 
 EXAMPLES = {
+    "answer": (("busservo answer", "what is asked on standard input, until that ends"),),
     "bench-line": (
         (
             "busservo bench-line --port COM7 BatteryVoltageRead",

@@ -18,6 +18,7 @@ if TYPE_CHECKING:
 _Line: TypeAlias = tuple[str, str]
 # What each verb is for.
 _ABOUT = {
+    "answer": "Answer questions on standard input: a codec for programs in any language.",
     "bench-line": "Measure how long questions take on a line, against what it allows.",
     "decode": "Tell what bytes mean: messages, noise, and why noise is noise.",
     "doctor": "Find out what is wrong with a port, a line or a device.",
@@ -60,6 +61,7 @@ def _examples(model: Model) -> dict[str, list[_Line]]:
     """What stands behind each verb in its examples, and what it does."""
     commands, questions = _commands(model), _questions(model)
     found = {
+        "answer": [("", "what is asked on standard input, until that ends")],
         "decode": _decode_lines(model),
         "doctor": [
             ("", "the port that is plugged in, and the device behind it"),

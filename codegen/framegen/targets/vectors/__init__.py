@@ -1,4 +1,4 @@
-"""Test vectors for codecs in any language: frames with what they mean, and bytes that are no frame.
+"""Test vectors for codecs in any language: frames, bytes that are none, and lines of both.
 
 Made from the spec's examples and the ends of its ranges by the reference codec, never by a
 generated library, so that a library can be held to them.
@@ -10,16 +10,22 @@ import json
 from typing import TYPE_CHECKING, Any
 
 from framegen.cases.invalid import invalid_frames
+from framegen.cases.streams import streams
 from framegen.cases.valid import valid_frames
 from framegen.language.values import to_hex
+from framegen.model.codec import values_of
+from framegen.model.stream import Line
 from framegen.output import banner
 from framegen.targets.filenames import file_stem
 from framegen.targets.target import Target
 
 if TYPE_CHECKING:
     from framegen.cases.invalid import InvalidFrame
+    from framegen.cases.stream_case import StreamCase
     from framegen.cases.valid import ValidFrame
     from framegen.compile import Compiled
+    from framegen.model.model import Model
+    from framegen.model.stream import Event
     from framegen.targets.target import Snippets
 
 
@@ -33,6 +39,7 @@ def render(compiled: Compiled, _snippets: Snippets) -> dict[str, str]:
         "version": protocol.version,
         "valid": [_valid(frame) for frame in valid_frames(model)],
         "invalid": [_invalid(frame) for frame in invalid_frames(model)],
+        "streams": [_stream(model, case) for case in streams(model)],
     }
     return {f"generated/{file_stem(protocol.name)}/vectors.json": _one_vector_a_line(document)}
 
@@ -65,6 +72,30 @@ def _invalid(frame: InvalidFrame) -> dict[str, Any]:
         "hex": to_hex(frame.data),
         "reason": frame.reason,
         "offset": frame.offset,
+    }
+
+
+def _stream(model: Model, case: StreamCase) -> dict[str, Any]:
+    line = Line(model, [case.direction], case.max_frame)
+    return {
+        "title": case.title,
+        "direction": case.direction.key,
+        "max_frame": case.max_frame,
+        "parts": ["quiet" if part is None else to_hex(part) for part in case.parts],
+        "events": [_event(event) for event in line.follow(case.parts)],
+    }
+
+
+def _event(event: Event | None) -> dict[str, Any]:
+    if event is None:
+        return {"event": "quiet"}
+    if event.message is None:
+        return {"event": event.kind, "reason": event.reason, "hex": to_hex(event.data)}
+    return {
+        "event": event.kind,
+        "message": event.message.name,
+        "fields": values_of(event.message, event.data),
+        "hex": to_hex(event.data),
     }
 
 

@@ -1,0 +1,75 @@
+"""The largest frames, and lines on which no frame may be larger than a bound."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from framegen.cases.stream_case import QUIET, StreamCase, chunks
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from framegen.cases.sender import Sender
+    from framegen.cases.stream_case import Parts
+
+# What a report of USB HID holds, and many a small buffer.
+_REPORT = 64
+# Longer lines would show nothing else.
+_LONGEST = 300
+
+
+def large_streams(sender: Sender) -> Iterator[StreamCase]:
+    """The largest frame in all ways, then the bound."""
+    frames = [*sender.small_frames.values()]
+    if not frames:
+        return
+    for title, parts in _largest(sender, frames[0]):
+        yield StreamCase(title, sender.direction, parts)
+    limit = min(_REPORT, sender.largest - 1)
+    if limit >= sender.model.frame.least:
+        bound = f"at most {limit} bytes"
+        for title, parts in _bounded(sender, frames[0], limit):
+            yield StreamCase(f"{bound}: {title}", sender.direction, parts, limit)
+
+
+def _largest(sender: Sender, frame: bytes) -> Iterator[tuple[str, Parts]]:
+    largest, _ = sender.frames_around(min(sender.largest, _LONGEST))
+    if largest is None:
+        return
+    yield "the largest frame", (largest, QUIET)
+    yield (
+        f"the largest frame in pieces of {_REPORT} bytes",
+        (
+            *chunks(sender.noise(2) + largest + frame, _REPORT),
+            QUIET,
+        ),
+    )
+    yield "the largest frame without its last byte, then another", (largest[:-1] + frame, QUIET)
+    yield (
+        "the largest frame without its last byte, then quiet",
+        (
+            *(largest[:-1], QUIET),
+            *(frame, QUIET),
+        ),
+    )
+
+
+def _bounded(sender: Sender, frame: bytes, limit: int) -> Iterator[tuple[str, Parts]]:
+    within, beyond = sender.frames_around(limit)
+    if within is not None:
+        yield f"a frame of {len(within)}", (within + within, QUIET)
+    if beyond is not None and len(beyond) <= _LONGEST:
+        yield f"a frame of {len(beyond)}, then another", (beyond + frame, QUIET)
+        yield f"a frame of {len(beyond)} in pieces", (*chunks(beyond + frame, limit), QUIET)
+    least = sender.model.frame.least
+    for size in (limit, limit + 1):
+        unknown = sender.unknown(sender.noise(size - least))
+        if unknown is not None:
+            yield f"an unknown frame of {size}, then another", (unknown + frame, QUIET)
+            yield (
+                f"an unknown frame of {size} with a frame in it",
+                (
+                    unknown[: -len(frame)] + frame,
+                    QUIET,
+                ),
+            )

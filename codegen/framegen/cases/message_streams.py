@@ -1,0 +1,49 @@
+"""What can happen to the frames of one message on a line."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from framegen.cases.invalid import slots_once, spoilt_slot
+from framegen.cases.stream_case import QUIET, StreamCase, single_bytes
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from framegen.cases.sender import Sender
+    from framegen.cases.stream_case import Parts
+    from framegen.model.layout import MessageLayout
+
+
+def message_streams(sender: Sender) -> Iterator[StreamCase]:
+    """The same lines for each message."""
+    for name, frame in sender.small_frames.items():
+        for title, parts in _lines(sender, sender.model.messages[name], frame):
+            yield StreamCase(f"{name}: {title}", sender.direction, parts)
+
+
+def _lines(sender: Sender, message: MessageLayout, frame: bytes) -> Iterator[tuple[str, Parts]]:
+    half = len(frame) // 2
+    yield "byte by byte", (*single_bytes(frame), QUIET)
+    yield "behind noise, and told before the line goes quiet", (sender.noise(3) + frame,)
+    yield "behind a stray byte of the header", (sender.header[:1] + frame, QUIET)
+    twice = (frame[:half], frame[half:] + frame[:half], frame[half:], QUIET)
+    yield "twice, in pieces that end inside of a frame", twice
+    yield (
+        "without its last byte until the line is quiet, then whole",
+        (
+            *(frame[:-1], QUIET),
+            *(frame, QUIET),
+        ),
+    )
+    for placed in slots_once(message, frame):
+        if message.frame.body_at < placed.end < len(frame):
+            yield f"cut behind {placed.path}, then whole", (frame[: placed.end] + frame, QUIET)
+        if placed.slot.role in _OWN:
+            for title, data in spoilt_slot(sender.model, message, placed, placed.of(frame)):
+                wrong = frame[: placed.at] + data + frame[placed.end :]
+                yield f"{title}, then whole", (wrong + frame, QUIET)
+
+
+# What stands in front of all fields is looked at once for all messages, save how long they are.
+_OWN = ("length", "count", "field")

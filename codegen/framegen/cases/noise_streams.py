@@ -1,0 +1,122 @@
+"""Lines with noise on them, and frames that came in parts."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from framegen.cases.stream_case import QUIET, StreamCase, chunks, single_bytes
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from framegen.cases.sender import Sender
+    from framegen.cases.stream_case import Parts
+
+
+def noise_streams(sender: Sender) -> Iterator[StreamCase]:
+    """Noise around frames, stray headers, frames cut, and lengths that no frame has."""
+    frames = [*sender.small_frames.values()]
+    if frames:
+        lines = [
+            *_noise(sender, frames[0]),
+            *_headers(sender, frames[0]),
+            *_cuts(sender, frames[0], frames[-1]),
+            *_lengths(sender, frames[0]),
+            *_together(frames),
+            *_mixed(sender, frames[0], frames[-1]),
+        ]
+        for title, parts in lines:
+            yield StreamCase(title, sender.direction, parts)
+
+
+def _noise(sender: Sender, frame: bytes) -> Iterator[tuple[str, Parts]]:
+    noise = sender.noise
+    yield "nothing but quiet", (QUIET, QUIET)
+    yield "noise alone", (noise(5), QUIET)
+    yield "noise byte by byte, then a frame", (*single_bytes(noise(4)), frame, QUIET)
+    yield (
+        "noise in front of, between and behind frames",
+        (
+            noise(3) + frame + noise(1) + frame + noise(4),
+            QUIET,
+        ),
+    )
+    yield "noise on both sides of quiet", (noise(2), QUIET, noise(3) + frame, QUIET)
+    yield "quiet twice between frames", (frame, QUIET, QUIET, frame, QUIET)
+
+
+def _headers(sender: Sender, frame: bytes) -> Iterator[tuple[str, Parts]]:
+    header, noise = sender.header, sender.noise
+    yield "a header alone", (header, QUIET)
+    yield "a header at the end of noise", (noise(3) + header, QUIET)
+    yield "a header twice, then quiet", (header * 2, QUIET)
+    yield "a stray header in front of a frame", (header + frame, QUIET)
+    yield "two stray headers in front of a frame", (header * 2 + frame, QUIET)
+    yield "a stray header, noise, then a frame", (header + noise(4) + frame, QUIET)
+    yield "its first byte seven times in front of a frame", (header[:1] * 7 + frame, QUIET)
+    if len(header) > 1:
+        yield "a header that is cut in two by quiet", (header[:1], QUIET, frame[1:], QUIET)
+        yield "the first byte of a header at the end of noise", (noise(2) + header[:1], QUIET)
+
+
+def _cuts(sender: Sender, frame: bytes, other: bytes) -> Iterator[tuple[str, Parts]]:
+    for slot in sender.model.frame.head:
+        end = slot.at + slot.size
+        if end < len(frame):
+            yield f"a frame cut behind its {slot.name}, then another", (frame[:end] + other, QUIET)
+            yield (
+                f"a frame cut behind its {slot.name}, then quiet",
+                (
+                    *(frame[:end], QUIET),
+                    *(other, QUIET),
+                ),
+            )
+    yield "a frame that has lost its first byte, then another", (frame[1:] + other, QUIET)
+    yield "a frame with a pause in it", (frame[:-1], QUIET, frame[-1:] + other, QUIET)
+
+
+def _lengths(sender: Sender, frame: bytes) -> Iterator[tuple[str, Parts]]:
+    """Lengths that no frame has, of a message that there is."""
+    envelope = sender.model.frame
+    known = next(iter(sender.model.sent(sender.direction)))
+    sizes = {
+        "less than a frame has": envelope.least - 1,
+        "more than a frame has": sender.largest + 1,
+        "all that it can": envelope.length.high + envelope.uncounted,
+    }
+    for said, size in sizes.items():
+        wrong = sender.enveloped(known, b"", size)
+        if wrong is not None and not envelope.least <= size <= sender.largest:
+            yield f"a length that says {said}, then a frame", (wrong + frame, QUIET)
+            yield f"a length that says {said}, byte by byte", (*single_bytes(wrong + frame), QUIET)
+
+
+def _together(frames: list[bytes]) -> Iterator[tuple[str, Parts]]:
+    line = b"".join(frames)
+    if len(frames) > 1:
+        yield "one frame of each message in one piece", (line, QUIET)
+        yield "one frame of each message in pieces of 7 bytes", (*chunks(line, 7), QUIET)
+
+
+def _mixed(sender: Sender, frame: bytes, other: bytes) -> Iterator[tuple[str, Parts]]:
+    """Whatever comes, in an order that nobody has thought of."""
+    header = sender.header
+    told = sender.unknown(sender.noise(2)) or header
+    pieces = [
+        *(frame, other, header, header[:1], told, told[:-1], told + header[:1]),
+        *(frame[:-1], frame[1:], other[: len(header) + 1], sender.noise(2), frame + other),
+    ]
+    state = 1
+    for number in range(1, _MIXED + 1):
+        parts: list[bytes | None] = []
+        for _ in range(_PIECES):
+            state = state * 1103515245 + 12345 & 0x7FFFFFFF
+            piece = pieces[(state >> 16) % len(pieces)]
+            cut = (state >> 8) % (len(piece) + 1)
+            parts += [piece[:cut], piece[cut:]] if 0 < cut < len(piece) else [piece]
+        parts.insert(len(parts) // 2, QUIET)
+        yield f"bytes of all kinds, {number}", (*parts, QUIET)
+
+
+_MIXED = 6
+_PIECES = 8

@@ -1,0 +1,113 @@
+"""What one end of a line sends: frames that it may send, and bytes that look like them."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+from typing import TYPE_CHECKING
+
+from framegen.cases.unknown_id import unknown_id
+from framegen.cases.valid import frames_of, values_at
+from framegen.model.codec import encode
+from framegen.model.slots import Constant, Number
+
+if TYPE_CHECKING:
+    from framegen.language.values import Direction
+    from framegen.model.layout import MessageLayout
+    from framegen.model.model import Model
+
+# No more messages of one direction have lines of their own, and none whose frames are larger: what
+# a line shows does not depend on how many messages there are.
+_MESSAGES = 8
+_SMALL = 64
+# All bytes that there are, so that neighbours have nothing in common.
+_NOISE = [(0x13 + at * 0x25) % 0x100 for at in range(0x100)]
+
+
+@dataclass(frozen=True)
+class Sender:
+    """One direction of a protocol, with the bytes that cases are made of."""
+
+    model: Model
+    direction: Direction
+
+    @property
+    def header(self) -> bytes:
+        """The bytes with which a frame begins."""
+        return self.model.frame.header
+
+    @cached_property
+    def small_frames(self) -> dict[str, bytes]:
+        """A frame of each message, the first example that is small; of the first messages."""
+        found: dict[str, bytes] = {}
+        for message in self.model.sent(self.direction).values():
+            frames = (each.data for each in frames_of(message))
+            frame = next((each for each in frames if len(each) <= _SMALL), None)
+            if frame is not None and len(found) < _MESSAGES:
+                found[message.name] = frame
+        return found
+
+    @cached_property
+    def largest(self) -> int:
+        """Bytes of the largest frame."""
+        return self.model.largest([self.direction])
+
+    def noise(self, size: int) -> bytes:
+        """Bytes of which none can be of a header."""
+        calm = [byte for byte in _NOISE if byte not in self.header]
+        return bytes(calm[:1] and [calm[at % len(calm)] for at in range(size)])
+
+    def enveloped(self, code: int, body: bytes, size: int | None = None) -> bytes | None:
+        """A frame of any id; its length says `size` instead of the truth. None where none can."""
+        envelope = self.model.frame
+        true = envelope.least + len(body)
+        length = (true if size is None else size) - envelope.uncounted
+        if not envelope.length.low <= length <= envelope.length.high:
+            return None
+        data = b""
+        for placed in envelope.lay_out(true):
+            match placed.slot:
+                case Constant() as slot:
+                    data += slot.data
+                case Number(role="length") as slot:
+                    data += slot.write(length)
+                case Number(role="id") as slot:
+                    data += slot.write(code)
+                case Number():
+                    data += bytes(placed.size)
+                case _:
+                    data += body
+        return data
+
+    def unknown(self, body: bytes, size: int | None = None) -> bytes | None:
+        """The same, of an id that nobody knows, and of a length that a frame may have."""
+        code = unknown_id(self.model, self.direction)
+        shown = self.model.frame.least + len(body) if size is None else size
+        if code is None or not self.model.frame.least <= shown <= self.largest:
+            return None
+        return self.enveloped(code, body, size)
+
+    def frames_around(self, limit: int) -> tuple[bytes | None, bytes | None]:
+        """The largest frame of at most `limit` bytes, and the smallest that is larger."""
+        sizes: dict[int, tuple[MessageLayout, int]] = {}
+        for message in self.model.sent(self.direction).values():
+            for count in _counts_around(message, limit):
+                sizes.setdefault(message.size_at(count), (message, count))
+        within = max((size for size in sizes if size <= limit), default=None)
+        beyond = min((size for size in sizes if size > limit), default=None)
+        return (
+            None if within is None else _lowest(*sizes[within]),
+            None if beyond is None else _lowest(*sizes[beyond]),
+        )
+
+
+def _counts_around(message: MessageLayout, limit: int) -> list[int]:
+    """Up to two counts, with which a frame has at most `limit` bytes, and just more."""
+    first, last = message.counts[0], message.counts[-1]
+    step = message.formula.factor or 1
+    count = first + (limit - message.size_at(first)) // step
+    return sorted({min(max(each, first), last) for each in (count, count + 1)})
+
+
+def _lowest(message: MessageLayout, count: int) -> bytes:
+    return encode(message, values_at(message, "low", count))

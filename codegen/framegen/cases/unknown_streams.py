@@ -1,0 +1,101 @@
+"""Frames of an id that no message has, whole and in part, and what hides in them."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from framegen.cases.stream_case import QUIET, StreamCase, single_bytes
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from framegen.cases.sender import Sender
+    from framegen.cases.stream_case import Parts
+
+
+def unknown_streams(sender: Sender) -> Iterator[StreamCase]:
+    """All of them, as far as a frame of this direction has room for what they hold."""
+    empty = sender.unknown(b"")
+    if not sender.small_frames or empty is None:
+        return
+    frame = next(iter(sender.small_frames.values()))
+    filled = _filled(sender) or empty
+    lines = [
+        *_whole(sender, frame, empty, filled),
+        *_holding(sender, frame, empty, filled),
+        *_unfinished(sender, frame, empty),
+    ]
+    for title, parts in lines:
+        yield StreamCase(title, sender.direction, parts)
+
+
+def _filled(sender: Sender) -> bytes | None:
+    """An unknown frame with a few bytes that mean nothing, as many as there is room for."""
+    found = (sender.unknown(sender.noise(size)) for size in (3, 2, 1))
+    return next((each for each in found if each is not None), None)
+
+
+def _whole(
+    sender: Sender, frame: bytes, empty: bytes, filled: bytes
+) -> Iterator[tuple[str, Parts]]:
+    noise, stray = sender.noise, sender.header[:1]
+    yield "an unknown frame without fields", (empty, QUIET)
+    yield "an unknown frame between frames", (frame + filled + frame, QUIET)
+    yield "an unknown frame between noise", (noise(2) + filled + noise(3), QUIET)
+    yield "an unknown frame, told before the line goes quiet", (filled + frame,)
+    yield "an unknown frame byte by byte, then another", (*single_bytes(filled), frame, QUIET)
+    yield "two unknown frames", (filled + empty, QUIET)
+    yield "an unknown frame behind a stray byte of the header", (stray + filled, QUIET)
+    yield "an unknown frame without its last byte, then quiet", (filled[:-1], QUIET)
+    yield "an unknown frame without its last byte, then a frame", (filled[:-1] + frame, QUIET)
+    yield "an unknown frame with a pause in it", (filled[:-1], QUIET, filled[-1:], QUIET)
+
+
+def _holding(
+    sender: Sender, frame: bytes, empty: bytes, filled: bytes
+) -> Iterator[tuple[str, Parts]]:
+    """Whole ones, by what they hold; and what comes behind them."""
+    header, calm = sender.header, sender.noise(1)
+    held = {
+        "a frame": (frame, b""),
+        "the beginning of a frame": (calm + frame[:-1], frame[-1:]),
+        "the first byte of a frame": (calm + frame[:1], frame[1:]),
+        "a stray byte of the header": (calm + header[:1], frame),
+        "a header": (calm + header, b""),
+        "an unknown frame": (empty, frame),
+        "the beginning of an unknown frame": (calm + filled[:-1], filled[-1:] + frame),
+        "an unknown frame and a frame": (empty + frame, b""),
+        "a frame and an unknown frame": (frame + empty, b""),
+    }
+    for what, (body, behind) in held.items():
+        unknown = sender.unknown(body)
+        if unknown is not None:
+            yield f"an unknown frame that holds {what}", (unknown + behind, QUIET)
+
+
+def _unfinished(sender: Sender, frame: bytes, empty: bytes) -> Iterator[tuple[str, Parts]]:
+    """Those whose length says more than comes."""
+    calm, least = sender.noise(1), sender.model.frame.least
+    more = least + 2 * len(frame) + 2 * len(empty) + 4
+    claim, larger = sender.unknown(b"", more), sender.unknown(b"", more + 1)
+    if claim is None or larger is None:
+        return
+    title = "an unknown frame that does not end"
+    yield f"{title}, then quiet", (claim + calm, QUIET, frame, QUIET)
+    yield f"{title}, with a frame in it", (claim + calm + frame, QUIET)
+    yield (
+        f"{title}, with two frames in it, byte by byte",
+        (
+            *single_bytes(claim + frame + calm + frame),
+            QUIET,
+        ),
+    )
+    yield f"{title}, with an unknown frame in it", (claim + empty + calm, QUIET)
+    yield f"{title}, with another such and a frame in it", (larger + claim + frame, QUIET)
+    yield (
+        f"{title}, with another such and an unknown frame in it",
+        (
+            *single_bytes(larger + claim + empty),
+            QUIET,
+        ),
+    )

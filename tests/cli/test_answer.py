@@ -1,0 +1,111 @@
+"""The verb `answer`: the session in the guide, questions that make no sense, and no waiting."""
+
+from __future__ import annotations
+
+import io
+import re
+import subprocess
+import sys
+from typing import TYPE_CHECKING
+
+import pytest
+from busservo.cli import main
+from busservo.cli.answer import answer
+from busservo.cli.unusable import UnusableError
+
+from tests.documents import ROOT
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+GUIDE = (ROOT / "docs" / "command.md").read_text(encoding="utf-8")
+SESSION = re.findall(r"^    \$ busservo answer\n((?:    .*\n)*)", GUIDE, re.MULTILINE)
+
+
+def exchanges() -> Iterator[tuple[str, list[str]]]:
+    """Each question of the session in the guide, and its answer."""
+    (session,) = SESSION
+    for exchange in re.findall(r"(.*?)^    end\n", session, re.MULTILINE | re.DOTALL):
+        question, *answers = [line.strip() for line in exchange.splitlines()]
+        yield question, answers
+
+
+@pytest.mark.parametrize(("question", "answers"), [*exchanges()])
+def test_it_answers_as_the_guide_says(question: str, answers: list[str]) -> None:
+    assert answer(question) == answers
+
+
+def test_the_guide_asks_for_everything() -> None:
+    verbs = {question.split()[0] for question, _ in exchanges()}
+    said = {line.split()[0] for _, answers in exchanges() for line in answers}
+    assert verbs == {"decode", "encode", "stream"}
+    assert said == {"message", "refused", "frame", "noise", "quiet"}
+
+
+HOST = "host_to_controller"
+
+
+@pytest.mark.parametrize(
+    ("question", "told"),
+    [
+        ("tell me", "ask `decode WAY HEX`, `encode NAME FIELDS` or `stream WAY LARGEST PARTS`"),
+        ("decode", "ask `decode WAY HEX`, "),
+        (f"stream {HOST}", "ask `decode WAY HEX`, "),
+        ("decode up 55", "there is no way 'up'; there are host_to_controller and controller_to_"),
+        (f"decode {HOST} 5x", "is no hex digit"),
+        (f"stream {HOST} 257 55 silence", "is no hex digit"),
+        (f"stream {HOST} many 55", "many: 'many' is no whole number: write it like 12"),
+        (f"stream {HOST} 3 55", "3: max_frame is 3, and the smallest frame has 4 bytes"),
+        ("encode ServoMov", "there is no message 'ServoMov'; did you mean ServoMove?"),
+        ("encode ServoUnload", "ServoUnload needs servo_ids; it is written ServoUnload servo_ids="),
+        ("encode ServoUnload servo_ids=one", "servo_ids[0]: 'one' is no number"),
+    ],
+)
+def test_a_question_that_makes_no_sense_is_told_so(question: str, told: str) -> None:
+    with pytest.raises(UnusableError, match=re.escape(told)):
+        answer(question)
+
+
+def test_what_makes_no_sense_stops_nothing(
+    capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    lines = b"decode \x1b\xff 55\n\n  \nencode ActionGroupStop\n"
+    monkeypatch.setattr(sys, "stdin", io.TextIOWrapper(io.BytesIO(lines)))
+    assert main(["answer"]) == 2
+    output, errors = capsys.readouterr()
+    first, *rest = output.splitlines()
+    assert first.startswith(r"error there is no way '\x1b")
+    assert rest == ["end", "frame 55550207", "end"]
+    assert errors == ""
+
+
+def test_an_unknown_frame_and_a_bound_for_frames() -> None:
+    line = "555502ff55550514020102"
+    assert answer(f"stream {HOST} 6 {line} quiet") == [
+        "unknown 555502ff",
+        "noise length-mismatch 55550514020102",
+        "quiet",
+    ]
+    assert answer(f"stream {HOST} 7 {line}") == [
+        "unknown 555502ff",
+        "message ServoUnload 55550514020102 servo_ids=1,2",
+    ]
+
+
+def test_nothing_that_is_answered_waits_for_more() -> None:
+    with subprocess.Popen(
+        [sys.executable, "-m", "busservo", "answer"],
+        stdin=subprocess.PIPE,
+        stdout=subprocess.PIPE,
+        encoding="utf-8",
+    ) as process:
+        assert process.stdin is not None
+        assert process.stdout is not None
+        for question in ("encode ActionGroupStop", "encode BatteryVoltageRead"):
+            process.stdin.write(f"{question}\n")
+            process.stdin.flush()
+            # The next question is asked only when this one is answered: else both would wait.
+            assert process.stdout.readline().startswith("frame 5555")
+            assert process.stdout.readline() == "end\n"
+        process.stdin.close()
+        assert process.wait() == 0

@@ -1,0 +1,125 @@
+"""Holds a codec in any language to the published vectors, through the line language.
+
+Knows nothing of the generator but the file of vectors: so may anybody else's.
+"""
+
+from __future__ import annotations
+
+import subprocess
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator, Sequence
+
+# More than any frame has: the vector sets no bound.
+NO_BOUND = 1 << 20
+
+
+@dataclass(frozen=True)
+class Asked:
+    """A question, and what a codec is to answer; noise is joined."""
+
+    title: str
+    question: str
+    answer: list[str]
+
+    def differs(self, answer: Sequence[str]) -> str:
+        """What is wrong with an answer; nothing where it is the right one."""
+        shown = joined(answer)
+        if shown == self.answer:
+            return ""
+        return "\n".join([f"{self.title}: {self.question}", *self.answer, "but:", *shown])
+
+
+def asked(document: dict[str, Any]) -> Iterator[Asked]:
+    """Every question that a file of vectors holds."""
+    for vector in document["valid"]:
+        name, way, frame = vector["message"], vector["direction"], _hex(vector["hex"])
+        yield Asked(vector["title"], f"decode {way} {frame}", [_message(vector)])
+        fields = "".join(f" {field}" for field in _fields(vector["fields"]))
+        yield Asked(vector["title"], f"encode {name}{fields}", [f"frame {frame}"])
+    for vector in document["invalid"]:
+        answer = f"refused {_dashed(vector['reason'])} {vector['offset']}"
+        question = f"decode {vector['direction']} {_hex(vector['hex'])}".rstrip()
+        yield Asked(vector["title"], question, [answer])
+    for vector in document["streams"]:
+        parts = [part if part == "quiet" else _hex(part) for part in vector["parts"]]
+        largest = NO_BOUND if vector["max_frame"] is None else vector["max_frame"]
+        question = " ".join(["stream", vector["direction"], str(largest), *parts])
+        yield Asked(vector["title"], question, [*map(_event, vector["events"])])
+
+
+def differences(questions: Sequence[Asked], answers: Sequence[Sequence[str]]) -> list[str]:
+    """What is wrong with the answers to all questions, one for each that is."""
+    found = (each.differs(answer) for each, answer in zip(questions, answers, strict=True))
+    return [each for each in found if each]
+
+
+def run(command: Sequence[str], questions: Sequence[str]) -> list[list[str]]:
+    """What a program answers on its standard output to what it reads, without the `end`."""
+    done = subprocess.run(
+        command,
+        input="".join(f"{question}\n" for question in questions),
+        capture_output=True,
+        encoding="utf-8",
+        timeout=120,
+        check=False,
+    )
+    assert (done.returncode, done.stderr) == (0, "")
+    answers: list[list[str]] = [[]]
+    for line in done.stdout.splitlines():
+        if line == "end":
+            answers.append([])
+        else:
+            answers[-1].append(line)
+    assert answers.pop() == []
+    return answers
+
+
+def joined(lines: Sequence[str]) -> list[str]:
+    """The lines of an answer, with neighbouring noise of one reason made one."""
+    found: list[str] = []
+    for line in lines:
+        noise, _, data = line.rpartition(" ")
+        if noise.startswith("noise ") and found and found[-1].rpartition(" ")[0] == noise:
+            found[-1] += data
+        else:
+            found.append(line)
+    return found
+
+
+def _event(event: dict[str, Any]) -> str:
+    match event["event"]:
+        case "message":
+            return _message(event)
+        case "unknown":
+            return f"unknown {_hex(event['hex'])}"
+        case "noise":
+            return f"noise {_dashed(event['reason'])} {_hex(event['hex'])}"
+        case other:
+            assert other == "quiet"
+            return "quiet"
+
+
+def _message(vector: dict[str, Any]) -> str:
+    fields = _fields(vector["fields"])
+    return " ".join(["message", vector["message"], _hex(vector["hex"]), *fields])
+
+
+def _fields(fields: dict[str, Any]) -> list[str]:
+    return [f"{name}={_value(value)}" for name, value in fields.items()]
+
+
+def _value(value: Any) -> str:
+    if isinstance(value, list):
+        return ",".join(map(_value, value))
+    return ":".join(map(str, value.values())) if isinstance(value, dict) else str(value)
+
+
+def _hex(digits: str) -> str:
+    return digits.replace(" ", "").lower()
+
+
+def _dashed(reason: str) -> str:
+    return reason.replace(" ", "-")

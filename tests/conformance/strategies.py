@@ -1,0 +1,52 @@
+"""Lines of any protocol for Hypothesis: frames, damaged and unknown ones, and noise like them."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from framegen.cases.sender import Sender
+from hypothesis import strategies as st
+
+if TYPE_CHECKING:
+    from framegen.language.values import Direction
+    from framegen.model.model import Model
+
+
+def lines_of(model: Model, way: Direction) -> st.SearchStrategy[bytes]:
+    """What may be heard in one direction."""
+    sender = Sender(model, way)
+    frames = st.sampled_from([*sender.small_frames.values()])
+    header = sender.header
+    near = [*header, *header, *model.sent(way), *range(8), 99, 255]
+    alike = st.lists(st.sampled_from([each & 0xFF for each in near]), max_size=12).map(bytes)
+    heads = alike.map(lambda rest: header + rest)
+
+    def unknown(inner: st.SearchStrategy[bytes]) -> st.SearchStrategy[bytes]:
+        wrapped = inner.map(sender.unknown)
+        return st.builds(lambda frame, more: (frame or header) + more, wrapped, inner)
+
+    nested = st.recursive(alike | frames | st.binary(max_size=3), unknown, max_leaves=6)
+    pieces = st.one_of(frames, frames.flatmap(_damaged), heads, alike, nested)
+    return st.lists(pieces, max_size=5).map(b"".join)
+
+
+@st.composite
+def _damaged(draw: st.DrawFn, frame: bytes) -> bytes:
+    """A frame of which something was lost, changed or repeated."""
+    start = draw(st.integers(0, len(frame) - 1))
+    end = draw(st.integers(start, min(start + 3, len(frame))))
+    return frame[:start] + draw(st.binary(max_size=2)) + frame[end:]
+
+
+@st.composite
+def parts_of(draw: st.DrawFn, lines: st.SearchStrategy[bytes]) -> list[bytes | None]:
+    """A line in pieces, quiet here and there."""
+    line = draw(lines)
+    if draw(st.booleans()):
+        return [line[at : at + 1] for at in range(len(line))]
+    cuts = sorted(draw(st.sets(st.integers(0, len(line)), max_size=6)))
+    parts: list[bytes | None] = []
+    for start, end in zip([0, *cuts], [*cuts, len(line)], strict=True):
+        parts.append(line[start:end])
+        parts += [None] if draw(st.integers(0, 3)) == 0 else []
+    return parts

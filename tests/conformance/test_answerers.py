@@ -1,0 +1,64 @@
+"""Every codec of this project is held to the published vectors, and seen to be able to fail."""
+
+import json
+from pathlib import Path
+from typing import Any
+
+import pytest
+from framegen.compile import Compiled, compile_spec
+from framegen.language.load import read_source
+from framegen.targets import vectors
+
+from tests.conformance.answerers import ANSWERERS
+from tests.conformance.harness import asked, differences, joined, run
+from tests.specimens import BUSSERVO, DEMO
+
+SPECS = [
+    BUSSERVO,
+    DEMO,
+    *(DEMO.with_name(f"{name}.yaml") for name in ("blinds", "lamp", "weather")),
+]
+
+
+def compiled(spec: Path) -> Compiled:
+    return compile_spec(read_source(spec))
+
+
+def vectors_of(spec: Path) -> dict[str, Any]:
+    """The vectors as they are published."""
+    (text,) = vectors.TARGET.render(compiled(spec), {}).values()
+    document: dict[str, Any] = json.loads(text)
+    return document
+
+
+@pytest.mark.parametrize("spec", SPECS, ids=lambda spec: spec.stem)
+@pytest.mark.parametrize("language", ANSWERERS)
+def test_a_codec_says_what_the_vectors_say(language: str, spec: Path, tmp_path: Path) -> None:
+    questions = [*asked(vectors_of(spec))]
+    command = ANSWERERS[language](compiled(spec), tmp_path)
+    answers = run(command, [each.question for each in questions])
+    assert differences(questions, answers) == []
+
+
+def test_every_vector_is_asked() -> None:
+    document = vectors_of(BUSSERVO)
+    questions = [each.question.split()[0] for each in asked(document)]
+    assert questions.count("encode") == len(document["valid"])
+    assert questions.count("decode") == len(document["valid"]) + len(document["invalid"])
+    assert questions.count("stream") == len(document["streams"])
+
+
+@pytest.mark.parametrize("spoilt", ["", "refused", "frame 55", "message Nothing 55"])
+def test_a_wrong_answer_to_any_question_is_seen(spoilt: str) -> None:
+    questions = [*asked(vectors_of(DEMO))]
+    right = [each.answer for each in questions]
+    assert differences(questions, right) == []
+    wrong = [[*answer[:-1], spoilt] for answer in right]
+    assert len(differences(questions, wrong)) == len(questions)
+
+
+def test_noise_may_come_in_pieces_and_nothing_else_may() -> None:
+    pieces = ["noise bad-header 00", "noise bad-header 01", "noise too-short 55", "quiet"]
+    assert joined(pieces) == ["noise bad-header 0001", "noise too-short 55", "quiet"]
+    whole = ["unknown 55", "unknown 55", "quiet", "quiet"]
+    assert joined(whole) == whole
