@@ -130,6 +130,8 @@ class SerialPort:
             port.write_timeout = 0
         self._at_once = getattr(port, "timeout", None) == 0
         self._closed = False
+        # Held until it is closed; again by the thread that closes it, as in a handler of signals.
+        self._closing = threading.RLock()
         # Held while a read is under way, so that the descriptor is not closed underneath it: its
         # number could be another file's by the time it is used.
         self._reading = threading.Lock()
@@ -221,10 +223,13 @@ class SerialPort:
             raise self._failed(error) from error
 
     def close(self) -> None:
-        """Closes the port; a read under way ends first."""
-        if self._closed:
-            return
-        self._closed = True
+        """Closes the port; a read under way ends first. A second call waits for the first."""
+        with self._closing:
+            if not self._closed:
+                self._closed = True
+                self._close()
+
+    def _close(self) -> None:
         cancel = getattr(self._port, "cancel_read", None)
         try:
             if cancel is not None:

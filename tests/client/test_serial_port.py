@@ -9,6 +9,7 @@ import select
 import socket
 import threading
 import time
+from concurrent.futures import ThreadPoolExecutor, wait
 from typing import TYPE_CHECKING
 
 import pytest
@@ -32,6 +33,7 @@ from busservo import (
     open_controller,
     open_transport,
 )
+from busservo.hid_port import HidPort
 from busservo.port_errors import not_opened
 from busservo.rejects import Rejects
 from busservo.serial_port import SerialPort
@@ -570,6 +572,63 @@ def test_a_port_is_closed_even_under_a_read_that_does_not_end(
     go_on.set()
     thread.join(PATIENCE)
     assert not thread.is_alive()
+
+
+class SlowToClose(Driver):
+    """A port that is closed only when it is let go, and calls `meanwhile` before it waits."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.closing, self.go_on = threading.Event(), threading.Event()
+        self.meanwhile: Callable[[], object] = self.closing.set
+
+    def close(self) -> None:
+        self.meanwhile()
+        self.closing.set()
+        assert self.go_on.wait(PATIENCE)
+        super().close()
+
+
+def slow_serial_port() -> tuple[SlowToClose, SerialPort]:
+    driver = SlowToClose()
+    return driver, driven_by(driver)
+
+
+def slow_hid_port() -> tuple[SlowToClose, HidPort]:
+    driver = SlowToClose()
+    return driver, HidPort("hid://", driver, 64, lambda: slow_hid_port()[1])
+
+
+@pytest.mark.parametrize("made", [slow_serial_port, slow_hid_port])
+def test_whoever_closes_a_port_second_waits_for_whoever_closes_it_first(
+    made: Callable[[], tuple[SlowToClose, SerialPort | HidPort]],
+) -> None:
+    driver, port = made()
+
+    def close_too() -> bool:
+        port.close()
+        return driver.closed
+
+    with ThreadPoolExecutor() as pool:
+        first = pool.submit(port.close)
+        assert driver.closing.wait(PATIENCE)
+        second = pool.submit(close_too)
+        done, _ = wait([second], timeout=0.05)
+        driver.go_on.set()
+        assert not done, "the port is not closed yet"
+        assert second.result(PATIENCE)
+        first.result(PATIENCE)
+
+
+@pytest.mark.parametrize("made", [slow_serial_port, slow_hid_port])
+def test_closing_a_port_while_closing_it_does_not_wait_for_itself(
+    made: Callable[[], tuple[SlowToClose, SerialPort | HidPort]],
+) -> None:
+    driver, port = made()
+    driver.meanwhile = port.close
+    driver.go_on.set()
+    port.close()
+    assert driver.closed
 
 
 def test_a_port_that_fails_to_open_in_a_way_of_its_own_is_told_in_its_words(

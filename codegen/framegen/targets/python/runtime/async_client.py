@@ -8,6 +8,7 @@ import threading
 import time
 import warnings
 import weakref
+from functools import partial
 from queue import SimpleQueue
 from typing import TYPE_CHECKING, TypeVar, overload
 
@@ -268,12 +269,16 @@ class AsyncClient:
     async def close(self) -> None:
         """Sends what is still to be sent, waits until the last byte is out, and closes the line.
 
-        Questions of other tasks end with ClosedError. May be called again.
+        Questions of other tasks end with ClosedError. May be called again, and by several tasks at
+        once: each of them returns once the line is closed. Where the loop that it was used in has
+        ended, it may be closed in another.
         """
         if self._ending is None:
             self._ending = asyncio.ensure_future(self._end())
-        # Once begun, it is done in full: half a frame on the line would spoil the next one.
-        await asyncio.shield(self._ending)
+        # It is closed as well where the loop ended in the middle of that.
+        if not self._ending.cancelled():
+            # Once begun, it is done in full: half a frame on the line would spoil the next one.
+            await asyncio.shield(self._ending)
 
     async def reconnect(self) -> None:
         """Opens the same port again, after the line was lost; what was under way has failed.
@@ -381,12 +386,7 @@ class AsyncClient:
         self._start()
         request = self._session.submit(message, question=retries is not None, retries=retries or 0)
         done: asyncio.Future[None] = asyncio.get_running_loop().create_future()
-
-        def finished() -> None:
-            if not done.done():
-                done.set_result(None)
-
-        request.notify = finished
+        request.notify = partial(_set, done)
         self._advance()
         try:
             await done
@@ -504,13 +504,14 @@ class AsyncClient:
 
     async def _end(self) -> None:
         closed = self._closed()
+        self._loop = loop = asyncio.get_running_loop()
         self._session.refuse_questions(closed)
         self._advance()
         self._wake()
-        loop = asyncio.get_running_loop()
         try:
             await self._drain()
             await loop.run_in_executor(None, self._shut, GRACE if self._failure is None else 0.0)
+            await self._given_back()
         except asyncio.CancelledError:
             # The loop is about to end; the port is given back all the same.
             self._shut(0.0)
@@ -533,6 +534,12 @@ class AsyncClient:
             if (self._session.idle and now >= free_at) or now >= max(until, free_at + GRACE):
                 return
             await asyncio.sleep(min(SLICE, max(0.001, free_at - now)))
+
+    async def _given_back(self) -> None:
+        """Waits for whoever is opening the line again, finds it closed, and gives the port back."""
+        until = time.monotonic() + GRACE
+        while self._reopening.locked() and time.monotonic() < until:
+            await asyncio.sleep(SLICE)
 
     def _shut(self, grace: float) -> None:
         """Ends the threads and closes the transport, which may take a moment: not in the loop."""
@@ -615,7 +622,8 @@ def close_late(opened: asyncio.Future[Any]) -> None:
 
 
 def _set(future: asyncio.Future[None]) -> None:
-    if not future.done():
+    # In a loop that has ended, nobody waits any more.
+    if not future.done() and not future.get_loop().is_closed():
         future.set_result(None)
 
 

@@ -553,6 +553,9 @@ class Client:
             # Whatever interrupts the wait, the port is given back.
             self._transport.close()
             self._stop_listening()
+            # Whoever is opening the line again finds it closed, and gives the port back.
+            if self._reopening.acquire(timeout=GRACE):
+                self._reopening.release()
             with self._lock:
                 self._session.fail(self._closed())
                 self._changed.notify_all()
