@@ -16,7 +16,8 @@ from functools import partial
 from typing import TYPE_CHECKING, NamedTuple
 
 from .link_errors import ClosedError, DisconnectedError, TransportError, WriteStuckError
-from .port_errors import not_opened, refused_name
+from .port_errors import not_opened
+from .port_names import refused_name
 from .protocol import BAUD, DATA_BITS, PARITY, STOP_BITS
 
 if TYPE_CHECKING:
@@ -89,31 +90,32 @@ def open_transport(
     refused = refused_name(port)
     if refused is not None:
         raise refused
+    # pyserial knows some of its own schemes in small letters only.
+    scheme, separator, rest = port.partition("://")
+    url = f"{scheme.lower()}://{rest}" if separator else port
     rate = BAUD if baud == math.inf else baud
     if not 1 <= rate < _FASTER:
         raise ValueError(f"baud is {baud!r}, and must be from 1 to {_FASTER - 1}, or math.inf")
     try:
         opened = serial.serial_for_url(
-            port,
+            url,
             baudrate=int(rate),
             bytesize=DATA_BITS,
             parity=PARITY[0].upper(),
             stopbits=STOP_BITS,
             # pyserial reads a socket byte by byte, unless it must not wait: `select` waits for it.
-            timeout=0 if port.lower().startswith(_SOCKET) else _SLICE,
+            timeout=0 if url.startswith(_SOCKET) else _SLICE,
             # pyserial refuses one for RFC 2217, where its own socket gives up after 5 s.
-            write_timeout=None if port.lower().startswith("rfc2217:") else _WRITE_TIMEOUT,
+            write_timeout=None if url.startswith("rfc2217:") else _WRITE_TIMEOUT,
             exclusive=exclusive or None,
         )
     except (*_GONE, LookupError, NotImplementedError, StopIteration) as error:
-        raise not_opened(str(port), error, _listed) from error
+        raise not_opened(port, error, _listed) from error
     # pyserial leaves a socket to collect small writes: the second of two would wait for 40 ms.
     behind = getattr(opened, "_socket", None)
     if behind is not None:
         behind.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
-    return SerialPort(
-        str(port), opened, partial(open_transport, port, baud=baud, exclusive=exclusive)
-    )
+    return SerialPort(port, opened, partial(open_transport, port, baud=baud, exclusive=exclusive))
 
 
 class SerialPort:

@@ -222,10 +222,19 @@ def test_exclusive_unless_told_otherwise(board: PtyBoard) -> None:
 REFUSED_NAMES = {
     "": "^'': this is no name; name a port",
     " ": "^' ': this is no name; name a port",
-    "hwgrep://CH340(": r"'CH340\(' is no regular expression .*; such as hwgrep://CH340$",
+    "hwgrep://CH340(": r"'CH340\(' is no regular expression .*, such as hwgrep://CH340$",
+    "hwgrep://": "it does not say what to look for; write .*, such as hwgrep://CH340$",
+    "hwgrep://CH340&n=one": "'n=one' is no option of hwgrep://; its options are n=2 .* skip_busy$",
+    "hwgrep://CH340&n=1": "'n=1' is no option of hwgrep://",
+    "loop://?logging=loud": "'logging=loud' is no option of loop://; its options are logging=",
+    "socket://board:1?logging=loud": "'logging=loud' is no option of socket://",
+    "rfc2217://board:1?timeout=inf": "'timeout=inf' is no option of rfc2217://; .* timeout=5 and",
+    "rfc2217://board:1?poll_modem&x": "'x' is no option of rfc2217://",
+    "carrier-pigeon://coop": "nothing is known that begins with carrier-pigeon://; name a port",
     "spy://loop://?file=all.log": "would write to any file .*; name the port alone, and record it",
     "socket://": "it names no host; write socket://HOST:PORT",
     "socket://:4000": "it names no host; write socket://HOST:PORT",
+    "socket://a..b:4000": r"'a\.\.b' is no name of a host; write socket://HOST:PORT",
     "socket://board": "it names no TCP port; write socket://HOST:PORT",
     "socket://[::1]": "it names no TCP port; write socket://HOST:PORT",
     "socket://board:": "it names no TCP port; write socket://HOST:PORT",
@@ -244,8 +253,10 @@ REFUSED_NAMES = {
         ("/dev/ttyNoSuchPort", PortNotFoundError, "exist|plugged in"),
         ("COM999", PortNotFoundError, "exist|plugged in"),
         ("hwgrep://no such adapter", PortNotFoundError, "'no such adapter' in its description"),
-        ("socket://127.0.0.1:1", PortNotFoundError, "there and listening"),
-        ("carrier-pigeon://coop", PortAddressError, "name a port"),
+        ("socket://127.0.0.1:1", PortNotFoundError, r"reached \(.*\); see that .* and listening"),
+        ("SOCKET://127.0.0.1:1?logging=error", PortNotFoundError, "there and listening"),
+        (" /dev/ttyUSB0", PortNotFoundError, "its name begins or ends with a blank"),
+        ("socket:board:4000", PortNotFoundError, "and an address begins with socket://"),
         ("/", PortAddressError, "it is there, and is no serial port"),
         (__file__, PortAddressError, "it is there, and is no serial port"),
         ("bad\0name", PortAddressError, "name a port"),
@@ -287,6 +298,40 @@ def test_a_name_of_another_system_is_told_as_such(port: str, platform: str, told
 def test_a_rate_that_no_port_has_is_refused(baud: float) -> None:
     with pytest.raises(ValueError, match="must be from 1 to 2147483647"):
         open_controller("loop://", baud=baud)
+
+
+@pytest.mark.parametrize(
+    ("error", "told"),
+    [
+        (ValueError("Failed to set custom baud rate (77): [Errno 22] no"), "set to that rate (no)"),
+        (serial.SerialException(36, "could not open port x: [Errno 36]"), os.strerror(36)),
+        (serial.SerialException("Could not configure port: (5, 'no input')"), "opened (no input)"),
+        (
+            serial.SerialException("could not open port 'x': OSError(22, \"n'est pas\", None, 87)"),
+            "it cannot be opened (n'est pas)",
+        ),
+        (serial.SerialException("it is too late"), "it cannot be opened (it is too late)"),
+    ],
+)
+def test_what_the_system_says_is_told_and_not_what_pyserial_puts_around_it(
+    error: Exception, told: str
+) -> None:
+    refused = str(not_opened("x", error, lambda: "these exist: y"))
+    assert told in refused
+    assert not any(word in refused for word in ("could not", "Could not", "Errno", "Failed"))
+
+
+def test_a_scheme_may_be_written_in_capitals(monkeypatch: pytest.MonkeyPatch) -> None:
+    looked_for: list[str] = []
+
+    def grep(pattern: str) -> list[object]:
+        looked_for.append(pattern)
+        return []
+
+    monkeypatch.setattr("serial.tools.list_ports.grep", grep)
+    with pytest.raises(PortNotFoundError):
+        open_transport("HWGREP://CH340")
+    assert looked_for == ["CH340"]
 
 
 def test_permission_denied_comes_with_advice(monkeypatch: pytest.MonkeyPatch) -> None:
