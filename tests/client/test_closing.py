@@ -144,6 +144,8 @@ def test_a_controller_that_is_not_open_yet_says_how_to_open_it() -> None:
         ):
             getattr(opening, name)
     assert not hasattr(opening, "reports")
+    with pytest.raises(TypeError, match=r"not open yet: .*`async with`, or await it$"), opening:
+        pass
 
 
 # -------------------------------------------------------------------- forgotten
