@@ -42,7 +42,7 @@ _IDS = re.compile(r"([0-9a-fA-F]{4}):([0-9a-fA-F]{4})")
 _NAMED = "write hid:// for the one device that is plugged in, hid://VENDOR:PRODUCT or hid://PATH"
 _USUAL_SIZE = 64
 # A read cannot be ended from outside: longer waits are made of several.
-_SLICE = 0.05
+_POLL_INTERVAL = 0.05
 
 
 def open_hid(port: str, *, library: Any = None) -> HidPort:
@@ -129,7 +129,7 @@ class HidPort:
         while True:
             left = until - time.monotonic()
             with self._reading:
-                report = self._read_report(min(max(left, 0.0), _SLICE))
+                report = self._read_report(min(max(left, 0.0), _POLL_INTERVAL))
             data = self._unpadded(report)
             if data or time.monotonic() >= until:
                 return data

@@ -30,7 +30,7 @@ if TYPE_CHECKING:
 # pyserial reconfigures the port whenever its timeout changes, so that stays as it is; longer waits
 # are made of several, and shorter ones are waited for here. It is also how long closing waits for a
 # read that cannot be cancelled.
-_SLICE = 0.05
+_POLL_INTERVAL = 0.05
 # How often to look whether bytes have come, where nothing tells.
 _LOOK = 0.001
 _WRITE_TIMEOUT = 1.0
@@ -104,7 +104,7 @@ def open_transport(
             parity=PARITY[0].upper(),
             stopbits=STOP_BITS,
             # pyserial reads a socket byte by byte, unless it must not wait: `select` waits for it.
-            timeout=0 if url.startswith(_SOCKET) else _SLICE,
+            timeout=0 if url.startswith(_SOCKET) else _POLL_INTERVAL,
             # pyserial refuses one for RFC 2217, where its own socket gives up after 5 s.
             write_timeout=None if url.startswith("rfc2217:") else _WRITE_TIMEOUT,
             exclusive=exclusive or None,
@@ -144,7 +144,7 @@ class SerialPort:
         while True:
             left = until - time.monotonic()
             with self._reading:
-                data = self._read_some(min(max(left, 0.0), _SLICE))
+                data = self._read_some(min(max(left, 0.0), _POLL_INTERVAL))
             if data or time.monotonic() >= until:
                 return data
 
@@ -171,7 +171,7 @@ class SerialPort:
         """Whether anything comes within `timeout`; True as well where a read of pyserial waits."""
         if self._handle is not None:
             return bool(select.select([self._handle], [], [], timeout)[0])
-        if timeout >= _SLICE:
+        if timeout >= _POLL_INTERVAL:
             return True
         until = time.monotonic() + timeout
         while not self._port.in_waiting:

@@ -510,7 +510,7 @@ def test_what_is_closed_while_it_is_opened_again_is_given_back_by_then() -> None
 def test_closing_waits_only_for_a_while_for_a_port_that_does_not_open(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    monkeypatch.setattr("busservo.client.GRACE", 0.02)
+    monkeypatch.setattr("busservo.client.DRAIN_TIMEOUT", 0.02)
     Counted.open = 0
     line = Held()
     controller = Controller(line)
@@ -591,7 +591,7 @@ def test_what_is_closed_while_it_is_opened_again_is_given_back_by_then_with_asyn
 def test_closing_waits_only_for_a_while_for_a_port_that_does_not_open_with_asyncio(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    monkeypatch.setattr("busservo.async_client.GRACE", 0.02)
+    monkeypatch.setattr("busservo.async_client.DRAIN_TIMEOUT", 0.02)
     Counted.open = 0
     line = Held()
 
@@ -657,7 +657,7 @@ class Stuck(LiveLine):
 def test_the_end_of_a_read_of_the_line_before_does_not_end_the_new_one(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    monkeypatch.setattr("busservo.client.GRACE", 0.02)
+    monkeypatch.setattr("busservo.client.DRAIN_TIMEOUT", 0.02)
     line = Stuck()
     with Controller(line, **LIVE) as controller:
         controller.reconnect()
@@ -669,7 +669,7 @@ def test_the_end_of_a_read_of_the_line_before_does_not_end_the_new_one(
 def test_the_end_of_a_read_of_the_line_before_does_not_end_the_new_one_with_asyncio(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    monkeypatch.setattr("busservo.async_client.GRACE", 0.02)
+    monkeypatch.setattr("busservo.async_client.DRAIN_TIMEOUT", 0.02)
     line = Stuck()
 
     async def work() -> None:
