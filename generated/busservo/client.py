@@ -116,9 +116,10 @@ class Client:
             now=clock(),
         )
         self._session.largest_frame = self._transport.largest_frame
-        # Held for every touch of the session, never for a read. Entered itself, not by one of the
-        # conditions: Ctrl-C between getting it and being told so would keep it for ever.
-        self._lock = threading.Lock()
+        # Held for every touch of the session, never for a read; again by a handler of signals that
+        # closes this in the middle of anything. Entered itself, not by one of the conditions:
+        # Ctrl-C between getting it and being told so would keep it for ever.
+        self._lock = threading.RLock()
         # Told whenever anything changed.
         self._changed = threading.Condition(self._lock)
         # Each question is waited for on a condition of its own: nobody wakes for another's reply.

@@ -114,6 +114,36 @@ def test_closing_while_closing_does_not_wait_for_itself() -> None:
     assert line.closed
 
 
+class Interrupted(LiveLine):
+    """A line whose writer is interrupted by what calls `meanwhile`, as by a handler of signals."""
+
+    meanwhile: Callable[[], object]
+
+    def write(self, data: bytes) -> None:
+        self.meanwhile()
+        super().write(data)
+
+
+def test_closing_in_the_middle_of_a_write_does_not_wait_for_itself(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.setattr("busservo.client.DRAIN_TIMEOUT", 0.02)
+    line = Interrupted()
+    controller = Controller(line)
+    line.meanwhile = controller.close
+
+    def send() -> None:
+        with pytest.raises(ClosedError):
+            controller.stop_action_group()
+
+    # Not in a pool, which would wait for a thread that never ends.
+    sending = threading.Thread(target=send, daemon=True)
+    sending.start()
+    sending.join(PATIENCE)
+    assert not sending.is_alive()
+    assert line.closed
+
+
 def test_a_callback_may_close_while_another_thread_does() -> None:
     line = SlowToClose()
     told, closed = threading.Event(), threading.Event()
