@@ -103,7 +103,9 @@ def _words_of(error: Exception) -> str:
 def _why_absent(port: str, platform: str) -> str:
     scheme, separator, rest = port.partition(":")
     if scheme.lower() == "hwgrep" and rest.startswith("//"):
-        return f"no port that is plugged in has {rest[2:].partition('&')[0]!r} in its description"
+        pattern, _, options = rest[2:].partition("&")
+        happened = f"no port that is plugged in has {pattern!r} in its description"
+        return f"{happened}, or none that {options!r} leaves" if options else happened
     if separator and scheme.lower() in ADDRESSES and not rest.startswith("//"):
         return f"there is no such port, and an address begins with {scheme.lower()}://"
     if port != port.strip():

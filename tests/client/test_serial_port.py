@@ -255,6 +255,7 @@ REFUSED_NAMES = {
         ("hwgrep://no such adapter", PortNotFoundError, "'no such adapter' in its description"),
         ("socket://127.0.0.1:1", PortNotFoundError, r"reached \(.*\); see that .* and listening"),
         ("SOCKET://127.0.0.1:1?logging=error", PortNotFoundError, "there and listening"),
+        ("hwgrep://.*&n=99", PortNotFoundError, "in its description, or none that 'n=99' leaves;"),
         (" /dev/ttyUSB0", PortNotFoundError, "its name begins or ends with a blank"),
         ("socket:board:4000", PortNotFoundError, "and an address begins with socket://"),
         ("/", PortAddressError, "it is there, and is no serial port"),
