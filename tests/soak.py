@@ -75,7 +75,7 @@ class Watch:
         ledger.reported.clear()
         assert session.idle
         # Another thread may have a report in hand, for callbacks.
-        await_that(lambda: not session.news)
+        await_that(lambda: not session.callback_queue)
         assert len(session._late) < THREADS
         assert session.reports.take() is None
         assert session.counters.lost_reports == 0

@@ -9,15 +9,16 @@ import threading
 import time
 import warnings
 import weakref
+from functools import partial
 from queue import SimpleQueue
 from typing import TYPE_CHECKING, TypeVar, overload
 
-from .client import GRACE, MARGIN, NEVER_CLOSED, REPORT_LIMIT, SLICE, repeat
+from .client import DRAIN_TIMEOUT, MARGIN, NEVER_CLOSED, POLL_INTERVAL, REPORT_LIMIT, repeat
+from .error_mapping import ErrorMapping
 from .exchanges import LIMITS
-from .guarded import Guarded
 from .link_errors import ClosedError, IncompleteReplyError, NoReportError, TransportError
+from .long_question import left_out, parts_of
 from .motion import AsyncMotion
-from .outcome import lacking, parts_of
 from .protocol import BAUD
 from .request import Request
 from .run import Run
@@ -78,7 +79,7 @@ class AsyncClient:
         settle: float | None = None,
     ) -> None:
         self._limits = LIMITS.chosen(limits)
-        self._transport = Guarded(transport)
+        self._transport = ErrorMapping(transport)
         self._name = self._transport.name
         self._retries = retries
         self._tap = Tap(self._name, trace)
@@ -269,12 +270,16 @@ class AsyncClient:
     async def close(self) -> None:
         """Sends what is still to be sent, waits until the last byte is out, and closes the line.
 
-        Questions of other tasks end with ClosedError. May be called again.
+        Questions of other tasks end with ClosedError. May be called again, and by several tasks at
+        once: each of them returns once the line is closed. Where the loop that it was used in has
+        ended, it may be closed in another.
         """
         if self._ending is None:
             self._ending = asyncio.ensure_future(self._end())
-        # Once begun, it is done in full: half a frame on the line would spoil the next one.
-        await asyncio.shield(self._ending)
+        # It is closed as well where the loop ended in the middle of that.
+        if not self._ending.cancelled():
+            # Once begun, it is done in full: half a frame on the line would spoil the next one.
+            await asyncio.shield(self._ending)
 
     async def reconnect(self) -> None:
         """Opens the same port again, after the line was lost; what was under way has failed.
@@ -343,7 +348,7 @@ class AsyncClient:
     async def _ask(self, message: Message, kind: type[_Reply]) -> _Reply:
         """The reply to a question, whole. Raises IncompleteReplyError."""
         reply = await self._reply(message, kind)
-        asked, missing, arrived = lacking(message, reply)
+        asked, missing, arrived = left_out(message, reply)
         if missing:
             raise IncompleteReplyError(asked, missing, [reply], arrived)
         return reply
@@ -357,7 +362,7 @@ class AsyncClient:
         for message in parts_of(kind, items):
             got = await self._reply(message, reply)
             replies.append(got)
-            field, lacks, came = lacking(message, got)
+            field, lacks, came = left_out(message, got)
             asked = field or asked
             missing += lacks
             arrived += came
@@ -382,12 +387,7 @@ class AsyncClient:
         self._start()
         request = self._session.submit(message, question=retries is not None, retries=retries or 0)
         done: asyncio.Future[None] = asyncio.get_running_loop().create_future()
-
-        def finished() -> None:
-            if not done.done():
-                done.set_result(None)
-
-        request.notify = finished
+        request.notify = partial(_set, done)
         self._advance()
         try:
             await done
@@ -428,7 +428,7 @@ class AsyncClient:
             raise RuntimeError("this client belongs to another event loop")
         self._loop = loop
         self._outbox = SimpleQueue()
-        line = _Line(self._transport, self._outbox)
+        line = _Connection(self._transport, self._outbox)
         # They hold this only while they are at work, so that it can end when nobody else does.
         reading = weakref.WeakMethod(self._read_once)
         written = weakref.WeakMethod(self._session.written)
@@ -458,12 +458,12 @@ class AsyncClient:
         send_at = self._session.send_at(now)
         if send_at is not None and self._loop is not None and self._failure is None:
             self._timer = self._loop.call_later(max(0.0, send_at - now), self._advance)
-        while self._session.news:
-            report = self._session.news.popleft()
+        while self._session.callback_queue:
+            report = self._session.callback_queue.popleft()
             for callback in list(self._callbacks):
                 _call(callback, report)
 
-    def _arrived(self, line: _Line, data: bytes, began: float, arrived: float) -> None:
+    def _arrived(self, line: _Connection, data: bytes, began: float, arrived: float) -> None:
         if line.transport is self._transport and self._failure is None:
             reports = self._session.counters.reports
             self._session.receive(data, arrived)
@@ -473,7 +473,7 @@ class AsyncClient:
             if self._session.counters.reports != reports:
                 self._wake()
 
-    def _lost(self, line: _Line, error: TransportError) -> None:
+    def _lost(self, line: _Connection, error: TransportError) -> None:
         if line.transport is self._transport:
             self._fail(error)
 
@@ -505,13 +505,15 @@ class AsyncClient:
 
     async def _end(self) -> None:
         closed = self._closed()
+        self._loop = loop = asyncio.get_running_loop()
         self._session.refuse_questions(closed)
         self._advance()
         self._wake()
-        loop = asyncio.get_running_loop()
         try:
             await self._drain()
-            await loop.run_in_executor(None, self._shut, GRACE if self._failure is None else 0.0)
+            longest = DRAIN_TIMEOUT if self._failure is None else 0.0
+            await loop.run_in_executor(None, self._shut, longest)
+            await self._given_back()
         except asyncio.CancelledError:
             # The loop is about to end; the port is given back all the same.
             self._shut(0.0)
@@ -526,29 +528,36 @@ class AsyncClient:
 
     async def _drain(self) -> None:
         """Waits until all commands have been sent, and have had their time on the wire."""
-        until = time.monotonic() + GRACE
+        until = time.monotonic() + DRAIN_TIMEOUT
         while self._failure is None:
-            # What is due goes first, even where the machine has paused for longer than the grace.
+            # What is due goes first, even where the machine has paused for longer than that.
             self._advance()
             now, free_at = time.monotonic(), self._session.wire.free_at
-            if (self._session.idle and now >= free_at) or now >= max(until, free_at + GRACE):
+            sent = self._session.idle and now >= free_at
+            if sent or now >= max(until, free_at + DRAIN_TIMEOUT):
                 return
-            await asyncio.sleep(min(SLICE, max(0.001, free_at - now)))
+            await asyncio.sleep(min(POLL_INTERVAL, max(0.001, free_at - now)))
 
-    def _shut(self, grace: float) -> None:
+    async def _given_back(self) -> None:
+        """Waits for whoever is opening the line again, finds it closed, and gives the port back."""
+        until = time.monotonic() + DRAIN_TIMEOUT
+        while self._reopening.locked() and time.monotonic() < until:
+            await asyncio.sleep(POLL_INTERVAL)
+
+    def _shut(self, timeout: float) -> None:
         """Ends the threads and closes the transport, which may take a moment: not in the loop."""
         self._outbox.put(None)
         for thread in self._threads[1:]:
-            thread.join(GRACE)
+            thread.join(DRAIN_TIMEOUT)
         try:
-            if grace:
-                self._transport.drain(grace)
+            if timeout:
+                self._transport.drain(timeout)
         except TransportError as error:
             logger.debug("%s could not be drained: %s", self._name, error)
         finally:
             self._transport.close()
             for thread in self._threads[:1]:
-                thread.join(GRACE)
+                thread.join(DRAIN_TIMEOUT)
 
     def _check(self) -> None:
         if self.closed:
@@ -559,17 +568,17 @@ class AsyncClient:
     def _closed(self) -> ClosedError:
         return ClosedError(self._name, "it has been closed", "open it again")
 
-    def _read_once(self, loop: asyncio.AbstractEventLoop, line: _Line) -> bool:
+    def _read_once(self, loop: asyncio.AbstractEventLoop, line: _Connection) -> bool:
         """Carries bytes from the transport to the loop; False once one of them has ended."""
         # Bytes that come one by one are not worth waking up for, each by itself.
         rest = self._resting_until - time.monotonic()
         if rest > 0:
-            time.sleep(min(rest, SLICE))
+            time.sleep(min(rest, POLL_INTERVAL))
         began = time.monotonic()
         tick_at = self._tick_at
-        left = SLICE if tick_at is None else tick_at - began
+        left = POLL_INTERVAL if tick_at is None else tick_at - began
         try:
-            data = line.transport.read(min(SLICE, max(_SHORTEST_READ, left)))
+            data = line.transport.read(min(POLL_INTERVAL, max(_SHORTEST_READ, left)))
             arrived = time.monotonic()
         except TransportError as error:
             _post(loop, self._lost, line, error)
@@ -579,21 +588,21 @@ class AsyncClient:
         )
 
 
-class _Line:
+class _Connection:
     """One connection: what its threads use, while the client may be on to the next."""
 
     __slots__ = ("outbox", "transport")
 
-    def __init__(self, transport: Guarded, outbox: _Outbox) -> None:
+    def __init__(self, transport: ErrorMapping, outbox: _Outbox) -> None:
         self.transport = transport
         self.outbox = outbox
 
 
 def _run_writer(
     loop: asyncio.AbstractEventLoop,
-    line: _Line,
+    line: _Connection,
     written: weakref.WeakMethod[Callable[[Request, float], None]],
-    lost: weakref.WeakMethod[Callable[[_Line, TransportError], None]],
+    lost: weakref.WeakMethod[Callable[[_Connection, TransportError], None]],
 ) -> None:
     """Carries frames from the loop to the transport, until there is None."""
     while (item := line.outbox.get()) is not None:
@@ -616,7 +625,8 @@ def close_late(opened: asyncio.Future[Any]) -> None:
 
 
 def _set(future: asyncio.Future[None]) -> None:
-    if not future.done():
+    # In a loop that has ended, nobody waits any more.
+    if not future.done() and not future.get_loop().is_closed():
         future.set_result(None)
 
 

@@ -23,6 +23,8 @@ if TYPE_CHECKING:
     from .limits import Bounds
     from .transport import Transport
 
+_HOW = "enter open_async_controller() with `async with`, or await it"
+
 
 class Opening:
     """A client that is about to be opened: by `await`, or better by `async with`."""
@@ -44,8 +46,12 @@ class Opening:
 
         def __getattr__(self, name: str) -> object:
             problem = f"the client is not open yet, and has no {name!r}"
-            how = "enter open_async_controller() with `async with`, or await it"
-            raise AttributeError(f"{problem}: {how}", name=name, obj=self)
+            raise AttributeError(f"{problem}: {_HOW}", name=name, obj=self)
+
+        def __enter__(self) -> object:
+            raise TypeError(f"the client is not open yet: {_HOW}")
+
+        def __exit__(self, *_: object) -> None: ...
 
     async def __aexit__(
         self,

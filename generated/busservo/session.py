@@ -96,7 +96,7 @@ class Session:
         self.reports = ReportLog(report_limit)
         self.acknowledgements = Acknowledgements(self.wire, margin)
         # Reports for callbacks, to be taken out by whoever drives the session.
-        self.news: deque[Message] = deque(maxlen=report_limit)
+        self.callback_queue: deque[Message] = deque(maxlen=report_limit)
         # The longest frame that the line carries; None for any.
         self.largest_frame: int | None = None
         self._margin = margin
@@ -452,7 +452,7 @@ class Session:
                 self.reports.add(event)
                 self.acknowledgements.add(event)
                 self.counters.lost_reports = self.reports.lost
-                self.news.append(event)
+                self.callback_queue.append(event)
         # Only now, since of several replies the last is the answer.
         if self._asked is not None and self._held is not None:
             self._weigh(self._asked, *self._held)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import select
 import signal
 import sys
 import threading
@@ -9,6 +10,7 @@ from contextlib import ExitStack, contextmanager
 from typing import TYPE_CHECKING
 
 from busservo.cli import console
+from busservo.wording import counted
 
 from busservo_simulator.options import PROGRAM, faults_of, parser_of
 from busservo_simulator.tcp_end import LOOPBACK
@@ -23,7 +25,8 @@ if TYPE_CHECKING:
 def main(argv: Sequence[str] | None = None, *, program: str = PROGRAM) -> int:
     """Runs the command line. 0: ended by Ctrl-C; 2: unusable; 141: whoever read along has gone.
 
-    `program` is how the command was called: it is a verb of another one, too.
+    `program` is how the command was called: it is a verb of another one, too. With --quiet, nobody
+    reads along: whoever has read the name of the port may go.
     """
     return console.run(program, lambda: _run_or_tell(argv, program))
 
@@ -31,16 +34,16 @@ def main(argv: Sequence[str] | None = None, *, program: str = PROGRAM) -> int:
 def _run_or_tell(argv: Sequence[str] | None, program: str) -> int:
     arguments = parser_of(program).parse_args(argv)
     try:
-        return _run(arguments)
+        return _run(arguments, program)
     except ValueError as error:
         console.complain(program, str(error))
         return console.UNUSABLE
 
 
-def _run(arguments: argparse.Namespace) -> int:
+def _run(arguments: argparse.Namespace, program: str) -> int:
     if arguments.host not in {LOOPBACK, "::1", "localhost"}:
         host = console.visible(arguments.host)
-        print(f"{PROGRAM}: the network reaches it at {host}", file=sys.stderr)
+        print(f"{program.partition(' ')[0]}: the network reaches it at {host}", file=sys.stderr)
     with _ended_by_signals() as ended, _opened(arguments) as board:
         log = board.board.event_log
         named = threading.Event()
@@ -48,12 +51,28 @@ def _run(arguments: argparse.Namespace) -> int:
             log.listener = _printer(named, ended)
         print(console.visible(board.port), flush=True)
         named.set()
+        gone = over = False
         # In slices: on Windows a wait without end cannot be interrupted.
-        while not ended.is_set():
-            ended.wait(0.5)
+        while not over and not gone:
+            over = ended.wait(0.5)
+            gone = not arguments.quiet and _reader_has_gone()
         log.listener = None
-        print(f"{board.accepted} messages, {board.rejects.total} rejected", file=sys.stderr)
-    return 0
+        totals = f"{counted(board.accepted, 'message')}, {board.rejects.total} rejected"
+        print(totals, file=sys.stderr)
+    return console.READER_GONE if gone else console.DONE
+
+
+def _reader_has_gone() -> bool:
+    """Whether nobody can read what is printed. On Windows only the next line tells."""
+    if sys.platform == "win32":
+        return False
+    try:
+        output = sys.stdout.fileno()
+    except OSError:  # it is no file
+        return False
+    poll = select.poll()
+    poll.register(output, 0)
+    return bool(poll.poll(0))
 
 
 def _printer(named: threading.Event, ended: threading.Event) -> Callable[[str], None]:

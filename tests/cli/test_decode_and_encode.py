@@ -112,6 +112,7 @@ def test_numbers_may_have_any_base_and_values_their_names(
         (["ServoMove", "time_ms=1", "targets=1"], "targets[0]: '1' is not servo_id:position"),
         (["ServoMove", "time_ms=soon", "targets=1:2"], "time_ms: 'soon' is no number: write it"),
         (["ServoMove", "time_ms=1_0", "targets=1:2"], "time_ms: '1_0' is no number: write it"),
+        (["ServoMove", "time_ms=010", "targets=1:2"], "time_ms: '010' is no number: write it"),
         (["ServoMove", "time_ms=٣", "targets=1:2"], "time_ms: '٣' is no number: write it"),
         (["ServoMove", "time_ms=" + "9" * 5000, "targets=1:2"], "is no number: write it"),
         (["ServoMove", "time_ms=70000", "targets=1:2"], "70000 is outside 0..65535"),

@@ -157,7 +157,7 @@ def test_silence_is_told_from_success(capsys: pytest.CaptureFixture[str]) -> Non
     ("words", "told"),
     [
         (["send", "--port", "no-such-port", "ActionGroupStop"], "there is no such port"),
-        (["send", "--port", "gopher://x", "ActionGroupStop"], "it is no port"),
+        (["send", "--port", "gopher://x", "ActionGroupStop"], "that begins with gopher://"),
         (["send", "--port", "loop://", "ActionGroupStopped"], "is never sent from here"),
         (["send", "--port", "loop://", "ServoMov"], "did you mean ServoMove?"),
         (["send", "ActionGroupStop"], "--port"),

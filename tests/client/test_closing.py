@@ -114,6 +114,36 @@ def test_closing_while_closing_does_not_wait_for_itself() -> None:
     assert line.closed
 
 
+class Interrupted(LiveLine):
+    """A line whose writer is interrupted by what calls `meanwhile`, as by a handler of signals."""
+
+    meanwhile: Callable[[], object]
+
+    def write(self, data: bytes) -> None:
+        self.meanwhile()
+        super().write(data)
+
+
+def test_closing_in_the_middle_of_a_write_does_not_wait_for_itself(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.setattr("busservo.client.DRAIN_TIMEOUT", 0.02)
+    line = Interrupted()
+    controller = Controller(line)
+    line.meanwhile = controller.close
+
+    def send() -> None:
+        with pytest.raises(ClosedError):
+            controller.stop_action_group()
+
+    # Not in a pool, which would wait for a thread that never ends.
+    sending = threading.Thread(target=send, daemon=True)
+    sending.start()
+    sending.join(PATIENCE)
+    assert not sending.is_alive()
+    assert line.closed
+
+
 def test_a_callback_may_close_while_another_thread_does() -> None:
     line = SlowToClose()
     told, closed = threading.Event(), threading.Event()
@@ -144,6 +174,8 @@ def test_a_controller_that_is_not_open_yet_says_how_to_open_it() -> None:
         ):
             getattr(opening, name)
     assert not hasattr(opening, "reports")
+    with pytest.raises(TypeError, match=r"not open yet: .*`async with`, or await it$"), opening:
+        pass
 
 
 # -------------------------------------------------------------------- forgotten
@@ -487,7 +519,28 @@ def test_tasks_that_reconnect_at_once_open_the_port_once() -> None:
     assert Counted.open == 0
 
 
-def test_what_is_closed_while_it_is_opened_again_stays_closed() -> None:
+def test_what_is_closed_while_it_is_opened_again_is_given_back_by_then() -> None:
+    Counted.open = 0
+    line = Held()
+    controller = Controller(line)
+    with ThreadPoolExecutor(2) as pool:
+        again = pool.submit(controller.reconnect)
+        assert line.begun.wait(PATIENCE)
+        closing = pool.submit(controller.close)
+        done, _ = wait([closing], timeout=0.05)
+        line.go_on.set()
+        assert not done, "the port may be open"
+        closing.result(PATIENCE)
+        assert Counted.open == 0
+        with pytest.raises(ClosedError):
+            again.result(PATIENCE)
+    assert Counted.open == 0
+
+
+def test_closing_waits_only_for_a_while_for_a_port_that_does_not_open(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.setattr("busservo.client.DRAIN_TIMEOUT", 0.02)
     Counted.open = 0
     line = Held()
     controller = Controller(line)
@@ -495,6 +548,7 @@ def test_what_is_closed_while_it_is_opened_again_stays_closed() -> None:
         again = pool.submit(controller.reconnect)
         assert line.begun.wait(PATIENCE)
         controller.close()
+        assert not again.done()
         line.go_on.set()
         with pytest.raises(ClosedError):
             again.result(PATIENCE)
@@ -539,7 +593,35 @@ def test_reconnecting_from_within_a_callback() -> None:
         await_that(lambda: len(own_threads()) == 1)
 
 
-def test_closing_for_asyncio_while_it_is_opened_again_gives_the_new_port_back() -> None:
+def test_what_is_closed_while_it_is_opened_again_is_given_back_by_then_with_asyncio() -> None:
+    Counted.open = 0
+    line = Held()
+
+    async def work() -> None:
+        controller = AsyncController(line)
+        await controller.stop_action_group()
+        again = asyncio.ensure_future(controller.reconnect())
+        while not line.begun.is_set():
+            await asyncio.sleep(0.001)
+        closing = asyncio.ensure_future(controller.close())
+        done, _ = await asyncio.wait([closing], timeout=0.05)
+        line.go_on.set()
+        assert not done, "the port may be open"
+        await closing
+        assert Counted.open == 0
+        with pytest.raises(ClosedError):
+            await again
+        with pytest.raises(ClosedError):
+            await controller.reconnect()
+
+    asyncio.run(work())
+    assert Counted.open == 0
+
+
+def test_closing_waits_only_for_a_while_for_a_port_that_does_not_open_with_asyncio(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.setattr("busservo.async_client.DRAIN_TIMEOUT", 0.02)
     Counted.open = 0
     line = Held()
 
@@ -550,11 +632,10 @@ def test_closing_for_asyncio_while_it_is_opened_again_gives_the_new_port_back() 
         while not line.begun.is_set():
             await asyncio.sleep(0.001)
         await controller.close()
+        assert not again.done()
         line.go_on.set()
         with pytest.raises(ClosedError):
             await again
-        with pytest.raises(ClosedError):
-            await controller.reconnect()
 
     asyncio.run(work())
     assert Counted.open == 0
@@ -606,7 +687,7 @@ class Stuck(LiveLine):
 def test_the_end_of_a_read_of_the_line_before_does_not_end_the_new_one(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    monkeypatch.setattr("busservo.client.GRACE", 0.02)
+    monkeypatch.setattr("busservo.client.DRAIN_TIMEOUT", 0.02)
     line = Stuck()
     with Controller(line, **LIVE) as controller:
         controller.reconnect()
@@ -618,7 +699,7 @@ def test_the_end_of_a_read_of_the_line_before_does_not_end_the_new_one(
 def test_the_end_of_a_read_of_the_line_before_does_not_end_the_new_one_with_asyncio(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    monkeypatch.setattr("busservo.async_client.GRACE", 0.02)
+    monkeypatch.setattr("busservo.async_client.DRAIN_TIMEOUT", 0.02)
     line = Stuck()
 
     async def work() -> None:
@@ -796,6 +877,69 @@ def test_a_client_that_is_forgotten_while_the_port_takes_its_question() -> None:
     go_on.set()
     # Nobody is left to hear that the question is written, and the thread that wrote it ends.
     await_that(lambda: not own_threads())
+
+
+def test_what_a_loop_that_has_ended_left_unsent_is_sent_by_closing_in_another() -> None:
+    line = LiveLine()
+    commands = [ServoUnload(range(size)) for size in (3, 2, 1)]
+
+    async def use() -> AsyncController:
+        controller = AsyncController(line)
+        for each in commands:
+            controller.send_latest(each)
+        return controller
+
+    async def close(controller: AsyncController) -> None:
+        await controller.close()
+
+    controller = asyncio.run(use())
+    for _ in range(2):
+        asyncio.run(close(controller))
+        assert line.closed
+    assert line.received == commands
+
+
+def test_a_loop_that_has_ended_with_a_question_under_way_hinders_no_closing() -> None:
+    line = LiveLine(lambda _: [])
+
+    async def close(controller: AsyncController) -> None:
+        await controller.close()
+
+    loop = asyncio.new_event_loop()
+    # That a task of it is never resumed is what is tried here.
+    loop.set_exception_handler(lambda *_: None)
+
+    async def ask() -> tuple[AsyncController, asyncio.Task[int]]:
+        controller = AsyncController(line, margin=PATIENCE)
+        asking = asyncio.ensure_future(controller.read_battery_voltage())
+        while not line.received:
+            await asyncio.sleep(0.001)
+        return controller, asking
+
+    controller, asking = loop.run_until_complete(ask())
+    loop.close()
+    asyncio.run(close(controller))
+    assert line.closed
+    assert not asking.done()
+
+
+def test_what_was_closed_by_a_loop_that_ended_meanwhile_may_be_closed_again() -> None:
+    line = SlowToClose()
+
+    async def begin() -> AsyncController:
+        controller = AsyncController(line)
+        await controller.stop_action_group()
+        asyncio.ensure_future(controller.close())  # noqa: RUF006 - the client keeps it
+        assert await asyncio.get_running_loop().run_in_executor(None, line.draining.wait, PATIENCE)
+        asyncio.get_running_loop().call_soon(line.go_on.set)
+        return controller
+
+    async def close(controller: AsyncController) -> None:
+        await controller.close()
+
+    controller = asyncio.run(begin())
+    assert line.closed
+    asyncio.run(close(controller))
 
 
 # -------------------------------------------------------------------- a port that opens too late

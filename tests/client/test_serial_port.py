@@ -9,6 +9,7 @@ import select
 import socket
 import threading
 import time
+from concurrent.futures import ThreadPoolExecutor, wait
 from typing import TYPE_CHECKING
 
 import pytest
@@ -32,6 +33,7 @@ from busservo import (
     open_controller,
     open_transport,
 )
+from busservo.hid_port import HidPort
 from busservo.port_errors import not_opened
 from busservo.rejects import Rejects
 from busservo.serial_port import SerialPort
@@ -220,10 +222,19 @@ def test_exclusive_unless_told_otherwise(board: PtyBoard) -> None:
 REFUSED_NAMES = {
     "": "^'': this is no name; name a port",
     " ": "^' ': this is no name; name a port",
-    "hwgrep://CH340(": r"'CH340\(' is no regular expression .*; such as hwgrep://CH340$",
+    "hwgrep://CH340(": r"'CH340\(' is no regular expression .*, such as hwgrep://CH340$",
+    "hwgrep://": "it does not say what to look for; write .*, such as hwgrep://CH340$",
+    "hwgrep://CH340&n=one": "'n=one' is no option of hwgrep://; its options are n=2 .* skip_busy$",
+    "hwgrep://CH340&n=1": "'n=1' is no option of hwgrep://",
+    "loop://?logging=loud": "'logging=loud' is no option of loop://; its options are logging=",
+    "socket://board:1?logging=loud": "'logging=loud' is no option of socket://",
+    "rfc2217://board:1?timeout=inf": "'timeout=inf' is no option of rfc2217://; .* timeout=5 and",
+    "rfc2217://board:1?poll_modem&x": "'x' is no option of rfc2217://",
+    "carrier-pigeon://coop": "nothing is known that begins with carrier-pigeon://; name a port",
     "spy://loop://?file=all.log": "would write to any file .*; name the port alone, and record it",
     "socket://": "it names no host; write socket://HOST:PORT",
     "socket://:4000": "it names no host; write socket://HOST:PORT",
+    "socket://a..b:4000": r"'a\.\.b' is no name of a host; write socket://HOST:PORT",
     "socket://board": "it names no TCP port; write socket://HOST:PORT",
     "socket://[::1]": "it names no TCP port; write socket://HOST:PORT",
     "socket://board:": "it names no TCP port; write socket://HOST:PORT",
@@ -242,8 +253,11 @@ REFUSED_NAMES = {
         ("/dev/ttyNoSuchPort", PortNotFoundError, "exist|plugged in"),
         ("COM999", PortNotFoundError, "exist|plugged in"),
         ("hwgrep://no such adapter", PortNotFoundError, "'no such adapter' in its description"),
-        ("socket://127.0.0.1:1", PortNotFoundError, "there and listening"),
-        ("carrier-pigeon://coop", PortAddressError, "name a port"),
+        ("socket://127.0.0.1:1", PortNotFoundError, r"reached \(.*\); see that .* and listening"),
+        ("SOCKET://127.0.0.1:1?logging=error", PortNotFoundError, "there and listening"),
+        ("hwgrep://.*&n=99", PortNotFoundError, "in its description, or none that 'n=99' leaves;"),
+        (" /dev/ttyUSB0", PortNotFoundError, "its name begins or ends with a blank"),
+        ("socket:board:4000", PortNotFoundError, "and an address begins with socket://"),
         ("/", PortAddressError, "it is there, and is no serial port"),
         (__file__, PortAddressError, "it is there, and is no serial port"),
         ("bad\0name", PortAddressError, "name a port"),
@@ -285,6 +299,40 @@ def test_a_name_of_another_system_is_told_as_such(port: str, platform: str, told
 def test_a_rate_that_no_port_has_is_refused(baud: float) -> None:
     with pytest.raises(ValueError, match="must be from 1 to 2147483647"):
         open_controller("loop://", baud=baud)
+
+
+@pytest.mark.parametrize(
+    ("error", "told"),
+    [
+        (ValueError("Failed to set custom baud rate (77): [Errno 22] no"), "set to that rate (no)"),
+        (serial.SerialException(36, "could not open port x: [Errno 36]"), os.strerror(36)),
+        (serial.SerialException("Could not configure port: (5, 'no input')"), "opened (no input)"),
+        (
+            serial.SerialException("could not open port 'x': OSError(22, \"n'est pas\", None, 87)"),
+            "it cannot be opened (n'est pas)",
+        ),
+        (serial.SerialException("it is too late"), "it cannot be opened (it is too late)"),
+    ],
+)
+def test_what_the_system_says_is_told_and_not_what_pyserial_puts_around_it(
+    error: Exception, told: str
+) -> None:
+    refused = str(not_opened("x", error, lambda: "these exist: y"))
+    assert told in refused
+    assert not any(word in refused for word in ("could not", "Could not", "Errno", "Failed"))
+
+
+def test_a_scheme_may_be_written_in_capitals(monkeypatch: pytest.MonkeyPatch) -> None:
+    looked_for: list[str] = []
+
+    def grep(pattern: str) -> list[object]:
+        looked_for.append(pattern)
+        return []
+
+    monkeypatch.setattr("serial.tools.list_ports.grep", grep)
+    with pytest.raises(PortNotFoundError):
+        open_transport("HWGREP://CH340")
+    assert looked_for == ["CH340"]
 
 
 def test_permission_denied_comes_with_advice(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -570,6 +618,63 @@ def test_a_port_is_closed_even_under_a_read_that_does_not_end(
     go_on.set()
     thread.join(PATIENCE)
     assert not thread.is_alive()
+
+
+class SlowToClose(Driver):
+    """A port that is closed only when it is let go, and calls `meanwhile` before it waits."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.closing, self.go_on = threading.Event(), threading.Event()
+        self.meanwhile: Callable[[], object] = self.closing.set
+
+    def close(self) -> None:
+        self.meanwhile()
+        self.closing.set()
+        assert self.go_on.wait(PATIENCE)
+        super().close()
+
+
+def slow_serial_port() -> tuple[SlowToClose, SerialPort]:
+    driver = SlowToClose()
+    return driver, driven_by(driver)
+
+
+def slow_hid_port() -> tuple[SlowToClose, HidPort]:
+    driver = SlowToClose()
+    return driver, HidPort("hid://", driver, 64, lambda: slow_hid_port()[1])
+
+
+@pytest.mark.parametrize("made", [slow_serial_port, slow_hid_port])
+def test_whoever_closes_a_port_second_waits_for_whoever_closes_it_first(
+    made: Callable[[], tuple[SlowToClose, SerialPort | HidPort]],
+) -> None:
+    driver, port = made()
+
+    def close_too() -> bool:
+        port.close()
+        return driver.closed
+
+    with ThreadPoolExecutor() as pool:
+        first = pool.submit(port.close)
+        assert driver.closing.wait(PATIENCE)
+        second = pool.submit(close_too)
+        done, _ = wait([second], timeout=0.05)
+        driver.go_on.set()
+        assert not done, "the port is not closed yet"
+        assert second.result(PATIENCE)
+        first.result(PATIENCE)
+
+
+@pytest.mark.parametrize("made", [slow_serial_port, slow_hid_port])
+def test_closing_a_port_while_closing_it_does_not_wait_for_itself(
+    made: Callable[[], tuple[SlowToClose, SerialPort | HidPort]],
+) -> None:
+    driver, port = made()
+    driver.meanwhile = port.close
+    driver.go_on.set()
+    port.close()
+    assert driver.closed
 
 
 def test_a_port_that_fails_to_open_in_a_way_of_its_own_is_told_in_its_words(

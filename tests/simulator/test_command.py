@@ -209,7 +209,28 @@ def test_it_ends_when_whoever_read_along_has_gone(
     host.say(BatteryVoltageRead())
     _, errors = process.communicate(timeout=PATIENCE)
     host.hang_up()
-    assert (process.returncode, errors) == (141, "1 messages, 0 rejected\n")
+    assert (process.returncode, errors) == (141, "1 message, 0 rejected\n")
+
+
+@not_windows
+@pytest.mark.parametrize(
+    ("words", "signalled", "status"),
+    [("", False, 141), ("", True, 141), ("--quiet", True, 0)],
+)
+def test_how_it_ends_does_not_depend_on_when_its_reader_goes(
+    start: Callable[..., tuple[subprocess.Popen[str], str]],
+    words: str,
+    signalled: bool,
+    status: int,
+) -> None:
+    process, _ = start("--tcp", *words.split())
+    assert process.stdout is not None
+    process.stdout.close()
+    process.stdout = None
+    if signalled:
+        process.send_signal(signal.SIGTERM)
+    _, errors = process.communicate(timeout=PATIENCE)
+    assert (process.returncode, errors) == (status, "0 messages, 0 rejected\n")
 
 
 @not_windows

@@ -42,7 +42,7 @@ One line for each frame and each piece of noise: the time, who sent it, its byte
 Ctrl-C ends it, and the totals follow on the error stream. Colours are for terminals alone, and for
 nobody who has set NO_COLOR."""
 # How long to read in one piece, so that Ctrl-C is noticed on every system.
-_SLICE = 0.25
+_POLL_INTERVAL = 0.25
 
 
 def add_arguments(parser: ArgumentParser) -> None:
@@ -139,7 +139,7 @@ class Monitor:
         self._lines.begin(self._day() if self._absolute else shown)
         try:
             while self._left != 0:
-                data = line.read(GAP if self._decoder.pending else _SLICE)
+                data = line.read(GAP if self._decoder.pending else _POLL_INTERVAL)
                 now = self._clock()
                 before = self._lines.count
                 if data:

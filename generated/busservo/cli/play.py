@@ -37,7 +37,7 @@ whole file is looked at before the first move. Ctrl-C commands the positions of 
 nothing moves on. Give it room, and look at --dry-run first: nothing here knows what is in the way,
 and the way to the first pose is as long as it is."""
 # How long to sleep in one piece, so that Ctrl-C is noticed on every system.
-_SLICE = 0.1
+_POLL_INTERVAL = 0.1
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -139,7 +139,7 @@ def _wait(until: float) -> None:
     """Waits for a moment; a long wait says so."""
     with shown_waiting(lambda _: f"the next pose in {until - time.monotonic():.0f} s"):
         while (left := until - time.monotonic()) > 0:
-            time.sleep(min(left, _SLICE))
+            time.sleep(min(left, _POLL_INTERVAL))
 
 
 def _time(text: str) -> int:

@@ -30,7 +30,7 @@ if TYPE_CHECKING:
 # How long the last answer may take.
 _QUIET = 0.25
 # How long to wait in one piece, so that Ctrl-C is noticed on every system.
-_SLICE = 0.1
+_POLL_INTERVAL = 0.1
 
 
 class Playback:
@@ -77,7 +77,7 @@ class Playback:
     def _listen(self, line: Transport) -> None:
         while not self._over.is_set():
             try:
-                data = line.read(_SLICE)
+                data = line.read(_POLL_INTERVAL)
             except TransportError as error:
                 self._heard.put((error, time.monotonic()))
                 return
@@ -89,7 +89,7 @@ class Playback:
         began = time.monotonic()
         while (left := until - time.monotonic()) > 0:
             try:
-                pause = GAP if self._decoder.pending else _SLICE
+                pause = GAP if self._decoder.pending else _POLL_INTERVAL
                 heard, now = self._heard.get(timeout=min(left, pause))
             except queue.Empty:
                 now = time.monotonic()

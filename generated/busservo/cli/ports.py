@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from ..hid_devices import HidDevice
 
     # The name of a port, VID:PID, and what it is.
-    Line = tuple[str, str, str]
+    Row = tuple[str, str, str]
 
 
 def add_arguments(parser: ArgumentParser) -> None:
@@ -46,7 +46,7 @@ def run(arguments: Namespace) -> int:
     return 0
 
 
-def _by_hid(devices: list[HidDevice]) -> Iterator[Line]:
+def _by_hid(devices: list[HidDevice]) -> Iterator[Row]:
     """Devices without a serial port, each by an address that opens it."""
     for each in devices:
         alone = len([other for other in devices if other.ids == each.ids]) == 1

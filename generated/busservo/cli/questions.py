@@ -5,7 +5,7 @@ from __future__ import annotations
 
 from ..errors import EncodeError
 from ..exchanges import EXCHANGES
-from ..outcome import parts_of
+from ..long_question import parts_of
 from .encode import message_named
 from .unusable import UnusableError
 from .values import fields_from_text, message_from_text

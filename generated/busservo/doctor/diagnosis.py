@@ -7,7 +7,7 @@ import math
 import time
 from pathlib import Path
 
-from ..guarded import Guarded
+from ..error_mapping import ErrorMapping
 from ..hid_devices import hid_devices_at_hand
 from ..protocol import BAUD
 from ..serial_port import open_transport, serial_ports
@@ -87,7 +87,7 @@ class Diagnosis:
             raise AssertionError("no check asks for a port where none was found")
         self.close()
         rate = self.baud if baud is None else baud
-        transport = Guarded(self._open(self.port, rate))
+        transport = ErrorMapping(self._open(self.port, rate))
         self.log.append((self._clock(), None, b"", f"opened, at {rate:g} baud"))
         self.probe = Probe(
             transport, baud=rate, margin=self.margin, clock=self._clock, log=self.log

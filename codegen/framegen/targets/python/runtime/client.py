@@ -10,16 +10,16 @@ import weakref
 from contextlib import contextmanager
 from typing import TYPE_CHECKING, TypeVar, overload
 
+from .error_mapping import ErrorMapping
 from .exchanges import LIMITS
-from .guarded import Guarded
 from .link_errors import (
     ClosedError,
     IncompleteReplyError,
     NoReportError,
     TransportError,
 )
+from .long_question import left_out, parts_of
 from .motion import Motion
-from .outcome import lacking, parts_of
 from .protocol import BAUD
 from .run import Run
 from .session import Session
@@ -44,12 +44,12 @@ if TYPE_CHECKING:
 MARGIN = 0.25
 REPORT_LIMIT = 1024
 # How long one read may take, so that whoever waits for something else is not forgotten.
-SLICE = 0.02
+POLL_INTERVAL = 0.02
 # How long to wait for another thread's word, though it always tells: so that a mistake costs no
 # more than this.
 _LONGEST_WAIT = 0.25
 # How long a line may take to be drained, beyond what its bytes take by calculation.
-GRACE = 1.0
+DRAIN_TIMEOUT = 1.0
 NEVER_CLOSED = "use the client in a `with`, or call close()"
 logger = logging.getLogger(__package__)
 _Reply = TypeVar("_Reply", bound="Message")
@@ -96,7 +96,7 @@ class Client:
         settle: float | None = None,
     ) -> None:
         self._limits = LIMITS.chosen(limits)
-        self._transport = Guarded(transport)
+        self._transport = ErrorMapping(transport)
         self._name = self._transport.name
         self._retries = retries
         self._clock = clock
@@ -115,9 +115,10 @@ class Client:
             now=clock(),
         )
         self._session.largest_frame = self._transport.largest_frame
-        # Held for every touch of the session, never for a read. Entered itself, not by one of the
-        # conditions: Ctrl-C between getting it and being told so would keep it for ever.
-        self._lock = threading.Lock()
+        # Held for every touch of the session, never for a read; again by a handler of signals that
+        # closes this in the middle of anything. Entered itself, not by one of the conditions:
+        # Ctrl-C between getting it and being told so would keep it for ever.
+        self._lock = threading.RLock()
         # Told whenever anything changed.
         self._changed = threading.Condition(self._lock)
         # Each question is waited for on a condition of its own: nobody wakes for another's reply.
@@ -387,7 +388,7 @@ class Client:
     def _ask(self, message: Message, kind: type[_Reply]) -> _Reply:
         """The reply to a question, whole. Raises IncompleteReplyError."""
         reply = self._reply(message, kind)
-        asked, missing, arrived = lacking(message, reply)
+        asked, missing, arrived = left_out(message, reply)
         if missing:
             raise IncompleteReplyError(asked, missing, [reply], arrived)
         return reply
@@ -401,7 +402,7 @@ class Client:
         for message in parts_of(kind, items):
             got = self._reply(message, reply)
             replies.append(got)
-            field, lacks, came = lacking(message, got)
+            field, lacks, came = left_out(message, got)
             asked = field or asked
             missing += lacks
             arrived += came
@@ -469,7 +470,7 @@ class Client:
         if self._send_due():
             return
         now = self._clock()
-        longest = _LONGEST_WAIT if self._reading else SLICE
+        longest = _LONGEST_WAIT if self._reading else POLL_INTERVAL
         times = [now + longest, self._session.send_at(now), until]
         pause = max(0.0, min(time for time in times if time is not None) - now)
         if self._reading:
@@ -546,13 +547,16 @@ class Client:
                 self._drain()
                 left = max(0.0, self._session.wire.free_at - self._clock())
             if self._failure is None:
-                self._transport.drain(min(left, GRACE) + GRACE)
+                self._transport.drain(min(left, DRAIN_TIMEOUT) + DRAIN_TIMEOUT)
         except TransportError as error:
             logger.debug("%s could not be drained: %s", self._name, error)
         finally:
             # Whatever interrupts the wait, the port is given back.
             self._transport.close()
             self._stop_listening()
+            # Whoever is opening the line again finds it closed, and gives the port back.
+            if self._reopening.acquire(timeout=DRAIN_TIMEOUT):
+                self._reopening.release()
             with self._lock:
                 self._session.fail(self._closed())
                 self._changed.notify_all()
@@ -560,13 +564,14 @@ class Client:
 
     def _drain(self) -> None:
         """Sends all commands that wait, and lets the time pass that they take on the wire."""
-        until = self._clock() + GRACE
+        until = self._clock() + DRAIN_TIMEOUT
         while self._failure is None:
-            # What is due goes first, even where the machine has paused for longer than the grace.
+            # What is due goes first, even where the machine has paused for longer than that.
             self._send_due()
             now = self._clock()
             free_at = self._session.wire.free_at
-            if (self._session.idle and now >= free_at) or now >= max(until, free_at + GRACE):
+            sent = self._session.idle and now >= free_at
+            if sent or now >= max(until, free_at + DRAIN_TIMEOUT):
                 return
             self._wait(None if not self._session.idle else free_at)
 
@@ -589,9 +594,9 @@ class Client:
         """Calls the callbacks for the reports that have come, unless another thread does."""
         while True:
             with self._lock:
-                if self._telling or not self._session.news:
+                if self._telling or not self._session.callback_queue:
                     return
-                report = self._session.news.popleft()
+                report = self._session.callback_queue.popleft()
                 callbacks = list(self._callbacks)
                 self._telling = True
             try:
@@ -616,7 +621,7 @@ class Client:
             if self._listener is not threading.current_thread():
                 return False  # it has reconnected, from within a callback, and has a successor
             if self._waiters:
-                self._idle.wait(SLICE)
+                self._idle.wait(POLL_INTERVAL)
             else:
                 try:
                     self._wait(None)
@@ -628,7 +633,7 @@ class Client:
     def _stop_listening(self) -> None:
         listener = self._listener
         if listener is not None and listener is not threading.current_thread():
-            listener.join(GRACE)
+            listener.join(DRAIN_TIMEOUT)
 
 
 def repeat(step: weakref.WeakMethod[Callable[..., bool]], *arguments: object) -> None:

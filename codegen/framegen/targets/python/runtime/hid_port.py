@@ -41,7 +41,7 @@ _IDS = re.compile(r"([0-9a-fA-F]{4}):([0-9a-fA-F]{4})")
 _NAMED = "write hid:// for the one device that is plugged in, hid://VENDOR:PRODUCT or hid://PATH"
 _USUAL_SIZE = 64
 # A read cannot be ended from outside: longer waits are made of several.
-_SLICE = 0.05
+_POLL_INTERVAL = 0.05
 
 
 def open_hid(port: str, *, library: Any = None) -> HidPort:
@@ -117,6 +117,8 @@ class HidPort:
         self._closed = False
         # How many bytes of a frame that is longer than a report are still to come.
         self._rest = 0
+        # Held until it is closed; again by the thread that closes it, as in a handler of signals.
+        self._closing = threading.RLock()
         # Held while a read is under way, so that the device is not closed underneath it.
         self._reading = threading.Lock()
 
@@ -126,7 +128,7 @@ class HidPort:
         while True:
             left = until - time.monotonic()
             with self._reading:
-                report = self._read_report(min(max(left, 0.0), _SLICE))
+                report = self._read_report(min(max(left, 0.0), _POLL_INTERVAL))
             data = self._unpadded(report)
             if data or time.monotonic() >= until:
                 return data
@@ -177,10 +179,13 @@ class HidPort:
         """Returns at once: a report that was handed over has arrived."""
 
     def close(self) -> None:
-        """Closes the device; a read under way ends first."""
-        if self._closed:
-            return
-        self._closed = True
+        """Closes the device; a read under way ends first. A second call waits for the first."""
+        with self._closing:
+            if not self._closed:
+                self._closed = True
+                self._close()
+
+    def _close(self) -> None:
         held = self._reading.acquire(timeout=1.0)
         try:
             self._device.close()

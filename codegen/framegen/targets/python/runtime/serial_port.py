@@ -15,7 +15,8 @@ from functools import partial
 from typing import TYPE_CHECKING, NamedTuple
 
 from .link_errors import ClosedError, DisconnectedError, TransportError, WriteStuckError
-from .port_errors import not_opened, refused_name
+from .port_errors import not_opened
+from .port_names import refused_name
 from .protocol import BAUD, DATA_BITS, PARITY, STOP_BITS
 
 if TYPE_CHECKING:
@@ -28,7 +29,7 @@ if TYPE_CHECKING:
 # pyserial reconfigures the port whenever its timeout changes, so that stays as it is; longer waits
 # are made of several, and shorter ones are waited for here. It is also how long closing waits for a
 # read that cannot be cancelled.
-_SLICE = 0.05
+_POLL_INTERVAL = 0.05
 # How often to look whether bytes have come, where nothing tells.
 _LOOK = 0.001
 _WRITE_TIMEOUT = 1.0
@@ -88,31 +89,32 @@ def open_transport(
     refused = refused_name(port)
     if refused is not None:
         raise refused
+    # pyserial knows some of its own schemes in small letters only.
+    scheme, separator, rest = port.partition("://")
+    url = f"{scheme.lower()}://{rest}" if separator else port
     rate = BAUD if baud == math.inf else baud
     if not 1 <= rate < _FASTER:
         raise ValueError(f"baud is {baud!r}, and must be from 1 to {_FASTER - 1}, or math.inf")
     try:
         opened = serial.serial_for_url(
-            port,
+            url,
             baudrate=int(rate),
             bytesize=DATA_BITS,
             parity=PARITY[0].upper(),
             stopbits=STOP_BITS,
             # pyserial reads a socket byte by byte, unless it must not wait: `select` waits for it.
-            timeout=0 if port.lower().startswith(_SOCKET) else _SLICE,
+            timeout=0 if url.startswith(_SOCKET) else _POLL_INTERVAL,
             # pyserial refuses one for RFC 2217, where its own socket gives up after 5 s.
-            write_timeout=None if port.lower().startswith("rfc2217:") else _WRITE_TIMEOUT,
+            write_timeout=None if url.startswith("rfc2217:") else _WRITE_TIMEOUT,
             exclusive=exclusive or None,
         )
     except (*_GONE, LookupError, NotImplementedError, StopIteration) as error:
-        raise not_opened(str(port), error, _listed) from error
+        raise not_opened(port, error, _listed) from error
     # pyserial leaves a socket to collect small writes: the second of two would wait for 40 ms.
     behind = getattr(opened, "_socket", None)
     if behind is not None:
         behind.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
-    return SerialPort(
-        str(port), opened, partial(open_transport, port, baud=baud, exclusive=exclusive)
-    )
+    return SerialPort(port, opened, partial(open_transport, port, baud=baud, exclusive=exclusive))
 
 
 class SerialPort:
@@ -129,6 +131,8 @@ class SerialPort:
             port.write_timeout = 0
         self._at_once = getattr(port, "timeout", None) == 0
         self._closed = False
+        # Held until it is closed; again by the thread that closes it, as in a handler of signals.
+        self._closing = threading.RLock()
         # Held while a read is under way, so that the descriptor is not closed underneath it: its
         # number could be another file's by the time it is used.
         self._reading = threading.Lock()
@@ -139,7 +143,7 @@ class SerialPort:
         while True:
             left = until - time.monotonic()
             with self._reading:
-                data = self._read_some(min(max(left, 0.0), _SLICE))
+                data = self._read_some(min(max(left, 0.0), _POLL_INTERVAL))
             if data or time.monotonic() >= until:
                 return data
 
@@ -166,7 +170,7 @@ class SerialPort:
         """Whether anything comes within `timeout`; True as well where a read of pyserial waits."""
         if self._handle is not None:
             return bool(select.select([self._handle], [], [], timeout)[0])
-        if timeout >= _SLICE:
+        if timeout >= _POLL_INTERVAL:
             return True
         until = time.monotonic() + timeout
         while not self._port.in_waiting:
@@ -220,10 +224,13 @@ class SerialPort:
             raise self._failed(error) from error
 
     def close(self) -> None:
-        """Closes the port; a read under way ends first."""
-        if self._closed:
-            return
-        self._closed = True
+        """Closes the port; a read under way ends first. A second call waits for the first."""
+        with self._closing:
+            if not self._closed:
+                self._closed = True
+                self._close()
+
+    def _close(self) -> None:
         cancel = getattr(self._port, "cancel_read", None)
         try:
             if cancel is not None:

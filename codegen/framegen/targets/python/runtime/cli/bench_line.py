@@ -10,7 +10,7 @@ from statistics import median
 from ..errors import EncodeError
 from ..exchanges import EXCHANGES
 from ..link_errors import NoReplyError
-from ..outcome import lacking
+from ..long_question import left_out
 from ..protocol import BAUD
 from ..wire import Wire
 from ..wording import counted
@@ -130,7 +130,7 @@ class Trips:
             return
         self._taken.append(time.perf_counter() - began)
         self._sizes.append(len(self._question.encode()) + len(reply.encode()))
-        if lacking(self._question, reply)[1]:
+        if left_out(self._question, reply)[1]:
             self._failed("incomplete reply")
 
     def _failed(self, kind: str) -> None:

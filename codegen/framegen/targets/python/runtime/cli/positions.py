@@ -5,7 +5,7 @@ from __future__ import annotations
 from ..errors import LimitError
 from ..exchanges import POSE
 from ..link_errors import AbsentError, NoReplyError
-from ..outcome import parts_of
+from ..long_question import parts_of
 from ..pose import HOLD_MS
 from .limits import refused
 

@@ -7,7 +7,7 @@ import sys
 from ..errors import EncodeError, LimitError
 from ..exchanges import EXCHANGES
 from ..link_errors import NoReplyError
-from ..outcome import lacking
+from ..long_question import left_out
 from ..recording_entry import Entry
 from . import link
 from .entries import EntryLines
@@ -76,7 +76,7 @@ def run(arguments: Namespace) -> int:
             if reply is not None:
                 lines.show(Entry(reply, reply.DIRECTION.sender, 0))
                 sys.stdout.flush()
-                asked, lacks, _ = lacking(message, reply)
+                asked, lacks, _ = left_out(message, reply)
                 missing.setdefault(asked, []).extend(lacks)
     for asked, values in missing.items():
         if values:

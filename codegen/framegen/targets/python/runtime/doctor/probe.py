@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 
 # A pause in what comes that ends it: above what USB adapters keep bytes back for.
 _PAUSE = 0.06
-_SLICE = 0.02
+_POLL_INTERVAL = 0.02
 # A line that never falls silent is left after so long.
 _LONGEST = 1.0
 
@@ -93,7 +93,7 @@ class Probe:
             paused = now - last >= _PAUSE
             if (paused and (ended or now >= until)) or now >= until + _LONGEST:
                 return pieces
-            data = self._transport.read(_SLICE)
+            data = self._transport.read(_POLL_INTERVAL)
             if data:
                 last = self._clock()
                 pieces.append((last, data))

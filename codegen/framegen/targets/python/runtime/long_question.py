@@ -1,4 +1,4 @@
-"""What becomes of a question and its reply: parts to ask in, and what a reply leaves out."""
+"""A question about a list: the requests that it takes, and what a reply to one leaves out."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ def parts_of(kind: type[Message], items: Iterable[Any]) -> list[Message]:
     return [kind(**{name: whole[at : at + most]}) for at in range(0, len(whole), most)]
 
 
-def lacking(request: Message, reply: Message) -> tuple[str, list[int], list[Any]]:
+def left_out(request: Message, reply: Message) -> tuple[str, list[int], list[Any]]:
     """What a reply leaves out: the field that asked for it, what is missing, and what is there."""
     found = list(EXCHANGES[type(request)].missing(request, reply))
     items = reply.SHAPE.items
