@@ -37,11 +37,15 @@ class Fault:
 
 @dataclass(slots=True)
 class Judgement:
-    """What is wrong with what came back, what else came, and how long each reply took."""
+    """What is wrong with what came back, what else came, and how long each reply took.
+
+    `has_echo` says that the line gave back what was sent.
+    """
 
     faults: list[Fault] = field(default_factory=list)
     notes: list[str] = field(default_factory=list)
     seconds: list[float] = field(default_factory=list)
+    has_echo: bool = False
 
 
 def judge(model: Model, transcript: Transcript) -> Judgement:
@@ -157,6 +161,7 @@ class _Judge:
         data = event.data
         sent = data_of(self.transcript.burst)
         if data.startswith(sent):
+            self.found.has_echo = True
             self.found.notes.append("the line gives back what is sent")
             return
         self.noise.append(received)

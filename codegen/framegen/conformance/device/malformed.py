@@ -63,8 +63,13 @@ def _is_fit(permission: Permission, data: bytes, reason: str, after: Request) ->
     return heard == [after.frame, after.frame]
 
 
-def _cut(permission: Permission, request: Request) -> Iterator[bytes]:
+def _cut_in_fields(permission: Permission, request: Request) -> Iterator[bytes]:
     for size in range(len(request.frame) - 1, permission.model.frame.body_at - 1, -1):
+        yield request.frame[:size]
+
+
+def _cut_before(permission: Permission, request: Request) -> Iterator[bytes]:
+    for size in range(permission.model.frame.body_at - 1, len(permission.model.frame.header), -1):
         yield request.frame[:size]
 
 
@@ -107,7 +112,8 @@ def _with(request: Request, placed: Placed, slot: Number, value: int) -> Iterato
 
 
 _WAYS: tuple[tuple[str, str, Maker], ...] = (
-    ("a query cut short", TOO_SHORT, _cut),
+    ("a query cut short in its fields", TOO_SHORT, _cut_in_fields),
+    ("a query cut short before its fields", TOO_SHORT, _cut_before),
     ("a length that is one too many", LENGTH_MISMATCH, _changed("length", 1)),
     ("a length that is one too few", LENGTH_MISMATCH, _changed("length", -1)),
     ("a count that is one too many", COUNT_MISMATCH, _changed("count", 1)),

@@ -99,7 +99,7 @@ def unasked(report: Report) -> Iterator[str]:
 def line_of(result: Result) -> Iterator[str]:
     """A step, in a line, and others for what is to be said of it."""
     if result.not_sent:
-        yield f"skipped  {result.step.title}: not sent, for {result.not_sent}"
+        yield f"skipped  {result.step.title}: not sent: {result.not_sent}"
         return
     seconds = [each for _, judgement in result.bursts for each in judgement.seconds]
     took = f" ({', '.join(f'{each:.3f} s' for each in seconds)})" if seconds else ""

@@ -16,6 +16,7 @@ from framegen.conformance.device.report import (
     opening,
     unasked,
 )
+from framegen.conformance.device.step import requests_of
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
@@ -72,6 +73,8 @@ class Run:
 
     def _objection(self, step: Step) -> str:
         """Why a step must not be sent: for its own bytes, or with those of a query behind it."""
+        if self._has_echo() and any(len(requests_of(burst)) > 1 for burst in step.bursts):
+            return "the line gives back what is sent, and so carries one thing at a time"
         behind = () if self._after is None else (self._after,)
         return self._session.objection(tuple(chain(*step.bursts, behind)))
 
@@ -90,6 +93,10 @@ class Run:
         self._report.stopped = (
             f"{name} is not answered any more, {_ATTEMPTS} times: switch the device off and on"
         )
+
+    def _has_echo(self) -> bool:
+        results = self._report.results
+        return any(judgement.has_echo for result in results for _, judgement in result.bursts)
 
     def _is_silent(self) -> bool:
         results = [result for result in self._report.results if result.bursts]
