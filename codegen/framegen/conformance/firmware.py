@@ -41,7 +41,10 @@ def add_arguments(parser: ArgumentParser) -> None:
         help="ask the firmware behind this port: /dev/ttyUSB0, COM7 or socket://HOST:PORT",
     )
     parser.add_argument(
-        "--baud", type=_rate, metavar="BAUD", help="the rate of the line, if not the spec's"
+        "--baud",
+        type=_rate,
+        metavar="BAUD",
+        help="the rate of the line, if not the spec's: at a wrong one, a device hears other bytes",
     )
     parser.add_argument(
         "--malformed",

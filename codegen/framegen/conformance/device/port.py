@@ -8,6 +8,7 @@ import socket
 import sys
 import time
 from typing import TYPE_CHECKING, Any
+from urllib.parse import urlsplit
 
 from framegen.reading.yamltree import Unusable
 
@@ -20,6 +21,7 @@ _POLL = 0.001
 _WRITE_TIMEOUT = 2.0
 _MOST = 4096
 _NAMED = "name a port, such as /dev/ttyUSB0 or COM7, or a URL, such as socket://HOST:PORT"
+_REACHED = "see that the address is right, and that the other end is there and listening"
 _PERMITTED = (
     "add yourself to the group that owns it (dialout on most systems), as by "
     "`sudo usermod -aG dialout $USER`, and log in again"
@@ -38,8 +40,7 @@ def open_port(name: str, link: Link, baud: int) -> Transport:
             hint="pip install 'pyserial>=3.5,<4'",
         ) from None
     scheme = name.partition("://")[0].lower() if "://" in name else ""
-    if not name.strip() or scheme in ("spy", "hid"):
-        raise Unusable(f"{name!r} is no port that can be asked", hint=_NAMED)
+    _see_to_name(name, scheme)
     try:
         opened = serial.serial_for_url(
             name,
@@ -105,6 +106,21 @@ def _handle_of(port: Any) -> int | None:
     return handle if isinstance(handle, int) else None
 
 
+def _see_to_name(name: str, scheme: str) -> None:
+    """Refuse what cannot be the name of a port. Raises Unusable."""
+    # spy:// would write to any file that it names.
+    if not name.strip() or scheme in ("spy", "hid"):
+        raise Unusable(f"{name!r} is no port that can be asked", hint=_NAMED)
+    if scheme in ("socket", "rfc2217"):
+        try:
+            parts = urlsplit(name)
+            problem = "" if parts.hostname and parts.port else "it lacks a host or its TCP port"
+        except ValueError as error:
+            problem = str(error)
+        if problem:
+            raise Unusable(f"{name} is no address: {problem}", hint=f"write {scheme}://HOST:PORT")
+
+
 def _not_opened(name: str, error: Exception) -> Unusable:
     """Say why a port could not be opened, and what to do."""
     code, text = getattr(error, "errno", None), str(error)
@@ -116,7 +132,8 @@ def _not_opened(name: str, error: Exception) -> Unusable:
     if denied:
         return Unusable(f"{name}: permission is denied", hint=_PERMITTED)
     if "://" in name:
-        return Unusable(f"{name} cannot be reached: {text}", hint=_NAMED)
+        why = text.removeprefix(f"Could not open port {name}: ")
+        return Unusable(f"{name} cannot be reached: {why}", hint=_REACHED)
     if code in (errno.ENOENT, errno.ENXIO, errno.ENODEV) or "filenotfounderror" in low:
         return Unusable(f"there is no port {name}", hint=_listed())
     return Unusable(f"{name} is no serial port: {text}", hint=_listed())

@@ -16,6 +16,10 @@ if TYPE_CHECKING:
     from framegen.model.model import Model
 
 
+# No list is asked about that has more elements, whatever a frame has room for.
+_MOST_ELEMENTS = 255
+
+
 def query_steps(permission: Permission) -> Iterator[Step]:
     """Every query in every way that it is asked."""
     asked = requests(permission)
@@ -85,7 +89,7 @@ def _sized(model: Model, exchange: Exchange) -> Iterator[Request]:
         if not message.message.examples:
             yield Request(exchange, pattern, encode(message, pattern), "lowest values")
         return
-    most = min(message.counts[-1], exchange.most or message.counts[-1])
+    most = min(message.counts[-1], exchange.most or message.counts[-1], _MOST_ELEMENTS)
     elements = _elements(model, exchange, pattern[message.items.name])[:most]
     sizes = {1: "one element", 2: "two elements", len(elements): f"{len(elements)} elements"}
     for size, about in sizes.items():

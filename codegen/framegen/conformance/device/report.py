@@ -127,18 +127,24 @@ def closing(report: Report) -> Iterator[str]:
 
 
 def _transcribed(model: Model, result: Result) -> Iterator[str]:
-    for transcript, judgement in result.bursts:
-        began = transcript.at
-        lines = [(0.0, model.roles.client, piece.frame, _sent(piece)) for piece in transcript.burst]
+    """All that went over the line in a step, with seconds from its beginning."""
+    began = result.bursts[0][0].at
+    width = max(len(model.roles.client), len(model.roles.device))
+    for transcript, _ in result.bursts:
+        lines = [
+            (transcript.at, model.roles.client, piece.frame, _sent(piece))
+            for piece in transcript.burst
+        ]
         lines += [
-            (each.at - began, model.roles.device, each.event.data, _event(model, each))
+            (each.at, model.roles.device, each.event.data, _event(model, each))
             for each in transcript.received
         ]
-        width = max(len(who) for _, who, _, _ in lines)
         for at, who, data, what in lines:
-            yield f"{at:7.3f} s  {who:<{width}}  {_bytes(data)}"
-            yield f"{'':{width + 11}}  {what}"
-        yield from (f"{each.kind}: {each.text}" for each in judgement.faults)
+            yield f"{at - began:7.3f} s  {who:<{width}}  {_bytes(data)}"
+            yield f"{'':{width + 13}}{what}"
+        if not transcript.received:
+            yield f"{'':11}{model.roles.device:<{width}}  nothing"
+    yield from result.faults
 
 
 def _sent(piece: Piece) -> str:
