@@ -29,6 +29,7 @@ _HERE = Path(__file__).parent
 _SHARED = {
     "cli/console.py": "console.py",
     "hextext.py": "hextext.py",
+    "recording_file.py": "recording_file.py",
     "wording.py": "wording.py",
 }
 # What only a protocol with poses has a use for.

@@ -7,6 +7,8 @@
 
 Times are seconds from its beginning. `# quiet` says that the line fell silent within a frame: what
 follows is not the rest of it. Whoever reads hex can read such a file; `recordings` reads all of it.
+
+The Python target copies this file into each library, so it imports the standard library alone.
 """
 
 from __future__ import annotations
@@ -17,8 +19,6 @@ import stat
 import time
 from io import TextIOWrapper
 from typing import TYPE_CHECKING
-
-from .octets import spaced
 
 if TYPE_CHECKING:
     from os import PathLike
@@ -68,7 +68,7 @@ class RecordingFile:
 
     def write(self, data: bytes, at: float, who: str, what: object) -> None:
         """Notes bytes of one event, `at` seconds from the beginning."""
-        self._file.write(f"{spaced(data)}  # {at:.6f} s, {who}: {what}\n")
+        self._file.write(f"{data.hex(' ').upper()}  # {at:.6f} s, {who}: {what}\n")
 
     def note(self, text: str) -> None:
         """Notes anything else, in a line of its own."""

@@ -1,0 +1,197 @@
+"""How what came back is judged: by the reference, against what was asked."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Literal, TypeAlias
+
+from framegen.conformance.device.step import Malformed, data_of, excess, requests_of
+from framegen.language.values import to_hex
+from framegen.model.codec import values_of
+from framegen.model.verdict import weigh
+from framegen.wording import counted
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable
+
+    from framegen.conformance.device.receiver import Received
+    from framegen.conformance.device.session import Transcript
+    from framegen.conformance.device.step import Request
+    from framegen.model.model import Model
+
+# What is a fault of a device; the words of the report.
+FaultKind: TypeAlias = Literal[
+    "silence", "no frame", "late reply", "wrong reply", "wrong order", "unsolicited reply"
+]
+# More bytes of noise than this are not shown in a line.
+_SHOWN = 16
+
+
+@dataclass(frozen=True, slots=True)
+class Fault:
+    """Something that a device did not do as it should."""
+
+    kind: FaultKind
+    text: str
+
+
+@dataclass(slots=True)
+class Judgement:
+    """What is wrong with what came back, what else came, and how long each reply took.
+
+    `has_echo` says that the line gave back what was sent.
+    """
+
+    faults: list[Fault] = field(default_factory=list)
+    notes: list[str] = field(default_factory=list)
+    seconds: list[float] = field(default_factory=list)
+    has_echo: bool = False
+
+
+def judge(model: Model, transcript: Transcript) -> Judgement:
+    """Judge what came back for one burst."""
+    return _Judge(model, transcript).judged()
+
+
+class _Judge:
+    """One look at a transcript, event by event."""
+
+    def __init__(self, model: Model, transcript: Transcript) -> None:
+        self.model = model
+        self.transcript = transcript
+        self.found = Judgement()
+        requests = requests_of(transcript.burst)
+        self.asked = [each for each in requests if each.reply is not None]
+        limits = zip(requests, transcript.limits, strict=True)
+        self.pending = [(each, limit) for each, limit in limits if each.reply is not None]
+        # The request that was answered last, of those that have been answered.
+        self.latest: Request | None = None
+        self.noise: list[Received] = []
+        self.reported: set[str] = set()
+
+    def judged(self) -> Judgement:
+        """Go through what came in its order, and then through what did not come."""
+        for received in self.transcript.received:
+            message = received.event.message
+            if message is None:
+                self._noise(received)
+            elif self.model.kind(message.name) == "reply":
+                self._reply(received)
+            else:
+                self.reported.add(message.name)
+                self.found.notes.append(f"report: {message.name} after {self._after(received)}")
+        for request, limit in self.pending:
+            self._missing(request, limit)
+        for request in requests_of(self.transcript.burst):
+            acknowledged = request.exchange.acknowledged
+            if acknowledged is not None and acknowledged not in self.reported:
+                self.found.notes.append(f"no {acknowledged} came for {request.message.name}")
+        return self.found
+
+    def _after(self, received: Received) -> str:
+        return f"{received.at - self.transcript.at:.3f} s"
+
+    def _reply(self, received: Received) -> None:
+        message = received.event.message
+        due = [index for index, (each, _) in enumerate(self.pending) if each.reply == message]
+        if message is None or not due:
+            self._unsolicited(received)
+            return
+        values = values_of(message, received.event.data)
+        fitting = [at for at in due if self.pending[at][0].answered_by(message, values)]
+        index = (fitting or due)[0]
+        request, limit = self.pending.pop(index)
+        seconds = received.at - self.transcript.at
+        self.found.seconds.append(seconds)
+        if not fitting:
+            self._wrong(request, received)
+        self._in_order(request, message.name)
+        if seconds > limit:
+            took = f"{message.name} came after {seconds:.3f} s, and was due within {limit:.3f} s"
+            self._fault("late reply", took)
+        self._left_out(request, received)
+
+    def _in_order(self, request: Request, name: str) -> None:
+        latest = self.latest
+        if latest is not None and self._place(request) < self._place(latest):
+            later = latest.message.name
+            self._fault("wrong order", f"{name} came behind the reply to {later}, asked after it")
+        else:
+            self.latest = request
+
+    def _place(self, request: Request) -> int:
+        return next(at for at, each in enumerate(self.asked) if each is request)
+
+    def _wrong(self, request: Request, received: Received) -> None:
+        message = received.event.message
+        if message is None:
+            return
+        values = values_of(message, received.event.data)
+        for asked, told in request.exchange.echoed:
+            beyond = excess(request, asked, told, values)
+            if beyond:
+                these = ", ".join(map(str, beyond[:_SHOWN]))
+                what = f"{message.name} tells of {told} {these}, which was not asked"
+                self._fault("wrong reply", what)
+
+    def _left_out(self, request: Request, received: Received) -> None:
+        """Note how much of what was asked a reply tells nothing of, which it may."""
+        message = received.event.message
+        items = request.message.items
+        if message is None or message.items is None or items is None or not request.exchange.most:
+            return
+        values = values_of(message, received.event.data)
+        told, asked = len(values[message.items.name]), len(request.values[items.name])
+        if told < asked:
+            self.found.notes.append(f"{message.name} tells of {told} of {asked}")
+
+    def _unsolicited(self, received: Received) -> None:
+        message = received.event.message
+        if message is None:
+            return
+        what = f"{message.name} came once more than it was asked"
+        if message not in [each.reply for each in self.asked]:
+            what = f"{message.name} came, which nothing had asked for"
+        if any(isinstance(piece, Malformed) for piece in self.transcript.burst):
+            what += ": does it answer what is no frame?"
+        self._fault("unsolicited reply", what)
+
+    def _noise(self, received: Received) -> None:
+        event = received.event
+        data = event.data
+        sent = data_of(self.transcript.burst)
+        if data.startswith(sent):
+            self.found.has_echo = True
+            self.found.notes.append("the line gives back what is sent")
+            return
+        self.noise.append(received)
+        shown = to_hex(data[:_SHOWN]) + (" ..." if len(data) > _SHOWN else "")
+        kind = "unknown frame" if event.kind == "unknown" else f"noise, {event.reason}"
+        self.found.notes.append(f"{kind}: {counted(len(data), 'byte')}, {shown}")
+
+    def _missing(self, request: Request, limit: float) -> None:
+        name = "" if request.reply is None else request.reply.name
+        broken = self._broken(self.noise)
+        waited = f"no {name} within {limit:.3f} s"
+        if broken:
+            self._fault("no frame", f"{waited}; what came is none: {broken}")
+        elif self.noise:
+            size = sum(len(each.event.data) for each in self.noise)
+            problem = f"{counted(size, 'byte')} came without any header: is the baud rate right?"
+            self._fault("silence", f"{waited}; {problem}")
+        else:
+            self._fault("silence", waited)
+
+    def _broken(self, noise: Iterable[Received]) -> str:
+        """Why the first noise with a header is no frame; empty where there is none."""
+        header = self.model.frame.header
+        for each in noise:
+            at = each.event.data.find(header)
+            if at >= 0 and each.event.kind == "noise":
+                data = each.event.data[at:]
+                verdict = weigh(self.model, [self.model.roles.received], data)
+                return f"{verdict.reason} at byte {verdict.offset}: {verdict.expected}"
+        return ""
+
+    def _fault(self, kind: FaultKind, text: str) -> None:
+        self.found.faults.append(Fault(kind, text))

@@ -1,0 +1,123 @@
+"""Frames that are none, each followed at once by a query that a device must still hear.
+
+They are made of queries alone, and each is one that the reference refuses: it must find the query
+behind the bytes that it gives up, without waiting until the line is quiet.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from framegen.conformance.device.queries import requests
+from framegen.conformance.device.step import Malformed, Step
+from framegen.model.slots import Number
+from framegen.model.stream import Line
+from framegen.model.verdict import (
+    COUNT_MISMATCH,
+    LENGTH_MISMATCH,
+    OUT_OF_RANGE,
+    TOO_SHORT,
+    UNKNOWN_COMMAND,
+    weigh,
+)
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterable, Iterator
+
+    from framegen.conformance.device.permission import Permission
+    from framegen.conformance.device.step import Request
+    from framegen.model.slots import Placed
+
+    Maker = Callable[[Permission, Request], Iterable[bytes]]
+
+
+def malformed_steps(permission: Permission, after: Request) -> Iterator[Step]:
+    """One step for each way to be no frame; none for a way that no query of the spec has."""
+    for about, reason, make in _WAYS:
+        found = _first(permission, after, about, reason, make)
+        if found is not None:
+            title = f"{about}, and {after.message.name} at once"
+            yield Step(title, ((found, after),))
+
+
+def _first(
+    permission: Permission, after: Request, about: str, reason: str, make: Maker
+) -> Malformed | None:
+    """The first of its kind that does no harm, whatever becomes of its bytes."""
+    for request in requests(permission):
+        for data in make(permission, request):
+            if _is_fit(permission, data, reason, after):
+                return Malformed(data, reason, about)
+    return None
+
+
+def _is_fit(permission: Permission, data: bytes, reason: str, after: Request) -> bool:
+    model = permission.model
+    sent = [model.roles.sent]
+    if weigh(model, sent, data).reason != reason:
+        return False
+    around = after.frame + data + after.frame
+    if permission.objection(around + after.frame):
+        return False
+    heard = [event.data for event in Line(model, sent).decode_so_far(around) if event.message]
+    return heard == [after.frame, after.frame]
+
+
+def _cut_in_fields(permission: Permission, request: Request) -> Iterator[bytes]:
+    for size in range(len(request.frame) - 1, permission.model.frame.body_at - 1, -1):
+        yield request.frame[:size]
+
+
+def _cut_before(permission: Permission, request: Request) -> Iterator[bytes]:
+    for size in range(permission.model.frame.body_at - 1, len(permission.model.frame.header), -1):
+        yield request.frame[:size]
+
+
+def _changed(role: str, by: int) -> Maker:
+    """Change the number that has this role by so much, where it has room for that."""
+
+    def make(_permission: Permission, request: Request) -> Iterator[bytes]:
+        for placed, slot in _numbers(request):
+            if slot.role == role:
+                yield from _with(request, placed, slot, slot.read(placed.of(request.frame)) + by)
+
+    return make
+
+
+def _outside(_permission: Permission, request: Request) -> Iterator[bytes]:
+    for placed, slot in _numbers(request):
+        if slot.is_field and slot.narrowed:
+            yield from _with(request, placed, slot, slot.high + 1)
+            yield from _with(request, placed, slot, slot.low - 1)
+
+
+def _unknown(permission: Permission, request: Request) -> Iterator[bytes]:
+    for placed, slot in _numbers(request):
+        if slot.role == "id" and permission.unknown_id is not None:
+            yield from _with(request, placed, slot, permission.unknown_id)
+
+
+def _numbers(request: Request) -> Iterator[tuple[Placed, Number]]:
+    items = request.message.items
+    count = 0 if items is None else len(request.values[items.name])
+    for placed in request.message.lay_out(count):
+        if isinstance(placed.slot, Number):
+            yield placed, placed.slot
+
+
+def _with(request: Request, placed: Placed, slot: Number, value: int) -> Iterator[bytes]:
+    """The frame with another value in one place, where there is room for it."""
+    if slot.wire.low <= value <= slot.wire.high:
+        yield request.frame[: placed.at] + slot.write(value) + request.frame[placed.end :]
+
+
+_WAYS: tuple[tuple[str, str, Maker], ...] = (
+    ("a query cut short in its fields", TOO_SHORT, _cut_in_fields),
+    ("a query cut short before its fields", TOO_SHORT, _cut_before),
+    ("a length that is one too many", LENGTH_MISMATCH, _changed("length", 1)),
+    ("a length that is one too few", LENGTH_MISMATCH, _changed("length", -1)),
+    ("a count that is one too many", COUNT_MISMATCH, _changed("count", 1)),
+    ("a count that is one too few", COUNT_MISMATCH, _changed("count", -1)),
+    ("a value out of its range", OUT_OF_RANGE, _outside),
+    ("an id that nobody has", UNKNOWN_COMMAND, _unknown),
+)

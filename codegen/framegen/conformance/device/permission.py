@@ -1,0 +1,178 @@
+"""Which frames may be sent to a device that does what it is told: the queries, and what is named.
+
+Whatever is sent is looked at here first, together with the bytes in front of it: a device takes
+bytes, not frames, and may have lost some of them.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+from typing import TYPE_CHECKING
+
+from framegen.language.values import to_hex
+from framegen.model.verdict import weigh
+from framegen.reading.findings import did_you_mean
+from framegen.reading.yamltree import Unusable
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Iterator
+
+    from framegen.language.values import Direction
+    from framegen.model.layout import MessageLayout
+    from framegen.model.model import Model
+
+
+@dataclass(frozen=True)
+class Permission:
+    """What may be sent: every query of the client, and the messages that the user has named."""
+
+    model: Model
+    named: tuple[str, ...] = ()
+
+    @cached_property
+    def queries(self) -> list[str]:
+        """The messages of the client that are due a reply."""
+        return [each.request.name for each in self.model.exchanges if each.reply is not None]
+
+    @cached_property
+    def commands(self) -> list[str]:
+        """All others of the client: what they do is done."""
+        return [each.request.name for each in self.model.exchanges if each.reply is None]
+
+    @cached_property
+    def allowed(self) -> list[str]:
+        """What is sent."""
+        named = [name for name in self.commands if name in self.named]
+        return [*self.queries, *named]
+
+    @cached_property
+    def refused(self) -> list[str]:
+        """What the client could send, and is not sent."""
+        return [name for name in self.commands if name not in self.named]
+
+    def objection(self, data: bytes) -> str:
+        """Why `data` must not be sent; empty where nothing speaks against it.
+
+        As it is, no device that goes by header and id may find anything else in it than what is
+        allowed, even one that tests neither length nor count. Should any one byte be lost on the
+        way, there must still be no legal frame in it that is not allowed.
+        """
+        for at in self._headers(data):
+            found = self._dangerous.get(self._id(data, at))
+            if found is not None:
+                return f"its bytes from {at} on begin {found}"
+        for lost in range(-1, len(data)):
+            bytes_left = data if lost < 0 else data[:lost] + data[lost + 1 :]
+            name = self._holds(bytes_left, lost)
+            if name and lost < 0:
+                return f"its bytes hold a frame of {name}"
+            if name:
+                return f"its bytes hold a frame of {name} if byte {lost} of {to_hex(data)} is lost"
+        return ""
+
+    def _holds(self, data: bytes, lost: int) -> str:
+        """The first message in `data` that must not be there, but for those in front of a loss."""
+        for at in self._headers(data, max(0, lost - self._largest)):
+            if self._id(data, at) not in self._guarded:
+                continue
+            for way in self._ways:
+                message = weigh(self.model, [way], data[at : at + self._largest]).message
+                if message is not None and message.name not in self.allowed:
+                    return message.name
+        return ""
+
+    def _headers(self, data: bytes, start: int = 0) -> Iterator[int]:
+        header = self.model.frame.header
+        at = data.find(header, start)
+        while 0 <= at < len(data):
+            yield at
+            at = data.find(header, at + 1)
+
+    def _id(self, data: bytes, at: int) -> int:
+        """The id of what begins at `at`; -1 where there is none yet."""
+        place = self.model.frame.id
+        code = data[at + place.at : at + place.at + place.size]
+        return place.read(code) if len(code) == place.size else -1
+
+    @cached_property
+    def _ways(self) -> list[Direction]:
+        """Where bytes of the client may be heard: by every end but itself."""
+        client = self.model.roles.client
+        return [way for way in self.model.directions if way.receiver != client]
+
+    @cached_property
+    def _largest(self) -> int:
+        return self.model.largest(self._ways)
+
+    @cached_property
+    def _guarded(self) -> dict[int, MessageLayout]:
+        """By id, every message that a device may take and that is not allowed."""
+        return {
+            message.id: message
+            for way in self._ways
+            for message in self.model.sent(way).values()
+            if message.name not in self.allowed
+        }
+
+    @cached_property
+    def _dangerous(self) -> dict[int, str]:
+        """By id, what a device might do that no query does."""
+        spec = self.model.spec
+        received = self.model.roles.received
+        found = {
+            code: f"what id {code} means to {lookalike.title}"
+            for lookalike in spec.lookalikes.values()
+            for code in lookalike.commands
+        }
+        found |= {
+            each.id: f"id {each.id}, which is reserved"
+            for each in spec.reserved
+            if each.id is not None and each.direction != received
+        }
+        found |= {code: f"a frame of {message.name}" for code, message in self._guarded.items()}
+        harmless = {self.model.messages[name].id for name in self.allowed}
+        return {code: what for code, what in found.items() if code not in harmless}
+
+    @cached_property
+    def unknown_id(self) -> int | None:
+        """An id that means nothing to anybody, as far as is known; None where there is none."""
+        place = self.model.frame.id
+        known = {message.id for message in self.model.messages.values()}
+        # A header byte there could begin a header.
+        taken = known | self._dangerous.keys() | set(self.model.frame.header)
+        free = (code for code in range(place.high, -1, -1) if code not in taken)
+        return next(free, None)
+
+
+def permit(model: Model, names: Iterable[str]) -> Permission:
+    """Allow all queries, and the messages of these names. Raises Unusable for names of no use."""
+    permission = Permission(model, tuple(names))
+    can = [each.request.name for each in model.exchanges]
+    for name in permission.named:
+        if name in can:
+            continue
+        message = model.messages.get(name)
+        if message is not None:
+            way = message.direction
+            raise Unusable(
+                f"{name} cannot be allowed: it goes {way}, and what is sent goes "
+                f"{model.roles.sent}",
+                hint=did_you_mean("", permission.commands),
+            )
+        raise Unusable(
+            f"there is no message `{name}` to be allowed",
+            hint=did_you_mean(name, permission.commands, otherwise=_choices(permission)),
+        )
+    if not permission.allowed:
+        raise Unusable(
+            f"{model.spec.protocol.name} has no query that could be asked",
+            hint=f"name what may be sent, as by --allow {can[0]}" if can else "",
+        )
+    return permission
+
+
+def _choices(permission: Permission) -> str:
+    if permission.commands:
+        return ""
+    return "all that can be sent is a query, and needs no permission"

@@ -1,0 +1,140 @@
+"""What is asked: each query with its examples, with lists of each size, again, and two at once."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from framegen.conformance.device.step import Request, Step
+from framegen.model.codec import encode, values_of
+from framegen.model.slots import Items, Number
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator, Mapping
+
+    from framegen.conformance.device.permission import Permission
+    from framegen.model.exchanges import Exchange
+    from framegen.model.model import Model
+
+
+# No list is asked about that has more elements, whatever a frame has room for.
+_MOST_ELEMENTS = 255
+
+
+def query_steps(permission: Permission) -> Iterator[Step]:
+    """Every query in every way that it is asked."""
+    asked = requests(permission)
+    for request in asked:
+        yield Step(_titled(request), ((request,),))
+    firsts = list({request.message.name: request for request in reversed(asked)}.values())[::-1]
+    for request in firsts:
+        yield Step(f"{_titled(request)}, twice in a row", ((request,), (request,)))
+    for one, other in _pairs(firsts):
+        title = f"{one.message.name} and {other.message.name} at once"
+        yield Step(title, ((one, other),))
+
+
+def command_steps(permission: Permission, after: Request | None) -> Iterator[Step]:
+    """The examples of what the user has allowed, and after each a query, where there is one."""
+    for request in commands(permission):
+        bursts = ((request,),) if after is None else ((request,), (after,))
+        behind = "" if after is None else f", then {after.message.name}"
+        yield Step(f"{_titled(request)}{behind}", bursts)
+
+
+def requests(permission: Permission) -> list[Request]:
+    """Every query that is asked: those of the spec's examples, and one of each size of list."""
+    found: dict[bytes, Request] = {}
+    for exchange in _of(permission.model, permission.queries):
+        for request in [*_examples(exchange), *_sized(permission.model, exchange)]:
+            found.setdefault(request.frame, request)
+    return list(found.values())
+
+
+def commands(permission: Permission) -> list[Request]:
+    """The examples of the messages that the user has allowed: nothing else is made of them."""
+    names = [name for name in permission.allowed if name in permission.commands]
+    exchanges = _of(permission.model, names)
+    return [request for exchange in exchanges for request in _examples(exchange)]
+
+
+def _of(model: Model, names: list[str]) -> list[Exchange]:
+    return [each for each in model.exchanges if each.request.name in names]
+
+
+def _titled(request: Request) -> str:
+    return f"{request.message.name}, {request.about}"
+
+
+def _pairs(firsts: list[Request]) -> Iterator[tuple[Request, Request]]:
+    """Each query with the next, and the last with the first; one alone with itself."""
+    for index, one in enumerate(firsts if len(firsts) != 2 else firsts[:1]):
+        yield one, firsts[(index + 1) % len(firsts)]
+
+
+def _examples(exchange: Exchange) -> Iterator[Request]:
+    message = exchange.request
+    for number, example in enumerate(message.message.examples, 1):
+        values = values_of(message, example.hex)
+        yield Request(exchange, values, example.hex, f"example {number}")
+
+
+def _sized(model: Model, exchange: Exchange) -> Iterator[Request]:
+    """With one element, two, and as many as a reply can tell of; without a list, the lowest values.
+
+    A query without a list is only made up where no example shows it.
+    """
+    message = exchange.request
+    pattern = _pattern(exchange)
+    if message.items is None:
+        if not message.message.examples:
+            yield Request(exchange, pattern, encode(message, pattern), "lowest values")
+        return
+    most = min(message.counts[-1], exchange.most or message.counts[-1], _MOST_ELEMENTS)
+    elements = _elements(model, exchange, pattern[message.items.name])[:most]
+    sizes = {1: "one element", 2: "two elements", len(elements): f"{len(elements)} elements"}
+    for size, about in sizes.items():
+        if size in message.counts and size <= len(elements):
+            values = {**pattern, message.items.name: elements[:size]}
+            yield Request(exchange, values, encode(message, values), about)
+
+
+def _pattern(exchange: Exchange) -> Mapping[str, Any]:
+    """Values to go by: those of the first example, or else the lowest of each field."""
+    message = exchange.request
+    if message.message.examples:
+        return values_of(message, message.message.examples[0].hex)
+    return {
+        slot.name: max(slot.low, 0) if isinstance(slot, Number) else []
+        for slot in message.arguments
+    }
+
+
+def _elements(model: Model, exchange: Exchange, first: list[Any]) -> list[Any]:
+    """Elements that all differ in their first field, in the order of its values.
+
+    Values that are a byte of the header are left out: a list could then look like a frame.
+    """
+    items = exchange.request.items
+    if items is None:
+        return []
+    header = set(model.frame.header)
+    number = items.fields[0]
+    lowest = min((_key(items, item) for item in first), default=max(number.low, 0))
+    values = [
+        value
+        for value in range(lowest, min(number.high, lowest + 2 * items.high) + 1)
+        if header.isdisjoint(number.write(value))
+    ]
+    return [_element(items, value, first) for value in values]
+
+
+def _key(items: Items, item: Any) -> int:
+    value: int = item if items.element is None else item[items.fields[0].name]
+    return value
+
+
+def _element(items: Items, value: int, first: list[Any]) -> Any:
+    if items.element is None:
+        return value
+    others = first[0] if first else {field.name: max(field.low, 0) for field in items.fields}
+    return {**others, items.fields[0].name: value}

@@ -1,0 +1,61 @@
+"""What a device sends, told apart by the reference while it comes, with the time of each event."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from framegen.model.stream import Line
+
+if TYPE_CHECKING:
+    from framegen.model.model import Model
+    from framegen.model.stream import Event
+
+# A device that sends noise without end: what is decided of it is given up from so many bytes on.
+_MOST_HELD = 2048
+
+
+@dataclass(frozen=True, slots=True)
+class Received:
+    """An event, and when the last byte of it came."""
+
+    at: float
+    event: Event
+
+
+class Receiver:
+    """Takes what comes, chunk by chunk; a message is told as soon as it is whole."""
+
+    def __init__(self, model: Model) -> None:
+        self._line = Line(model, [model.roles.received])
+        self._held = b""
+        # When each of the bytes held has come.
+        self._times: list[float] = []
+
+    def feed(self, data: bytes, now: float) -> list[Received]:
+        """Take bytes in, and tell what is decided, up to the last frame among it."""
+        self._held += data
+        self._times += [now] * len(data)
+        events = self._line.decode_so_far(self._held)
+        if len(self._held) <= _MOST_HELD:
+            # Noise may still grow.
+            while events and events[-1].kind == "noise":
+                events.pop()
+        return self._taken(events)
+
+    def peek(self) -> list[Received]:
+        """Tell what the bytes held would be, if no more came."""
+        return self._timed(self._line.decode(self._held))
+
+    def flush(self) -> list[Received]:
+        """Tell what the bytes held are, now that the line is quiet."""
+        return self._taken(self._line.decode(self._held))
+
+    def _taken(self, events: list[Event]) -> list[Received]:
+        received = self._timed(events)
+        size = sum(len(event.data) for event in events)
+        self._held, self._times = self._held[size:], self._times[size:]
+        return received
+
+    def _timed(self, events: list[Event]) -> list[Received]:
+        return [Received(self._times[each.at + len(each.data) - 1], each) for each in events]

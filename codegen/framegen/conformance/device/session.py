@@ -1,0 +1,150 @@
+"""A line to a device: sends what is allowed, a burst at a time, and listens for what comes back."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from framegen.conformance.device.receiver import Receiver
+from framegen.conformance.device.step import data_of, requests_of
+from framegen.language.values import to_hex
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Sequence
+
+    from framegen.conformance.device.permission import Permission
+    from framegen.conformance.device.receiver import Received
+    from framegen.conformance.device.recording import Recording
+    from framegen.conformance.device.step import Burst
+    from framegen.conformance.device.transport import Transport
+    from framegen.model.layout import MessageLayout
+
+# A reply is waited for so many times longer than it may take, to tell a late one from none.
+_PATIENT = 4
+# The line is quiet once nothing has come for so many seconds.
+_QUIET = 0.05
+# So long a device may go on sending by itself, in seconds, before it is not waited for any more.
+_RESTLESS = 1.0
+
+
+@dataclass(frozen=True, slots=True)
+class Timing:
+    """How long things may take: `timeout` seconds for a device to think, and the wire."""
+
+    baud: int
+    bits_per_byte: int
+    timeout: float
+
+    def wire(self, size: int) -> float:
+        """Seconds that so many bytes are on the line."""
+        return size * self.bits_per_byte / self.baud
+
+    def limits(self, burst: Burst) -> list[float]:
+        """By request of a burst, when its reply has to be there, in seconds from its beginning."""
+        limits = []
+        due = self.wire(len(data_of(burst)))
+        for request in requests_of(burst):
+            due += self.wire(request.reply_size) + self.timeout
+            limits.append(due)
+        return limits
+
+
+@dataclass(frozen=True, slots=True)
+class Transcript:
+    """What was sent at once, at `at`, and all that came until the line was quiet again.
+
+    `limits` are, by request, the seconds within which its reply is due. All times are seconds from
+    the beginning of the run.
+    """
+
+    at: float
+    burst: Burst
+    limits: list[float]
+    received: list[Received]
+
+
+class Session:
+    """A run on the device behind a transport. What the permission objects to is never written."""
+
+    def __init__(
+        self,
+        transport: Transport,
+        permission: Permission,
+        timing: Timing,
+        recording: Recording,
+        clock: Callable[[], float],
+    ) -> None:
+        self.permission = permission
+        self.timing = timing
+        self._transport = transport
+        self._recording = recording
+        self._clock = clock
+        self._began = clock()
+        self._receiver = Receiver(permission.model)
+        self._received: list[Received] = []
+        # What a device may still hold of all that was sent.
+        self._sent = b""
+        self._most = permission.model.largest(permission.model.directions)
+
+    @property
+    def now(self) -> float:
+        """Seconds since the beginning."""
+        return self._clock() - self._began
+
+    def objection(self, burst: Burst) -> str:
+        """Why a burst must not be sent now; empty where nothing speaks against it."""
+        return self.permission.objection(self._sent + data_of(burst))
+
+    def listen(self) -> list[Received]:
+        """Hear what a device sends unasked, for as long as a reply may take."""
+        self._read_until(self.now + self.timing.timeout)
+        return self._end()
+
+    def send(self, burst: Burst) -> Transcript:
+        """Send a burst, and listen until its replies are there or can be given up."""
+        data = data_of(burst)
+        if objection := self.objection(burst):
+            raise AssertionError(f"{to_hex(data)} must not be sent: {objection}")
+        at, limits = self.now, self.timing.limits(burst)
+        # Noted first: what cannot be noted is not sent.
+        self._recording.sent(burst, at)
+        self._transport.write(data)
+        self._sent = (self._sent + data)[-self._most :]
+        due = [request.reply for request in requests_of(burst) if request.reply is not None]
+        until = at + max(limits, default=self.timing.timeout)
+        self._read_until(until, due)
+        # A beginning that is none may hold back what is there already.
+        if due and not _has(due, [*self._received, *self._receiver.peek()]):
+            self._read_until(until + _PATIENT * self.timing.timeout, due)
+        return Transcript(at, burst, limits, self._end())
+
+    def _read_until(self, moment: float, due: Sequence[MessageLayout] = ()) -> None:
+        """Take in what comes until then, or until there are as many replies as are due."""
+        while not (due and _has(due, self._received)) and (left := moment - self.now) > 0:
+            self._read(left)
+
+    def _read(self, timeout: float) -> bool:
+        """Take in what comes, and tell whether anything does."""
+        data = self._transport.read(timeout)
+        if data:
+            self._note(self._receiver.feed(data, self.now))
+        return bool(data)
+
+    def _end(self) -> list[Received]:
+        """Wait until the line is quiet, and give what has come."""
+        until = self.now + _RESTLESS
+        while self._read(_QUIET) and self.now < until:
+            pass
+        self._note(self._receiver.flush())
+        received, self._received = self._received, []
+        return received
+
+    def _note(self, received: list[Received]) -> None:
+        for each in received:
+            self._recording.received(each)
+        self._received += received
+
+
+def _has(due: Sequence[MessageLayout], received: list[Received]) -> bool:
+    """Whether as many replies have come as are due, whatever they say."""
+    return sum(each.event.message in due for each in received) >= len(due)

@@ -1,0 +1,119 @@
+"""One thing that is tried on a device: what is sent, piece by piece, and which replies are due."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, TypeAlias
+
+from framegen.conformance.language import fields
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    from framegen.model.exchanges import Exchange
+    from framegen.model.layout import MessageLayout
+
+
+@dataclass(frozen=True)
+class Request:
+    """A frame of a message that is allowed. `about` says where its values are from."""
+
+    exchange: Exchange
+    values: Mapping[str, Any]
+    frame: bytes
+    about: str
+
+    @property
+    def message(self) -> MessageLayout:
+        """The message."""
+        return self.exchange.request
+
+    @property
+    def reply(self) -> MessageLayout | None:
+        """The message that is due for it."""
+        return self.exchange.reply
+
+    @property
+    def text(self) -> str:
+        """The message with its values."""
+        return " ".join([self.message.name, *fields(self.message, self.values)])
+
+    def answered_by(self, message: MessageLayout, values: Mapping[str, Any]) -> bool:
+        """Whether a message can be its reply: it tells of nothing that was not asked."""
+        return message == self.reply and not any(
+            excess(self, path, told, values) for path, told in self.exchange.echoed
+        )
+
+    @property
+    def reply_size(self) -> int:
+        """Bytes of the largest reply that it can have; 0 where none is due."""
+        if self.reply is None:
+            return 0
+        items = self.reply.items
+        for asked, told in self.exchange.echoed:
+            if items is not None and told.partition(".")[0] == items.name:
+                count = len(column(self.values, asked))
+                if count in self.reply.counts:
+                    return self.reply.size_at(count)
+        return self.reply.largest
+
+
+@dataclass(frozen=True, slots=True)
+class Malformed:
+    """Bytes that are no frame, for a reason; `about` says in which way."""
+
+    frame: bytes
+    reason: str
+    about: str
+
+
+Piece: TypeAlias = Request | Malformed
+# What is sent at once.
+Burst: TypeAlias = tuple[Piece, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Step:
+    """What is sent, a burst at a time, each once the replies to the one before it are there."""
+
+    title: str
+    bursts: tuple[Burst, ...]
+
+    @property
+    def is_malformed(self) -> bool:
+        """Whether any of it is no frame."""
+        return any(isinstance(piece, Malformed) for burst in self.bursts for piece in burst)
+
+
+def data_of(burst: Burst) -> bytes:
+    """The bytes of what is sent at once."""
+    return b"".join(piece.frame for piece in burst)
+
+
+def requests_of(burst: Burst) -> list[Request]:
+    """What of it a device is to answer, or to do."""
+    return [piece for piece in burst if isinstance(piece, Request)]
+
+
+def column(values: Mapping[str, Any], path: str) -> list[int]:
+    """The values of a field, by path: one number, or one for each element of a list."""
+    name, _, inner = path.partition(".")
+    value = values[name]
+    if inner:
+        return [item[inner] for item in value]
+    return list(value) if isinstance(value, list) else [value]
+
+
+def excess(request: Request, asked: str, told: str, values: Mapping[str, Any]) -> list[int]:
+    """What a reply with these values tells beyond what was asked, each as often as it is too much.
+
+    What is left out is not looked at: a device may have nothing to tell of it.
+    """
+    left = column(request.values, asked)
+    found = []
+    for value in column(values, told):
+        if value in left:
+            left.remove(value)
+        else:
+            found.append(value)
+    return found

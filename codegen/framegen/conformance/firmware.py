@@ -1,0 +1,119 @@
+"""Asks real firmware over a port whether it does what the spec says: safely, and on the record."""
+
+from __future__ import annotations
+
+import argparse
+import time
+from contextlib import suppress
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from framegen.conformance.device.malformed import malformed_steps
+from framegen.conformance.device.permission import permit
+from framegen.conformance.device.port import open_port
+from framegen.conformance.device.queries import command_steps, query_steps, requests
+from framegen.conformance.device.recording import Recording
+from framegen.conformance.device.report import Report
+from framegen.conformance.device.run import Run, Voice
+from framegen.conformance.device.session import Session, Timing
+from framegen.reading.yamltree import Unusable
+
+if TYPE_CHECKING:
+    from argparse import ArgumentParser, Namespace
+    from collections.abc import Callable, Iterator
+
+    from framegen.conformance.device.permission import Permission
+    from framegen.conformance.device.step import Request, Step
+    from framegen.conformance.device.transport import Transport
+    from framegen.language.spec import Link
+    from framegen.model.model import Model
+
+# Seconds that a device may take for a reply, besides those on the wire.
+TIMEOUT = 0.25
+_LOST = "see to the cable and the power, then run this again"
+
+
+def add_arguments(parser: ArgumentParser) -> None:
+    """Declare what is said of a port, and of what may be sent to it."""
+    parser.add_argument(
+        "--port",
+        metavar="PORT",
+        help="ask the firmware behind this port: /dev/ttyUSB0, COM7 or socket://HOST:PORT",
+    )
+    parser.add_argument(
+        "--baud",
+        type=_rate,
+        metavar="BAUD",
+        help="the rate of the line, if not the spec's: at a wrong one, a device hears other bytes",
+    )
+    parser.add_argument(
+        "--malformed",
+        action="store_true",
+        help="send malformed queries, too, and see that the next query is still answered",
+    )
+    parser.add_argument(
+        "--allow",
+        action="append",
+        default=[],
+        metavar="NAME",
+        help="send the examples of this message, too, though a device does what they say",
+    )
+    parser.add_argument(
+        "--log", type=Path, metavar="FILE", help="record all that goes over the line in a new file"
+    )
+
+
+def _rate(text: str) -> int:
+    if not (text.isascii() and text.isdigit() and 1 <= int(text[:12]) < 2**31):
+        raise argparse.ArgumentTypeError(f"{text!r} is no rate: a whole number of baud, from 1 up")
+    return int(text)
+
+
+def run(
+    model: Model,
+    arguments: Namespace,
+    *,
+    connect: Callable[[str, Link, int], Transport] = open_port,
+    clock: Callable[[], float] = time.monotonic,
+) -> int:
+    """Ask, and tell what came of it. 0: all as it should be; 1: something is not. Raises Unusable.
+
+    `connect` opens the port, and `clock` tells the time that its reads take.
+    """
+    if arguments.format not in ("text", "json"):
+        raise Unusable(f"there is no {arguments.format} of firmware", hint="--format text or json")
+    permission = permit(model, arguments.allow)
+    after = min(requests(permission), key=lambda request: len(request.frame), default=None)
+    steps = list(_steps(permission, after, malformed=arguments.malformed))
+    link = model.spec.link
+    baud = arguments.baud or link.baud
+    timing = Timing(baud, link.bits_per_byte, arguments.timeout or TIMEOUT)
+    report = Report(model, arguments.port, baud, permission)
+    voice = Voice(as_json=arguments.format == "json")
+    with Recording(model, arguments.log) as recording:
+        transport = connect(arguments.port, link, baud)
+        try:
+            voice.begin(report, steps)
+            recording.begin(arguments.port)
+            session = Session(transport, permission, timing, recording, clock)
+            Run(report, session, recording, after).go(steps, voice)
+        except OSError as error:
+            report.stopped = f"{arguments.port}: {error}"
+            voice.end(report)
+            raise Unusable(report.stopped, hint=_LOST) from None
+        finally:
+            with suppress(OSError):
+                transport.close()
+    voice.end(report)
+    return 0 if report.has_passed else 1
+
+
+def _steps(permission: Permission, after: Request | None, *, malformed: bool) -> Iterator[Step]:
+    yield from query_steps(permission)
+    if malformed:
+        if after is None:
+            raise Unusable(
+                "nothing malformed can be sent: there is no query to see by what came of it"
+            )
+        yield from malformed_steps(permission, after)
+    yield from command_steps(permission, after)

@@ -1,0 +1,104 @@
+"""What firmware is asked behind: a line in virtual time, and devices at its end."""
+
+import heapq
+from collections.abc import Callable, Iterator
+from itertools import count
+from typing import Any
+
+from framegen.conformance.device.step import column
+from framegen.model.codec import encode, values_of
+from framegen.model.model import Model
+from framegen.model.stream import Line
+
+# What a device sends once it has heard bytes: after how many seconds, and what.
+Answer = Callable[[bytes], list[tuple[float, bytes]]]
+
+
+class VirtualLine:
+    """A transport without any pace: a read moves the clock on, and nothing sleeps."""
+
+    def __init__(self, answer: Answer = lambda _: []) -> None:
+        self.now = 0.0
+        self.written: list[bytes] = []
+        self.is_closed = False
+        # So many writes are taken, and then the line is lost.
+        self.lasts = 1_000_000
+        self._answer = answer
+        self._arriving: list[tuple[float, int, bytes]] = []
+        self._number = count()
+
+    def clock(self) -> float:
+        return self.now
+
+    def say(self, data: bytes, delay: float = 0.0) -> None:
+        heapq.heappush(self._arriving, (self.now + delay, next(self._number), data))
+
+    def read(self, timeout: float) -> bytes:
+        until = self.now + max(timeout, 1e-6)
+        if not self._arriving or self._arriving[0][0] > until:
+            self.now = until
+            return b""
+        at, _, data = heapq.heappop(self._arriving)
+        self.now = max(self.now, at)
+        return data
+
+    def write(self, data: bytes) -> None:
+        if len(self.written) >= self.lasts:
+            raise OSError("the cable was pulled")
+        self.written.append(data)
+        for delay, answer in self._answer(data):
+            self.say(answer, delay)
+
+    def close(self) -> None:
+        self.is_closed = True
+
+
+class Observed:
+    """A transport that notes what is written to the one behind it."""
+
+    def __init__(self, behind: Any) -> None:
+        self.written: list[bytes] = []
+        self._behind = behind
+
+    def read(self, timeout: float) -> bytes:
+        data: bytes = self._behind.read(timeout)
+        return data
+
+    def write(self, data: bytes) -> None:
+        self.written.append(data)
+        self._behind.write(data)
+
+    def close(self) -> None:
+        self._behind.close()
+
+
+def by_the_reference(model: Model) -> Answer:
+    """A device that hears what the reference hears, and replies as the spec's examples do."""
+    held = b""
+    line = Line(model, [model.roles.sent])
+
+    def answer(data: bytes) -> list[tuple[float, bytes]]:
+        nonlocal held
+        held += data
+        events = line.decode_so_far(held)
+        held = held[sum(len(event.data) for event in events) :]
+        return [(0.001, reply) for event in events for reply in _replies(model, event)]
+
+    return answer
+
+
+def _replies(model: Model, event: Any) -> Iterator[bytes]:
+    exchange = next((each for each in model.exchanges if each.request == event.message), None)
+    if exchange is None or exchange.reply is None:
+        return
+    values = values_of(exchange.reply, exchange.reply.message.examples[0].hex)
+    asked = values_of(exchange.request, event.data)
+    for one, other in exchange.echoed:
+        name, _, inner = other.partition(".")
+        first = values[name][0] if inner else None
+        values[name] = (
+            [{**first, inner: value} for value in column(asked, one)]
+            if first is not None
+            else asked[one]
+        )
+    yield encode(exchange.reply, values)

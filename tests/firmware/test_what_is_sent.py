@@ -1,0 +1,215 @@
+"""Nothing is written to a port but what is allowed, whatever a device does and loses of it."""
+
+from collections.abc import Callable
+from itertools import chain
+from pathlib import Path
+
+import pytest
+from busservo import Direction, Message, StreamDecoder
+from framegen.conformance.device.permission import permit
+from framegen.reading.yamltree import Unusable
+from hypothesis import given
+from hypothesis import strategies as st
+
+from tests.firmware.devices import Answer, VirtualLine, by_the_reference
+from tests.firmware.runs import model_of, run
+from tests.independent.firmware import Reader, well_formed
+from tests.specimens import BUSSERVO, DEMO, data_of, layout_of
+
+MODEL = model_of()
+COMMANDS = ["ServoMove", "ActionGroupRun", "ActionGroupStop", "ActionGroupSpeed", "ServoUnload"]
+QUERIES = {"BatteryVoltageRead", "ServoPositionsRead"}
+OPTIONS = [
+    [],
+    ["--malformed"],
+    *(["--malformed", "--allow", name] for name in COMMANDS),
+    ["--allow", "ServoMove", "--allow", "ServoUnload"],
+]
+
+
+def babbling(data: bytes) -> list[tuple[float, bytes]]:
+    return [(0.01 * at, bytes.fromhex("55 55 15") + data) for at in range(9)]
+
+
+DEVICES: dict[str, Callable[[], Answer]] = {
+    "answers": lambda: by_the_reference(MODEL),
+    "is silent": lambda: lambda _: [],
+    "babbles": lambda: babbling,
+}
+
+
+def allowed_by(options: list[str]) -> set[str]:
+    return QUERIES | {name for name in options if not name.startswith("-")}
+
+
+def heard(pieces: list[bytes], *, quiet: bool) -> set[str]:
+    """The messages that the library's own decoder takes from what was written."""
+    decoder = StreamDecoder(Direction.HOST_TO_CONTROLLER)
+    events = []
+    for data in pieces:
+        events += decoder.feed(data)
+        if quiet:
+            events += decoder.flush()
+    events += decoder.flush()
+    return {type(event).__name__ for event in events if isinstance(event, Message)}
+
+
+def obeyed(data: bytes) -> set[int]:
+    """The codes of what the independent firmware takes from bytes, which trusts every length."""
+    reader = Reader()
+    frames = [frame for byte in data if (frame := reader.take(byte))]
+    return {frame[3] for frame in frames if well_formed(frame)}
+
+
+@pytest.mark.parametrize("options", OPTIONS, ids="_".join)
+@pytest.mark.parametrize("device", DEVICES)
+def test_nothing_is_sent_but_what_is_allowed(options: list[str], device: str) -> None:
+    allowed = allowed_by(options)
+    done = run(MODEL, VirtualLine(DEVICES[device]()), *options)
+    assert heard(done.written, quiet=True) | heard(done.written, quiet=False) <= allowed
+    assert set(done.report["will_send"]) == allowed
+    assert set(done.report["will_not_send"]) == {*COMMANDS} - allowed
+
+
+def test_all_that_is_allowed_is_sent() -> None:
+    for options in OPTIONS:
+        done = run(MODEL, VirtualLine(by_the_reference(MODEL)), *options)
+        assert heard(done.written, quiet=True) == allowed_by(options)
+        assert all(step["not_sent"] is None for step in done.report["steps"])
+
+
+def test_of_what_is_allowed_the_examples_are_sent_and_nothing_is_made_up() -> None:
+    done = run(MODEL, VirtualLine(by_the_reference(MODEL)), "--allow", "ServoMove")
+    examples = [each.hex for each in MODEL.messages["ServoMove"].message.examples]
+    moves = [data for data in done.written if data[3] == 3]
+    assert moves == examples
+
+
+@pytest.mark.parametrize("device", DEVICES)
+def test_nothing_else_is_obeyed_even_if_a_byte_is_lost(device: str) -> None:
+    written = run(MODEL, VirtualLine(DEVICES[device]()), "--malformed").written
+    for at, data in enumerate(written):
+        for lost in range(len(data)):
+            left = data[:lost] + data[lost + 1 :]
+            pieces = [*written[:at], left, *written[at + 1 :]]
+            assert heard([*pieces[max(0, at - 1) : at + 3]], quiet=False) <= QUERIES
+            assert obeyed(b"".join(pieces)) <= {15, 21}
+
+
+def test_what_will_be_sent_is_said_before_anything_is() -> None:
+    line = VirtualLine()
+    said: list[str] = []
+    line.write = lambda data: said.append(data.hex())  # type: ignore[method-assign]
+    for form in ("text", "json"):
+        done = run(MODEL, line, "--malformed", "--allow", "ServoMove", form=form)
+        first = done.out if form == "text" else done.err
+        assert "will send: BatteryVoltageRead, ServoPositionsRead, ServoMove\n" in first
+        assert "  ServoMove time_ms=1000 targets=1:800: 55 55 08 03 01 E8 03 01 20 03\n" in first
+        assert "  a length that is one too many: 55 55 03 0F (length mismatch)\n" in first
+        assert "will not send: ActionGroupRun, " in first
+    assert said
+
+
+# What is refused, and why.
+OBJECTIONS = [
+    ("55 55 02 0F", ""),
+    ("55 55 09 15 06 01 02 03 04 05 06", ""),
+    ("55 55 02 07", "its bytes from 0 on begin a frame of ActionGroupStop"),
+    # Whatever its length says: a device may not look at it.
+    ("55 55 FF 07", "its bytes from 0 on begin a frame of ActionGroupStop"),
+    ("55 55 07 15 04 55 55 02 07", "its bytes from 5 on begin a frame of ActionGroupStop"),
+    ("55 55 02 08", "its bytes from 0 on begin id 8, which is reserved"),
+    ("55 55 02 01 ", "its bytes from 0 on begin id 1, which is reserved"),
+    ("55 55 08 15 05 55 00 55 02 07", "if byte 6 of"),
+    # A beginning alone, which what follows makes a frame of.
+    ("55 55 08 03", "its bytes from 0 on begin a frame of ServoMove"),
+]
+
+
+@pytest.mark.parametrize(("data", "why"), OBJECTIONS)
+def test_bytes_that_could_be_taken_for_a_command_are_refused(data: str, why: str) -> None:
+    objection = permit(MODEL, []).objection(bytes.fromhex(data))
+    assert objection.startswith(why) if not why.startswith("if") else why in objection
+    assert bool(objection) == bool(why)
+
+
+def test_what_is_named_is_no_danger() -> None:
+    stop = bytes.fromhex("55 55 02 07")
+    assert permit(MODEL, ["ActionGroupStop"]).objection(stop) == ""
+
+
+@given(st.lists(st.one_of(st.sampled_from([0x55, 2, 7]), st.integers(0, 255)), max_size=12))
+def test_what_is_not_refused_holds_no_command_for_the_librarys_decoder(ids: list[int]) -> None:
+    data = bytes([0x55, 0x55, len(ids) + 3, 21, len(ids), *ids])
+    if not permit(MODEL, []).objection(data):
+        losses = [data[:lost] + data[lost + 1 :] for lost in range(len(data))]
+        assert set(chain(*(heard([each], quiet=False) for each in [data, *losses]))) <= QUERIES
+
+
+def test_a_query_that_holds_a_command_is_not_sent_and_the_others_are() -> None:
+    data = data_of(BUSSERVO)
+    query = data["messages"]["ServoPositionsRead"]
+    query["examples"].append(
+        {
+            "title": "The servos 85, 85, 2 and 7",
+            "hex": "55 55 07 15 04 55 55 02 07",
+            "values": {"servo_ids": [85, 85, 2, 7]},
+            "constructed": "To look like ActionGroupStop.",
+        }
+    )
+    model = layout_of(data)
+    done = run(model, VirtualLine(by_the_reference(model)))
+    step = done.step("ServoPositionsRead, example 2")
+    assert "begin a frame of ActionGroupStop" in step["not_sent"]
+    assert not any(b"\x55\x55\x02\x07" in data for data in done.written)
+    assert [each["passed"] for each in done.report["steps"]].count(False) == 1
+    assert done.code == 0
+
+
+# What cannot be allowed, what is said of it, and what to do.
+NAMES = [
+    ("ServoMov", "there is no message `ServoMov` to be allowed", "did you mean `ServoMove`?"),
+    ("x", "there is no message `x`", "choose one of `ServoMove`, `ActionGroupRun`, "),
+    (
+        "BatteryVoltage",
+        "BatteryVoltage cannot be allowed: it goes controller -> host",
+        "choose one of `ServoMove`",
+    ),
+]
+
+
+@pytest.mark.parametrize(("name", "problem", "hint"), NAMES)
+def test_a_name_that_cannot_be_allowed_is_told_with_those_that_can(
+    name: str, problem: str, hint: str
+) -> None:
+    line = VirtualLine()
+    with pytest.raises(Unusable) as caught:
+        run(MODEL, line, "--allow", name)
+    assert problem in str(caught.value)
+    assert hint in caught.value.hint
+    assert line.written == []
+
+
+SPECS = Path(__file__).parent.parent / "specs"
+
+
+@pytest.mark.parametrize("file", [DEMO, SPECS / "blinds.yaml"], ids=lambda file: file.stem)
+def test_a_device_of_another_protocol_passes(file: Path) -> None:
+    model = model_of(file)
+    done = run(model, VirtualLine(by_the_reference(model)), "--malformed")
+    assert (done.code, done.faults) == (0, [])
+    assert sum(step["malformed"] for step in done.report["steps"]) >= 3
+
+
+@pytest.mark.parametrize(("name", "allow"), [("weather", ""), ("lamp", "name what may be sent")])
+def test_a_protocol_without_queries_is_not_asked(name: str, allow: str) -> None:
+    with pytest.raises(Unusable, match="has no query") as caught:
+        run(model_of(SPECS / f"{name}.yaml"), VirtualLine())
+    assert caught.value.hint.startswith(allow)
+
+
+def test_what_obeys_alone_can_be_sent_what_is_allowed() -> None:
+    model = model_of(SPECS / "lamp.yaml")
+    (name, *_) = [each.request.name for each in model.exchanges]
+    done = run(model, VirtualLine(), "--allow", name)
+    assert done.written == [each.hex for each in model.messages[name].message.examples]
