@@ -15,7 +15,17 @@ from framegen.reading.findings import did_you_mean
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-VERBS = ("check", "generate", "diff", "docs", "explain", "schema", "rules", "targets")
+VERBS = (
+    "check",
+    "generate",
+    "diff",
+    "docs",
+    "explain",
+    "conform",
+    "schema",
+    "rules",
+    "targets",
+)
 
 
 _CLOSING = """\
@@ -90,8 +100,13 @@ def _run_verb(name: str, words: Sequence[str]) -> int:
         epilog=console.table("examples", verb.EXAMPLES),
     )
     verb.add_arguments(parser)
+    program: Sequence[str] = []
+    if parser.get_default("program") is not None and "--" in words:
+        at = words.index("--")
+        words, program = words[:at], words[at + 1 :]
     # Intermixed: `55 55 --direction host 02 07` is one list of bytes.
     arguments = parser.parse_intermixed_args(words)
+    arguments.program = program
     try:
         return verb.run(arguments)
     except Unusable as error:

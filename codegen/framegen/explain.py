@@ -20,6 +20,7 @@ if TYPE_CHECKING:
     from framegen.model.layout import MessageLayout
     from framegen.model.model import Model
     from framegen.model.slots import Placed
+    from framegen.model.verdict import Verdict
 
 # So many of the frames inside other bytes are told.
 _MOST_WITHIN = 8
@@ -100,7 +101,7 @@ def explain(model: Model, data: bytes, directions: Sequence[Direction]) -> Expla
 
 def _outcome(model: Model, data: bytes, direction: Direction) -> Reading | Refusal:
     verdict = weigh(model, [direction], data)
-    rows = tuple(_row(placed, data, verdict.likely) for placed in verdict.seen)
+    rows = seen_rows(verdict, data)
     try:
         message = decode(model, direction, data).layout
     except NotAFrame as error:
@@ -113,6 +114,11 @@ def _outcome(model: Model, data: bytes, direction: Direction) -> Reading | Refus
 def _distance(refusal: Refusal) -> tuple[bool, int]:
     """Put first the direction in which the bytes came closest to a frame."""
     return refusal.reason == UNKNOWN_COMMAND, -len(refusal.rows)
+
+
+def seen_rows(verdict: Verdict, data: bytes) -> tuple[Row, ...]:
+    """Say what those slots mean that agreed with what a frame begins with."""
+    return tuple(_row(placed, data, verdict.likely) for placed in verdict.seen)
 
 
 def _row(placed: Placed, data: bytes, message: MessageLayout | None) -> Row:

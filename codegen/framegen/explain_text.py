@@ -70,14 +70,15 @@ def _reading(reading: Reading) -> Iterator[str]:
     yield f"{reading.message}, {reading.direction}"
     yield reading.summary
     yield ""
-    yield from _table(reading.rows)
+    yield from table(reading.rows)
     yield ""
     width = max(len(label) for label, _ in reading.facts) + 1
     for label, text in reading.facts:
         yield f"  {label + ':':<{width}} {text}"
 
 
-def _table(rows: Sequence[Row]) -> Iterator[str]:
+def table(rows: Sequence[Row]) -> Iterator[str]:
+    """Put rows in columns: where, which bytes, of what, what they say and what that means."""
     cells = [("byte", "hex", "part", "value", "meaning")]
     said: set[str] = set()
     for row in rows:
@@ -110,7 +111,7 @@ def _no_frame(explanation: Explanation) -> Iterator[str]:
         if rows and rows == explanation.refusals[0].rows:
             yield ""
             yield "  right up to there:"
-            yield from _table(rows)
+            yield from table(rows)
     if explanation.hints:
         yield ""
     for hint in explanation.hints:

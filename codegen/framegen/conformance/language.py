@@ -17,7 +17,7 @@ cannot do what it was asked.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, TypeAlias
+from typing import TYPE_CHECKING, Any, ClassVar, TypeAlias
 
 from framegen.model.codec import NotAFrame, Unencodable, decode, encode, values_of
 from framegen.model.slots import Items, Number
@@ -35,10 +35,15 @@ END = "end"
 QUIET = "quiet"
 UNSUPPORTED = "unsupported"
 
+# Which word of a line is hex.
+HEX_AT = {"message": 2, "frame": 1, "unknown": 1, "noise": 2}
+
 
 @dataclass(frozen=True, slots=True)
 class Decode:
     """Asks what some bytes are, as one frame."""
+
+    verb: ClassVar = "decode"
 
     way: Direction
     data: bytes
@@ -46,12 +51,14 @@ class Decode:
     @property
     def line(self) -> str:
         """The question, as it is sent."""
-        return f"decode {self.way.key} {self.data.hex()}".rstrip()
+        return f"{self.verb} {self.way.key} {self.data.hex()}".rstrip()
 
 
 @dataclass(frozen=True)
 class Encode:
     """Asks which frame carries some values."""
+
+    verb: ClassVar = "encode"
 
     message: MessageLayout
     values: Mapping[str, Any]
@@ -59,12 +66,14 @@ class Encode:
     @property
     def line(self) -> str:
         """The question, as it is sent."""
-        return " ".join(["encode", self.message.name, *fields(self.message, self.values)])
+        return " ".join([self.verb, self.message.name, *fields(self.message, self.values)])
 
 
 @dataclass(frozen=True, slots=True)
 class Stream:
     """Asks what a line says. None among the parts is where it goes quiet."""
+
+    verb: ClassVar = "stream"
 
     way: Direction
     max_frame: int
@@ -74,7 +83,7 @@ class Stream:
     def line(self) -> str:
         """The question, as it is sent."""
         parts = [QUIET if part is None else part.hex() for part in self.parts if part != b""]
-        return " ".join(["stream", self.way.key, str(self.max_frame), *parts])
+        return " ".join([self.verb, self.way.key, str(self.max_frame), *parts])
 
 
 Question: TypeAlias = Decode | Encode | Stream
@@ -147,8 +156,10 @@ def joined(lines: Iterable[str]) -> list[str]:
     for line in lines:
         words = line.split()
         last = found[-1].split() if found else []
+        hexed = HEX_AT.get(words[0] if words else "", len(words))
+        words[hexed : hexed + 1] = [word.lower() for word in words[hexed : hexed + 1]]
         if words[:1] == ["noise"] and len(words) == 3 and words[:2] == last[:2]:
-            found[-1] += words[2].lower()
+            found[-1] += words[2]
         else:
             found.append(" ".join(words))
     return found

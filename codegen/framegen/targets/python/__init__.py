@@ -27,6 +27,7 @@ if TYPE_CHECKING:
 _HERE = Path(__file__).parent
 # What framegen and a library have in common is written once: where it is copied to.
 _SHARED = {
+    "cli/colour.py": "colour.py",
     "cli/console.py": "console.py",
     "hextext.py": "hextext.py",
     "recording_file.py": "recording_file.py",

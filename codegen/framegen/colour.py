@@ -1,4 +1,7 @@
-"""Colours, for terminals alone: a pipe, a file and whoever has set NO_COLOR get none."""
+"""Colours, for terminals alone: a pipe, a file and whoever has set NO_COLOR get none.
+
+The Python target copies this file into each library, so it imports the standard library alone.
+"""
 
 from __future__ import annotations
 

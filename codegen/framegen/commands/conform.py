@@ -1,0 +1,158 @@
+"""`framegen conform`: whether a codec in any language does what the spec says."""
+
+from __future__ import annotations
+
+import json
+import sys
+from contextlib import closing
+from itertools import islice
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from argparse import ArgumentParser, Namespace
+    from collections.abc import Iterator
+
+    from framegen.conformance.language import Question
+    from framegen.conformance.trial import Trial
+    from framegen.model.model import Model
+
+SUMMARY = "Hold a codec that somebody else wrote, in any language, to the spec."
+EXAMPLES = (
+    ("framegen conform -- ./codec", "ask a program; 1 if an answer is wrong, and which"),
+    ("framegen conform busservo --more 1000 -- ./codec", "more than is published, by chance"),
+    ("framegen conform --format badge -- ./codec", "a badge, as SVG, for a README"),
+    ("framegen conform --questions", "what is asked, a line each"),
+    ("framegen conform --questions | framegen conform --answers", "and what is to be answered"),
+)
+_SEEDS = 2**32
+
+
+def add_arguments(parser: ArgumentParser) -> None:
+    """Declare the arguments of the verb."""
+    parser.usage = (
+        "framegen conform [SPEC] [OPTIONS] -- PROGRAM ...\n"
+        "       framegen conform [SPEC] --questions | --answers"
+    )
+    parser.add_argument("spec", nargs="?", type=Path, metavar="SPEC", help="a spec file")
+    # What stands behind `--`, whatever it looks like.
+    parser.set_defaults(program=[])
+    how = parser.add_mutually_exclusive_group()
+    how.add_argument("--questions", action="store_true", help="print what would be asked")
+    how.add_argument(
+        "--answers", action="store_true", help="answer questions on the input as the reference does"
+    )
+    parser.add_argument(
+        "--more", type=_natural, default=0, metavar="N", help="ask N further questions, by chance"
+    )
+    parser.add_argument(
+        "--seed", type=_natural, metavar="N", help="the chance of --more, as it was told"
+    )
+    parser.add_argument(
+        "--timeout",
+        type=_seconds,
+        default=10.0,
+        metavar="SECONDS",
+        help="how long an answer may take; 10 unless told otherwise",
+    )
+    parser.add_argument(
+        "--format", choices=("text", "json", "badge"), default="text", help="how to tell it"
+    )
+
+
+def _natural(text: str) -> int:
+    if not text.isdecimal():
+        raise ValueError
+    return int(text)
+
+
+def _seconds(text: str) -> float:
+    seconds = float(text)
+    if not 0 < seconds < float("inf"):
+        raise ValueError
+    return seconds
+
+
+def run(arguments: Namespace) -> int:
+    """Ask, compare and tell. 0 where all answers agree, 1 where one does not. Raises Unusable."""
+    from framegen.commands.spec_argument import compiled  # noqa: PLC0415
+    from framegen.reading.yamltree import Unusable  # noqa: PLC0415
+
+    if arguments.program and (arguments.questions or arguments.answers):
+        raise Unusable(
+            f"no program is asked with --{'questions' if arguments.questions else 'answers'}",
+            hint="leave out `--` and what is behind it",
+        )
+    model = compiled(arguments.spec).model
+    if arguments.answers:
+        return _answer(model)
+    if arguments.more and arguments.seed is None:
+        from secrets import randbelow  # noqa: PLC0415
+
+        arguments.seed = randbelow(_SEEDS)
+    if arguments.questions:
+        for _title, question in _questions(model, arguments):
+            print(question.line)
+        return 0
+    if not arguments.program:
+        raise Unusable(
+            "no program is named", hint="put it behind `--`: framegen conform -- ./codec"
+        )
+    return _hold(model, arguments)
+
+
+def _questions(model: Model, arguments: Namespace) -> Iterator[tuple[str, Question]]:
+    from framegen.conformance.further import further  # noqa: PLC0415
+    from framegen.conformance.questions import questions  # noqa: PLC0415
+
+    yield from questions(model)
+    if arguments.more:
+        yield from islice(further(model, arguments.seed), arguments.more)
+
+
+def _answer(model: Model) -> int:
+    """Answer what comes on the input; what is no question is told, and the next one answered."""
+    from framegen.conformance.language import END, answer  # noqa: PLC0415
+    from framegen.conformance.question_reader import NotAQuestion, read_question  # noqa: PLC0415
+    from framegen.console import UNUSABLE  # noqa: PLC0415
+
+    status = 0
+    for line in sys.stdin:
+        try:
+            lines = answer(model, read_question(model, line))
+        except NotAQuestion as error:
+            lines, status = [f"error {error}"], UNUSABLE
+        print(*lines, END, sep="\n", flush=True)
+    return status
+
+
+def _hold(model: Model, arguments: Namespace) -> int:
+    from framegen.conformance.program import Program  # noqa: PLC0415
+    from framegen.conformance.trial import hold  # noqa: PLC0415
+
+    program = Program(arguments.program, arguments.timeout)
+    with closing(program):
+        trial = hold(model, program, _questions(model, arguments))
+    _tell(model, trial, arguments)
+    return 0 if trial.conforms else 1
+
+
+def _tell(model: Model, trial: Trial, arguments: Namespace) -> None:
+    from framegen.colour import takes_colour  # noqa: PLC0415
+    from framegen.conformance import report  # noqa: PLC0415
+    from framegen.console import write_as_it_is  # noqa: PLC0415
+
+    match arguments.format:
+        case "json":
+            told = report.as_json(model, trial, arguments.program, arguments.seed)
+            print(json.dumps(told))
+        case "badge":
+            print(report.as_badge(model, trial), end="")
+        case _:
+            colour = takes_colour(sys.stdout)
+            text = report.as_text(model, trial, arguments.program, colour=colour)
+            write_as_it_is(sys.stdout, text + "\n")
+    if arguments.more:
+        sys.stdout.flush()
+        again = f"--more {arguments.more} --seed {arguments.seed}"
+        print(f"the same questions again: {again}", file=sys.stderr)

@@ -1,0 +1,139 @@
+"""Tells how a program did: as text, as JSON, or in the words of a badge."""
+
+from __future__ import annotations
+
+from collections import Counter
+from typing import TYPE_CHECKING, Any
+
+from framegen.conformance.badge import badge
+from framegen.conformance.language import Decode, Encode, Stream
+from framegen.conformance.strip import strip
+from framegen.wording import counted
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator, Sequence
+
+    from framegen.conformance.comparison import Difference
+    from framegen.conformance.trial import Smallest, Trial
+    from framegen.language.spec import Protocol
+    from framegen.model.model import Model
+
+# So many kinds of differences are told.
+_KINDS = 12
+
+
+def as_text(model: Model, trial: Trial, command: Sequence[str], *, colour: bool) -> str:
+    """Tell it to a person, without a final newline."""
+    return "\n".join(_text(model, trial, " ".join(command), colour=colour))
+
+
+def _text(model: Model, trial: Trial, program: str, *, colour: bool) -> Iterator[str]:
+    if trial.smallest is not None:
+        yield from _first(model, trial.smallest, colour=colour)
+        yield ""
+        yield from _kinds(trial.differences)
+        yield ""
+    if trial.stopped:
+        yield f"stopped after {counted(trial.asked, 'question')}: {trial.stopped}"
+    yield f"{program}: {_verdict(model.spec.protocol, trial)}"
+    if trial.unsupported:
+        verbs = ", ".join(f"{count} {verb}" for verb, count in sorted(trial.unsupported.items()))
+        yield f"  not supported, and not held against it: {verbs}"
+
+
+def _verdict(protocol: Protocol, trial: Trial) -> str:
+    what = f"{protocol.name} {protocol.version}"
+    if trial.conforms:
+        return f"conforms to {what}: {counted(trial.agreed, 'answer')} as the reference's"
+    if not trial.differences:
+        return f"answers nothing of {what}: {counted(trial.asked, 'question')} not supported"
+    answers = counted(trial.asked - trial.unsupported.total(), "answer")
+    return f"differs from {what} in {len(trial.differences)} of {answers}"
+
+
+def _first(model: Model, smallest: Smallest, *, colour: bool) -> Iterator[str]:
+    found = smallest.difference
+    yield f"the first difference: {found.title}"
+    if not smallest.alone:
+        yield "  Asked this alone, anew, it answers rightly: it keeps something between questions."
+    elif smallest.tries:
+        yield f"  shrunk in {counted(smallest.tries, 'try', 'tries')}"
+    yield f"  question: {_short(found.question.line)}"
+    yield ""
+    yield from strip(model, found, colour=colour)
+    if found.rubbish:
+        yield ""
+        yield f"  `{_short(found.rubbish)}` is no line of an answer"
+    if smallest.last_words:
+        yield ""
+        yield "  its error stream ended:"
+        yield from (f"    {line}" for line in smallest.last_words.splitlines()[-8:])
+
+
+def _short(text: str) -> str:
+    return text if len(text) <= 200 else f"{text[:197]}..."
+
+
+def _kinds(differences: Sequence[Difference]) -> Iterator[str]:
+    wrong = sum(found.of_messages or bool(found.failure) for found in differences)
+    what = f"{wrong} with another message, or with none" if wrong else "all of noise alone"
+    yield f"{counted(len(differences), 'difference')}, {what}; by what the reference says there:"
+    kinds = Counter((found.question.verb, found.about) for found in differences)
+    for (verb, about), count in kinds.most_common(_KINDS):
+        yield f"  {count:>5}  {verb:<6}  {about}"
+    if len(kinds) > _KINDS:
+        yield f"  and {counted(len(kinds) - _KINDS, 'more kind')}"
+
+
+def as_json(model: Model, trial: Trial, command: Sequence[str], seed: int | None) -> dict[str, Any]:
+    """Give it as values that JSON has."""
+    protocol, smallest = model.spec.protocol, trial.smallest
+    return {
+        "protocol": protocol.name,
+        "version": protocol.version,
+        "program": list(command),
+        "conforms": trial.conforms,
+        "asked": trial.asked,
+        "agreed": trial.agreed,
+        "differed": len(trial.differences),
+        "unsupported": {kind.verb: trial.unsupported[kind.verb] for kind in _QUESTIONS},
+        "seed": seed,
+        "stopped": trial.stopped,
+        "smallest": None
+        if smallest is None
+        else {
+            **_difference_json(smallest.difference),
+            "tries": smallest.tries,
+            "alone": smallest.alone,
+            "stderr": smallest.last_words,
+        },
+        "differences": [_difference_json(found) for found in trial.differences],
+    }
+
+
+_QUESTIONS = (Decode, Encode, Stream)
+
+
+def _difference_json(found: Difference) -> dict[str, Any]:
+    return {
+        "title": found.title,
+        "verb": found.question.verb,
+        "about": found.about,
+        "question": found.question.line,
+        "expected": list(found.expected),
+        "answered": list(found.answered),
+        "failure": found.failure,
+    }
+
+
+def as_badge(model: Model, trial: Trial) -> str:
+    """Draw it."""
+    protocol = model.spec.protocol
+    label = f"{protocol.name} {protocol.version}"
+    if not trial.conforms:
+        asked = trial.asked - trial.unsupported.total()
+        return badge(label, f"{trial.agreed} of {asked}", "bad")
+    if trial.unsupported:
+        without = ", ".join(f"{count} {verb}" for verb, count in sorted(trial.unsupported.items()))
+        return badge(label, f"conforms, {without} not supported", "fair")
+    return badge(label, "conforms", "good")

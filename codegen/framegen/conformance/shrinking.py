@@ -1,0 +1,189 @@
+"""Makes a question that is answered wrongly as small as it can be and still be answered wrongly."""
+
+from __future__ import annotations
+
+from itertools import chain
+from typing import TYPE_CHECKING, Any
+
+from framegen.conformance.language import Decode, Encode, Stream
+from framegen.model.codec import encode
+from framegen.model.slots import Number
+from framegen.model.verdict import weigh
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterator, Sequence
+
+    from framegen.conformance.language import Question
+    from framegen.language.values import Direction
+    from framegen.model.layout import MessageLayout
+    from framegen.model.model import Model
+
+# What stands between the bytes of a stream.
+_QUIET, _CUT = -1, -2
+# A number is lowered by so much, and as many bytes behind it are left out: a length, a count.
+_STEPS = (1, 2, 3, 4, 6)
+
+
+def shrink(
+    model: Model, question: Question, differs: Callable[[Question], bool], tries: int
+) -> tuple[Question, int]:
+    """Find the smallest question for which `differs` holds, and how often it was tried.
+
+    It tries what is smaller, in turn, and goes on from the first that will do; `tries` times at the
+    most.
+    """
+    tried = {question.line}
+    smaller = _smaller(model, question)
+    while len(tried) <= tries:
+        candidate = next(smaller, None)
+        if candidate is None:
+            break
+        if candidate.line in tried or not _weight(model, candidate) < _weight(model, question):
+            continue
+        tried.add(candidate.line)
+        if differs(candidate):
+            question = candidate
+            smaller = _smaller(model, question)
+    return question, len(tried) - 1
+
+
+def _smaller(model: Model, question: Question) -> Iterator[Question]:
+    match question:
+        case Encode():
+            for values in chain(_shorter(question.values), _lower(question.values)):
+                yield Encode(question.message, values)
+        case Decode(way=way):
+            for symbols in _smaller_lines(model, way, list(question.data)):
+                yield Decode(way, bytes(symbols))
+        case Stream(way=way, max_frame=most):
+            yield Stream(way, model.largest([way]), question.parts)
+            for symbols in _smaller_lines(model, way, _symbols(question.parts)):
+                yield Stream(way, most, _parts(symbols))
+
+
+def _weight(model: Model, question: Question) -> tuple[int, ...]:
+    """How large a question is: how much of it there is, then how large its numbers are."""
+    match question:
+        case Encode():
+            numbers = list(_numbers(question.values))
+            return len(numbers), *(abs(number) for number in numbers)
+        case Decode(data=data):
+            return len(data), *data
+        case Stream(way=way, max_frame=most):
+            symbols = _symbols(question.parts)
+            count = sum(symbol >= 0 for symbol in symbols)
+            odd = most != model.largest([way])
+            return count, len(symbols), odd, *symbols
+
+
+# -- Bytes ---------------------------------------------------------------------------------------
+
+
+def _symbols(parts: Sequence[bytes | None]) -> list[int]:
+    """Bytes, and what stands between them, in one list, of which anything may be left out."""
+    symbols: list[int] = []
+    for part in parts:
+        if part is None:
+            symbols.append(_QUIET)
+        else:
+            symbols += [_CUT, *part] if symbols and symbols[-1] >= 0 else part
+    return symbols
+
+
+def _parts(symbols: Sequence[int]) -> tuple[bytes | None, ...]:
+    parts: list[bytes | None] = [b""]
+    for symbol in symbols:
+        if symbol == _QUIET:
+            parts += [None, b""]
+        elif symbol == _CUT:
+            parts.append(b"")
+        else:
+            parts[-1] = (parts[-1] or b"") + bytes([symbol])
+    return tuple(part for part in parts if part != b"")
+
+
+def _smaller_lines(model: Model, way: Direction, symbols: list[int]) -> Iterator[list[int]]:
+    yield [symbol for symbol in symbols if symbol != _CUT]
+    yield from _without_runs(symbols)
+    yield from _with_least_frames(model, way, symbols)
+    for at, symbol in enumerate(symbols):
+        for step in _STEPS:
+            if symbol >= step:
+                lowered = [*symbols[:at], symbol - step, *symbols[at + 1 :]]
+                for gap in range(at + 1, len(symbols) - step + 1):
+                    yield lowered[:gap] + lowered[gap + step :]
+    for at, symbol in enumerate(symbols):
+        for value in (0, 1, symbol - 1):
+            if 0 <= value < symbol:
+                yield [*symbols[:at], value, *symbols[at + 1 :]]
+
+
+def _without_runs(symbols: list[Any]) -> Iterator[list[Any]]:
+    """Leave out a half, a quarter, ... and each single one."""
+    size = len(symbols)
+    while size:
+        for at in range(0, len(symbols) - size + 1, max(1, size // 2)):
+            yield symbols[:at] + symbols[at + size :]
+        size //= 2
+
+
+def _with_least_frames(model: Model, way: Direction, symbols: list[int]) -> Iterator[list[int]]:
+    """Put the least frame of its message, or of any, in the place of a legal one."""
+    others = [_least(message) for message in model.sent(way).values()]
+    for at in range(len(symbols)):
+        # A frame that is cut is met again when the cut has gone.
+        rest = bytes(symbol for symbol in symbols[at:] if symbol >= 0)
+        verdict = weigh(model, [way], rest)
+        end = at + verdict.offset
+        if verdict.message is None or min(symbols[at:end]) < 0:
+            continue
+        for frame in (_least(verdict.message), *sorted(others, key=len)):
+            yield symbols[:at] + list(frame) + symbols[end:]
+
+
+def _least(message: MessageLayout) -> bytes:
+    values: dict[str, Any] = {}
+    for slot in message.arguments:
+        if isinstance(slot, Number):
+            values[slot.name] = slot.low
+        elif slot.element is None:
+            values[slot.name] = [slot.fields[0].low] * slot.low
+        else:
+            values[slot.name] = [{field.name: field.low for field in slot.fields}] * slot.low
+    return encode(message, values)
+
+
+# -- Values --------------------------------------------------------------------------------------
+
+
+def _numbers(values: Any) -> Iterator[int]:
+    match values:
+        case dict():
+            yield from chain.from_iterable(map(_numbers, values.values()))
+        case list():
+            yield from chain.from_iterable(map(_numbers, values))
+        case _:
+            yield values
+
+
+def _shorter(values: Any) -> Iterator[dict[str, Any]]:
+    for name, value in values.items():
+        if isinstance(value, list):
+            for items in _without_runs(value):
+                yield {**values, name: items}
+
+
+def _lower(value: Any) -> Iterator[Any]:
+    match value:
+        case dict():
+            for name, inner in value.items():
+                for lower in _lower(inner):
+                    yield {**value, name: lower}
+        case list():
+            for at, inner in enumerate(value):
+                for lower in _lower(inner):
+                    yield [*value[:at], lower, *value[at + 1 :]]
+        case _:
+            towards = 1 if value > 0 else -1
+            candidates = (0, towards, abs(value) // 2 * towards, value - towards)
+            yield from (lower for lower in candidates if abs(lower) < abs(value))

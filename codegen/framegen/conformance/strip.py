@@ -1,0 +1,173 @@
+"""Shows a difference: the bytes with their offsets, both answers, and why the reference says so."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from difflib import SequenceMatcher
+from itertools import accumulate
+from typing import TYPE_CHECKING
+
+from framegen.colour import painted
+from framegen.conformance.language import HEX_AT, Decode, Encode, Stream
+from framegen.explain import seen_rows
+from framegen.explain_text import table
+from framegen.model.codec import Unencodable, encode
+from framegen.model.verdict import TRAILING_BYTES, weigh
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator, Sequence
+
+    from framegen.conformance.comparison import Difference
+    from framegen.explain import Row
+    from framegen.model.model import Model
+
+_BYTES_A_LINE = 16
+# A line of an answer is shown as far as this, and of an answer so many lines.
+_WIDTH, _LINES = 200, 40
+_COLOURS = {"reference": "green", "program": "red"}
+
+
+def strip(model: Model, difference: Difference, *, colour: bool) -> Iterator[str]:
+    """Show a difference in lines of text, the answers in colour where that is wanted."""
+    question = difference.question
+    if isinstance(question, Encode):
+        yield from _answers(difference, colour=colour)
+        yield ""
+        yield from _frame(question)
+        return
+    reason = _reason(model, difference, question)
+    data = question.data if isinstance(question, Decode) else _joined(question.parts)
+    yield from _bytes(data, reason.refused_at if reason else None)
+    yield ""
+    yield from _answers(difference, colour=colour)
+    if reason and reason.rows:
+        yield ""
+        yield from table(reason.rows)
+    if reason and reason.refused_at is not None:
+        yield ""
+        yield f"  {reason.text}"
+
+
+def _joined(parts: Sequence[bytes | None]) -> bytes:
+    return b"".join(part for part in parts if part is not None)
+
+
+def _bytes(data: bytes, marked: int | None = None) -> Iterator[str]:
+    """Bytes under their offsets, with a mark under one of them, or where it is missing."""
+    for start in range(0, len(data), _BYTES_A_LINE):
+        line = data[start : start + _BYTES_A_LINE]
+        yield "  byte" + "".join(f"{at:>4}" for at in range(start, start + len(line)))
+        yield "      " + "".join(f"  {byte:02X}" for byte in line)
+        last = start + _BYTES_A_LINE >= len(data)
+        if marked is not None and start <= marked < start + _BYTES_A_LINE + last:
+            yield "      " + "    " * (marked - start) + "  ^^"
+
+
+def _answers(difference: Difference, *, colour: bool) -> Iterator[str]:
+    """Both answers, what they have in common once, with the byte at which each line begins."""
+    ours, theirs = _placed(difference.expected), _placed(difference.answered)
+    rows: list[tuple[str, str, str]] = []
+    matcher = SequenceMatcher(None, ours, theirs, autojunk=False)
+    for kind, start, end, other_start, other_end in matcher.get_opcodes():
+        if kind == "equal":
+            rows += [("both", *row) for row in ours[start:end]]
+            continue
+        rows += [("reference", *row) for row in ours[start:end]]
+        rows += [("program", *row) for row in theirs[other_start:other_end]]
+    if len(ours) == 0:
+        rows.append(("reference", "", "nothing"))
+    if difference.failure:
+        rows.append(("program", "", f"({difference.failure})"))
+    elif not theirs:
+        rows.append(("program", "", "nothing"))
+    for who, at, line in rows[:_LINES]:
+        cut = line if len(line) <= _WIDTH else f"{line[: _WIDTH - 3]}..."
+        text = f"  {who:<9}  {at:>4}  {cut}"
+        yield painted(text, _COLOURS[who]) if colour and who in _COLOURS else text
+    if len(rows) > _LINES:
+        yield f"  ... and {len(rows) - _LINES} more lines"
+
+
+def _placed(lines: Sequence[str]) -> list[tuple[str, str]]:
+    """Each line behind the offset of its first byte, as it follows from what was told before."""
+    offsets = accumulate((len(_told(line)) // 2 for line in lines), initial=0)
+    return [
+        (str(at) if _told(line) else "", line) for at, line in zip(offsets, lines, strict=False)
+    ]
+
+
+def _told(line: str) -> str:
+    """The bytes, in hex, of which an event tells."""
+    words = line.split()
+    at = HEX_AT.get(words[0], 0) if words and words[0] != "frame" else 0
+    return "".join(words[at : at + 1]) if at else ""
+
+
+def _parting(difference: Difference) -> int:
+    """The byte at which the events of a stream part."""
+    before = sum(len(_told(line)) // 2 for line in difference.expected[: difference.at])
+    one, other = (
+        "".join(lines[difference.at : difference.at + 1])
+        for lines in (difference.expected, difference.answered)
+    )
+    # Of noise for the same reason, as far as both have it.
+    alike = min(_told(one), _told(other), key=len)
+    if one and other and (one.startswith(other) or other.startswith(one)):
+        before += len(alike) // 2
+    return before
+
+
+def _rest(parts: Sequence[bytes | None], at: int) -> bytes:
+    """What is on the line from a byte on, until it goes quiet."""
+    stretch = b""
+    for part in (*parts, None):
+        if part is not None:
+            stretch += part
+            continue
+        if at < len(stretch):
+            return stretch[at:]
+        at -= len(stretch)
+        stretch = b""
+    return b""
+
+
+@dataclass(frozen=True, slots=True)
+class _Reason:
+    """Why the reference says what it says: what agreed with a frame, what did not, and where."""
+
+    rows: Sequence[Row]
+    refused_at: int | None
+    text: str
+
+
+def _reason(model: Model, difference: Difference, question: Decode | Stream) -> _Reason | None:
+    """Take apart what begins where the answers part; None where nothing does."""
+    at, most, rest = 0, None, b""
+    if isinstance(question, Decode):
+        rest = question.data
+    elif difference.at < len(difference.expected):
+        at, most = _parting(difference), question.max_frame
+        rest = _rest(question.parts, at)
+        if not rest:
+            return None
+    else:
+        return None
+    verdict = weigh(model, [question.way], rest, most)
+    rows = [replace(row, offset=row.offset + at) for row in seen_rows(verdict, rest)]
+    reason, refused_at = verdict.reason, verdict.offset
+    if verdict.message is not None:
+        if isinstance(question, Stream) or refused_at == len(rest):
+            return _Reason(rows, None, "")
+        reason = TRAILING_BYTES
+    text = f"{reason} at byte {at + refused_at}: {verdict.expected}"
+    return _Reason(rows, at + refused_at, text)
+
+
+def _frame(question: Encode) -> Iterator[str]:
+    """The frame that was due, or why there is none."""
+    try:
+        frame = encode(question.message, question.values)
+    except Unencodable as error:
+        yield f"  {error}"
+    else:
+        yield from _bytes(frame)

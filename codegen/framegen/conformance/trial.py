@@ -1,0 +1,115 @@
+"""Asks a program everything, holds it to the reference, and shrinks the first difference."""
+
+from __future__ import annotations
+
+from collections import Counter
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
+
+from framegen.conformance.comparison import Difference, compare, unsupported
+from framegen.conformance.shrinking import shrink
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable
+
+    from framegen.conformance.language import Question
+    from framegen.conformance.program import Program
+    from framegen.model.model import Model
+
+# A program is started anew so often, and no more; one that hangs costs its time each time.
+_CRASHES, _HANGS = 30, 3
+# A difference is shrunk in so many tries.
+_TRIES, _HANGING_TRIES = 2_000, 40
+
+
+@dataclass(frozen=True, slots=True)
+class Smallest:
+    """The first difference, as small as it could be made, and in how many tries.
+
+    `alone` is false where a program that was asked nothing before answers as the reference does.
+    `last_words` is what the program printed on its error stream when it failed.
+    """
+
+    difference: Difference
+    tries: int
+    alone: bool
+    last_words: str = ""
+
+
+@dataclass(slots=True)
+class Trial:
+    """What was asked and how it was answered; `stopped` says why not everything was asked."""
+
+    asked: int = 0
+    agreed: int = 0
+    unsupported: Counter[str] = field(default_factory=Counter)
+    differences: list[Difference] = field(default_factory=list)
+    smallest: Smallest | None = None
+    stopped: str = ""
+
+    @property
+    def conforms(self) -> bool:
+        """Whether everything was answered as by the reference, but for what is unsupported."""
+        return bool(self.agreed) and not self.differences
+
+
+def hold(model: Model, program: Program, questions: Iterable[tuple[str, Question]]) -> Trial:
+    """Ask every question, each with a title. Raises Unusable for what cannot be started."""
+    trial = Trial()
+    failures: Counter[bool] = Counter()
+    last_words = ""
+    for title, question in questions:
+        reply = program.ask(question.line)
+        trial.asked += 1
+        if unsupported(reply):
+            trial.unsupported[question.verb] += 1
+            continue
+        difference = compare(model, title, question, reply)
+        if difference is None:
+            trial.agreed += 1
+            continue
+        trial.differences.append(difference)
+        if reply.failure:
+            last_words = last_words or program.last_words
+            failures[reply.hangs] += 1
+            trial.stopped = _enough(failures, answered=trial.asked > len(trial.differences))
+            if trial.stopped:
+                break
+    if trial.differences:
+        trial.smallest = _smallest(model, program, trial.differences[0], last_words)
+    return trial
+
+
+def _enough(failures: Counter[bool], *, answered: bool) -> str:
+    """Say why no more is asked of a program that fails so often; empty where it is to go on."""
+    if not answered:
+        return "it never answered"
+    if failures[True] >= _HANGS:
+        return f"it did not answer in time {_HANGS} times"
+    return f"it ended {_CRASHES} times" if failures[False] >= _CRASHES else ""
+
+
+def _smallest(model: Model, program: Program, first: Difference, last_words: str) -> Smallest:
+    """Shrink the first difference; as it was found where a program that is asked alone has none."""
+
+    def ask(question: Question, timeout: float | None = None) -> Difference | None:
+        reply = program.ask(question.line, timeout)
+        return None if unsupported(reply) else compare(model, first.title, question, reply)
+
+    program.close()
+    if ask(first.question) is None:
+        return Smallest(first, 0, alone=False, last_words=last_words)
+    # What hangs is given less time; whether it does is asked again in the end.
+    timeout, most = (program.timeout / 10, _HANGING_TRIES) if first.hangs else (None, _TRIES)
+
+    def differs(smaller: Question) -> bool:
+        found = ask(smaller, timeout)
+        return found is not None and found.kind == first.kind
+
+    question, tries = shrink(model, first.question, differs, most)
+    program.close()
+    found = ask(question)
+    program.close()
+    if found is None:
+        return Smallest(first, tries, alone=True, last_words=last_words)
+    return Smallest(found, tries, alone=True, last_words=program.last_words)
