@@ -17,21 +17,27 @@ if TYPE_CHECKING:
     from framegen.conformance.trial import Trial
     from framegen.model.model import Model
 
-SUMMARY = "Hold a codec that somebody else wrote, in any language, to the spec."
+SUMMARY = "Hold a codec that somebody else wrote, or the firmware behind a port, to the spec."
 EXAMPLES = (
     ("framegen conform -- ./codec", "ask a program; 1 if an answer is wrong, and which"),
     ("framegen conform busservo --more 1000 -- ./codec", "more than is published, by chance"),
     ("framegen conform --format badge -- ./codec", "a badge, as SVG, for a README"),
+    ("framegen conform --port /dev/ttyUSB0 --log run.hex", "ask firmware, by queries alone"),
     ("framegen conform --questions", "what is asked, a line each"),
     ("framegen conform --questions | framegen conform --answers", "and what is to be answered"),
 )
 _SEEDS = 2**32
+# Seconds that a program has for an answer.
+_TIMEOUT = 10.0
 
 
 def add_arguments(parser: ArgumentParser) -> None:
     """Declare the arguments of the verb."""
+    from framegen.conformance import firmware  # noqa: PLC0415
+
     parser.usage = (
         "framegen conform [SPEC] [OPTIONS] -- PROGRAM ...\n"
+        "       framegen conform [SPEC] --port PORT [OPTIONS]\n"
         "       framegen conform [SPEC] --questions | --answers"
     )
     parser.add_argument("spec", nargs="?", type=Path, metavar="SPEC", help="a spec file")
@@ -51,13 +57,13 @@ def add_arguments(parser: ArgumentParser) -> None:
     parser.add_argument(
         "--timeout",
         type=_seconds,
-        default=10.0,
         metavar="SECONDS",
-        help="how long an answer may take; 10 unless told otherwise",
+        help="how long an answer may take: 10 for a program, 0.25 and the line's time for a port",
     )
     parser.add_argument(
         "--format", choices=("text", "json", "badge"), default="text", help="how to tell it"
     )
+    firmware.add_arguments(parser)
 
 
 def _natural(text: str) -> int:
@@ -84,6 +90,8 @@ def run(arguments: Namespace) -> int:
             hint="leave out `--` and what is behind it",
         )
     model = compiled(arguments.spec).model
+    if arguments.port is not None:
+        return _ask_firmware(model, arguments)
     if arguments.answers:
         return _answer(model)
     if arguments.more and arguments.seed is None:
@@ -96,9 +104,21 @@ def run(arguments: Namespace) -> int:
         return 0
     if not arguments.program:
         raise Unusable(
-            "no program is named", hint="put it behind `--`: framegen conform -- ./codec"
+            "no program is named",
+            hint="put it behind `--`: framegen conform -- ./codec; or ask firmware: --port PORT",
         )
     return _hold(model, arguments)
+
+
+def _ask_firmware(model: Model, arguments: Namespace) -> int:
+    from framegen.conformance import firmware  # noqa: PLC0415
+    from framegen.reading.yamltree import Unusable  # noqa: PLC0415
+
+    others = ("questions", "answers", "program", "more")
+    for name in [each for each in others if getattr(arguments, each)]:
+        given = "a program" if name == "program" else f"--{name}"
+        raise Unusable(f"--port asks firmware, and {given} is not for that", hint="leave it out")
+    return firmware.run(model, arguments)
 
 
 def _questions(model: Model, arguments: Namespace) -> Iterator[tuple[str, Question]]:
@@ -130,7 +150,7 @@ def _hold(model: Model, arguments: Namespace) -> int:
     from framegen.conformance.program import Program  # noqa: PLC0415
     from framegen.conformance.trial import hold  # noqa: PLC0415
 
-    program = Program(arguments.program, arguments.timeout)
+    program = Program(arguments.program, arguments.timeout or _TIMEOUT)
     with closing(program):
         trial = hold(model, program, _questions(model, arguments))
     _tell(model, trial, arguments)
