@@ -66,6 +66,11 @@ class Envelope:
         return tuple(slot for slot in self._fixed if 0 <= slot.at < self.body_at)
 
     @cached_property
+    def placed_head(self) -> tuple[Placed, ...]:
+        """The same, each in its place, which is the same in every frame."""
+        return tuple(placed for placed in self.lay_out(self.least) if placed.slot in self.head)
+
+    @cached_property
     def tail(self) -> tuple[Constant | Number, ...]:
         """What stands behind them; its places count from the end."""
         return tuple(slot for slot in self._fixed if slot.at < 0)

@@ -97,10 +97,8 @@ class _Look:
         length: int | None = None
         candidates: list[MessageLayout] | None = None
         shortest = f"the shortest frame has {self.frame.least} bytes"
-        for placed in self.frame.lay_out(self.frame.least):
+        for placed in self.frame.placed_head:
             slot = placed.slot
-            if placed.at >= self.frame.body_at:
-                break
             if isinstance(slot, Constant):
                 self._constant(placed, slot)
             elif isinstance(slot, Number):
