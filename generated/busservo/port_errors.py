@@ -103,8 +103,8 @@ def _words_of(error: Exception) -> str:
 def _why_absent(port: str, platform: str) -> str:
     scheme, separator, rest = port.partition(":")
     if scheme.lower() == "hwgrep" and rest.startswith("//"):
-        pattern, _, options = rest[2:].partition("&")
-        happened = f"no port that is plugged in has {pattern!r} in its description"
+        wanted, _, options = rest[2:].partition("&")
+        happened = f"no port that is plugged in has {wanted!r} in its description"
         return f"{happened}, or none that {options!r} leaves" if options else happened
     if separator and scheme.lower() in ADDRESSES and not rest.startswith("//"):
         return f"there is no such port, and an address begins with {scheme.lower()}://"
