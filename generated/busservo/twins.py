@@ -19,7 +19,7 @@ def twins(message: Message) -> list[type[Message]]:
         return []
     return [
         kind
-        for _, count_at, count_end, count, kind in entries
+        for _, count_at, count_end, count, kind, _ in entries
         if kind is not type(message)
         and frame[count_at:count_end] == count
         and kind.SHAPE.out_of_range(frame) is None

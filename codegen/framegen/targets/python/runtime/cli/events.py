@@ -16,7 +16,7 @@ TYPE_CHECKING = False
 if TYPE_CHECKING:
     from typing import Any
 
-    from ..decoder import Counters
+    from ..counters import Counters
     from ..direction import Direction
     from ..message import Message
 

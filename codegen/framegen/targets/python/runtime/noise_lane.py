@@ -1,0 +1,215 @@
+"""The way through noise: finds the next message, and cuts what is none in front of it.
+
+A frame of unknown command claims as many bytes as its length says. It is shown as one if, by its
+own bytes alone, no message begins in it, nor may: all else is worth more than such a claim.
+"""
+
+from __future__ import annotations
+
+from .errors import Reason
+from .noise import Noise, UnknownFrame
+from .protocol import BODY_AT, HEADER
+
+TYPE_CHECKING = False  # typing alone would double the time that the import takes
+if TYPE_CHECKING:
+    from .message import Message
+    from .table import Table
+    from .verdict import Verdict
+
+_new = object.__new__
+
+# What more bytes may make a header, or a frame, the longest first.
+_BEGUN = [HEADER[:size] for size in range(len(HEADER), 0, -1)]
+# A head that consists of one byte, where a header does: each byte of a run of it begins another.
+_RUN = HEADER[:1] * BODY_AT if not HEADER.strip(HEADER[:1]) else b""
+# How much of a run is gone through at once.
+_STRETCH = 256
+# Behind the end of any stream.
+_NEVER = 1 << 62
+
+
+class NoiseLane:
+    """Weighs each place at which a message may begin, once, and tells what was in front of it.
+
+    Places are counted from the beginning of the stream. Each refused header begins a piece of
+    noise, save that a run of headers, each a byte after the other, is one piece.
+    """
+
+    __slots__ = (
+        "_last",
+        "_reason",
+        "_refused",
+        "_table",
+        "at",
+        "pieces",
+        "size",
+        "told",
+        "unknown_frames",
+        "wake",
+    )
+
+    def __init__(self, table: Table) -> None:
+        self._table = table
+        # Headers that begin no message and were not told yet: the first and the last of some that
+        # follow each other byte by byte and are alike, why they begin none, and how many bytes each
+        # of them claims as a frame of unknown command.
+        self._refused: list[tuple[int, int, Reason, int]] = []
+        # Why the noise at hand is noise, and where the last header was refused.
+        self._reason = Reason.BAD_HEADER
+        self._last = -1
+        # Where the bytes begin that were not told yet, where the search goes on, and how many bytes
+        # of the stream must be there before it does.
+        self.told = self.at = self.wake = 0
+        # Pieces of noise, unknown frames among them, and the bytes in all of these.
+        self.pieces = self.unknown_frames = self.size = 0
+
+    def __copy__(self) -> NoiseLane:
+        other = NoiseLane(self._table)
+        for name in self.__slots__:
+            setattr(other, name, getattr(self, name))
+        other._refused = [*self._refused]
+        return other
+
+    def begin_anew(self, at: int) -> None:
+        """Says that all in front of `at` was told, and what comes there does not go on with it."""
+        self.told = at
+        self._reason = Reason.BAD_HEADER
+
+    def search(
+        self, events: list[Message | Noise], data: bytes, base: int, at: int, *, quiet: bool
+    ) -> int:
+        """Goes on at data[at], tells what is no message up to the next one, and that message.
+
+        `data` begins at the place `base`. Returns where the message ends; -1 where none came, and
+        `told`, `at` and `wake` say what is held.
+        """
+        size = len(data)
+        while True:
+            at = _next_header(data, at)
+            if at == size:
+                self._cut(events, data, base, at, at, _NEVER if quiet else at)
+                return self._stop(base + at, _NEVER if self._refused else 0)
+            verdict = self._table.weigh(data, at)
+            if verdict.kind is not None:
+                self._cut(events, data, base, at, at, _NEVER)
+                end = at + verdict.size
+                message = _new(verdict.kind)
+                message._frame = data[at:end]
+                events.append(message)
+                self.begin_anew(base + end)
+                return end
+            if verdict.reason is Reason.TOO_SHORT:
+                self._cut(events, data, base, at, at, _NEVER if quiet else size)
+                if not quiet:
+                    return self._stop(base + at, base + at + verdict.size)
+            elif verdict.reason is Reason.UNKNOWN_COMMAND and size < at + BODY_AT and not quiet:
+                # How much it claims is not known yet.
+                self._cut(events, data, base, at, size, size)
+                if self.told <= base + at:
+                    return self._stop(base + at, base + at + BODY_AT)
+                at = self.told - base
+                continue
+            at = self._refuse(data, base, at, verdict)
+
+    def _stop(self, at: int, wake: int) -> int:
+        """Notes where the search stops, and that it goes on when the place `wake` is reached."""
+        if self._refused:
+            first, _, _, claim = self._refused[0]
+            wake = min(wake, max(first, self.told) + claim)
+        self.at, self.wake = at, wake
+        return -1
+
+    def _refuse(self, data: bytes, base: int, at: int, verdict: Verdict) -> int:
+        """Notes that no message begins at data[at]; returns where one may begin then."""
+        last = at
+        if data[at : at + BODY_AT] == _RUN:
+            stretch = data[at : at + _STRETCH]
+            last += len(stretch) - len(stretch.lstrip(HEADER)) - BODY_AT
+        if data.startswith(HEADER, at):
+            self._refused.append((base + at, base + last, verdict.reason, verdict.claim))
+        return last + 1
+
+    def _cut(
+        self,
+        events: list[Message | Noise],
+        data: bytes,
+        base: int,
+        until: int,
+        weighed: int,
+        horizon: int,
+    ) -> None:
+        """Tells what stands in front of data[until], up to the first claim that is undecided.
+
+        Claims that end up to `weighed` are decided by themselves, those that end up to `horizon`
+        are void, and others are undecided.
+        """
+        refused, number, at = self._refused, 0, self.told
+        until, weighed, horizon = until + base, weighed + base, horizon + base
+        while number < len(refused):
+            first, last, reason, claim = refused[number]
+            at = max(at, first)
+            end = at + claim
+            if at > last:
+                number += 1
+            elif claim and end > horizon:
+                until = at
+                break
+            elif claim and end <= weighed and self._stands_alone(data, at - base, end - base):
+                self._tell(events, data, base, at)
+                self._tell_unknown(events, data, base, end)
+                at = end
+            else:
+                if reason is not self._reason or at != self._last + 1:
+                    self._tell(events, data, base, at)
+                    self._reason = reason
+                # So are the others of a run that end in the run, or that are void like this one.
+                alike = last if end > weighed or not claim else last + BODY_AT - claim
+                self._last = max(at, min(alike, last))
+                at = self._last + 1
+        del refused[:number]
+        self._tell(events, data, base, until)
+
+    def _tell(self, events: list[Message | Noise], data: bytes, base: int, until: int) -> None:
+        """Tells the bytes in front of the place `until` as noise."""
+        if self.told < until:
+            events.append(Noise(data[self.told - base : until - base], self._reason))
+            self.pieces += 1
+            self.size += until - self.told
+            self.told = until
+
+    def _tell_unknown(
+        self, events: list[Message | Noise], data: bytes, base: int, end: int
+    ) -> None:
+        """Tells the bytes in front of the place `end` as a frame of unknown command."""
+        frame = data[self.told - base : end - base]
+        events.append(UnknownFrame(frame, Reason.UNKNOWN_COMMAND))
+        self.pieces += 1
+        self.unknown_frames += 1
+        self.size += len(frame)
+        self.begin_anew(end)
+
+    def _stands_alone(self, data: bytes, start: int, end: int) -> bool:
+        """Whether no message may begin behind data[start], by the bytes in front of data[end].
+
+        That none does is known; what only later bytes refused stands near the end.
+        """
+        for begun in _BEGUN:
+            if data.endswith(begun, start + 1, end):
+                return False
+        at = data.find(HEADER, max(start + 1, end - self._table.reach + 1), end)
+        while at >= 0:
+            if self._table.weigh(data[at:end]).reason is Reason.TOO_SHORT:
+                return False
+            at = data.find(HEADER, at + 1, end)
+        return True
+
+
+def _next_header(data: bytes, at: int) -> int:
+    """The first place from `at` on where a header stands, or may begin at the very end."""
+    found = data.find(HEADER, at)
+    if found >= 0:
+        return found
+    for begun in _BEGUN:
+        if data.endswith(begun, at):
+            return len(data) - len(begun)
+    return len(data)
