@@ -20,9 +20,9 @@ if TYPE_CHECKING:
 _new = object.__new__
 
 # What more bytes may make a header, or a frame, the longest first.
-_BEGUN = [HEADER[:size] for size in range(len(HEADER), 0, -1)]
+_BEGUN = tuple(HEADER[:size] for size in range(len(HEADER), 0, -1))
 # A head that consists of one byte, where a header does: each byte of a run of it begins another.
-_RUN = HEADER[:1] * BODY_AT if not HEADER.strip(HEADER[:1]) else b""
+_RUN = HEADER[:1] * BODY_AT if not HEADER.strip(HEADER[:1]) else b"\0"
 # How much of a run is gone through at once.
 _STRETCH = 256
 # Behind the end of any stream.
@@ -84,12 +84,16 @@ class NoiseLane:
         `data` begins at the place `base`. Returns where the message ends; -1 where none came, and
         `told`, `at` and `wake` say what is held.
         """
-        size = len(data)
+        size, refused = len(data), self._table.refused
         while True:
-            at = _next_header(data, at)
+            found = data.find(HEADER, at)
+            at = found if found >= 0 else _begun_header(data, at)
+            if (verdict := refused.get(data[at : at + BODY_AT])) is not None:
+                at = self._refuse(events, data, base, at, verdict)
+                continue
             if at == size:
                 self._cut(events, data, base, at, at, _NEVER if quiet else at)
-                return self._stop(base + at, _NEVER if self._refused else 0)
+                return self._stop(base + at, base + at + BODY_AT)
             verdict = self._table.weigh(data, at)
             if verdict.kind is not None:
                 self._cut(events, data, base, at, at, _NEVER)
@@ -110,7 +114,7 @@ class NoiseLane:
                     return self._stop(base + at, base + at + BODY_AT)
                 at = self.told - base
                 continue
-            at = self._refuse(data, base, at, verdict)
+            at = self._refuse(events, data, base, at, verdict)
 
     def _stop(self, at: int, wake: int) -> int:
         """Notes where the search stops, and that it goes on when the place `wake` is reached."""
@@ -120,14 +124,21 @@ class NoiseLane:
         self.at, self.wake = at, wake
         return -1
 
-    def _refuse(self, data: bytes, base: int, at: int, verdict: Verdict) -> int:
-        """Notes that no message begins at data[at]; returns where one may begin then."""
-        last = at
-        if data[at : at + BODY_AT] == _RUN:
-            stretch = data[at : at + _STRETCH]
-            last += len(stretch) - len(stretch.lstrip(HEADER)) - BODY_AT
-        if data.startswith(HEADER, at):
-            self._refused.append((base + at, base + last, verdict.reason, verdict.claim))
+    def _refuse(
+        self, events: list[Message | Noise], data: bytes, base: int, at: int, verdict: Verdict
+    ) -> int:
+        """Notes that no message begins at data[at]; returns where the next one may."""
+        last, claim = at, verdict.claim
+        if claim and data.startswith(_RUN, at):
+            last += _run_length(data, at) - BODY_AT
+        if claim and at + claim <= len(data) and data.endswith(_BEGUN, at + 1, at + claim):
+            last = min(last, at + _run_length(data, at + claim - 1) - 1) if last > at else at
+            claim = 0
+        if claim or self._refused:
+            self._refused.append((base + at, base + last, verdict.reason, claim))
+        elif data.startswith(HEADER, at):
+            self._begin_piece(events, data, base, base + at, verdict.reason)
+            self._last = base + last
         return last + 1
 
     def _cut(
@@ -160,22 +171,34 @@ class NoiseLane:
                 self._tell_unknown(events, data, base, end)
                 at = end
             else:
-                if reason is not self._reason or at != self._last + 1:
-                    self._tell(events, data, base, at)
-                    self._reason = reason
-                # So are the others of a run that end in the run, or that are void like this one.
-                alike = last if end > weighed or not claim else last + BODY_AT - claim
-                self._last = max(at, min(alike, last))
+                self._begin_piece(events, data, base, at, reason)
+                # Of a run, so are all that are void like this one, or that end in the same run.
+                alike = last
+                if claim and end <= weighed and at < last:
+                    alike = min(last, at + _run_length(data, end - base - 1) - 1)
+                self._last = max(at, alike)
                 at = self._last + 1
         del refused[:number]
         self._tell(events, data, base, until)
 
+    def _begin_piece(
+        self, events: list[Message | Noise], data: bytes, base: int, at: int, reason: Reason
+    ) -> None:
+        """Tells the noise in front of a refused header, unless that goes on with a run of them."""
+        if reason is not self._reason or at != self._last + 1:
+            self._tell(events, data, base, at)
+            self._reason = reason
+
     def _tell(self, events: list[Message | Noise], data: bytes, base: int, until: int) -> None:
         """Tells the bytes in front of the place `until` as noise."""
-        if self.told < until:
-            events.append(Noise(data[self.told - base : until - base], self._reason))
+        told = self.told
+        if told < until:
+            noise = _new(Noise)
+            noise._data = data[told - base : until - base]
+            noise._reason = self._reason
+            events.append(noise)
             self.pieces += 1
-            self.size += until - self.told
+            self.size += until - told
             self.told = until
 
     def _tell_unknown(
@@ -194,9 +217,8 @@ class NoiseLane:
 
         That none does is known; what only later bytes refused stands near the end.
         """
-        for begun in _BEGUN:
-            if data.endswith(begun, start + 1, end):
-                return False
+        if data.endswith(_BEGUN, start + 1, end):
+            return False
         at = data.find(HEADER, max(start + 1, end - self._table.reach + 1), end)
         while at >= 0:
             if self._table.weigh(data[at:end]).reason is Reason.TOO_SHORT:
@@ -205,12 +227,15 @@ class NoiseLane:
         return True
 
 
-def _next_header(data: bytes, at: int) -> int:
-    """The first place from `at` on where a header stands, or may begin at the very end."""
-    found = data.find(HEADER, at)
-    if found >= 0:
-        return found
+def _begun_header(data: bytes, at: int) -> int:
+    """Where behind data[at] a header may begin at the very end; the end where none does."""
     for begun in _BEGUN:
         if data.endswith(begun, at):
             return len(data) - len(begun)
     return len(data)
+
+
+def _run_length(data: bytes, at: int) -> int:
+    """How often the first byte of a header stands at data[at], one behind the other."""
+    stretch = data[at : at + _STRETCH]
+    return len(stretch) - len(stretch.lstrip(HEADER[:1]))

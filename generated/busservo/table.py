@@ -25,7 +25,7 @@ from .wording import describe_range
 
 TYPE_CHECKING = False  # typing alone would double the time that the import takes
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Iterator, Sequence
     from typing import Any, TypeAlias
 
     from .message import Message
@@ -56,7 +56,7 @@ class Table(dict[bytes, "Entry"]):
     own, it leaves out: `weigh` knows them. No frame is larger than `largest`.
     """
 
-    __slots__ = ("_legal", "_refused", "kinds", "largest", "messages", "reach", "waits")
+    __slots__ = ("_legal", "kinds", "largest", "messages", "reach", "refused", "waits")
 
     def __init__(self, messages: Sequence[type[Message]], largest: int) -> None:
         super().__init__()
@@ -72,7 +72,7 @@ class Table(dict[bytes, "Entry"]):
             self.reach = max(self.reach, largest if kind.SHAPE.narrowed else count_end)
         # What may follow the legal heads that were seen, and the verdicts on the others.
         self._legal: dict[bytes, list[Entry]] = {}
-        self._refused: dict[bytes, Verdict] = {}
+        self.refused: dict[bytes, Verdict] = {}
         # The beginnings of frames that were seen, and the size at which more can be told of each.
         self.waits: dict[bytes, int] = {}
 
@@ -83,22 +83,28 @@ class Table(dict[bytes, "Entry"]):
         refusal that shows last is given.
         """
         head = data[at : at + BODY_AT]
-        refused = self._refused.get(head) or self._refuse(head)
-        if refused is not None:
-            return refused
-        if len(head) < BODY_AT:
-            return Verdict(None, Reason.TOO_SHORT, len(head), len(head) + 1)
-        verdicts = [_fit(data, at, entry) for entry in self.entries(head)]
-        legal = (verdict for verdict in verdicts if verdict.kind is not None)
-        # Of equals, `max` gives the first.
-        return next(legal, None) or max(verdicts, key=lambda verdict: verdict.offset)
+        entry = self._legal.get(head)
+        if entry is None:
+            refused = self.refused.get(head) or self._refuse(head)
+            if refused is not None:
+                return refused
+            if len(head) < BODY_AT:
+                return _too_short(data, at, len(head) + 1)
+            entry = self._legal[head]
+        furthest = _fit(data, at, entry)
+        while furthest.kind is None and entry[-1] is not None:
+            entry = entry[-1]
+            verdict = _fit(data, at, entry)
+            if verdict.kind is not None or verdict.offset > furthest.offset:
+                furthest = verdict
+        return furthest
 
-    def entries(self, head: bytes) -> list[Entry]:
-        """What may follow a whole `head`; of two directions that share it, the first comes first."""
-        found = self._legal.get(head)
-        if found is None:
-            found = self._learn(head)
-        return found
+    def entries(self, head: bytes) -> Iterator[Entry]:
+        """What may follow `head`; where two directions share it, the first of them comes first."""
+        entry = self._legal.get(head) or self._learn(head)
+        while entry is not None:
+            yield entry
+            entry = entry[-1]
 
     def may_have(self, length: int) -> bool:
         """Whether some frame could have this length, if its command were not known."""
@@ -135,41 +141,40 @@ class Table(dict[bytes, "Entry"]):
         reason = verdict.reason or Reason.BAD_HEADER
         return DecodeError(reason, verdict.offset, self._problem(frame, verdict))
 
-    def _learn(self, head: bytes) -> list[Entry]:
-        """What may follow a head that was not seen before."""
+    def _refuse(self, head: bytes) -> Verdict | None:
+        """Why no frame begins with `head`, as far as it goes; None where one may."""
+        size = len(head)
+        if not head.startswith(HEADER[:size]):
+            at = next(at for at, byte in enumerate(HEADER) if head[at] != byte)
+            return Verdict(None, Reason.BAD_HEADER, at, at + 1)
+        refused = None
+        if size >= LENGTH_END and not self.may_have(read_length(head)):
+            refused = _NO_LENGTH
+        if size >= COMMAND_END and (refused is None or COMMAND_AT < LENGTH_AT):
+            if read_command(head) not in self.kinds:
+                claims = refused is None and size == BODY_AT
+                claim = read_length(head) + UNCOUNTED if claims else 0
+                refused = Verdict(None, Reason.UNKNOWN_COMMAND, COMMAND_AT, COMMAND_END, claim)
+        if refused is None and size == BODY_AT and self._learn(head) is None:
+            refused = _NO_LENGTH_OF_ITS_COMMAND
+        if refused is not None and size == BODY_AT:
+            _remember(self.refused, head, refused)
+        return refused
+
+    def _learn(self, head: bytes) -> Entry | None:
+        """What may follow a whole head that was not seen before."""
         length = read_length(head)
-        found: list[Entry] = []
         entry: Entry | None = None
+        narrowed = False
         for kind in reversed(self.kinds.get(read_command(head), ())):
             if length in kind.LENGTHS and length + UNCOUNTED <= self.largest:
                 entry = (length + UNCOUNTED, *kind.SHAPE.count_bytes(length), kind, entry)
-                found.insert(0, entry)
+                narrowed |= kind.SHAPE.narrowed
         if entry is not None:
-            _remember(self._legal, head, found)
-            if not any(kind.SHAPE.narrowed for _, _, _, _, kind, _ in found):
+            _remember(self._legal, head, entry)
+            if not narrowed:
                 _remember(self, head, entry)
-        return found
-
-    def _refuse(self, head: bytes) -> Verdict | None:
-        """Why no frame begins with `head`, as far as it goes; None where one may."""
-        for at, byte in enumerate(HEADER[: len(head)]):
-            if head[at] != byte:
-                return Verdict(None, Reason.BAD_HEADER, at, at + 1)
-        refused: list[Verdict] = []
-        if len(head) >= LENGTH_END and not self.may_have(read_length(head)):
-            refused.append(_NO_LENGTH)
-        if len(head) >= COMMAND_END and read_command(head) not in self.kinds:
-            whole = len(head) == BODY_AT and not refused
-            claim = read_length(head) + UNCOUNTED if whole else 0
-            refused.append(Verdict(None, Reason.UNKNOWN_COMMAND, COMMAND_AT, COMMAND_END, claim))
-        if not refused and len(head) == BODY_AT and not self.entries(head):
-            refused.append(_NO_LENGTH_OF_ITS_COMMAND)
-        if not refused:
-            return None
-        first = min(refused, key=lambda verdict: verdict.offset)
-        if len(head) == BODY_AT:
-            _remember(self._refused, head, first)
-        return first
+        return entry
 
     def _problem(self, frame: bytes, verdict: Verdict) -> str:
         """What is wrong with what is no frame, in words."""
@@ -205,23 +210,29 @@ def _fit(data: bytes, at: int, entry: Entry) -> Verdict:
     """Judges what follows a legal head at `at`, as the message of this entry."""
     size, count_at, count_end, count, kind, _ = entry
     begun = data[at + count_at : at + count_end]
-    misplaced = _out_of_range(kind, data[at : at + size])
-    if not count.startswith(begun) and (misplaced is None or count_at <= misplaced[0]):
-        shown = next(n for n in range(1, len(begun) + 1) if not count.startswith(begun[:n]))
-        return Verdict(None, Reason.COUNT_MISMATCH, count_at, count_at + shown)
-    if misplaced is not None:
+    misplaced = _out_of_range(kind, data[at : at + size]) if kind.SHAPE.narrowed else None
+    if misplaced is not None and (misplaced[0] < count_at or count.startswith(begun)):
         return Verdict(None, Reason.OUT_OF_RANGE, *misplaced)
-    if begun != count:
-        return Verdict(None, Reason.TOO_SHORT, len(data) - at, count_end)
-    if at + size > len(data):
-        return Verdict(None, Reason.TOO_SHORT, len(data) - at, size)
-    return Verdict(kind, None, size, size)
+    if begun == count:
+        whole = at + size <= len(data)
+        return Verdict(kind, None, size, size) if whole else _too_short(data, at, size)
+    if count.startswith(begun):
+        return _too_short(data, at, count_end)
+    shown = count_at + 1
+    while data[at + count_at : at + shown] == count[: shown - count_at]:
+        shown += 1
+    return Verdict(None, Reason.COUNT_MISMATCH, count_at, shown)
+
+
+def _too_short(data: bytes, at: int, size: int) -> Verdict:
+    """The verdict on what begins at `at` and agrees so far; more can be told when it has `size`."""
+    return Verdict(None, Reason.TOO_SHORT, len(data) - at, size)
 
 
 def _out_of_range(kind: type[Message], frame: bytes) -> tuple[int, int] | None:
     """The first value that its range does not allow, of a frame that may be cut off: its bytes."""
     out_of_range = kind.SHAPE.out_of_range
-    found = out_of_range(frame) if kind.SHAPE.narrowed else None
+    found = out_of_range(frame)
     if found is None:
         return None
     at = found[0]
