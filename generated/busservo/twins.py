@@ -14,12 +14,9 @@ if TYPE_CHECKING:
 def twins(message: Message) -> list[type[Message]]:
     """The other messages that the same frame may be, where nobody knows who has sent it."""
     frame = message.encode()
-    entries = table_for(None).entries(frame[:BODY_AT])
-    if len(entries) == 1:
-        return []
     return [
         kind
-        for _, count_at, count_end, count, kind, _ in entries
+        for _, count_at, count_end, count, kind, _ in table_for(None).entries(frame[:BODY_AT])
         if kind is not type(message)
         and frame[count_at:count_end] == count
         and kind.SHAPE.out_of_range(frame) is None

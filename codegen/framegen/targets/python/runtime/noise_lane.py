@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from .errors import Reason
 from .noise import Noise, UnknownFrame
-from .protocol import BODY_AT, HEADER
+from .protocol import BODY_AT, HEADER, UNCOUNTED, read_length
 
 TYPE_CHECKING = False  # typing alone would double the time that the import takes
 if TYPE_CHECKING:
@@ -17,11 +17,13 @@ if TYPE_CHECKING:
     from .verdict import Verdict
 
 _new = object.__new__
+_TOO_SHORT = Reason.TOO_SHORT
 
 # What more bytes may make a header, or a frame, the longest first.
 _BEGUN = tuple(HEADER[:size] for size in range(len(HEADER), 0, -1))
 # A head that consists of one byte, where a header does: each byte of a run of it begins another.
-_RUN = HEADER[:1] * BODY_AT if not HEADER.strip(HEADER[:1]) else b"\0"
+_RUN = HEADER[:1] * BODY_AT if not HEADER.strip(HEADER[:1]) else bytes(BODY_AT)
+_RUN_CLAIM = read_length(_RUN) + UNCOUNTED
 # How much of a run is gone through at once.
 _STRETCH = 256
 # Behind the end of any stream.
@@ -83,17 +85,14 @@ class NoiseLane:
         `data` begins at the place `base`. Returns where the message ends; -1 where none came, and
         `told`, `at` and `wake` say what is held.
         """
-        size, refused = len(data), self._table.refused
+        size, known = len(data), self._table.verdicts
         while True:
             found = data.find(HEADER, at)
             at = found if found >= 0 else _begun_header(data, at)
-            if (verdict := refused.get(data[at : at + BODY_AT])) is not None:
-                at = self._refuse(events, data, base, at, verdict)
-                continue
             if at == size:
                 self._cut(events, data, base, at, at, _NEVER if quiet else at)
-                return self._stop(base + at, base + at + BODY_AT)
-            verdict = self._table.weigh(data, at)
+                return self._stop(base + at, base + at + (BODY_AT if self._refused else 0))
+            verdict = known.get(data[at : at + BODY_AT]) or self._table.weigh(data, at)
             if verdict.kind is not None:
                 self._cut(events, data, base, at, at, _NEVER)
                 end = at + verdict.size
@@ -102,17 +101,17 @@ class NoiseLane:
                 events.append(message)
                 self.begin_anew(base + end)
                 return end
-            if verdict.reason is Reason.TOO_SHORT:
-                self._cut(events, data, base, at, at, _NEVER if quiet else size)
+            if verdict.is_open:
+                begins = verdict.reason is _TOO_SHORT
+                self._cut(events, data, base, at, at if begins else size, _NEVER if quiet else size)
+                if self.told > base + at:
+                    at = self.told - base
+                    continue
                 if not quiet:
                     return self._stop(base + at, base + at + verdict.size)
-            elif verdict.reason is Reason.UNKNOWN_COMMAND and size < at + BODY_AT and not quiet:
-                # How much it claims is not known yet.
-                self._cut(events, data, base, at, size, size)
-                if self.told <= base + at:
-                    return self._stop(base + at, base + at + BODY_AT)
-                at = self.told - base
-                continue
+                if not data.startswith(HEADER, at):
+                    at += 1
+                    continue
             at = self._refuse(events, data, base, at, verdict)
 
     def _stop(self, at: int, wake: int) -> int:
@@ -128,14 +127,14 @@ class NoiseLane:
     ) -> int:
         """Notes that no message begins at data[at]; returns where the next one may."""
         last, claim = at, verdict.claim
-        if claim and data.startswith(_RUN, at):
+        if claim == _RUN_CLAIM and data.startswith(_RUN, at):
             last += _run_length(data, at) - BODY_AT
         if claim and at + claim <= len(data) and data.endswith(_BEGUN, at + 1, at + claim):
             last = min(last, at + _run_length(data, at + claim - 1) - 1) if last > at else at
             claim = 0
         if claim or self._refused:
             self._refused.append((base + at, base + last, verdict.reason, claim))
-        elif data.startswith(HEADER, at):
+        else:
             self._begin_piece(events, data, base, base + at, verdict.reason)
             self._last = base + last
         return last + 1
@@ -220,7 +219,7 @@ class NoiseLane:
             return False
         at = data.find(HEADER, max(start + 1, end - self._table.reach + 1), end)
         while at >= 0:
-            if self._table.weigh(data[at:end]).reason is Reason.TOO_SHORT:
+            if self._table.weigh(data[at:end]).reason is _TOO_SHORT:
                 return False
             at = data.find(HEADER, at + 1, end)
         return True

@@ -55,7 +55,7 @@ class Table(dict[bytes, "Entry"]):
     own, it leaves out: `weigh` knows them. No frame is larger than `largest`.
     """
 
-    __slots__ = ("_legal", "kinds", "largest", "messages", "reach", "refused", "waits")
+    __slots__ = ("_legal", "kinds", "largest", "messages", "reach", "verdicts", "waits")
 
     def __init__(self, messages: Sequence[type[Message]], largest: int) -> None:
         super().__init__()
@@ -69,9 +69,9 @@ class Table(dict[bytes, "Entry"]):
             self.kinds.setdefault(kind.COMMAND, []).append(kind)
             count_end = kind.SHAPE.count_bytes(kind.LENGTHS[0])[1]
             self.reach = max(self.reach, largest if kind.SHAPE.narrowed else count_end)
-        # What may follow the legal heads that were seen, and the verdicts on the others.
-        self._legal: dict[bytes, list[Entry]] = {}
-        self.refused: dict[bytes, Verdict] = {}
+        # What may follow the legal heads that were seen, and the verdicts on others, whole or not.
+        self._legal: dict[bytes, Entry] = {}
+        self.verdicts: dict[bytes, Verdict] = {}
         # The beginnings of frames that were seen, and the size at which more can be told of each.
         self.waits: dict[bytes, int] = {}
 
@@ -82,13 +82,15 @@ class Table(dict[bytes, "Entry"]):
         refusal that shows last is given.
         """
         head = data[at : at + BODY_AT]
+        verdict = self.verdicts.get(head)
+        if verdict is not None:
+            return verdict
         entry = self._legal.get(head)
         if entry is None:
-            refused = self.refused.get(head) or self._refuse(head)
-            if refused is not None:
-                return refused
-            if len(head) < BODY_AT:
-                return _too_short(data, at, len(head) + 1)
+            verdict = self._weigh_head(head)
+            if verdict is not None:
+                _remember(self.verdicts, head, verdict)
+                return verdict
             entry = self._legal[head]
         furthest = _fit(data, at, entry)
         while furthest.kind is None and entry[-1] is not None:
@@ -140,25 +142,26 @@ class Table(dict[bytes, "Entry"]):
         reason = verdict.reason or Reason.BAD_HEADER
         return DecodeError(reason, verdict.offset, self._problem(frame, verdict))
 
-    def _refuse(self, head: bytes) -> Verdict | None:
-        """Why no frame begins with `head`, as far as it goes; None where one may."""
+    def _weigh_head(self, head: bytes) -> Verdict | None:
+        """Judges what `head` shows by itself; None where what follows decides."""
         size = len(head)
         if not head.startswith(HEADER[:size]):
             at = next(at for at, byte in enumerate(HEADER) if head[at] != byte)
             return Verdict(None, Reason.BAD_HEADER, at, at + 1)
-        refused = None
-        if size >= LENGTH_END and not self.may_have(read_length(head)):
-            refused = _NO_LENGTH
-        if size >= COMMAND_END and (refused is None or COMMAND_AT < LENGTH_AT):
-            if read_command(head) not in self.kinds:
-                claims = refused is None and size == BODY_AT
-                claim = read_length(head) + UNCOUNTED if claims else 0
-                refused = Verdict(None, Reason.UNKNOWN_COMMAND, COMMAND_AT, COMMAND_END, claim)
-        if refused is None and size == BODY_AT and self._learn(head) is None:
-            refused = _NO_LENGTH_OF_ITS_COMMAND
-        if refused is not None and size == BODY_AT:
-            _remember(self.refused, head, refused)
-        return refused
+        no_length = size >= LENGTH_END and not self.may_have(read_length(head))
+        if no_length and LENGTH_AT < COMMAND_AT:
+            return _NO_LENGTH
+        if size >= COMMAND_END and read_command(head) not in self.kinds:
+            unknown = Reason.UNKNOWN_COMMAND
+            if size < BODY_AT:
+                return Verdict(None, unknown, COMMAND_AT, BODY_AT, is_open=True)
+            claim = 0 if no_length else read_length(head) + UNCOUNTED
+            return Verdict(None, unknown, COMMAND_AT, COMMAND_END, claim=claim)
+        if no_length:
+            return _NO_LENGTH
+        if size < BODY_AT:
+            return Verdict(None, Reason.TOO_SHORT, size, size + 1, is_open=True)
+        return None if self._learn(head) is not None else _NO_LENGTH_OF_ITS_COMMAND
 
     def _learn(self, head: bytes) -> Entry | None:
         """What may follow a whole head that was not seen before."""
@@ -225,7 +228,7 @@ def _fit(data: bytes, at: int, entry: Entry) -> Verdict:
 
 def _too_short(data: bytes, at: int, size: int) -> Verdict:
     """The verdict on what begins at `at` and agrees so far; more can be told when it has `size`."""
-    return Verdict(None, Reason.TOO_SHORT, len(data) - at, size)
+    return Verdict(None, Reason.TOO_SHORT, len(data) - at, size, is_open=True)
 
 
 def _out_of_range(kind: type[Message], frame: bytes) -> tuple[int, int] | None:

@@ -12,12 +12,12 @@ class Verdict:
     """What bytes begin: a message, no frame at all, or what more of them may make one.
 
     Of a message, `kind` is its class and `size` that of its frame. Of anything else, `reason` and
-    `offset` say why it is none and at which byte that shows. `size` is then the number of bytes that
-    show it or, of what is only too short, the number at which more can be told. `claim` is the size
-    of the frame that an unknown command would have.
+    `offset` say why it is none and at which byte that shows. It `is_open` as long as more bytes may
+    change what is to be done with it: `size` is the number at which more can be told, and else that
+    of those which show it. `claim` is the size that a frame of unknown command would have.
     """
 
-    __slots__ = ("claim", "kind", "offset", "reason", "size")
+    __slots__ = ("claim", "is_open", "kind", "offset", "reason", "size")
 
     def __init__(
         self,
@@ -25,10 +25,13 @@ class Verdict:
         reason: Reason | None,
         offset: int,
         size: int,
+        *,
         claim: int = 0,
+        is_open: bool = False,
     ) -> None:
         self.kind = kind
         self.reason = reason
         self.offset = offset
         self.size = size
         self.claim = claim
+        self.is_open = is_open
