@@ -119,17 +119,22 @@ class Table(dict[bytes, "Entry"]):
         """The message that `frame` is, whole and with nothing after it. Raises DecodeError."""
         if type(frame) is not bytes:
             frame = octets(frame)
+        message = self.find(frame)
+        if message is None:
+            raise self.error(frame, self.weigh(frame))
+        return message
+
+    def find(self, frame: bytes) -> Message | None:
+        """The message that `frame` is, whole and with nothing after it; None where it is none."""
         entry = self.get(frame[:BODY_AT])
-        if entry is not None:
-            size, at, until, count, kind, _ = entry
-            if len(frame) == size and frame[at:until] == count:
-                message = _new(kind)
-                message._frame = frame
-                return message
-        verdict = self.weigh(frame)
-        if verdict.kind is None or verdict.size != len(frame):
-            raise self.error(frame, verdict)
-        message = _new(verdict.kind)
+        if entry is not None and len(frame) == entry[0] and frame[entry[1] : entry[2]] == entry[3]:
+            kind = entry[4]
+        else:
+            verdict = self.weigh(frame)
+            if verdict.kind is None or verdict.size != len(frame):
+                return None
+            kind = verdict.kind
+        message = _new(kind)
         message._frame = frame
         return message
 
