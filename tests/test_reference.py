@@ -9,9 +9,9 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 
 import pytest
 from framegen.model.codec import NotAFrame, decode
-from framegen.model.slots import Constant, Number
+from framegen.model.slots import Body, Constant, Number
 from framegen.model.stream import Line
-from hypothesis import example, given
+from hypothesis import given
 from hypothesis import strategies as st
 
 from tests.specimens import BUSSERVO, DEMO, data_of, files_of, layout_of, library
@@ -20,7 +20,6 @@ if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
 
     from framegen.language.values import Direction
-    from framegen.model.layout import MessageLayout
     from framegen.model.model import Model
     from framegen.model.slots import Placed
 
@@ -73,6 +72,7 @@ def frames(draw: st.DrawFn, model: Model) -> bytes:
     data = bytearray(message.size_at(count))
     for placed in message.lay_out(count):
         slot = placed.slot
+        assert not isinstance(slot, Body)
         if isinstance(slot, Constant):
             written = slot.data
         elif slot.role == "length":
@@ -198,7 +198,11 @@ def test_a_stream_decoder_tells_what_the_reference_tells(name: str, data: st.Dat
             events += decoder.feed(chunk)
             assert decoder.pending < min(largest, max_frame or largest)
         assert messages(told(events, name)) == messages(
-            [(event.message.name, event.data) for event in line.decode_so_far(stretch) if event.message]
+            [
+                (event.message.name, event.data)
+                for event in line.decode_so_far(stretch)
+                if event.message
+            ]
         )
         assert told(events + decoder.flush(), name) == expected(line, stretch)
 

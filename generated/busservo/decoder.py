@@ -39,7 +39,7 @@ class StreamDecoder:
     `max_frame` bytes is refused by its length, so that no more than that is ever held.
     """
 
-    __slots__ = ("_events", "_held", "_noise", "_scanned", "_table", "_wake")
+    __slots__ = ("_held", "_message_bytes", "_messages", "_noise", "_scanned", "_table", "_wake")
 
     def __init__(self, direction: Direction | None, max_frame: int | None = None) -> None:
         self._table = table_for(direction, max_frame)
@@ -47,7 +47,7 @@ class StreamDecoder:
         self._held = b""
         # Where in what is held the search goes on, and the size below which it need not.
         self._scanned = self._wake = 0
-        self._events = 0
+        self._messages = self._message_bytes = 0
 
     @property
     def pending(self) -> int:
@@ -72,9 +72,9 @@ class StreamDecoder:
     @property
     def counters(self) -> Counters:
         """What has been seen so far."""
-        noise = self._noise
-        fed, messages = noise.told + len(self._held), self._events - noise.pieces
-        return Counters(fed, messages, noise.size, noise.unknown_frames)
+        told = self._noise.told
+        noise, unknown_frames = told - self._message_bytes, self._noise.unknown_frames
+        return Counters(told + len(self._held), self._messages, noise, unknown_frames)
 
     def __copy__(self) -> StreamDecoder:
         other = _new(type(self))
@@ -110,7 +110,7 @@ class StreamDecoder:
         # Where a search goes on, no frame can begin before it has ended.
         entry = None if at else look_up(data[:BODY_AT])
         while True:
-            begun = at
+            begun, before = at, len(events)
             while entry is not None:
                 length, count_at, count_end, count, kind, other = entry
                 if data[at + count_at : at + count_end] != count:
@@ -125,17 +125,17 @@ class StreamDecoder:
                 at = end
                 entry = look_up(data[at : at + BODY_AT])
             if at > begun:
+                self._messages += len(events) - before
+                self._message_bytes += at - begun
                 noise.begin_anew(base + at)
             if entry is not None and not quiet:
                 self._hold(data, at, at, end)
-                break
-            at = noise.search(events, data, base, at, quiet=quiet)
-            if at < 0:
-                self._hold(data, noise.told - base, noise.at - base, noise.wake - base)
-                break
-            entry = look_up(data[at : at + BODY_AT])
-        self._events += len(events)
-        return events
+                return events
+            entry = noise.search(events, data, base, at, quiet=quiet)
+            at = noise.at - base
+            if entry is None:
+                self._hold(data, noise.told - base, at, noise.wake - base)
+                return events
 
     def _hold(self, data: bytes, start: int, scanned: int, wake: int) -> None:
         """Keeps the bytes from `start` on, of which nothing can be told before `wake`."""

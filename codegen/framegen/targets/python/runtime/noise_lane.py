@@ -13,7 +13,7 @@ from .protocol import BODY_AT, HEADER, UNCOUNTED, read_length
 TYPE_CHECKING = False  # typing alone would double the time that the import takes
 if TYPE_CHECKING:
     from .message import Message
-    from .table import Table
+    from .table import Entry, Table
     from .verdict import Verdict
 
 _new = object.__new__
@@ -43,8 +43,6 @@ class NoiseLane:
         "_refused",
         "_table",
         "at",
-        "pieces",
-        "size",
         "told",
         "unknown_frames",
         "wake",
@@ -62,8 +60,7 @@ class NoiseLane:
         # Where the bytes begin that were not told yet, where the search goes on, and how many bytes
         # of the stream must be there before it does.
         self.told = self.at = self.wake = 0
-        # Pieces of noise, unknown frames among them, and the bytes in all of these.
-        self.pieces = self.unknown_frames = self.size = 0
+        self.unknown_frames = 0
 
     def __copy__(self) -> NoiseLane:
         other = NoiseLane(self._table)
@@ -79,11 +76,11 @@ class NoiseLane:
 
     def search(
         self, events: list[Message | Noise], data: bytes, base: int, at: int, *, quiet: bool
-    ) -> int:
-        """Goes on at data[at], tells what is no message up to the next one, and that message.
+    ) -> Entry | None:
+        """Goes on at data[at], and tells what is no message up to the next one.
 
-        `data` begins at the place `base`. Returns where the message ends; -1 where none came, and
-        `told`, `at` and `wake` say what is held.
+        `data` begins at the place `base`. Returns what the message is, which begins at `at`; None
+        where none came, and `told`, `at` and `wake` say what is held.
         """
         size, known = len(data), self._table.verdicts
         while True:
@@ -91,47 +88,46 @@ class NoiseLane:
             at = found if found >= 0 else _begun_header(data, at)
             if at == size:
                 self._cut(events, data, base, at, at, _NEVER if quiet else at)
-                return self._stop(base + at, base + at + (BODY_AT if self._refused else 0))
+                self._stop(base + at, BODY_AT if self._refused else 0)
+                return None
             verdict = known.get(data[at : at + BODY_AT]) or self._table.weigh(data, at)
             if verdict.kind is not None:
                 self._cut(events, data, base, at, at, _NEVER)
-                end = at + verdict.size
-                message = _new(verdict.kind)
-                message._frame = data[at:end]
-                events.append(message)
-                self.begin_anew(base + end)
-                return end
+                self.at = base + at
+                return verdict.size, 0, 0, b"", verdict.kind, None
             if verdict.is_open:
-                begins = verdict.reason is _TOO_SHORT
-                self._cut(events, data, base, at, at if begins else size, _NEVER if quiet else size)
+                # A message may begin here; or, of unknown command, so much more than is known yet.
+                weighed = at if verdict.reason is _TOO_SHORT else size
+                self._cut(events, data, base, at, weighed, _NEVER if quiet else size)
                 if self.told > base + at:
                     at = self.told - base
                     continue
                 if not quiet:
-                    return self._stop(base + at, base + at + verdict.size)
+                    self._stop(base + at, verdict.size)
+                    return None
                 if not data.startswith(HEADER, at):
                     at += 1
                     continue
             at = self._refuse(events, data, base, at, verdict)
 
-    def _stop(self, at: int, wake: int) -> int:
-        """Notes where the search stops, and that it goes on when the place `wake` is reached."""
+    def _stop(self, at: int, needed: int) -> None:
+        """Notes that the search stops at `at` until so much is there, or a claim is whole."""
+        self.at, self.wake = at, at + needed
         if self._refused:
             first, _, _, claim = self._refused[0]
-            wake = min(wake, max(first, self.told) + claim)
-        self.at, self.wake = at, wake
-        return -1
+            self.wake = min(self.wake, max(first, self.told) + claim)
 
     def _refuse(
         self, events: list[Message | Noise], data: bytes, base: int, at: int, verdict: Verdict
     ) -> int:
         """Notes that no message begins at data[at]; returns where the next one may."""
         last, claim = at, verdict.claim
-        if claim == _RUN_CLAIM and data.startswith(_RUN, at):
-            last += _run_length(data, at) - BODY_AT
-        if claim and at + claim <= len(data) and data.endswith(_BEGUN, at + 1, at + claim):
-            last = min(last, at + _run_length(data, at + claim - 1) - 1) if last > at else at
-            claim = 0
+        if claim:
+            if claim == _RUN_CLAIM and data.startswith(_RUN, at):
+                last += _run_length(data, at) - BODY_AT
+            if at + claim <= len(data) and data.endswith(_BEGUN, at + 1, at + claim):
+                last = min(last, at + _run_length(data, at + claim - 1) - 1) if last > at else at
+                claim = 0
         if claim or self._refused:
             self._refused.append((base + at, base + last, verdict.reason, claim))
         else:
@@ -157,58 +153,25 @@ class NoiseLane:
         until, weighed, horizon = until + base, weighed + base, horizon + base
         while number < len(refused):
             first, last, reason, claim = refused[number]
-            at = max(at, first)
-            end = at + claim
+            at, end = max(at, first), max(at, first) + claim
             if at > last:
                 number += 1
             elif claim and end > horizon:
                 until = at
                 break
             elif claim and end <= weighed and self._stands_alone(data, at - base, end - base):
-                self._tell(events, data, base, at)
+                self._tell_noise(events, data, base, at)
                 self._tell_unknown(events, data, base, end)
                 at = end
             else:
                 self._begin_piece(events, data, base, at, reason)
                 # Of a run, so are all that are void like this one, or that end in the same run.
-                alike = last
+                self._last = last
                 if claim and end <= weighed and at < last:
-                    alike = min(last, at + _run_length(data, end - base - 1) - 1)
-                self._last = max(at, alike)
+                    self._last = max(at, min(last, at + _run_length(data, end - base - 1) - 1))
                 at = self._last + 1
         del refused[:number]
-        self._tell(events, data, base, until)
-
-    def _begin_piece(
-        self, events: list[Message | Noise], data: bytes, base: int, at: int, reason: Reason
-    ) -> None:
-        """Tells the noise in front of a refused header, unless that goes on with a run of them."""
-        if reason is not self._reason or at != self._last + 1:
-            self._tell(events, data, base, at)
-            self._reason = reason
-
-    def _tell(self, events: list[Message | Noise], data: bytes, base: int, until: int) -> None:
-        """Tells the bytes in front of the place `until` as noise."""
-        told = self.told
-        if told < until:
-            noise = _new(Noise)
-            noise._data = data[told - base : until - base]
-            noise._reason = self._reason
-            events.append(noise)
-            self.pieces += 1
-            self.size += until - told
-            self.told = until
-
-    def _tell_unknown(
-        self, events: list[Message | Noise], data: bytes, base: int, end: int
-    ) -> None:
-        """Tells the bytes in front of the place `end` as a frame of unknown command."""
-        frame = data[self.told - base : end - base]
-        events.append(UnknownFrame(frame, Reason.UNKNOWN_COMMAND))
-        self.pieces += 1
-        self.unknown_frames += 1
-        self.size += len(frame)
-        self.begin_anew(end)
+        self._tell_noise(events, data, base, until)
 
     def _stands_alone(self, data: bytes, start: int, end: int) -> bool:
         """Whether no message may begin behind data[start], by the bytes in front of data[end].
@@ -223,6 +186,31 @@ class NoiseLane:
                 return False
             at = data.find(HEADER, at + 1, end)
         return True
+
+    def _begin_piece(
+        self, events: list[Message | Noise], data: bytes, base: int, at: int, reason: Reason
+    ) -> None:
+        """Begins a piece of noise at a refused header, unless that goes on with a run of them."""
+        if reason is not self._reason or at != self._last + 1:
+            self._tell_noise(events, data, base, at)
+            self._reason = reason
+
+    def _tell_noise(
+        self, events: list[Message | Noise], data: bytes, base: int, until: int
+    ) -> None:
+        """Tells the bytes in front of the place `until` as noise."""
+        if self.told < until:
+            events.append(Noise(data[self.told - base : until - base], self._reason))
+            self.told = until
+
+    def _tell_unknown(
+        self, events: list[Message | Noise], data: bytes, base: int, end: int
+    ) -> None:
+        """Tells the bytes in front of the place `end` as a frame of unknown command."""
+        frame = data[self.told - base : end - base]
+        events.append(UnknownFrame(frame, Reason.UNKNOWN_COMMAND))
+        self.unknown_frames += 1
+        self.begin_anew(end)
 
 
 def _begun_header(data: bytes, at: int) -> int:

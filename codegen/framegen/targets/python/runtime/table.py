@@ -140,12 +140,7 @@ class Table(dict[bytes, "Entry"]):
 
     def error(self, frame: bytes, verdict: Verdict) -> DecodeError:
         """What is wrong with `frame`, of which this is the verdict, in words."""
-        if verdict.kind is not None:
-            shown = f"{verdict.kind.__name__} with this length has {verdict.size} bytes"
-            problem = f"{shown}, not {len(frame)}"
-            return DecodeError(Reason.TRAILING_BYTES, verdict.size, problem)
-        reason = verdict.reason or Reason.BAD_HEADER
-        return DecodeError(reason, verdict.offset, self._problem(frame, verdict))
+        return DecodeError(verdict.reason, verdict.offset, self._problem(frame, verdict))
 
     def _weigh_head(self, head: bytes) -> Verdict | None:
         """Judges what `head` shows by itself; None where what follows decides."""
@@ -153,20 +148,26 @@ class Table(dict[bytes, "Entry"]):
         if not head.startswith(HEADER[:size]):
             at = next(at for at, byte in enumerate(HEADER) if head[at] != byte)
             return Verdict(None, Reason.BAD_HEADER, at, at + 1)
-        no_length = size >= LENGTH_END and not self.may_have(read_length(head))
-        if no_length and LENGTH_AT < COMMAND_AT:
-            return _NO_LENGTH
-        if size >= COMMAND_END and read_command(head) not in self.kinds:
-            unknown = Reason.UNKNOWN_COMMAND
-            if size < BODY_AT:
-                return Verdict(None, unknown, COMMAND_AT, BODY_AT, is_open=True)
-            claim = 0 if no_length else read_length(head) + UNCOUNTED
-            return Verdict(None, unknown, COMMAND_AT, COMMAND_END, claim=claim)
-        if no_length:
-            return _NO_LENGTH
-        if size < BODY_AT:
+        refused = None
+        if size >= LENGTH_END and not self.may_have(read_length(head)):
+            refused = _NO_LENGTH
+        if size >= COMMAND_END and (refused is None or COMMAND_AT < LENGTH_AT):
+            refused = self._unknown(head, refused) or refused
+        if refused is None and size < BODY_AT:
             return Verdict(None, Reason.TOO_SHORT, size, size + 1, is_open=True)
-        return None if self._learn(head) is not None else _NO_LENGTH_OF_ITS_COMMAND
+        if refused is None and self._learn(head) is None:
+            return _NO_LENGTH_OF_ITS_COMMAND
+        return refused
+
+    def _unknown(self, head: bytes, refused: Verdict | None) -> Verdict | None:
+        """The verdict on a head whose command nothing has; None where the command is known."""
+        if read_command(head) in self.kinds:
+            return None
+        unknown = Reason.UNKNOWN_COMMAND
+        if len(head) < BODY_AT:
+            return Verdict(None, unknown, COMMAND_AT, BODY_AT, is_open=True)
+        claim = read_length(head) + UNCOUNTED if refused is None else 0
+        return Verdict(None, unknown, COMMAND_AT, COMMAND_END, claim=claim)
 
     def _learn(self, head: bytes) -> Entry | None:
         """What may follow a whole head that was not seen before."""
@@ -185,6 +186,9 @@ class Table(dict[bytes, "Entry"]):
 
     def _problem(self, frame: bytes, verdict: Verdict) -> str:
         """What is wrong with what is no frame, in words."""
+        if verdict.kind is not None:
+            name, size = verdict.kind.__name__, verdict.size
+            return f"{name} with this length has {size} bytes, not {len(frame)}"
         if verdict.offset < len(HEADER):
             return f"a frame begins {spaced(HEADER)}"
         if verdict.reason is Reason.UNKNOWN_COMMAND:
@@ -222,7 +226,11 @@ def _fit(data: bytes, at: int, entry: Entry) -> Verdict:
         return Verdict(None, Reason.OUT_OF_RANGE, *misplaced)
     if begun == count:
         whole = at + size <= len(data)
-        return Verdict(kind, None, size, size) if whole else _too_short(data, at, size)
+        return (
+            Verdict(kind, Reason.TRAILING_BYTES, size, size)
+            if whole
+            else _too_short(data, at, size)
+        )
     if count.startswith(begun):
         return _too_short(data, at, count_end)
     shown = count_at + 1
