@@ -188,18 +188,21 @@ BAD_FRAMES = (
     BadFrame("55 54 02 07", CONTROLLER, Reason.BAD_HEADER, 1),
     BadFrame("55 AA", EITHER, Reason.BAD_HEADER, 1),
     BadFrame("00 55 55 02 07", HOST, Reason.BAD_HEADER, 0),
-    # Then the command, which must be one of its direction, whatever the length says.
+    # Then the length, which must be possible for some frame, whatever the command is.
+    BadFrame("55 55 01", HOST, Reason.LENGTH_MISMATCH, 2),
+    BadFrame("55 55 01 63", HOST, Reason.LENGTH_MISMATCH, 2),
+    BadFrame("55 55 00 63", CONTROLLER, Reason.LENGTH_MISMATCH, 2),
+    BadFrame("55 55 00 07", HOST, Reason.LENGTH_MISMATCH, 2),
+    BadFrame("55 55 01 07", EITHER, Reason.LENGTH_MISMATCH, 2),
+    # Then the command, which must be one of its direction.
     BadFrame("55 55 02 00", EITHER, Reason.UNKNOWN_COMMAND, 3),
     BadFrame("55 55 02 FF", HOST, Reason.UNKNOWN_COMMAND, 3),
-    BadFrame("55 55 00 63", HOST, Reason.UNKNOWN_COMMAND, 3),
     BadFrame("55 55 FF 55 55 02 07", HOST, Reason.UNKNOWN_COMMAND, 3),
     BadFrame("55 55 05 08 08 01 00", HOST, Reason.UNKNOWN_COMMAND, 3),
     BadFrame("55 55 08 03 01 E8 03 01 20 03", CONTROLLER, Reason.UNKNOWN_COMMAND, 3),
     BadFrame("55 55 05 0B 08 32 00", CONTROLLER, Reason.UNKNOWN_COMMAND, 3),
     BadFrame("55 55 06 14 03 01 02 03", CONTROLLER, Reason.UNKNOWN_COMMAND, 3),
-    # Then the length, which must be one of the command's.
-    BadFrame("55 55 00 07", HOST, Reason.LENGTH_MISMATCH, 2),
-    BadFrame("55 55 01 07", HOST, Reason.LENGTH_MISMATCH, 2),
+    # Then both together: the length must be one of the command's.
     BadFrame("55 55 03 07 00", EITHER, Reason.LENGTH_MISMATCH, 2),
     BadFrame("55 55 05 03 00 E8 03", HOST, Reason.LENGTH_MISMATCH, 2),
     BadFrame("55 55 09 03 01 E8 03 01 20 03 00", HOST, Reason.LENGTH_MISMATCH, 2),
@@ -211,24 +214,26 @@ BAD_FRAMES = (
     BadFrame("55 55 04 0F 4C 1D", HOST, Reason.LENGTH_MISMATCH, 2),
     BadFrame("55 55 02 0F", CONTROLLER, Reason.LENGTH_MISMATCH, 2),
     BadFrame("55 55 03 0F 00", EITHER, Reason.LENGTH_MISMATCH, 2),
-    # Then the size, which must be what the length says.
-    BadFrame("55 55 05 06", HOST, Reason.TOO_SHORT, 4),
-    BadFrame("55 55 05 06 08 01", CONTROLLER, Reason.TOO_SHORT, 6),
-    BadFrame("55 55 08 03 02 E8 03 01 20", HOST, Reason.TOO_SHORT, 9),
-    BadFrame("55 55 FF 15", EITHER, Reason.TOO_SHORT, 4),
-    BadFrame("55 55 02 07 00", HOST, Reason.TRAILING_BYTES, 4),
-    BadFrame("55 55 02 07 55 55 02 07", EITHER, Reason.TRAILING_BYTES, 4),
-    BadFrame("55 55 04 0F 4C 1D 00", CONTROLLER, Reason.TRAILING_BYTES, 6),
-    BadFrame("55 55 06 14 04 01 02 03 00", HOST, Reason.TRAILING_BYTES, 8),
-    # Then the count, which must be what follows from the length.
+    # Then the count, which must be what follows from the length, even of a frame that is cut off.
     BadFrame("55 55 08 03 00 E8 03 01 20 03", HOST, Reason.COUNT_MISMATCH, 4),
     BadFrame("55 55 08 03 02 E8 03 01 20 03", HOST, Reason.COUNT_MISMATCH, 4),
+    BadFrame("55 55 08 03 02 E8 03 01 20", HOST, Reason.COUNT_MISMATCH, 4),
     BadFrame("55 55 06 14 06 01 02 03", HOST, Reason.COUNT_MISMATCH, 4),
+    BadFrame("55 55 06 14 04 01 02 03 00", HOST, Reason.COUNT_MISMATCH, 4),
     BadFrame("55 55 04 15 00 01", HOST, Reason.COUNT_MISMATCH, 4),
     BadFrame("55 55 06 15 01 03 FF FF", HOST, Reason.COUNT_MISMATCH, 4),
     BadFrame("55 55 06 15 03 01 02 03", CONTROLLER, Reason.COUNT_MISMATCH, 4),
     BadFrame("55 55 03 15 01", CONTROLLER, Reason.COUNT_MISMATCH, 4),
     BadFrame("55 55 06 15 02 01 02 03", EITHER, Reason.COUNT_MISMATCH, 4),
+    # Then the size, which must be what the length says.
+    BadFrame("55 55 05 06", HOST, Reason.TOO_SHORT, 4),
+    BadFrame("55 55 05 06 08 01", CONTROLLER, Reason.TOO_SHORT, 6),
+    BadFrame("55 55 08 03 01 E8 03 01 20", HOST, Reason.TOO_SHORT, 9),
+    BadFrame("55 55 FF 15", EITHER, Reason.TOO_SHORT, 4),
+    BadFrame("55 55 02 07 00", HOST, Reason.TRAILING_BYTES, 4),
+    BadFrame("55 55 02 07 55 55 02 07", EITHER, Reason.TRAILING_BYTES, 4),
+    BadFrame("55 55 04 0F 4C 1D 00", CONTROLLER, Reason.TRAILING_BYTES, 6),
+    BadFrame("55 55 06 14 03 01 02 03 00", HOST, Reason.TRAILING_BYTES, 8),
     # An LX-16A frame, which many take for one of this protocol: servo 1 to 500 in 1000 ms.
     BadFrame("55 55 01 07 01 F4 01 E8 03 16", HOST, Reason.LENGTH_MISMATCH, 2),
 )

@@ -1,10 +1,13 @@
-"""Twice the messages cost twice the work: counted in lines that run, so that no clock is needed."""
+"""Work grows with what there is to do: counted in lines that run, so that no clock is needed."""
 
 import sys
+from collections.abc import Callable
+from functools import partial
 from types import FrameType
 from typing import Any
 
 import pytest
+from busservo import Direction, ServoPositions, StreamDecoder
 from framegen.compile import compile_spec
 from framegen.reading.source import Source
 from framegen.render import render
@@ -66,14 +69,13 @@ def _example(digits: str, values: dict[str, int]) -> dict[str, Any]:
     return {"title": "One.", "hex": spaced, "values": values, "cite": "manual"}
 
 
-def lines_run(number: int) -> int:
-    """How many lines run, those of templates among them, from the text to the files."""
-    source = many(number)
+def lines_run(work: Callable[[], object], leaving_out: str = "no such file") -> int:
+    """How many lines run, those of templates among them, save in some files."""
     count = 0
 
     def trace(frame: FrameType, _event: str, _argument: object) -> Any:
         nonlocal count
-        if "pydantic" in frame.f_code.co_filename:
+        if leaving_out in frame.f_code.co_filename:
             return None
         count += 1
         return trace
@@ -81,19 +83,87 @@ def lines_run(number: int) -> int:
     before = sys.gettrace()
     sys.settrace(trace)
     try:
-        compiled = compile_spec(source)
-        files = render(compiled)
+        work()
     finally:
         sys.settrace(before)
-    assert compiled.findings == []
-    assert files
     return count
 
 
-@pytest.mark.skipif(sys.gettrace() is not None, reason="somebody else traces already")
+nobody_traces = pytest.mark.skipif(
+    sys.gettrace() is not None, reason="somebody else traces already"
+)
+
+# --- From the text to the files ------------------------------------------------------------------
+
+
+def generated(number: int) -> None:
+    """Make all files that follow from a spec of so many messages."""
+    compiled = compile_spec(many(number))
+    assert compiled.findings == []
+    assert render(compiled)
+
+
+@nobody_traces
 def test_work_grows_no_faster_than_the_messages() -> None:
-    render(compile_spec(many(2)))  # templates are compiled and read once for all
-    few, twice, four_times = (lines_run(FEW * factor) for factor in (1, 2, 4))
+    generated(2)  # templates are compiled and read once for all
+    few, twice, four_times = (
+        lines_run(partial(generated, FEW * factor), "pydantic") for factor in (1, 2, 4)
+    )
     first, second = twice - few, four_times - twice
     # A search through all messages for each of them makes it 2.06.
     assert second <= 2.003 * first
+
+
+# --- From bytes to messages ----------------------------------------------------------------------
+
+NORMAL = ServoPositions([(servo, 500) for servo in range(1, 7)]).encode()
+
+# What costs a decoder most, repeated: each line costs at most so many times normal traffic.
+DEAR = {
+    "55": 5,
+    "00": 12,
+    "55 00": 12,
+    "55 55 00": 12,
+    "55 55 55 00": 12,
+    "55 55 55 63": 12,
+    "55 55 55 55 07": 12,
+    "55 55 55 55 FF": 12,
+    "55 55 55 15 54": 12,
+    "55 55 02 63": 12,
+    "55 55 FE 63": 12,
+    "55 55 FF 63": 12,
+    "55 55 40 63 55 55 3C 64": 12,
+    "55 55 FF 15 FC": 12,
+    "55 55 FF 15 55": 12,
+    "55 55 FE 03 53": 12,
+    "55 55 06 15 02": 12,
+    "55 55 05 06 55": 12,
+    "55 55 55 55 02 07": 12,
+    # Claims in claims, and behind all of them what may become a message.
+    "".join(f"55 55 {255 - 4 * claim:02X} 63 " for claim in range(60)) + "55 55 FF 15 54": 12,
+    # Runs that end in a message, and in nothing.
+    "55 " * 40 + "02 07": 12,
+    "55 " * 80 + "00 00 00": 12,
+}
+
+
+def lines_per_byte(pattern: bytes, size: int) -> float:
+    """How many lines run for a byte of a pattern that goes on and on, in chunks of a size."""
+
+    def read(length: int) -> int:
+        line = (pattern * length)[:length]
+        decoder = StreamDecoder(Direction.CONTROLLER_TO_HOST)
+        chunks = [line[at : at + size] for at in range(0, length, size)]
+        return lines_run(lambda: [decoder.feed(chunk) for chunk in chunks])
+
+    read(2048)  # what is looked up is learnt once for all
+    # The beginning, when nothing is held yet, is cheaper.
+    return (read(6144) - read(2048)) / 4096
+
+
+@nobody_traces
+@pytest.mark.parametrize("size", [2048, 64, 1])
+@pytest.mark.parametrize("pattern", DEAR)
+def test_no_bytes_cost_many_times_normal_traffic(pattern: str, size: int) -> None:
+    normal = lines_per_byte(NORMAL, size)
+    assert lines_per_byte(bytes.fromhex(pattern), size) <= DEAR[pattern] * normal

@@ -3,8 +3,9 @@
 import pytest
 from busservo import DecodeError, Direction, EncodeError, Message, Noise, Reason, StreamDecoder
 from busservo.fields import Items, Number
+from busservo.noise_lane import NoiseLane
 from busservo.shape import Shape
-from busservo.table import Table
+from busservo.table import Table, largest_of
 
 from tests.lines import bytes_of, joined, noise, single_bytes
 
@@ -64,7 +65,8 @@ each_bad = pytest.mark.parametrize(("frame", "offset", "problem"), BAD)
 def decoder_of_dials() -> StreamDecoder:
     """A decoder that knows this message alone."""
     decoder = StreamDecoder(Direction.HOST_TO_CONTROLLER)
-    decoder._table = Table([DialsTurn])
+    decoder._table = Table([DialsTurn], largest_of([DialsTurn]))
+    decoder._noise = NoiseLane(decoder._table)
     return decoder
 
 

@@ -20,8 +20,8 @@ if TYPE_CHECKING:
     from .async_opening import open_async_controller
     from .codec import decode
     from .controller import Controller
-    from .counters import LineCounters
-    from .decoder import Counters, StreamDecoder
+    from .counters import Counters, LineCounters
+    from .decoder import StreamDecoder
     from .device import Device
     from .direction import Direction
     from .errors import DecodeError, EncodeError, LimitError, ProtocolError, Reason
@@ -83,7 +83,7 @@ else:
         "BatteryVoltageRead": "messages",
         "ClosedError": "link_errors",
         "Controller": "controller",
-        "Counters": "decoder",
+        "Counters": "counters",
         "DecodeError": "errors",
         "Device": "device",
         "Direction": "direction",

@@ -3,10 +3,12 @@
 
 from __future__ import annotations
 
+from operator import index
+
 from .direction import Direction
 from .messages import MESSAGES
 from .protocol import BODY_AT
-from .table import Table
+from .table import Table, largest_of
 
 TYPE_CHECKING = False  # typing alone would double the time that the import takes
 if TYPE_CHECKING:
@@ -20,8 +22,11 @@ _HEAD = slice(BODY_AT)
 _tables: dict[Direction | None, Table] = {}
 
 
-def table_for(direction: Direction | None) -> Table:
-    """The messages of one direction, or of both for None. Raises TypeError for anything else."""
+def table_for(direction: Direction | None, max_frame: int | None = None) -> Table:
+    """The messages of one direction, or of both for None, in frames of at most `max_frame` bytes.
+
+    Raises TypeError for what is no direction or no number, ValueError where no frame is so small.
+    """
     table = _tables.get(direction)
     if table is None:
         if direction is not None and not isinstance(direction, Direction):
@@ -29,8 +34,12 @@ def table_for(direction: Direction | None) -> Table:
                 f"a Direction expected, such as {next(iter(Direction))}, not {direction!r}"
             )
         kinds = [kind for kind in MESSAGES if direction in (None, kind.DIRECTION)]
-        table = _tables[direction] = Table(kinds)
-    return table
+        table = _tables[direction] = Table(kinds, largest_of(kinds))
+    if max_frame is None or index(max_frame) >= table.largest:
+        return table
+    if max_frame < BODY_AT:
+        raise ValueError(f"max_frame is {max_frame}, and the smallest frame has {BODY_AT} bytes")
+    return Table(table.messages, index(max_frame))
 
 
 def decode(frame: bytes | bytearray | memoryview, direction: Direction | None) -> Message:
@@ -47,8 +56,8 @@ def decode(frame: bytes | bytearray | memoryview, direction: Direction | None) -
     if type(frame) is bytes:
         entry = table.get(frame[_HEAD])
         if entry is not None:
-            size, at, until, count, kind = entry
-            if len(frame) == size and (not until or frame[at:until] == count):
+            size, at, until, count, kind, _ = entry
+            if len(frame) == size and frame[at:until] == count:
                 message = _new(kind)
                 message._frame = frame
                 return message

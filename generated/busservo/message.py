@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from .table import Table
+from .table import ANY_SIZE, Table
 
 TYPE_CHECKING = False  # typing alone would double the time that the import takes
 if TYPE_CHECKING:
@@ -38,7 +38,7 @@ class Message:
         raise TypeError("Message is what all messages are: make one of its subclasses instead")
 
     def __init_subclass__(cls) -> None:
-        cls._table = Table([cls])
+        cls._table = Table([cls], ANY_SIZE)
 
     def encode(self) -> bytes:
         """The frame, from its header to its last byte."""

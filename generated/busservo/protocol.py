@@ -8,6 +8,7 @@ HEADER = b"\x55\x55"
 LENGTH_AT = 2
 LENGTH_END = 3
 COMMAND_AT = 3
+COMMAND_END = 4
 BODY_AT = 4
 # How many bytes of a frame its length does not count.
 UNCOUNTED = 2
@@ -40,4 +41,4 @@ def read_length(frame: bytes) -> int:
 
 def read_command(frame: bytes) -> int:
     """The command that the head of a frame carries."""
-    return int.from_bytes(frame[COMMAND_AT : COMMAND_AT + 1], "little")
+    return int.from_bytes(frame[COMMAND_AT:COMMAND_END], "little")

@@ -6,9 +6,9 @@ from __future__ import annotations
 import re
 from datetime import datetime
 
-from .codec import decode
+from .codec import table_for
 from .decoder import StreamDecoder
-from .errors import DecodeError, Reason
+from .errors import Reason
 from .exchanges import RECEIVED
 from .hextext import HexError, read_hex
 from .message import Message
@@ -99,11 +99,9 @@ def _events(data: bytes, sender: str | None, what: str, *, is_noise: bool) -> li
     themselves; save for a frame whose command was not known then.
     """
     direction = None if sender is None else SENDERS[sender]
-    if not is_noise:
-        try:
-            return [decode(data, direction)]
-        except DecodeError:
-            pass
+    message = None if is_noise else table_for(direction).find(data)
+    if message is not None:
+        return [message]
     decoder = StreamDecoder(direction)
     events = [*decoder.feed(data), *decoder.flush()]
     if not is_noise:

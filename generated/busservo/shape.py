@@ -57,13 +57,16 @@ class Shape:
         return at, at + len(data), data
 
     def out_of_range(self, frame: bytes) -> tuple[int, str] | None:
-        """The first field of a whole frame that its range does not allow: its offset, and why."""
+        """The first field that its range does not allow: its offset, and why.
+
+        Of a frame that is cut off, what is not whole is not looked at.
+        """
         if not self.narrowed:
             return None
         fields = chain(self.numbers, cycle(self.items.fields if self.items is not None else ()))
         at = BODY_AT
         for field in fields:
-            if at >= len(frame):
+            if at + struct.calcsize(STRUCT_ORDER + field.code) > len(frame):
                 break
             (value,) = struct.unpack_from(STRUCT_ORDER + field.code, frame, at)
             if not field.low <= value <= field.high:

@@ -22,7 +22,7 @@ HOMES = {
     "AsyncMotion": "motion",
     "ClosedError": "link_errors",
     "Controller": "controller",
-    "Counters": "decoder",
+    "Counters": "counters",
     "DecodeError": "errors",
     "Device": "device",
     "Direction": "direction",

@@ -1,6 +1,22 @@
-"""What a client has seen of its line so far."""
+"""What a decoder has seen of its stream, and a client of its line, so far."""
 
 from __future__ import annotations
+
+
+class Counters:
+    """What a decoder has seen: bytes fed, messages, bytes of noise, unknown frames in it."""
+
+    __slots__ = ("fed", "messages", "noise", "unknown_frames")
+
+    def __init__(self, fed: int, messages: int, noise: int, unknown_frames: int) -> None:
+        self.fed = fed
+        self.messages = messages
+        self.noise = noise
+        self.unknown_frames = unknown_frames
+
+    def __repr__(self) -> str:
+        counts = ", ".join(f"{name}={getattr(self, name)}" for name in self.__slots__)
+        return f"Counters({counts})"
 
 
 class LineCounters:

@@ -1,142 +1,272 @@
-"""Which first bytes begin a legal frame of which message, and why others do not."""
+"""Which first bytes begin a legal frame of which message, and why others do not.
+
+The bytes are tested in the order in which they come, and the first that no legal frame can have
+gives the reason and the place. Single frames and streams are judged by this alone.
+"""
 
 from __future__ import annotations
 
 from .errors import DecodeError, Reason
 from .octets import octets, spaced
-from .protocol import BODY_AT, COMMAND_AT, HEADER, LENGTH_AT, UNCOUNTED, read_command, read_length
+from .protocol import (
+    BODY_AT,
+    COMMAND_AT,
+    COMMAND_END,
+    HEADER,
+    LENGTH_AT,
+    LENGTH_END,
+    UNCOUNTED,
+    read_command,
+    read_length,
+)
+from .verdict import Verdict
 from .wording import describe_range
 
 TYPE_CHECKING = False  # typing alone would double the time that the import takes
 if TYPE_CHECKING:
-    from collections.abc import Iterable
-    from typing import TypeAlias
+    from collections.abc import Iterator, Sequence
+    from typing import Any, TypeAlias
 
     from .message import Message
 
-    # The size of the frame; from where to where its count stands, and the bytes it must be; the
-    # class. Without a list, the count is b"" at 0:0.
-    Entry: TypeAlias = "tuple[int, int, int, bytes, type[Message]]"
+    # The size of the frame; from where to where its count stands, and the bytes it must be (b"" at
+    # 0:0 where there is no list); the class; and what else it may be, with another count.
+    Entry: TypeAlias = "tuple[int, int, int, bytes, type[Message], Entry | None]"
 
 
 _new = object.__new__
 
+ANY_SIZE = 1 << 62
+"""The largest frame, where there is no telling."""
 
-class Table(dict[bytes, "Entry | None"]):
+# So many heads and beginnings are remembered at once: more than any protocol's traffic has, and
+# noise must not fill the memory.
+_REMEMBERED = 4096
+
+# A length that no frame has; one that no frame of its command has.
+_NO_LENGTH = Verdict(None, Reason.LENGTH_MISMATCH, LENGTH_AT, LENGTH_END)
+_NO_LENGTH_OF_ITS_COMMAND = Verdict(None, Reason.LENGTH_MISMATCH, LENGTH_AT, BODY_AT)
+
+
+class Table(dict[bytes, "Entry"]):
     """Maps the head of a frame, up to its command, to what must follow for it to be legal.
 
-    It fills itself as heads are looked up. A head that begins no frame of these messages gives
-    None, and is not kept: noise must not fill the memory. So does one that does not decide alone,
-    because two directions share it or a field has a range of its own.
+    It learns heads as they come. Those that do not decide alone, since a field has a range of its
+    own, it leaves out: `weigh` knows them. No frame is larger than `largest`.
     """
 
-    __slots__ = ("_legal", "kinds", "largest", "waits")
+    __slots__ = ("_legal", "kinds", "largest", "messages", "reach", "verdicts", "waits")
 
-    def __init__(self, kinds: Iterable[type[Message]]) -> None:
+    def __init__(self, messages: Sequence[type[Message]], largest: int) -> None:
         super().__init__()
+        self.messages = messages
+        self.largest = largest
         self.kinds: dict[int, list[type[Message]]] = {}
-        for kind in kinds:
+        # How many bytes of what is no frame may look like one: up to its count, unless a field has
+        # a range of its own.
+        self.reach = BODY_AT
+        for kind in messages:
             self.kinds.setdefault(kind.COMMAND, []).append(kind)
+            count_end = kind.SHAPE.count_bytes(kind.LENGTHS[0])[1]
+            self.reach = max(self.reach, largest if kind.SHAPE.narrowed else count_end)
+        # What may follow the legal heads that were seen, and the verdicts on others, whole or not.
+        self._legal: dict[bytes, Entry] = {}
+        self.verdicts: dict[bytes, Verdict] = {}
         # The beginnings of frames that were seen, and the size at which more can be told of each.
         self.waits: dict[bytes, int] = {}
-        # What may follow each legal head that was seen; of these, there are not many.
-        self._legal: dict[bytes, tuple[Entry, ...]] = {}
-        self.largest = max((kind.LENGTHS[-1] + UNCOUNTED for kind in kinds), default=0)
 
-    def __missing__(self, head: bytes) -> Entry | None:
-        entries = self.entries(head)
-        if len(entries) != 1 or entries[0][-1].SHAPE.narrowed:
-            return None
-        (self[head],) = entries
-        return entries[0]
+    def weigh(self, data: bytes, at: int = 0) -> Verdict:
+        """Judges what begins at `at`; it may go on behind the frame.
 
-    def entries(self, head: bytes) -> tuple[Entry, ...]:
+        Where it may be one of several messages, it is the first that is legal; where none is, the
+        refusal that shows last is given.
+        """
+        head = data[at : at + BODY_AT]
+        verdict = self.verdicts.get(head)
+        if verdict is not None:
+            return verdict
+        entry = self._legal.get(head)
+        if entry is None:
+            verdict = self._weigh_head(head)
+            if verdict is not None:
+                _remember(self.verdicts, head, verdict)
+                return verdict
+            entry = self._legal[head]
+        furthest = _fit(data, at, entry)
+        while furthest.kind is None and entry[-1] is not None:
+            entry = entry[-1]
+            verdict = _fit(data, at, entry)
+            if verdict.kind is not None or verdict.offset > furthest.offset:
+                furthest = verdict
+        return furthest
+
+    def entries(self, head: bytes) -> Iterator[Entry]:
         """What may follow `head`; where two directions share it, the first of them comes first."""
-        found = self._legal.get(head)
-        if found is None:
-            if len(head) < BODY_AT or not head.startswith(HEADER):
-                return ()
-            length = read_length(head)
-            found = tuple(
-                (length + UNCOUNTED, *kind.SHAPE.count_bytes(length), kind)
-                for kind in self.kinds.get(read_command(head), ())
-                if length in kind.LENGTHS
-            )
-            if found:
-                self._legal[head] = found
-        return found
+        entry = self._legal.get(head) or self._learn(head)
+        while entry is not None:
+            yield entry
+            entry = entry[-1]
 
     def may_have(self, length: int) -> bool:
         """Whether some frame could have this length, if its command were not known."""
         return BODY_AT <= length + UNCOUNTED <= self.largest
 
+    def wait(self, beginning: bytes, size: int) -> None:
+        """Remembers at which size more can be told of the beginning of a frame."""
+        _remember(self.waits, beginning, size)
+
     def read(self, frame: bytes | bytearray | memoryview) -> Message:
         """The message that `frame` is, whole and with nothing after it. Raises DecodeError."""
         if type(frame) is not bytes:
             frame = octets(frame)
-        # What is known is found sooner by `get`, and what is not is learnt by the index.
-        entry = self.get(frame[:BODY_AT]) or self[frame[:BODY_AT]]
-        if entry is not None:
-            size, at, until, count, kind = entry
-            if len(frame) == size and (not until or frame[at:until] == count):
-                message = _new(kind)
-                message._frame = frame
-                return message
-        message = _new(self._looked_at(frame))
+        message = self.find(frame)
+        if message is None:
+            raise self.error(frame, self.weigh(frame))
+        return message
+
+    def find(self, frame: bytes) -> Message | None:
+        """The message that `frame` is, whole and with nothing after it; None where it is none."""
+        entry = self.get(frame[:BODY_AT])
+        if entry is not None and len(frame) == entry[0] and frame[entry[1] : entry[2]] == entry[3]:
+            kind = entry[4]
+        else:
+            verdict = self.weigh(frame)
+            if verdict.kind is None or verdict.size != len(frame):
+                return None
+            kind = verdict.kind
+        message = _new(kind)
         message._frame = frame
         return message
 
-    def _looked_at(self, frame: bytes) -> type[Message]:
-        """The message that `frame` is, though not at first sight; or else why it is none."""
-        errors: list[DecodeError] = []
-        for entry in self.entries(frame[:BODY_AT]):
-            error = _misfit(frame, *entry)
-            if error is None:
-                return entry[-1]
-            errors.append(error)
-        # Of several messages, the one that fits furthest tells most.
-        raise max(errors, key=lambda error: error.offset) if errors else self._headless(frame)
+    def error(self, frame: bytes, verdict: Verdict) -> DecodeError:
+        """What is wrong with `frame`, of which this is the verdict, in words."""
+        return DecodeError(verdict.reason, verdict.offset, self._problem(frame, verdict))
 
-    def _headless(self, frame: bytes) -> DecodeError:
-        """Why no message has the head of `frame`."""
-        expected = f"a frame begins {spaced(HEADER)}"
-        for offset, byte in enumerate(HEADER[: len(frame)]):
-            if frame[offset] != byte:
-                return DecodeError(Reason.BAD_HEADER, offset, expected)
-        if len(frame) < len(HEADER):
-            return DecodeError(Reason.TOO_SHORT, len(frame), expected)
-        if len(frame) < BODY_AT:
-            problem = f"the shortest frame has {BODY_AT} bytes"
-            return DecodeError(Reason.TOO_SHORT, len(frame), problem)
-        command, length = read_command(frame), read_length(frame)
-        kinds = self.kinds.get(command)
-        if kinds is None:
+    def _weigh_head(self, head: bytes) -> Verdict | None:
+        """Judges what `head` shows by itself; None where what follows decides."""
+        size = len(head)
+        if not head.startswith(HEADER[:size]):
+            at = next(at for at, byte in enumerate(HEADER) if head[at] != byte)
+            return Verdict(None, Reason.BAD_HEADER, at, at + 1)
+        refused = None
+        if size >= LENGTH_END and not self.may_have(read_length(head)):
+            refused = _NO_LENGTH
+        if size >= COMMAND_END and (refused is None or COMMAND_AT < LENGTH_AT):
+            refused = self._unknown(head, refused) or refused
+        if refused is None and size < BODY_AT:
+            return Verdict(None, Reason.TOO_SHORT, size, size + 1, is_open=True)
+        if refused is None and self._learn(head) is None:
+            return _NO_LENGTH_OF_ITS_COMMAND
+        return refused
+
+    def _unknown(self, head: bytes, refused: Verdict | None) -> Verdict | None:
+        """The verdict on a head whose command nothing has; None where the command is known."""
+        if read_command(head) in self.kinds:
+            return None
+        unknown = Reason.UNKNOWN_COMMAND
+        if len(head) < BODY_AT:
+            return Verdict(None, unknown, COMMAND_AT, BODY_AT, is_open=True)
+        claim = read_length(head) + UNCOUNTED if refused is None else 0
+        return Verdict(None, unknown, COMMAND_AT, COMMAND_END, claim=claim)
+
+    def _learn(self, head: bytes) -> Entry | None:
+        """What may follow a whole head that was not seen before."""
+        length = read_length(head)
+        entry: Entry | None = None
+        narrowed = False
+        for kind in reversed(self.kinds.get(read_command(head), ())):
+            if length in kind.LENGTHS and length + UNCOUNTED <= self.largest:
+                entry = (length + UNCOUNTED, *kind.SHAPE.count_bytes(length), kind, entry)
+                narrowed |= kind.SHAPE.narrowed
+        if entry is not None:
+            _remember(self._legal, head, entry)
+            if not narrowed:
+                _remember(self, head, entry)
+        return entry
+
+    def _problem(self, frame: bytes, verdict: Verdict) -> str:
+        """What is wrong with what is no frame, in words."""
+        if verdict.kind is not None:
+            name, size = verdict.kind.__name__, verdict.size
+            return f"{name} with this length has {size} bytes, not {len(frame)}"
+        if verdict.offset < len(HEADER):
+            return f"a frame begins {spaced(HEADER)}"
+        if verdict.reason is Reason.UNKNOWN_COMMAND:
             known = ", ".join(str(number) for number in sorted(self.kinds))
-            problem = f"the command is {command}, and only {known} can be here"
-            return DecodeError(Reason.UNKNOWN_COMMAND, COMMAND_AT, problem)
+            return f"the command is {read_command(frame)}, and only {known} can be here"
+        if verdict.reason is Reason.LENGTH_MISMATCH:
+            legal = self._lengths(verdict, frame)
+            return f"the length is {read_length(frame)}, and must be {legal}"
+        for entry in self.entries(frame[:BODY_AT]):
+            if _fit(frame, 0, entry).offset == verdict.offset:
+                return _misfit(frame, verdict, entry)
+        return f"the shortest frame has {BODY_AT} bytes"
+
+    def _lengths(self, verdict: Verdict, frame: bytes) -> str:
+        """The lengths that could stand there, in words."""
+        if verdict is _NO_LENGTH:
+            return f"{BODY_AT - UNCOUNTED}..{self.largest - UNCOUNTED}"
         names: dict[str, list[str]] = {}
-        for kind in kinds:
+        for kind in self.kinds[read_command(frame)]:
             names.setdefault(describe_range(kind.LENGTHS), []).append(kind.__name__)
-        legal = " or ".join(f"{words} ({', '.join(who)})" for words, who in names.items())
-        problem = f"the length is {length}, and must be {legal}"
-        return DecodeError(Reason.LENGTH_MISMATCH, LENGTH_AT, problem)
+        return " or ".join(f"{words} ({', '.join(who)})" for words, who in names.items())
 
 
-def _misfit(
-    frame: bytes, size: int, at: int, until: int, count: bytes, kind: type[Message]
-) -> DecodeError | None:
-    """What keeps `frame` from being the message whose head it has."""
-    if len(frame) < size:
-        problem = f"{kind.__name__} with this length has {size} bytes"
-        return DecodeError(Reason.TOO_SHORT, len(frame), problem)
-    if len(frame) > size:
-        problem = f"{kind.__name__} with this length has {size} bytes, not {len(frame)}"
-        return DecodeError(Reason.TRAILING_BYTES, size, problem)
-    if frame[at:until] != count:
-        problem = f"with this length the count is {spaced(count)}, not {spaced(frame[at:until])}"
-        return DecodeError(Reason.COUNT_MISMATCH, at, problem)
-    misplaced = kind.SHAPE.out_of_range(frame)
-    if misplaced is not None:
-        offset, problem = misplaced
-        return DecodeError(Reason.OUT_OF_RANGE, offset, problem)
-    return None
+def largest_of(messages: Sequence[type[Message]]) -> int:
+    """The size of the largest frame of these messages; 0 where there are none."""
+    return max((kind.LENGTHS[-1] + UNCOUNTED for kind in messages), default=0)
+
+
+def _fit(data: bytes, at: int, entry: Entry) -> Verdict:
+    """Judges what follows a legal head at `at`, as the message of this entry."""
+    size, count_at, count_end, count, kind, _ = entry
+    begun = data[at + count_at : at + count_end]
+    misplaced = _out_of_range(kind, data[at : at + size]) if kind.SHAPE.narrowed else None
+    if misplaced is not None and (misplaced[0] < count_at or count.startswith(begun)):
+        return Verdict(None, Reason.OUT_OF_RANGE, *misplaced)
+    if begun == count:
+        whole = at + size <= len(data)
+        return (
+            Verdict(kind, Reason.TRAILING_BYTES, size, size)
+            if whole
+            else _too_short(data, at, size)
+        )
+    if count.startswith(begun):
+        return _too_short(data, at, count_end)
+    shown = count_at + 1
+    while data[at + count_at : at + shown] == count[: shown - count_at]:
+        shown += 1
+    return Verdict(None, Reason.COUNT_MISMATCH, count_at, shown)
+
+
+def _too_short(data: bytes, at: int, size: int) -> Verdict:
+    """The verdict on what begins at `at` and agrees so far; more can be told when it has `size`."""
+    return Verdict(None, Reason.TOO_SHORT, len(data) - at, size, is_open=True)
+
+
+def _out_of_range(kind: type[Message], frame: bytes) -> tuple[int, int] | None:
+    """The first value that its range does not allow, of a frame that may be cut off: its bytes."""
+    out_of_range = kind.SHAPE.out_of_range
+    found = out_of_range(frame)
+    if found is None:
+        return None
+    at = found[0]
+    return at, next(end for end in range(at + 1, len(frame) + 1) if out_of_range(frame[:end]))
+
+
+def _misfit(frame: bytes, verdict: Verdict, entry: Entry) -> str:
+    """What keeps `frame` from being the message whose head it has, in words."""
+    size, at, until, count, kind, _ = entry
+    if verdict.reason is Reason.COUNT_MISMATCH:
+        return f"with this length the count is {spaced(count)}, not {spaced(frame[at:until])}"
+    misplaced = kind.SHAPE.out_of_range(frame[:size])
+    if verdict.reason is Reason.OUT_OF_RANGE and misplaced is not None:
+        return misplaced[1]
+    return f"{kind.__name__} with this length has {size} bytes"
+
+
+def _remember(known: dict[bytes, Any], key: bytes, value: Any) -> None:
+    """Remembers a value; what was learnt is forgotten where it grows too much, and learnt anew."""
+    if len(known) >= _REMEMBERED:
+        known.clear()
+    known[key] = value

@@ -13,12 +13,13 @@ if TYPE_CHECKING:
 def twins(message: Message) -> list[type[Message]]:
     """The other messages that the same frame may be, where nobody knows who has sent it."""
     frame = message.encode()
-    entries = table_for(None).entries(frame[:BODY_AT])
-    if len(entries) == 1:
+    table = table_for(None)
+    entry = table.get(frame[:BODY_AT])
+    if entry is not None and entry[-1] is None:
         return []
     return [
         kind
-        for _, count_at, count_end, count, kind in entries
+        for _, count_at, count_end, count, kind, _ in table.entries(frame[:BODY_AT])
         if kind is not type(message)
         and frame[count_at:count_end] == count
         and kind.SHAPE.out_of_range(frame) is None

@@ -7,7 +7,7 @@ import sys
 from contextlib import contextmanager
 from pathlib import Path
 
-from ..decoder import Counters
+from ..counters import Counters
 from ..hextext import HexError, is_hex, read_hex
 from ..lookalikes import recognise
 from ..noise import Noise, UnknownFrame

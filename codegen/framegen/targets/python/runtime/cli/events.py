@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from ..codec import table_for
-from ..errors import DecodeError
 from ..noise import Noise, UnknownFrame
 from ..octets import spaced
 from ..recording_entry import SENDERS
@@ -16,7 +15,7 @@ TYPE_CHECKING = False
 if TYPE_CHECKING:
     from typing import Any
 
-    from ..decoder import Counters
+    from ..counters import Counters
     from ..direction import Direction
     from ..message import Message
 
@@ -64,9 +63,13 @@ def as_record(event: Message | Noise, direction: Direction | None) -> dict[str, 
             record |= {"command": event.command, "parameters": spaced(event.parameters)}
         return record
     name, *others = names_of(event, direction)
-    record = {"from": EITHER if others else event.DIRECTION.sender}
-    record |= {"direction": event.DIRECTION.value, "message": name}
-    record |= {"fields": fields_as_json(event), "hex": spaced(event.encode())}
+    record = {
+        "from": EITHER if others else event.DIRECTION.sender,
+        "direction": event.DIRECTION.value,
+        "message": name,
+        "fields": fields_as_json(event),
+        "hex": spaced(event.encode()),
+    }
     return record | {"or": others} if others else record
 
 
@@ -81,9 +84,8 @@ def totals(seen: Counters) -> str:
 
 def _why(noise: Noise, direction: Direction | None) -> str:
     """The reason, and what was expected, where the bytes themselves tell."""
-    try:
-        table_for(direction).read(noise.data)
-    except DecodeError as error:
-        if error.reason is noise.reason:
-            return f"{noise.reason.value}: {error.problem}"
+    table = table_for(direction)
+    verdict = table.weigh(noise.data)
+    if verdict.kind is None and verdict.reason is noise.reason:
+        return f"{noise.reason.value}: {table.error(noise.data, verdict).problem}"
     return noise.reason.value

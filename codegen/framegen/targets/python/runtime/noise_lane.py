@@ -1,0 +1,227 @@
+"""The way through noise: finds the next message, and cuts what is none in front of it.
+
+A frame of unknown command claims as many bytes as its length says. It is shown as one if, by its
+own bytes alone, no message begins in it, nor may: all else is worth more than such a claim.
+"""
+
+from __future__ import annotations
+
+from .errors import Reason
+from .noise import Noise, UnknownFrame
+from .protocol import BODY_AT, HEADER, UNCOUNTED, read_length
+
+TYPE_CHECKING = False  # typing alone would double the time that the import takes
+if TYPE_CHECKING:
+    from .message import Message
+    from .table import Entry, Table
+    from .verdict import Verdict
+
+_new = object.__new__
+_TOO_SHORT = Reason.TOO_SHORT
+
+# What more bytes may make a header, or a frame, the longest first.
+_BEGUN = tuple(HEADER[:size] for size in range(len(HEADER), 0, -1))
+# A head that consists of one byte, where a header does: each byte of a run of it begins another.
+_RUN = HEADER[:1] * BODY_AT if not HEADER.strip(HEADER[:1]) else bytes(BODY_AT)
+_RUN_CLAIM = read_length(_RUN) + UNCOUNTED
+# How much of a run is gone through at once.
+_STRETCH = 256
+# Behind the end of any stream.
+_NEVER = 1 << 62
+
+
+class NoiseLane:
+    """Weighs each place at which a message may begin, once, and tells what was in front of it.
+
+    Places are counted from the beginning of the stream. Each refused header begins a piece of
+    noise, save that a run of headers, each a byte after the other, is one piece.
+    """
+
+    __slots__ = (
+        "_last",
+        "_reason",
+        "_refused",
+        "_table",
+        "at",
+        "told",
+        "unknown_frames",
+        "wake",
+    )
+
+    def __init__(self, table: Table) -> None:
+        self._table = table
+        # Headers that begin no message and were not told yet: the first and the last of some that
+        # follow each other byte by byte and are alike, why they begin none, and how many bytes each
+        # of them claims as a frame of unknown command.
+        self._refused: list[tuple[int, int, Reason, int]] = []
+        # Why the noise at hand is noise, and where the last header was refused.
+        self._reason = Reason.BAD_HEADER
+        self._last = -1
+        # Where the bytes begin that were not told yet, where the search goes on, and how many bytes
+        # of the stream must be there before it does.
+        self.told = self.at = self.wake = 0
+        self.unknown_frames = 0
+
+    def __copy__(self) -> NoiseLane:
+        other = NoiseLane(self._table)
+        for name in self.__slots__:
+            setattr(other, name, getattr(self, name))
+        other._refused = [*self._refused]
+        return other
+
+    def begin_anew(self, at: int) -> None:
+        """Says that all in front of `at` was told, and what comes there does not go on with it."""
+        self.told = at
+        self._reason = Reason.BAD_HEADER
+
+    def search(
+        self, events: list[Message | Noise], data: bytes, base: int, at: int, *, quiet: bool
+    ) -> Entry | None:
+        """Goes on at data[at], and tells what is no message up to the next one.
+
+        `data` begins at the place `base`. Returns what the message is, which begins at `at`; None
+        where none came, and `told`, `at` and `wake` say what is held.
+        """
+        size, known = len(data), self._table.verdicts
+        while True:
+            found = data.find(HEADER, at)
+            at = found if found >= 0 else _begun_header(data, at)
+            if at == size:
+                self._cut(events, data, base, at, at, _NEVER if quiet else at)
+                self._stop(base + at, BODY_AT if self._refused else 0)
+                return None
+            verdict = known.get(data[at : at + BODY_AT]) or self._table.weigh(data, at)
+            if verdict.kind is not None:
+                self._cut(events, data, base, at, at, _NEVER)
+                self.at = base + at
+                return verdict.size, 0, 0, b"", verdict.kind, None
+            if verdict.is_open:
+                # A message may begin here; or, of unknown command, so much more than is known yet.
+                weighed = at if verdict.reason is _TOO_SHORT else size
+                self._cut(events, data, base, at, weighed, _NEVER if quiet else size)
+                if self.told > base + at:
+                    at = self.told - base
+                    continue
+                if not quiet:
+                    self._stop(base + at, verdict.size)
+                    return None
+                if not data.startswith(HEADER, at):
+                    at += 1
+                    continue
+            at = self._refuse(events, data, base, at, verdict)
+
+    def _stop(self, at: int, needed: int) -> None:
+        """Notes that the search stops at `at` until so much is there, or a claim is whole."""
+        self.at, self.wake = at, at + needed
+        if self._refused:
+            first, _, _, claim = self._refused[0]
+            self.wake = min(self.wake, max(first, self.told) + claim)
+
+    def _refuse(
+        self, events: list[Message | Noise], data: bytes, base: int, at: int, verdict: Verdict
+    ) -> int:
+        """Notes that no message begins at data[at]; returns where the next one may."""
+        last, claim = at, verdict.claim
+        if claim:
+            if claim == _RUN_CLAIM and data.startswith(_RUN, at):
+                last += _run_length(data, at) - BODY_AT
+            if at + claim <= len(data) and data.endswith(_BEGUN, at + 1, at + claim):
+                last = min(last, at + _run_length(data, at + claim - 1) - 1) if last > at else at
+                claim = 0
+        if claim or self._refused:
+            self._refused.append((base + at, base + last, verdict.reason, claim))
+        else:
+            self._begin_piece(events, data, base, base + at, verdict.reason)
+            self._last = base + last
+        return last + 1
+
+    def _cut(
+        self,
+        events: list[Message | Noise],
+        data: bytes,
+        base: int,
+        until: int,
+        weighed: int,
+        horizon: int,
+    ) -> None:
+        """Tells what stands in front of data[until], up to the first claim that is undecided.
+
+        Claims that end up to `weighed` are decided by themselves, those that end up to `horizon`
+        are void, and others are undecided.
+        """
+        refused, number, at = self._refused, 0, self.told
+        until, weighed, horizon = until + base, weighed + base, horizon + base
+        while number < len(refused):
+            first, last, reason, claim = refused[number]
+            at, end = max(at, first), max(at, first) + claim
+            if at > last:
+                number += 1
+            elif claim and end > horizon:
+                until = at
+                break
+            elif claim and end <= weighed and self._stands_alone(data, at - base, end - base):
+                self._tell_noise(events, data, base, at)
+                self._tell_unknown(events, data, base, end)
+                at = end
+            else:
+                self._begin_piece(events, data, base, at, reason)
+                # Of a run, so are all that are void like this one, or that end in the same run.
+                self._last = last
+                if claim and end <= weighed and at < last:
+                    self._last = max(at, min(last, at + _run_length(data, end - base - 1) - 1))
+                at = self._last + 1
+        del refused[:number]
+        self._tell_noise(events, data, base, until)
+
+    def _stands_alone(self, data: bytes, start: int, end: int) -> bool:
+        """Whether no message may begin behind data[start], by the bytes in front of data[end].
+
+        That none does is known; what only later bytes refused stands near the end.
+        """
+        if data.endswith(_BEGUN, start + 1, end):
+            return False
+        at = data.find(HEADER, max(start + 1, end - self._table.reach + 1), end)
+        while at >= 0:
+            if self._table.weigh(data[at:end]).reason is _TOO_SHORT:
+                return False
+            at = data.find(HEADER, at + 1, end)
+        return True
+
+    def _begin_piece(
+        self, events: list[Message | Noise], data: bytes, base: int, at: int, reason: Reason
+    ) -> None:
+        """Begins a piece of noise at a refused header, unless that goes on with a run of them."""
+        if reason is not self._reason or at != self._last + 1:
+            self._tell_noise(events, data, base, at)
+            self._reason = reason
+
+    def _tell_noise(
+        self, events: list[Message | Noise], data: bytes, base: int, until: int
+    ) -> None:
+        """Tells the bytes in front of the place `until` as noise."""
+        if self.told < until:
+            events.append(Noise(data[self.told - base : until - base], self._reason))
+            self.told = until
+
+    def _tell_unknown(
+        self, events: list[Message | Noise], data: bytes, base: int, end: int
+    ) -> None:
+        """Tells the bytes in front of the place `end` as a frame of unknown command."""
+        frame = data[self.told - base : end - base]
+        events.append(UnknownFrame(frame, Reason.UNKNOWN_COMMAND))
+        self.unknown_frames += 1
+        self.begin_anew(end)
+
+
+def _begun_header(data: bytes, at: int) -> int:
+    """Where behind data[at] a header may begin at the very end; the end where none does."""
+    for begun in _BEGUN:
+        if data.endswith(begun, at):
+            return len(data) - len(begun)
+    return len(data)
+
+
+def _run_length(data: bytes, at: int) -> int:
+    """How often the first byte of a header stands at data[at], one behind the other."""
+    stretch = data[at : at + _STRETCH]
+    return len(stretch) - len(stretch.lstrip(HEADER[:1]))
