@@ -101,13 +101,12 @@ def test_a_list_can_be_read_as_columns_of_plain_numbers(pairs: list[tuple[int, i
 
 @each_case
 def test_the_numbers_of_a_list_are_read_at_once(case: Case) -> None:
-    listed = [
-        value
-        for value in (getattr(case.message, name) for name in case.message.__match_args__)
-        if isinstance(value, tuple)
-    ]
-    numbers = [number for each in listed for item in each for number in np.ravel(item)]
-    assert case.message.SHAPE.listed(case.frame) == tuple(numbers)
+    items = case.message.SHAPE.items
+    if items is not None:
+        numbers = [
+            number for item in getattr(case.message, items.name) for number in np.ravel(item)
+        ]
+        assert items.numbers(case.frame) == tuple(numbers)
 
 
 def test_named_elements_and_plain_pairs_make_the_same_message() -> None:

@@ -12,9 +12,9 @@ if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
     from typing import Any
 
-    from .fields import Number
     from .limits import Bounds, Limits
     from .message import Message
+    from .number import Number
 
 HOLD_MS = 100
 """How long a motion takes, in milliseconds, that only holds what is there."""
@@ -31,14 +31,20 @@ class Pose:
     and a position; `moved` the list that `move` is given, and `time` the milliseconds that it may
     take. `position` is the property that tells a position, below zero included. `ids` are all
     numbers that there can be, `limits` those of the positions that are commanded.
+
+    Of what is commanded, `item` is the number that says whose a position is, `place` the position,
+    and `duration` the milliseconds that a motion may take.
     """
 
     __slots__ = (
         "asked",
+        "duration",
         "ids",
+        "item",
         "limits",
         "move",
         "moved",
+        "place",
         "position",
         "read",
         "release",
@@ -70,6 +76,10 @@ class Pose:
         self.moved = moved
         self.time = time
         self.limits = limits
+        fields = move.SHAPE.items.fields if move.SHAPE.items is not None else ()
+        self.item: Number = fields[0]
+        self.place: Number = fields[1]
+        self.duration: Number = getattr(move, time)
 
     @property
     def noun(self) -> str:
@@ -77,30 +87,10 @@ class Pose:
         return self.item.name.removesuffix("_id").replace("_", " ")
 
     @property
-    def item(self) -> Number:
-        """The number that says whose a position is."""
-        return self._fields[0]
-
-    @property
-    def place(self) -> Number:
-        """A position that can be commanded."""
-        return self._fields[1]
-
-    @property
-    def duration(self) -> Number:
-        """The milliseconds that a motion may take."""
-        return next(each for each in self.move.SHAPE.numbers if each.name == self.time)
-
-    @property
     def room(self) -> int:
         """How many one motion can move."""
         items = self.move.SHAPE.items
         return items.counts[-1] if items is not None else 0
-
-    @property
-    def _fields(self) -> tuple[Number, ...]:
-        items = self.move.SHAPE.items
-        return items.fields if items is not None else ()
 
     def motion(self, targets: Iterable[tuple[int, int]], time_ms: int) -> Message:
         """The command that moves to these targets. Raises EncodeError."""

@@ -37,7 +37,7 @@ def assigned(text: str, name: str, indent: int) -> str:
 
 
 # A part of code: text as it is, or what can be broken.
-Part: TypeAlias = "str | Text | Bracketed"
+Part: TypeAlias = "str | Text | Sum | Bracketed"
 
 
 @dataclass(frozen=True, slots=True)
@@ -79,6 +79,21 @@ def _pieces(text: str, first: int, others: int) -> list[str]:
                 room = others
             pieces[-1] += part
     return pieces
+
+
+@dataclass(frozen=True, slots=True)
+class Sum:
+    """Terms with a plus between: a term a line where they are too long for one."""
+
+    terms: Sequence[str]
+
+    def __str__(self) -> str:
+        return " + ".join(self.terms)
+
+    def fitted(self, indent: int, *, last: str = "") -> str:
+        """On one line where it fits, `last` included, or else a term a line: as formatters do."""
+        fits = indent + columns(str(self)) + len(last) <= WIDTH
+        return str(self) if fits else f"\n{' ' * indent}+ ".join(self.terms)
 
 
 @dataclass(frozen=True, slots=True)
