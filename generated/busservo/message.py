@@ -10,14 +10,13 @@ from .table import Table
 
 TYPE_CHECKING = False  # typing alone would double the time that the import takes
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Sequence
     from typing import Any, ClassVar
 
     from typing_extensions import Self
 
     from .direction import Direction
 
-_INTEGERS = frozenset([int])
 _new = object.__new__
 
 
@@ -60,22 +59,27 @@ class Message:
         cls._table = Table([cls])
 
     @classmethod
-    def _packed(cls, layout: str, head: tuple[Any, ...], fields: tuple[Any, ...]) -> Self:
+    def _packed(
+        cls, layout: str, head: tuple[Any, ...], fields: tuple[Any, ...], flat: Sequence[int] = ()
+    ) -> Self:
         """The message with this frame, packed as `struct` does it. Raises EncodeError.
 
-        `fields` are the numbers behind the head. Good ones are packed at once; any others are
-        looked at one by one, and either come to something after all, as those of NumPy do, or are
-        explained.
+        `fields` are the numbers behind the head, and `flat` those of the list. Good ones are packed
+        at once; any others are looked at one by one, and either come to something after all, as
+        those of NumPy do, or are explained.
         """
-        if cls.SHAPE.narrowed or not _INTEGERS.issuperset(map(type, fields)):
-            fields = tuple(cls.SHAPE.checked(fields))
-        try:
-            frame = _packers[layout](*head, *fields)
-        except error:
-            cls.SHAPE.checked(fields)
-            raise
+        pack, good = _packers[layout], not cls.SHAPE.narrowed
+        for number in fields:
+            if type(number) is not int:
+                good = False
         message = _new(cls)
-        message._frame = frame
+        if good:
+            try:
+                message._frame = pack(*head, *fields, *flat)
+            except error:
+                good = False
+        if not good:
+            message._frame = pack(*head, *cls.SHAPE.checked((*fields, *flat)))
         return message
 
     def encode(self) -> bytes:

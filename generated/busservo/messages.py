@@ -119,7 +119,8 @@ class ServoMove(Message):
         return cls._packed(
             "<2sBBBH" + servo_count * "BH",
             (HEADER, 3 * servo_count + 5, 3),
-            (servo_count, time_ms, *flat),
+            (servo_count, time_ms),
+            flat,
         )
 
     def columns(self) -> tuple[Column, Column]:
@@ -282,7 +283,8 @@ class ServoUnload(Message):
         return cls._packed(
             "<2sBBB" + servo_count * "B",
             (HEADER, servo_count + 3, 20),
-            (servo_count, *flat),
+            (servo_count,),
+            flat,
         )
 
 
@@ -319,7 +321,8 @@ class ServoPositionsRead(Message):
         return cls._packed(
             "<2sBBB" + servo_count * "B",
             (HEADER, servo_count + 3, 21),
-            (servo_count, *flat),
+            (servo_count,),
+            flat,
         )
 
 
@@ -473,7 +476,8 @@ class ServoPositions(Message):
         return cls._packed(
             "<2sBBB" + servo_count * "BH",
             (HEADER, 3 * servo_count + 3, 21),
-            (servo_count, *flat),
+            (servo_count,),
+            flat,
         )
 
     def columns(self) -> tuple[Column, Column]:

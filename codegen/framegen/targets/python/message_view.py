@@ -127,11 +127,12 @@ class MessageView:
     def packing(self) -> str:
         """The arguments of what packs its frame: the notation, the head, and the fields."""
         head = [self._in_front(slot) for slot in self.layout.frame.head]
-        fields = ["*flat" if isinstance(slot, Items) else slot.name for slot in self.layout.fields]
+        fields = [slot.name for slot in self.layout.fields if isinstance(slot, Number)]
         items: list[Part] = [
             Sum(self._notation),
             Bracketed("(", head, ")", lone=","),
             Bracketed("(", fields, ")", lone=","),
+            *([] if self.layout.items is None else ["flat"]),
         ]
         call = "return cls._packed("
         return Bracketed(call, items, ")").fitted(8).removeprefix(call).removesuffix(")")

@@ -30,7 +30,18 @@ class Items(Field["tuple[Item, ...]"]):
     `at` is the offset of its first byte; each element is an `of`: a class of elements, or a number.
     """
 
-    __slots__ = ("_plain", "_unpackers", "at", "count", "counts", "element", "fields", "layout")
+    __slots__ = (
+        "_plain",
+        "_unpackers",
+        "at",
+        "count",
+        "element",
+        "fields",
+        "layout",
+        "least",
+        "most",
+        "width",
+    )
 
     if TYPE_CHECKING:
 
@@ -47,16 +58,18 @@ class Items(Field["tuple[Item, ...]"]):
         self.at = at
         self.element: type[Element] | None = None if isinstance(of, Number) else of
         self.fields: tuple[Number, ...] = (of,) if isinstance(of, Number) else of.FIELDS
-        self.counts = range(least, most + 1)
+        self.width = len(self.fields)
+        self.least = least
+        self.most = most
         self.count = count
         self.layout = "".join(field.code for field in self.fields)
         self._plain = frozenset([*_LISTS, of])
         self._unpackers: dict[int, Callable[[bytes], tuple[int, ...]]] = {}
 
     @property
-    def width(self) -> int:
-        """How many numbers an element has."""
-        return len(self.fields)
+    def counts(self) -> range:
+        """How many elements there may be."""
+        return range(self.least, self.most + 1)
 
     def reader(self) -> Callable[[Any], tuple[Item, ...]]:
         """What reads it from the bytes of a message."""
@@ -87,29 +100,29 @@ class Items(Field["tuple[Item, ...]"]):
     def flat(self, values: Any) -> Sequence[int]:
         """All numbers of all elements, in order. Raises EncodeError for what is no such list.
 
-        Numbers of a plain list are not looked at yet: packing them will tell.
+        Whole numbers in plain lists are not looked at closely: to pack them will tell.
         """
-        if type(values) in _LISTS and len(values) in self.counts:
-            if self.element is None:
-                known: Sequence[int] = values
-                return known
-            plain, width = self._plain, len(self.fields)
-            numbers: list[int] = []
+        if type(values) not in _LISTS or not self.least <= len(values) <= self.most:
+            return self.checked(values)
+        numbers: Sequence[int] = values
+        if self.element is not None:
+            plain, width, numbers = self._plain, self.width, []
             for item in values:
                 if type(item) not in plain or len(item) != width:
-                    break
+                    return self.checked(values)
                 numbers += item
-            else:
-                return numbers
-        return self.checked(values)
+        for number in numbers:
+            if type(number) is not int:
+                return self.checked(values)
+        return numbers
 
     def checked(self, values: Any) -> list[int]:
         """All numbers of all elements, in order. Raises EncodeError naming the first wrong one."""
         items = as_tuple(values)
         if items is None:
             raise EncodeError(self.name, values, f"{shown(values)} is not a list of {self._wanted}")
-        if len(items) not in self.counts:
-            bounds = f"{self.counts[0]}..{self.counts[-1]}"
+        if not self.least <= len(items) <= self.most:
+            bounds = f"{self.least}..{self.most}"
             raise EncodeError(self.name, values, f"{len(items)} items is outside {bounds}")
         numbers: list[int] = []
         for position, item in enumerate(items):
