@@ -99,10 +99,18 @@ class LibraryView:
         return relative_import("number", self.number_types)
 
     @property
-    def typing_names(self) -> list[str]:
-        """What the annotations of the messages need of `typing`."""
+    def typing_imports(self) -> list[str]:
+        """What the annotations of the messages need of the standard library."""
         named = any(number.constants for number in self._numbers)
-        return [*(["Final"] if named else []), *(["TypeAlias"] if self.elements else [])]
+        wanted: dict[str, dict[str, object]] = {
+            "collections.abc": {"Iterable": self.lists},
+            "typing": {"Final": named, "TypeAlias": self.elements},
+        }
+        found = {
+            module: [name for name, needed in names.items() if needed]
+            for module, names in wanted.items()
+        }
+        return [f"from {module} import {', '.join(n)}" for module, n in found.items() if n]
 
     @property
     def import_message_classes(self) -> str:
