@@ -326,7 +326,7 @@ def test_a_report_is_waited_for_by_any_of_its_fields(crowd: tuple[Model, ModuleT
 
 
 def test_every_message_has_a_strategy(crowd: tuple[Model, ModuleType]) -> None:
-    model, lib = crowd
+    _, lib = crowd
     strategies = importlib.import_module(f"{lib.__name__}.strategies")
     for kind in lib.MESSAGES:
         strategy = getattr(strategies, strategy_name(kind.__name__))()

@@ -14,7 +14,6 @@ from busservo.table import Table
 
 from tests.lines import bytes_of, joined, noise, single_bytes
 
-
 if TYPE_CHECKING:
     from typing_extensions import Self
 

@@ -11,6 +11,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
     from typing import Any
 
+    from .items import Items
     from .limits import Bounds, Limits
     from .message import Message
     from .number import Number
@@ -32,7 +33,7 @@ class Pose:
     numbers that there can be, `limits` those of the positions that are commanded.
 
     Of what is commanded, `item` is the number that says whose a position is, `place` the position,
-    and `duration` the milliseconds that a motion may take.
+    `duration` the milliseconds that a motion may take, and `room` how many one can move.
     """
 
     __slots__ = (
@@ -47,6 +48,7 @@ class Pose:
         "position",
         "read",
         "release",
+        "room",
         "time",
         "told",
     )
@@ -75,21 +77,15 @@ class Pose:
         self.moved = moved
         self.time = time
         self.limits = limits
-        fields = move.SHAPE.items.fields if move.SHAPE.items is not None else ()
-        self.item: Number = fields[0]
-        self.place: Number = fields[1]
+        targets: Items[Any] = getattr(move, moved)
+        self.item, self.place = targets.fields
+        self.room = targets.most
         self.duration: Number = getattr(move, time)
 
     @property
     def noun(self) -> str:
         """What one of those is called whose positions these are."""
         return self.item.name.removesuffix("_id").replace("_", " ")
-
-    @property
-    def room(self) -> int:
-        """How many one motion can move."""
-        items = self.move.SHAPE.items
-        return items.counts[-1] if items is not None else 0
 
     def motion(self, targets: Iterable[tuple[int, int]], time_ms: int) -> Message:
         """The command that moves to these targets. Raises EncodeError."""
