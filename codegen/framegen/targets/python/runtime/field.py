@@ -9,7 +9,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable
     from typing import Any, Generic, TypeVar, overload
 
-    from typing_extensions import Self
+    from typing_extensions import Never, Self
 
     Value = TypeVar("Value")
 
@@ -23,6 +23,8 @@ if TYPE_CHECKING:
         @overload
         def __get__(self, held: object, owner: type) -> Value: ...
         def __get__(self, held: object, owner: type) -> Any: ...
+
+        def __set__(self, held: object, value: Never) -> None: ...
 
 else:
 
