@@ -41,7 +41,6 @@ class ServoTarget(Element, tuple[int, int]):
     """
 
     def __new__(cls, servo_id: int, position: int) -> Self:
-        """Name the numbers of one; the message that takes it checks them."""
         return tuple.__new__(cls, (servo_id, position))
 
 
@@ -62,7 +61,6 @@ class ServoPosition(Element, tuple[int, int]):
     """
 
     def __new__(cls, servo_id: int, position: int) -> Self:
-        """Name the numbers of one; the message that takes it checks them."""
         return tuple.__new__(cls, (servo_id, position))
 
     @property
@@ -113,7 +111,6 @@ class ServoMove(Message):
     """The servos to turn and where to, in the order of the frame."""
 
     def __new__(cls, time_ms: int, targets: Iterable[tuple[int, int]]) -> Self:
-        """Pack its frame. Raises EncodeError for what no frame can carry."""
         flat = cls.targets.flat(targets)
         servo_count = len(flat) // 2
         return cls._packed(
@@ -162,7 +159,6 @@ class ActionGroupRun(Message):
     """How many times to run it."""
 
     def __new__(cls, group: int, times: int) -> Self:
-        """Pack its frame. Raises EncodeError for what no frame can carry."""
         return cls._packed("<2sBBBH", (HEADER, 5, 6), (group, times))
 
 
@@ -188,7 +184,6 @@ class ActionGroupStop(Message):
     LENGTHS = range(2, 3)
 
     def __new__(cls) -> Self:
-        """Pack its frame. Raises EncodeError for what no frame can carry."""
         return cls._packed("<2sBB", (HEADER, 2, 7), ())
 
 
@@ -221,7 +216,6 @@ class ActionGroupSpeed(Message):
     """The speed, where 100 is the speed at which the group was recorded."""
 
     def __new__(cls, group: int, percent: int) -> Self:
-        """Pack its frame. Raises EncodeError for what no frame can carry."""
         return cls._packed("<2sBBBH", (HEADER, 5, 11), (group, percent))
 
 
@@ -246,7 +240,6 @@ class BatteryVoltageRead(Message):
     LENGTHS = range(2, 3)
 
     def __new__(cls) -> Self:
-        """Pack its frame. Raises EncodeError for what no frame can carry."""
         return cls._packed("<2sBB", (HEADER, 2, 15), ())
 
 
@@ -277,7 +270,6 @@ class ServoUnload(Message):
     """The servos to switch off."""
 
     def __new__(cls, servo_ids: Iterable[int]) -> Self:
-        """Pack its frame. Raises EncodeError for what no frame can carry."""
         flat = cls.servo_ids.flat(servo_ids)
         servo_count = len(flat)
         return cls._packed(
@@ -315,7 +307,6 @@ class ServoPositionsRead(Message):
     """The servos asked about."""
 
     def __new__(cls, servo_ids: Iterable[int]) -> Self:
-        """Pack its frame. Raises EncodeError for what no frame can carry."""
         flat = cls.servo_ids.flat(servo_ids)
         servo_count = len(flat)
         return cls._packed(
@@ -355,7 +346,6 @@ class ActionGroupStarted(Message):
     """How many times it will run."""
 
     def __new__(cls, group: int, times: int) -> Self:
-        """Pack its frame. Raises EncodeError for what no frame can carry."""
         return cls._packed("<2sBBBH", (HEADER, 5, 6), (group, times))
 
 
@@ -380,7 +370,6 @@ class ActionGroupStopped(Message):
     LENGTHS = range(2, 3)
 
     def __new__(cls) -> Self:
-        """Pack its frame. Raises EncodeError for what no frame can carry."""
         return cls._packed("<2sBB", (HEADER, 2, 7), ())
 
 
@@ -410,7 +399,6 @@ class ActionGroupCompleted(Message):
     """How many times it was run."""
 
     def __new__(cls, group: int, times: int) -> Self:
-        """Pack its frame. Raises EncodeError for what no frame can carry."""
         return cls._packed("<2sBBBH", (HEADER, 5, 8), (group, times))
 
 
@@ -436,7 +424,6 @@ class BatteryVoltage(Message):
     """The voltage at the controller's supply terminals. A step is 0.001 V."""
 
     def __new__(cls, voltage_mv: int) -> Self:
-        """Pack its frame. Raises EncodeError for what no frame can carry."""
         return cls._packed("<2sBBH", (HEADER, 4, 15), (voltage_mv,))
 
 
@@ -470,7 +457,6 @@ class ServoPositions(Message):
     """
 
     def __new__(cls, positions: Iterable[tuple[int, int]]) -> Self:
-        """Pack its frame. Raises EncodeError for what no frame can carry."""
         flat = cls.positions.flat(positions)
         servo_count = len(flat) // 2
         return cls._packed(

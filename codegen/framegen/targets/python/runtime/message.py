@@ -50,7 +50,7 @@ class Message:
     _table: ClassVar[Any]
 
     def __new__(cls) -> Self:
-        """Refuses: a subclass makes its frame here, once and for all, and not in `__init__`."""
+        # Not in `__init__`, which anybody may call once more, to change what never changes.
         raise TypeError("Message is what all messages are: make one of its subclasses instead")
 
     def __init_subclass__(cls) -> None:
