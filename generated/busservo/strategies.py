@@ -7,7 +7,7 @@ Needs Hypothesis, which nothing else here does:
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, TypeVar
+from typing import TYPE_CHECKING
 
 from hypothesis import strategies as st
 
@@ -30,7 +30,7 @@ from .number import Number
 from .protocol import HEADER
 
 if TYPE_CHECKING:
-    from typing import Any
+    from typing import Any, TypeVar
 
     from hypothesis.strategies import SearchStrategy
 

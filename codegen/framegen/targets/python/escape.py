@@ -26,6 +26,11 @@ def literal(text: str) -> str:
     return f"{quote}{_inside(text, quote)}{quote}"
 
 
+def byte_literal(data: bytes) -> str:
+    """Bytes as a literal, each as an escape."""
+    return 'b"' + "".join(f"\\x{byte:02x}" for byte in data) + '"'
+
+
 def assigned(text: str, name: str, indent: int) -> str:
     """The assignment of a text to `name`, in brackets where it takes several lines."""
     line = f"{name} = {literal(text)}"

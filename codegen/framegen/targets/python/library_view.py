@@ -7,10 +7,10 @@ from typing import TYPE_CHECKING
 
 from framegen.model.slots import Number
 from framegen.targets.python.command_lines import verbs
-from framegen.targets.python.escape import Bracketed, literal
+from framegen.targets.python.escape import Bracketed, byte_literal, literal
 from framegen.targets.python.exports import HOMES, export_order, relative_import
 from framegen.targets.python.list_view import ListView
-from framegen.targets.python.lookalike_view import LookalikeView, byte_literal
+from framegen.targets.python.lookalike_view import LookalikeView
 from framegen.targets.python.message_view import MessageView
 from framegen.targets.python.words import direction_member, struct_order
 
@@ -161,10 +161,12 @@ class LibraryView:
     @property
     def lookalikes(self) -> str:
         """The tuple of the protocols that are easily taken for this one."""
-        spec = self.model.spec
-        # With neither a frame nor commands of its own, there is nothing to tell it by.
-        told = [each for each in spec.lookalikes.values() if each.frame or each.commands]
-        entries = [LookalikeView(lookalike, spec).entry for lookalike in told]
+        entries = [
+            LookalikeView(lookalike, self.model.lookalikes[name]).entry
+            for name, lookalike in self.model.spec.lookalikes.items()
+            # With neither a frame nor commands of its own, there is nothing to tell it by.
+            if lookalike.frame or lookalike.commands
+        ]
         before = "LOOKALIKES: tuple[Lookalike, ...] = ("
         return Bracketed(before, entries, ")", lone=",").fitted(0)
 

@@ -7,9 +7,8 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from framegen.model.slots import Constant, Items, Number
-from framegen.targets.python.escape import Bracketed, Part, Sum, literal, session
+from framegen.targets.python.escape import Bracketed, Part, Sum, byte_literal, literal, session
 from framegen.targets.python.list_view import ListView, given
-from framegen.targets.python.lookalike_view import byte_literal
 from framegen.targets.python.names import strategy_name
 from framegen.targets.python.number_view import AbsentView, NumberView, absent_view
 from framegen.targets.python.words import direction_member, range_expression, struct_order
