@@ -3,18 +3,14 @@
 
 from __future__ import annotations
 
+import ast
+import inspect
 from itertools import pairwise
+from textwrap import dedent
 
 
 def documentation(owner: type, name: str) -> str | None:
-    """The string below the line that assigns `name` in a class; None where there is no source.
-
-    Looked up when somebody asks for help, so that its imports cost nobody else.
-    """
-    import ast
-    import inspect
-    from textwrap import dedent
-
+    """The string below the line that assigns `name` in a class; None where there is no source."""
     try:
         source = inspect.getsource(owner)
     except (OSError, TypeError):

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from .documentation import documentation
-
 TYPE_CHECKING = False  # typing alone would double the time that the import takes
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -68,7 +66,12 @@ class _Documentation:
         self.of_class = of_class
 
     def __get__(self, field: Field[Any] | None, kind: type) -> str | None:
-        return self.of_class if field is None else documentation(field.owner, field.name)
+        if field is None:
+            return self.of_class
+        # Whoever asks for help waits for what it takes to read sources; nobody else does.
+        from .documentation import documentation
+
+        return documentation(field.owner, field.name)
 
     def __set__(self, field: Field[Any], doc: object) -> None:
         """Does nothing: a property takes over what its getter says of itself."""
