@@ -268,8 +268,20 @@ def test_what_each_class_says_of_itself(greenhouse: Any) -> None:
     assert greenhouse.__doc__.startswith("Greenhouse bus.\n")
     assert "Deprecated: The display reads the bus by itself" in greenhouse.TextShow.__doc__
     assert "Answered by StationState." in greenhouse.StationRead.__doc__
-    assert "-900..900 0.1 degree." in greenhouse.Vent.angle.__doc__
-    assert "a step being 0.01 K" not in greenhouse.StationState.uptime_s.__doc__
+
+
+def test_a_field_is_told_in_one_place(greenhouse: Any) -> None:
+    angle = greenhouse.Vent.angle
+    assert (angle.at, angle.low, angle.high, angle.unit) == (1, -900, 900, "0.1 degree")
+    assert angle.__doc__ == "Where to turn it, downwards below zero."
+    ramp = greenhouse.VentsOpen.ramp_s
+    assert (ramp.at, ramp.low, ramp.high, ramp.unit) == (6, 0, 65535, "s")
+    assert ramp.names == {"at_once": greenhouse.VentsOpen.RAMP_S_AT_ONCE}
+    vents = greenhouse.VentsOpen.vents
+    assert (vents.at, vents.element, vents.counts) == (9, greenhouse.Vent, range(1, 9))
+    assert vents.count is greenhouse.VentsOpen.vent_count
+    readings = greenhouse.StationState.readings
+    assert (readings.element, readings.fields[0].unit) == (None, "cK")
 
 
 def test_an_id_means_what_its_direction_says(greenhouse: Any) -> None:

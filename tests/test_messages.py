@@ -4,8 +4,10 @@ import copy
 import inspect
 import os
 import pickle
+import pydoc
 import subprocess
 import sys
+import weakref
 from collections.abc import Callable, Iterator
 from enum import IntEnum
 from pathlib import Path
@@ -38,6 +40,8 @@ from busservo import (
     ServoUnload,
     UnknownFrame,
 )
+from busservo.element import Element
+from busservo.number import U8
 from hypothesis import given
 from hypothesis import strategies as st
 
@@ -101,13 +105,12 @@ def test_a_list_can_be_read_as_columns_of_plain_numbers(pairs: list[tuple[int, i
 
 @each_case
 def test_the_numbers_of_a_list_are_read_at_once(case: Case) -> None:
-    listed = [
-        value
-        for value in (getattr(case.message, name) for name in case.message.__match_args__)
-        if isinstance(value, tuple)
-    ]
-    numbers = [number for each in listed for item in each for number in np.ravel(item)]
-    assert case.message.SHAPE.listed(case.frame) == tuple(numbers)
+    items = case.message.SHAPE.items
+    if items is not None:
+        numbers = [
+            number for item in getattr(case.message, items.name) for number in np.ravel(item)
+        ]
+        assert items.numbers(case.frame) == tuple(numbers)
 
 
 def test_named_elements_and_plain_pairs_make_the_same_message() -> None:
@@ -172,6 +175,65 @@ def test_a_whole_number_is_stored_as_an_int(number: Any) -> None:
     assert move == ServoMove(8, [(8, 8), (8, 8)])
     assert {type(part) for target in move.targets for part in target} == {int}
     assert unload.servo_ids == (7, 8)
+
+
+def test_a_field_knows_itself() -> None:
+    time_ms, group = ServoMove.time_ms, ActionGroupSpeed.group
+
+    assert (time_ms.name, time_ms.at, time_ms.low, time_ms.high) == ("time_ms", 5, 0, 65535)
+    assert (time_ms.unit, time_ms.names) == ("ms", {})
+    assert (group.unit, group.names) == ("", {"all": 255})
+    assert ServoMove.servo_count.at == 4
+    assert ServoMove.targets.counts == range(1, 84)
+    assert ServoMove.targets.element is ServoTarget
+    assert (ServoTarget.servo_id, ServoTarget.position) == ServoTarget.FIELDS
+    assert ServoUnload.servo_ids.element is None
+
+
+def test_a_field_is_a_number_to_type_checkers_and_never_assigned() -> None:
+    move = ServoMove(1000, [(1, 800)])
+    time_ms: int = move.time_ms
+    [target] = move.targets
+    servo_id, position = target
+    numbers: tuple[int, int, int] = (servo_id, position, target.position)
+
+    assert (time_ms, *numbers) == (1000, 1, 800, 800)
+    with pytest.raises(AttributeError):
+        move.time_ms = 5  # type: ignore[assignment]
+    with pytest.raises(AttributeError):
+        target.position = 5  # type: ignore[assignment]
+
+
+@each_case
+def test_what_counts_a_list_can_be_read(case: Case) -> None:
+    items = case.message.SHAPE.items
+    if items is not None:
+        count = getattr(case.message, items.count.name)
+        assert count == case.frame[items.count.at] == len(getattr(case.message, items.name))
+
+
+@pytest.mark.parametrize(
+    ("field", "words"),
+    [
+        (ServoMove.time_ms, "How long the motion takes."),
+        (ServoMove.targets, "The servos to turn and where to, in the order of the frame."),
+        (ServoTarget.servo_id, "The servo to turn."),
+        (BatteryVoltage.voltage_mv, "The voltage at the controller's supply terminals."),
+    ],
+)
+def test_help_shows_what_stands_below_a_field(field: Any, words: str) -> None:
+    assert field.__doc__.startswith(words)
+    assert words in pydoc.plain(pydoc.render_doc(field.owner))
+    # The class of the field has a documentation of its own.
+    assert words not in str(type(field).__doc__)
+
+
+def test_where_there_is_no_source_a_field_has_no_documentation() -> None:
+    space: dict[str, Any] = {"__name__": "nowhere", "U8": U8, "Element": Element}
+    lines = ["class Lamp(Element, tuple):", "__match_args__ = ('level',)", "level = U8(0)", "'It.'"]
+    exec("\n    ".join(lines), space)  # noqa: S102
+
+    assert space["Lamp"].level.__doc__ is None
 
 
 def test_named_values_are_constants() -> None:
@@ -283,6 +345,41 @@ def test_a_message_can_be_copied_and_pickled(
     assert type(twin) is type(case.message)
 
 
+@each_case
+def test_making_a_message_once_more_does_not_change_it(case: Case) -> None:
+    message: Any = case.message
+    frame = message.encode()
+
+    message.__init__(*[1] * len(message.__match_args__))
+    message.__init__()
+
+    assert message.encode() is frame
+
+
+class OwnBytes(bytes):
+    """Bytes with more to them."""
+
+    note = "from a log"
+
+
+@each_case
+def test_a_message_keeps_plain_bytes(case: Case) -> None:
+    for data in (OwnBytes(case.frame), bytearray(case.frame), memoryview(case.frame)):
+        for message in (type(case.message).decode(data), busservo.decode(data, case.direction)):
+            assert type(message.encode()) is bytes
+            assert message == case.message
+
+
+@each_case
+def test_a_message_can_be_referred_to_weakly(case: Case) -> None:
+    message = busservo.decode(case.frame, case.direction)
+    kept = weakref.WeakValueDictionary({1: message})
+
+    assert kept[1] is message
+    del message
+    assert 1 not in kept
+
+
 def test_a_pickle_of_no_legal_frame_is_no_message() -> None:
     frame = ActionGroupStop().encode()
     pickled = pickle.dumps(ActionGroupStop())
@@ -371,6 +468,18 @@ def test_an_element_can_be_copied_and_pickled(kind: Callable[..., Any]) -> None:
     ):
         assert twin == element
         assert type(twin) is kind
+
+
+@each_element
+def test_an_element_is_a_named_tuple_like_others(kind: Callable[..., Any]) -> None:
+    element = kind(1, 800)
+
+    assert element._fields == ("servo_id", "position")
+    assert element._asdict() == {"servo_id": 1, "position": 800}
+    assert element._replace(position=5) == kind(1, 5)
+    assert type(element._replace(servo_id=2)) is kind
+    with pytest.raises(TypeError):
+        element._replace(colour=1)
 
 
 def test_the_class_of_all_messages_is_none_itself() -> None:

@@ -1,39 +1,56 @@
 """Ranges narrower than their types: this protocol has none, so a message is made that has."""
 
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
 import pytest
 from busservo import DecodeError, Direction, EncodeError, Message, Noise, Reason, StreamDecoder
-from busservo.fields import Items, Number
+from busservo.element import Element
+from busservo.items import Items
 from busservo.noise_lane import NoiseLane
-from busservo.shape import Shape
+from busservo.number import U8, U16
+from busservo.protocol import HEADER
 from busservo.table import Table, largest_of
 
 from tests.lines import bytes_of, joined, noise, single_bytes
+
+if TYPE_CHECKING:
+    from typing_extensions import Self
+
+
+class Turn(Element, tuple[int, int]):
+    """Where to turn one dial."""
+
+    __slots__ = ()
+    __match_args__ = ("dial", "degrees")
+
+    dial = U8(0, low=1, high=4)
+    degrees = U16(1, high=359)
 
 
 class DialsTurn(Message):
     """Turns some of four dials, with a force of 1 to 9."""
 
     __slots__ = ()
+    __match_args__ = ("force", "turns")
 
     COMMAND = 0x30
     DIRECTION = Direction.HOST_TO_CONTROLLER
     LENGTHS = range(7, 17, 3)
-    SHAPE = Shape(
-        0x30,
-        LENGTHS,
-        (Number("force", "B", 1, 9), Number("dial_count", "B", 0, 255)),
-        Items(
-            "turns",
-            (Number("dial", "B", 1, 4), Number("degrees", "H", 0, 359)),
-            range(1, 5),
-            counter=1,
-            element=lambda *parts: parts,
-        ),
-        narrowed=True,
-    )
 
-    def __init__(self, force: int, turns: list[tuple[int, int]]) -> None:
-        self._frame = self.SHAPE.frame((force,), turns)
+    force = U8(4, low=1, high=9)
+    dial_count = U8(5)
+    turns = Items(6, Turn, 1, 4, count=dial_count)
+
+    def __new__(cls, force: int, turns: list[tuple[int, int]]) -> Self:
+        flat = cls.turns.flat(turns)
+        dial_count = len(flat) // 2
+        return cls._packed(
+            "<2sBBBB" + dial_count * "BH",
+            (HEADER, 3 * dial_count + 4, 0x30),
+            (force, dial_count, *flat),
+        )
 
 
 class LampDim(Message):
@@ -44,7 +61,8 @@ class LampDim(Message):
     COMMAND = 0x31
     DIRECTION = Direction.HOST_TO_CONTROLLER
     LENGTHS = range(3, 4)
-    SHAPE = Shape(0x31, LENGTHS, (Number("percent", "B", 0, 100),), narrowed=True)
+
+    percent = U8(4, high=100)
 
 
 GOOD = bytes.fromhex("55 55 0A 30 09 02 01 00 00 04 67 01")

@@ -3,16 +3,32 @@
 
 from __future__ import annotations
 
+from struct import Struct, error
+
+from .shape import Shape
 from .table import ANY_SIZE, Table
 
 TYPE_CHECKING = False  # typing alone would double the time that the import takes
 if TYPE_CHECKING:
+    from collections.abc import Callable, Sequence
     from typing import Any, ClassVar
 
     from typing_extensions import Self
 
     from .direction import Direction
-    from .shape import Shape
+
+_new = object.__new__
+
+
+class _Packers(dict[str, "Callable[..., bytes]"]):
+    """What packs values, by their layout in the notation of `struct`; made once for each."""
+
+    def __missing__(self, layout: str) -> Callable[..., bytes]:
+        self[layout] = Struct(layout).pack
+        return self[layout]
+
+
+_packers = _Packers()
 
 
 class Message:
@@ -22,7 +38,7 @@ class Message:
     class with the same frame. Whatever exists has been checked, so `encode` cannot fail.
     """
 
-    __slots__ = ("_frame",)
+    __slots__ = ("__weakref__", "_frame")
     __match_args__: ClassVar[tuple[str, ...]] = ()
 
     VENDOR_NAME: ClassVar[str]
@@ -34,11 +50,37 @@ class Message:
     _frame: bytes
     _table: ClassVar[Any]
 
-    def __init__(self) -> None:
+    def __new__(cls) -> Self:
+        # Not in `__init__`, which anybody may call once more, to change what never changes.
         raise TypeError("Message is what all messages are: make one of its subclasses instead")
 
     def __init_subclass__(cls) -> None:
+        cls.SHAPE = Shape(cls, cls.LENGTHS)
         cls._table = Table([cls], ANY_SIZE)
+
+    @classmethod
+    def _packed(
+        cls, layout: str, head: tuple[Any, ...], fields: tuple[Any, ...], flat: Sequence[int] = ()
+    ) -> Self:
+        """The message with this frame, packed as `struct` does it. Raises EncodeError.
+
+        `fields` are the numbers behind the head, and `flat` those of the list. Good ones are packed
+        at once; any others are looked at one by one, and either come to something after all, as
+        those of NumPy do, or are explained.
+        """
+        pack, good = _packers[layout], not cls.SHAPE.narrowed
+        for number in fields:
+            if type(number) is not int:
+                good = False
+        message = _new(cls)
+        if good:
+            try:
+                message._frame = pack(*head, *fields, *flat)
+            except error:
+                good = False
+        if not good:
+            message._frame = pack(*head, *cls.SHAPE.checked((*fields, *flat)))
+        return message
 
     def encode(self) -> bytes:
         """The frame, from its header to its last byte."""

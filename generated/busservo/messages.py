@@ -3,19 +3,17 @@
 
 from __future__ import annotations
 
-from functools import partial
-from struct import Struct
-
 from .direction import Direction
 from .element import Element
-from .fields import Items, Number
+from .items import Items
 from .message import Message
-from .shape import Shape
+from .number import U8, U16
+from .protocol import HEADER
 
 TYPE_CHECKING = False  # typing alone would double the time that the import takes
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable
-    from typing import ClassVar, Final, TypeAlias
+    from collections.abc import Iterable
+    from typing import Final, TypeAlias
 
     from typing_extensions import Self
 
@@ -23,88 +21,51 @@ if TYPE_CHECKING:
 
 
 class ServoTarget(Element, tuple[int, int]):
-    """One of the targets of a message: a tuple (servo_id, position) with names."""
+    """One of the targets of a message."""
 
     __slots__ = ()
     __match_args__ = ("servo_id", "position")
 
+    servo_id = U8(0)
+    """The servo to turn.
+
+    No limit is documented. 254 addresses every servo on the servo bus behind the controller.
+    (Client code in public repositories)
+    """
+    position = U16(1)
+    """Where to turn it.
+
+    A client sends 0..1000 unless its `limits` say otherwise (PWM servo boards take 500..2500).
+    Bus servo boards use 0 to 1000 with 500 as the centre. (Client code in public repositories)
+    PWM servo boards of the family use 500 to 2500. (Client code in public repositories)
+    """
+
     def __new__(cls, servo_id: int, position: int) -> Self:
-        """Makes one; the message that takes it checks the numbers."""
         return tuple.__new__(cls, (servo_id, position))
-
-    @property
-    def servo_id(self) -> int:
-        """The servo to turn. No limit is documented.
-
-        0..255.
-
-        254 addresses every servo on the servo bus behind the controller. (Client code in public
-        repositories)
-        """
-        return self[0]
-
-    @property
-    def position(self) -> int:
-        """Where to turn it.
-
-        0..65535.
-
-        A client sends 0..1000 unless its `limits` say otherwise (PWM servo boards take
-        500..2500).
-
-        Bus servo boards use 0 to 1000 with 500 as the centre. (Client code in public
-        repositories)
-
-        PWM servo boards of the family use 500 to 2500. (Client code in public repositories)
-        """
-        return self[1]
-
-
-_read_servo_target = Struct("<BH").iter_unpack
-# As good as calling the class, and several times as fast.
-_make_servo_target: Callable[[tuple[int, ...]], ServoTarget] = partial(tuple.__new__, ServoTarget)
 
 
 class ServoPosition(Element, tuple[int, int]):
-    """One of the positions of a message: a tuple (servo_id, position) with names."""
+    """One of the positions of a message."""
 
     __slots__ = ()
     __match_args__ = ("servo_id", "position")
 
+    servo_id = U8(0)
+    """The servo."""
     POSITION_ABSENT: Final = 65535
     """The servo is off or not connected."""
+    position = U16(1, names={"absent": POSITION_ABSENT})
+    """Where it is.
+
+    A servo slightly below zero is seen as a value near 65535. (Observations on real hardware)
+    """
 
     def __new__(cls, servo_id: int, position: int) -> Self:
-        """Makes one; the message that takes it checks the numbers."""
         return tuple.__new__(cls, (servo_id, position))
 
     @property
-    def servo_id(self) -> int:
-        """The servo.
-
-        0..255.
-        """
-        return self[0]
-
-    @property
-    def position(self) -> int:
-        """Where it is.
-
-        0..65535.
-
-        65535 (absent): The servo is off or not connected.
-
-        A servo slightly below zero is seen as a value near 65535. (Observations on real
-        hardware)
-        """
-        return self[1]
-
-    @property
     def signed_position(self) -> int:
-        """`position` read as i16, which may be below zero.
-
-        -32768..32767. One that is `absent` has none.
-        """
+        """`position` read as i16, which may be below zero; one that is `absent` has none."""
         return (self.position ^ 0x8000) - 0x8000
 
     @property
@@ -116,23 +77,14 @@ class ServoPosition(Element, tuple[int, int]):
         return self.position == 65535
 
 
-_read_servo_position = Struct("<BH").iter_unpack
-# As good as calling the class, and several times as fast.
-_make_servo_position: Callable[[tuple[int, ...]], ServoPosition] = partial(
-    tuple.__new__,
-    ServoPosition,
-)
-
-
 class ServoMove(Message):
     """Turn one or more servos to positions, all of them arriving after the same time.
 
     The controller interpolates: each servo listed travels from where it is to its position in
     the given time, or as fast as it can if the time is too short. It is never answered.
 
-    Command 3 (0x03), host to controller, length 3 * servo_count + 5: 8, 11, 14 .. 254.
-
-    Source: Bus Servo Controller Communication Protocol, section 1.1.
+    Command 3 (0x03), host to controller, length 3 * servo_count + 5: 8, 11, 14 .. 254. Source:
+    Bus Servo Controller Communication Protocol, section 1.1.
 
     >>> ServoMove(time_ms=1000, targets=[(1, 800)]).encode().hex(' ')
     '55 55 08 03 01 e8 03 01 20 03'
@@ -145,42 +97,28 @@ class ServoMove(Message):
     COMMAND = 3
     DIRECTION = Direction.HOST_TO_CONTROLLER
     LENGTHS = range(8, 255, 3)
-    SHAPE: ClassVar = Shape(
-        3,
-        LENGTHS,
-        (Number("servo_count", "B", 0, 255), Number("time_ms", "H", 0, 65535, unit="ms")),
-        Items(
-            "targets",
-            (Number("servo_id", "B", 0, 255), Number("position", "H", 0, 65535)),
-            range(1, 84),
-            counter=0,
-            element=ServoTarget,
-        ),
-    )
 
-    def __init__(self, time_ms: int, targets: Iterable[tuple[int, int]]) -> None:
-        self._frame = self.SHAPE.frame((time_ms,), targets)
+    servo_count = U8(4)
+    """How many servos are listed."""
+    time_ms = U16(5, unit="ms")
+    """How long the motion takes.
 
-    @property
-    def time_ms(self) -> int:
-        """How long the motion takes.
+    Most clients keep it within 0 to 30000 ms. (Client code in public repositories) Zero means
+    "as fast as possible" to many; the vendor's own library refuses it. (Client code in public
+    repositories)
+    """
+    targets = Items(7, ServoTarget, 1, 83, count=servo_count)
+    """The servos to turn and where to, in the order of the frame."""
 
-        0..65535 ms.
-
-        Most clients keep it within 0 to 30000 ms. (Client code in public repositories)
-
-        Zero means "as fast as possible" to many; the vendor's own library refuses it. (Client
-        code in public repositories)
-        """
-        return int.from_bytes(self._frame[5:7], "little")
-
-    @property
-    def targets(self) -> tuple[ServoTarget, ...]:
-        """The servos to turn and where to, in the order of the frame.
-
-        1..83 of them.
-        """
-        return tuple(map(_make_servo_target, _read_servo_target(self._frame[7:])))
+    def __new__(cls, time_ms: int, targets: Iterable[tuple[int, int]]) -> Self:
+        flat = cls.targets.flat(targets)
+        servo_count = len(flat) // 2
+        return cls._packed(
+            "<2sBBBH" + servo_count * "BH",
+            (HEADER, 3 * servo_count + 5, 3),
+            (servo_count, time_ms),
+            flat,
+        )
 
     def columns(self) -> tuple[Column, Column]:
         """The targets as columns of plain numbers.
@@ -188,7 +126,7 @@ class ServoMove(Message):
         One for each field: servo_id and position. For arrays and plots of a recording: several
         times as fast as `targets`.
         """
-        numbers = self.SHAPE.listed(self._frame)
+        numbers = type(self).targets.numbers(self._frame)
         return numbers[0::2], numbers[1::2]
 
 
@@ -198,9 +136,8 @@ class ActionGroupRun(Message):
     The controller repeats the same parameters as a report once the group starts. A group that
     ends by itself is reported too; one that runs for ever ends only by ActionGroupStop.
 
-    Command 6 (0x06), host to controller, length 5: 5.
-
-    Source: Bus Servo Controller Communication Protocol, section 1.2.
+    Command 6 (0x06), host to controller, length 5. Source: Bus Servo Controller Communication
+    Protocol, section 1.2.
 
     >>> ActionGroupRun(group=8, times=1).encode().hex(' ')
     '55 55 05 06 08 01 00'
@@ -213,35 +150,16 @@ class ActionGroupRun(Message):
     COMMAND = 6
     DIRECTION = Direction.HOST_TO_CONTROLLER
     LENGTHS = range(5, 6)
-    SHAPE: ClassVar = Shape(
-        6,
-        LENGTHS,
-        (Number("group", "B", 0, 255), Number("times", "H", 0, 65535, names={"unlimited": 0})),
-    )
 
+    group = U8(4)
+    """The number of the action group."""
     TIMES_UNLIMITED: Final = 0
     """Run until it is stopped."""
+    times = U16(5, names={"unlimited": TIMES_UNLIMITED})
+    """How many times to run it."""
 
-    def __init__(self, group: int, times: int) -> None:
-        self._frame = self.SHAPE.frame((group, times))
-
-    @property
-    def group(self) -> int:
-        """The number of the action group.
-
-        0..255.
-        """
-        return self._frame[4]
-
-    @property
-    def times(self) -> int:
-        """How many times to run it.
-
-        0..65535.
-
-        0 (unlimited): Run until it is stopped.
-        """
-        return int.from_bytes(self._frame[5:7], "little")
+    def __new__(cls, group: int, times: int) -> Self:
+        return cls._packed("<2sBBBH", (HEADER, 5, 6), (group, times))
 
 
 class ActionGroupStop(Message):
@@ -250,9 +168,8 @@ class ActionGroupStop(Message):
     Reported by ActionGroupStopped when there was something to stop; otherwise nothing comes
     back.
 
-    Command 7 (0x07), host to controller, length 2: 2.
-
-    Source: Bus Servo Controller Communication Protocol, section 1.3.
+    Command 7 (0x07), host to controller, length 2. Source: Bus Servo Controller Communication
+    Protocol, section 1.3.
 
     >>> ActionGroupStop().encode().hex(' ')
     '55 55 02 07'
@@ -265,10 +182,9 @@ class ActionGroupStop(Message):
     COMMAND = 7
     DIRECTION = Direction.HOST_TO_CONTROLLER
     LENGTHS = range(2, 3)
-    SHAPE: ClassVar = Shape(7, LENGTHS)
 
-    def __init__(self) -> None:
-        self._frame = self.SHAPE.frame(())
+    def __new__(cls) -> Self:
+        return cls._packed("<2sBB", (HEADER, 2, 7), ())
 
 
 class ActionGroupSpeed(Message):
@@ -277,9 +193,8 @@ class ActionGroupSpeed(Message):
     The speed is not kept: after power-off each group runs at its recorded speed again. A servo
     has a highest speed of its own, and no percentage makes it faster than that. Never answered.
 
-    Command 11 (0x0B), host to controller, length 5: 5.
-
-    Source: Bus Servo Controller Communication Protocol, section 1.4.
+    Command 11 (0x0B), host to controller, length 5. Source: Bus Servo Controller Communication
+    Protocol, section 1.4.
 
     >>> ActionGroupSpeed(group=8, percent=50).encode().hex(' ')
     '55 55 05 0b 08 32 00'
@@ -292,38 +207,16 @@ class ActionGroupSpeed(Message):
     COMMAND = 11
     DIRECTION = Direction.HOST_TO_CONTROLLER
     LENGTHS = range(5, 6)
-    SHAPE: ClassVar = Shape(
-        11,
-        LENGTHS,
-        (
-            Number("group", "B", 0, 255, names={"all": 255}),
-            Number("percent", "H", 0, 65535, unit="%"),
-        ),
-    )
 
     GROUP_ALL: Final = 255
     """Every action group stored on the controller."""
+    group = U8(4, names={"all": GROUP_ALL})
+    """The number of the action group."""
+    percent = U16(5, unit="%")
+    """The speed, where 100 is the speed at which the group was recorded."""
 
-    def __init__(self, group: int, percent: int) -> None:
-        self._frame = self.SHAPE.frame((group, percent))
-
-    @property
-    def group(self) -> int:
-        """The number of the action group.
-
-        0..255.
-
-        255 (all): Every action group stored on the controller.
-        """
-        return self._frame[4]
-
-    @property
-    def percent(self) -> int:
-        """The speed, where 100 is the speed at which the group was recorded.
-
-        0..65535 %.
-        """
-        return int.from_bytes(self._frame[5:7], "little")
+    def __new__(cls, group: int, percent: int) -> Self:
+        return cls._packed("<2sBBBH", (HEADER, 5, 11), (group, percent))
 
 
 class BatteryVoltageRead(Message):
@@ -331,11 +224,8 @@ class BatteryVoltageRead(Message):
 
     Answered at once by BatteryVoltage, though a report about an action group may come first.
 
-    Answered by BatteryVoltage.
-
-    Command 15 (0x0F), host to controller, length 2: 2.
-
-    Source: Bus Servo Controller Communication Protocol, section 1.5.
+    Command 15 (0x0F), host to controller, length 2. Source: Bus Servo Controller Communication
+    Protocol, section 1.5.
 
     >>> BatteryVoltageRead().encode().hex(' ')
     '55 55 02 0f'
@@ -348,10 +238,9 @@ class BatteryVoltageRead(Message):
     COMMAND = 15
     DIRECTION = Direction.HOST_TO_CONTROLLER
     LENGTHS = range(2, 3)
-    SHAPE: ClassVar = Shape(15, LENGTHS)
 
-    def __init__(self) -> None:
-        self._frame = self.SHAPE.frame(())
+    def __new__(cls) -> Self:
+        return cls._packed("<2sBB", (HEADER, 2, 15), ())
 
 
 class ServoUnload(Message):
@@ -360,9 +249,8 @@ class ServoUnload(Message):
     The servos stay limp until the next ServoMove. An arm held up by its servos falls. Never
     answered.
 
-    Command 20 (0x14), host to controller, length servo_count + 3: 4..255.
-
-    Source: Bus Servo Controller Communication Protocol, section 1.6.
+    Command 20 (0x14), host to controller, length servo_count + 3: 4..255. Source: Bus Servo
+    Controller Communication Protocol, section 1.6.
 
     >>> ServoUnload(servo_ids=[1, 2, 3]).encode().hex(' ')
     '55 55 06 14 03 01 02 03'
@@ -375,23 +263,21 @@ class ServoUnload(Message):
     COMMAND = 20
     DIRECTION = Direction.HOST_TO_CONTROLLER
     LENGTHS = range(4, 256)
-    SHAPE: ClassVar = Shape(
-        20,
-        LENGTHS,
-        (Number("servo_count", "B", 0, 255),),
-        Items("servo_ids", (Number("servo_ids", "B", 0, 255),), range(1, 253), counter=0),
-    )
 
-    def __init__(self, servo_ids: Iterable[int]) -> None:
-        self._frame = self.SHAPE.frame((), servo_ids)
+    servo_count = U8(4)
+    """How many servos are listed."""
+    servo_ids = Items(5, U8(), 1, 252, count=servo_count)
+    """The servos to switch off."""
 
-    @property
-    def servo_ids(self) -> tuple[int, ...]:
-        """The servos to switch off.
-
-        1..252 of them.
-        """
-        return tuple(self._frame[5:])
+    def __new__(cls, servo_ids: Iterable[int]) -> Self:
+        flat = cls.servo_ids.flat(servo_ids)
+        servo_count = len(flat)
+        return cls._packed(
+            "<2sBBB" + servo_count * "B",
+            (HEADER, servo_count + 3, 20),
+            (servo_count,),
+            flat,
+        )
 
 
 class ServoPositionsRead(Message):
@@ -400,11 +286,8 @@ class ServoPositionsRead(Message):
     Answered by ServoPositions. A request may name 252 servos, but a reply has room for 84: a
     request for more than 84 cannot be answered in full.
 
-    Answered by ServoPositions.
-
-    Command 21 (0x15), host to controller, length servo_count + 3: 4..255.
-
-    Source: Bus Servo Controller Communication Protocol, section 1.7.
+    Command 21 (0x15), host to controller, length servo_count + 3: 4..255. Source: Bus Servo
+    Controller Communication Protocol, section 1.7.
 
     >>> ServoPositionsRead(servo_ids=[1, 2, 3, 4, 5, 6]).encode().hex(' ')
     '55 55 09 15 06 01 02 03 04 05 06'
@@ -417,23 +300,21 @@ class ServoPositionsRead(Message):
     COMMAND = 21
     DIRECTION = Direction.HOST_TO_CONTROLLER
     LENGTHS = range(4, 256)
-    SHAPE: ClassVar = Shape(
-        21,
-        LENGTHS,
-        (Number("servo_count", "B", 0, 255),),
-        Items("servo_ids", (Number("servo_ids", "B", 0, 255),), range(1, 253), counter=0),
-    )
 
-    def __init__(self, servo_ids: Iterable[int]) -> None:
-        self._frame = self.SHAPE.frame((), servo_ids)
+    servo_count = U8(4)
+    """How many servos are listed."""
+    servo_ids = Items(5, U8(), 1, 252, count=servo_count)
+    """The servos asked about."""
 
-    @property
-    def servo_ids(self) -> tuple[int, ...]:
-        """The servos asked about.
-
-        1..252 of them.
-        """
-        return tuple(self._frame[5:])
+    def __new__(cls, servo_ids: Iterable[int]) -> Self:
+        flat = cls.servo_ids.flat(servo_ids)
+        servo_count = len(flat)
+        return cls._packed(
+            "<2sBBB" + servo_count * "B",
+            (HEADER, servo_count + 3, 21),
+            (servo_count,),
+            flat,
+        )
 
 
 class ActionGroupStarted(Message):
@@ -442,9 +323,8 @@ class ActionGroupStarted(Message):
     Sent whoever started the group: this host, another one, the handset or the button on the
     board. It may arrive at any time, also between a request and its reply.
 
-    Command 6 (0x06), controller to host, length 5: 5.
-
-    Source: Bus Servo Controller Communication Protocol, section 2.1.
+    Command 6 (0x06), controller to host, length 5. Source: Bus Servo Controller Communication
+    Protocol, section 2.1.
 
     >>> ActionGroupStarted(group=8, times=1).encode().hex(' ')
     '55 55 05 06 08 01 00'
@@ -457,35 +337,16 @@ class ActionGroupStarted(Message):
     COMMAND = 6
     DIRECTION = Direction.CONTROLLER_TO_HOST
     LENGTHS = range(5, 6)
-    SHAPE: ClassVar = Shape(
-        6,
-        LENGTHS,
-        (Number("group", "B", 0, 255), Number("times", "H", 0, 65535, names={"unlimited": 0})),
-    )
 
+    group = U8(4)
+    """The number of the action group."""
     TIMES_UNLIMITED: Final = 0
     """It runs until it is stopped."""
+    times = U16(5, names={"unlimited": TIMES_UNLIMITED})
+    """How many times it will run."""
 
-    def __init__(self, group: int, times: int) -> None:
-        self._frame = self.SHAPE.frame((group, times))
-
-    @property
-    def group(self) -> int:
-        """The number of the action group.
-
-        0..255.
-        """
-        return self._frame[4]
-
-    @property
-    def times(self) -> int:
-        """How many times it will run.
-
-        0..65535.
-
-        0 (unlimited): It runs until it is stopped.
-        """
-        return int.from_bytes(self._frame[5:7], "little")
+    def __new__(cls, group: int, times: int) -> Self:
+        return cls._packed("<2sBBBH", (HEADER, 5, 6), (group, times))
 
 
 class ActionGroupStopped(Message):
@@ -493,9 +354,8 @@ class ActionGroupStopped(Message):
 
     Sent when this host, or another controller of the board, stopped it by force.
 
-    Command 7 (0x07), controller to host, length 2: 2.
-
-    Source: Other vendor documents and several independent clients, report 7.
+    Command 7 (0x07), controller to host, length 2. Source: Other vendor documents and several
+    independent clients, report 7.
 
     >>> ActionGroupStopped().encode().hex(' ')
     '55 55 02 07'
@@ -508,10 +368,9 @@ class ActionGroupStopped(Message):
     COMMAND = 7
     DIRECTION = Direction.CONTROLLER_TO_HOST
     LENGTHS = range(2, 3)
-    SHAPE: ClassVar = Shape(7, LENGTHS)
 
-    def __init__(self) -> None:
-        self._frame = self.SHAPE.frame(())
+    def __new__(cls) -> Self:
+        return cls._packed("<2sBB", (HEADER, 2, 7), ())
 
 
 class ActionGroupCompleted(Message):
@@ -519,9 +378,8 @@ class ActionGroupCompleted(Message):
 
     Sent when the last run of a group is over. The document at hand only hints at it.
 
-    Command 8 (0x08), controller to host, length 5: 5.
-
-    Source: Other vendor documents and several independent clients, report 8.
+    Command 8 (0x08), controller to host, length 5. Source: Other vendor documents and several
+    independent clients, report 8.
 
     >>> ActionGroupCompleted(group=8, times=1).encode().hex(' ')
     '55 55 05 08 08 01 00'
@@ -534,38 +392,21 @@ class ActionGroupCompleted(Message):
     COMMAND = 8
     DIRECTION = Direction.CONTROLLER_TO_HOST
     LENGTHS = range(5, 6)
-    SHAPE: ClassVar = Shape(
-        8,
-        LENGTHS,
-        (Number("group", "B", 0, 255), Number("times", "H", 0, 65535)),
-    )
 
-    def __init__(self, group: int, times: int) -> None:
-        self._frame = self.SHAPE.frame((group, times))
+    group = U8(4)
+    """The number of the action group."""
+    times = U16(5)
+    """How many times it was run."""
 
-    @property
-    def group(self) -> int:
-        """The number of the action group.
-
-        0..255.
-        """
-        return self._frame[4]
-
-    @property
-    def times(self) -> int:
-        """How many times it was run.
-
-        0..65535.
-        """
-        return int.from_bytes(self._frame[5:7], "little")
+    def __new__(cls, group: int, times: int) -> Self:
+        return cls._packed("<2sBBBH", (HEADER, 5, 8), (group, times))
 
 
 class BatteryVoltage(Message):
     """The voltage of the battery.
 
-    Command 15 (0x0F), controller to host, length 4: 4.
-
-    Source: Bus Servo Controller Communication Protocol, section 1.5.
+    Command 15 (0x0F), controller to host, length 4. Source: Bus Servo Controller Communication
+    Protocol, section 1.5.
 
     >>> BatteryVoltage(voltage_mv=7500).encode().hex(' ')
     '55 55 04 0f 4c 1d'
@@ -578,18 +419,12 @@ class BatteryVoltage(Message):
     COMMAND = 15
     DIRECTION = Direction.CONTROLLER_TO_HOST
     LENGTHS = range(4, 5)
-    SHAPE: ClassVar = Shape(15, LENGTHS, (Number("voltage_mv", "H", 0, 65535, unit="mV"),))
 
-    def __init__(self, voltage_mv: int) -> None:
-        self._frame = self.SHAPE.frame((voltage_mv,))
+    voltage_mv = U16(4, unit="mV")
+    """The voltage at the controller's supply terminals. A step is 0.001 V."""
 
-    @property
-    def voltage_mv(self) -> int:
-        """The voltage at the controller's supply terminals.
-
-        0..65535 mV, a step being 0.001 V.
-        """
-        return int.from_bytes(self._frame[4:6], "little")
+    def __new__(cls, voltage_mv: int) -> Self:
+        return cls._packed("<2sBBH", (HEADER, 4, 15), (voltage_mv,))
 
 
 class ServoPositions(Message):
@@ -598,9 +433,8 @@ class ServoPositions(Message):
     The answer to ServoPositionsRead. It may hold fewer servos than were asked for, down to none:
     a servo that is off or missing is left out, or given a position that none can have.
 
-    Command 21 (0x15), controller to host, length 3 * servo_count + 3: 3, 6, 9 .. 255.
-
-    Source: Bus Servo Controller Communication Protocol, section 1.7.
+    Command 21 (0x15), controller to host, length 3 * servo_count + 3: 3, 6, 9 .. 255. Source:
+    Bus Servo Controller Communication Protocol, section 1.7.
 
     >>> ServoPositions(positions=[(3, 65535)]).encode().hex(' ')
     '55 55 06 15 01 03 ff ff'
@@ -613,35 +447,24 @@ class ServoPositions(Message):
     COMMAND = 21
     DIRECTION = Direction.CONTROLLER_TO_HOST
     LENGTHS = range(3, 256, 3)
-    SHAPE: ClassVar = Shape(
-        21,
-        LENGTHS,
-        (Number("servo_count", "B", 0, 255),),
-        Items(
-            "positions",
-            (
-                Number("servo_id", "B", 0, 255),
-                Number("position", "H", 0, 65535, names={"absent": 65535}),
-            ),
-            range(85),
-            counter=0,
-            element=ServoPosition,
-        ),
-    )
 
-    def __init__(self, positions: Iterable[tuple[int, int]]) -> None:
-        self._frame = self.SHAPE.frame((), positions)
+    servo_count = U8(4)
+    """How many servos are listed."""
+    positions = Items(5, ServoPosition, 0, 84, count=servo_count)
+    """The servos that answered and where they are, in the order of the frame.
 
-    @property
-    def positions(self) -> tuple[ServoPosition, ...]:
-        """The servos that answered and where they are, in the order of the frame.
+    Servos that did not answer may be missing from the list. (Client code in public repositories)
+    """
 
-        0..84 of them.
-
-        Servos that did not answer may be missing from the list. (Client code in public
-        repositories)
-        """
-        return tuple(map(_make_servo_position, _read_servo_position(self._frame[5:])))
+    def __new__(cls, positions: Iterable[tuple[int, int]]) -> Self:
+        flat = cls.positions.flat(positions)
+        servo_count = len(flat) // 2
+        return cls._packed(
+            "<2sBBB" + servo_count * "BH",
+            (HEADER, 3 * servo_count + 3, 21),
+            (servo_count,),
+            flat,
+        )
 
     def columns(self) -> tuple[Column, Column]:
         """The positions as columns of plain numbers.
@@ -649,7 +472,7 @@ class ServoPositions(Message):
         One for each field: servo_id and position. For arrays and plots of a recording: several
         times as fast as `positions`.
         """
-        numbers = self.SHAPE.listed(self._frame)
+        numbers = type(self).positions.numbers(self._frame)
         return numbers[0::2], numbers[1::2]
 
 

@@ -7,9 +7,12 @@ Needs Hypothesis, which nothing else here does:
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 from hypothesis import strategies as st
 
 from .messages import (
+    MESSAGES,
     ActionGroupCompleted,
     ActionGroupRun,
     ActionGroupSpeed,
@@ -23,116 +26,87 @@ from .messages import (
     ServoPositionsRead,
     ServoUnload,
 )
+from .number import Number
 from .protocol import HEADER
 
-TYPE_CHECKING = False
 if TYPE_CHECKING:
+    from typing import Any, TypeVar
+
     from hypothesis.strategies import SearchStrategy
 
     from .direction import Direction
+    from .items import Items
     from .message import Message
+
+    Kind = TypeVar("Kind", bound=Message)
 
 
 def servo_move() -> SearchStrategy[ServoMove]:
     """Any ServoMove."""
-    return st.builds(
-        ServoMove,
-        time_ms=st.integers(0, 65535),
-        targets=st.lists(
-            st.tuples(st.integers(0, 255), st.integers(0, 65535)),
-            min_size=1,
-            max_size=83,
-        ),
-    )
+    return _any_of(ServoMove)
 
 
 def action_group_run() -> SearchStrategy[ActionGroupRun]:
     """Any ActionGroupRun."""
-    return st.builds(ActionGroupRun, group=st.integers(0, 255), times=st.integers(0, 65535))
+    return _any_of(ActionGroupRun)
 
 
 def action_group_stop() -> SearchStrategy[ActionGroupStop]:
     """Any ActionGroupStop."""
-    return st.just(ActionGroupStop())
+    return _any_of(ActionGroupStop)
 
 
 def action_group_speed() -> SearchStrategy[ActionGroupSpeed]:
     """Any ActionGroupSpeed."""
-    return st.builds(ActionGroupSpeed, group=st.integers(0, 255), percent=st.integers(0, 65535))
+    return _any_of(ActionGroupSpeed)
 
 
 def battery_voltage_read() -> SearchStrategy[BatteryVoltageRead]:
     """Any BatteryVoltageRead."""
-    return st.just(BatteryVoltageRead())
+    return _any_of(BatteryVoltageRead)
 
 
 def servo_unload() -> SearchStrategy[ServoUnload]:
     """Any ServoUnload."""
-    return st.builds(ServoUnload, servo_ids=st.lists(st.integers(0, 255), min_size=1, max_size=252))
+    return _any_of(ServoUnload)
 
 
 def servo_positions_read() -> SearchStrategy[ServoPositionsRead]:
     """Any ServoPositionsRead."""
-    return st.builds(
-        ServoPositionsRead,
-        servo_ids=st.lists(st.integers(0, 255), min_size=1, max_size=252),
-    )
+    return _any_of(ServoPositionsRead)
 
 
 def action_group_started() -> SearchStrategy[ActionGroupStarted]:
     """Any ActionGroupStarted."""
-    return st.builds(ActionGroupStarted, group=st.integers(0, 255), times=st.integers(0, 65535))
+    return _any_of(ActionGroupStarted)
 
 
 def action_group_stopped() -> SearchStrategy[ActionGroupStopped]:
     """Any ActionGroupStopped."""
-    return st.just(ActionGroupStopped())
+    return _any_of(ActionGroupStopped)
 
 
 def action_group_completed() -> SearchStrategy[ActionGroupCompleted]:
     """Any ActionGroupCompleted."""
-    return st.builds(ActionGroupCompleted, group=st.integers(0, 255), times=st.integers(0, 65535))
+    return _any_of(ActionGroupCompleted)
 
 
 def battery_voltage() -> SearchStrategy[BatteryVoltage]:
     """Any BatteryVoltage."""
-    return st.builds(BatteryVoltage, voltage_mv=st.integers(0, 65535))
+    return _any_of(BatteryVoltage)
 
 
 def servo_positions() -> SearchStrategy[ServoPositions]:
     """Any ServoPositions."""
-    return st.builds(
-        ServoPositions,
-        positions=st.lists(
-            st.tuples(st.integers(0, 255), st.integers(0, 65535)),
-            min_size=0,
-            max_size=84,
-        ),
-    )
-
-
-_STRATEGIES: dict[type[Message], SearchStrategy[Message]] = {
-    ServoMove: servo_move(),
-    ActionGroupRun: action_group_run(),
-    ActionGroupStop: action_group_stop(),
-    ActionGroupSpeed: action_group_speed(),
-    BatteryVoltageRead: battery_voltage_read(),
-    ServoUnload: servo_unload(),
-    ServoPositionsRead: servo_positions_read(),
-    ActionGroupStarted: action_group_started(),
-    ActionGroupStopped: action_group_stopped(),
-    ActionGroupCompleted: action_group_completed(),
-    BatteryVoltage: battery_voltage(),
-    ServoPositions: servo_positions(),
-}
+    return _any_of(ServoPositions)
 
 
 def messages(direction: Direction | None = None) -> SearchStrategy[Message]:
     """Any message of one direction, or of any. ValueError for one in which none goes."""
-    kinds = [kind for kind in _STRATEGIES if direction in (None, kind.DIRECTION)]
+    kinds = [kind for kind in MESSAGES if direction in (None, kind.DIRECTION)]
     if not kinds:
         raise ValueError(f"no message goes in the direction {direction}")
-    return st.one_of([_STRATEGIES[kind] for kind in kinds])
+    return st.one_of([_any_of(kind) for kind in kinds])
 
 
 def noise(*, max_size: int = 40) -> SearchStrategy[bytes]:
@@ -156,3 +130,18 @@ def noisy_streams(
         data += message.encode()
         sent.append(message)
     return data + draw(st.just(b"") | noise()), sent
+
+
+def _any_of(kind: type[Kind]) -> SearchStrategy[Kind]:
+    """Any message of a class, whatever its fields can be."""
+    fields = {name: getattr(kind, name) for name in kind.__match_args__}
+    return st.builds(kind, **{name: _value(field) for name, field in fields.items()})
+
+
+def _value(field: Number | Items[Any]) -> SearchStrategy[Any]:
+    """Any value of a field: a number in its range, or a list as long as it may be."""
+    if isinstance(field, Number):
+        return st.integers(field.low, field.high)
+    numbers = [_value(number) for number in field.fields]
+    elements = st.tuples(*numbers) if field.element else numbers[0]
+    return st.lists(elements, min_size=field.counts[0], max_size=field.counts[-1])

@@ -12,8 +12,9 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
     from typing import Any
 
-    from ..fields import Items, Number
+    from ..items import Items
     from ..message import Message
+    from ..number import Number
 
 
 def fields_as_json(message: Message) -> dict[str, Any]:
@@ -24,18 +25,17 @@ def fields_as_json(message: Message) -> dict[str, Any]:
         if items is None or items.name != name:
             fields[name] = getattr(message, name)
         elif items.element is None:
-            fields[name] = [*message.SHAPE.listed(message.encode())]
+            fields[name] = [*items.numbers(message.encode())]
         else:
             names = [field.name for field in items.fields]
-            fields[name] = [dict(zip(names, each, strict=True)) for each in _listed(message)]
+            fields[name] = [dict(zip(names, each, strict=True)) for each in _rows(items, message)]
     return fields
 
 
-def _listed(message: Message) -> Iterator[tuple[int, ...]]:
+def _rows(items: Items[Any], message: Message) -> Iterator[tuple[int, ...]]:
     """The elements of a list as plain numbers: many times as fast as one by one."""
-    items = message.SHAPE.items
-    numbers = iter(message.SHAPE.listed(message.encode()))
-    return zip(*[numbers] * len(items.fields if items else ()), strict=True)
+    numbers = iter(items.numbers(message.encode()))
+    return zip(*[numbers] * len(items.fields), strict=True)
 
 
 def fields_as_text(message: Message) -> str:
@@ -44,16 +44,12 @@ def fields_as_text(message: Message) -> str:
     shown: list[str] = []
     for name in message.__match_args__:
         if items is not None and items.name == name:
-            elements = [":".join(map(str, each)) for each in _listed(message)]
+            elements = [":".join(map(str, each)) for each in _rows(items, message)]
             shown.append(f"{name}={','.join(elements)}")
         else:
-            number = _number(message.SHAPE.numbers, name)
+            number = getattr(type(message), name)
             shown.append(f"{name}={_number_as_text(number, getattr(message, name))}")
     return " ".join(shown)
-
-
-def _number(numbers: tuple[Number, ...], name: str) -> Number:
-    return next(number for number in numbers if number.name == name)
 
 
 def _number_as_text(number: Number, value: int) -> str:
@@ -103,12 +99,12 @@ def _usage(kind: type[Message]) -> str:
 def _read_field(kind: type[Message], name: str, text: str) -> Any:
     items = kind.SHAPE.items
     if items is None or items.name != name:
-        return _read_number(_number(kind.SHAPE.numbers, name), text, name)
+        return _read_number(getattr(kind, name), text, name)
     words = text.split(",") if text else []
     return [_read_element(items, word, f"{name}[{at}]") for at, word in enumerate(words)]
 
 
-def _read_element(items: Items, word: str, path: str) -> Any:
+def _read_element(items: Items[Any], word: str, path: str) -> Any:
     if items.element is None:
         return _read_number(items.fields[0], word, path)
     parts = word.split(":")

@@ -142,7 +142,7 @@ class ClientView:
     def import_elements(self) -> str:
         """The classes of elements that the methods return; empty where they return none."""
         shown = " ".join(method.returns for method in self.methods)
-        lists = [each.repeat for each in self.model.messages.values()]
+        lists = [each.items for each in self.model.messages.values()]
         elements = {each.element for each in lists if each is not None and each.element is not None}
         found = {each for each in elements if f"tuple[{each}, ...]" in shown}
         names = found | ({self.pose.element} if self.pose else set())

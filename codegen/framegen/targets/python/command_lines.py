@@ -131,7 +131,7 @@ def _encode_lines(model: Model) -> list[_Line]:
     """An example of each shape of message."""
     shapes: dict[tuple[bool, bool], _Line] = {}
     for message in _messages(model):
-        shape = bool(message.given), message.repeat is not None
+        shape = bool(message.numbers), message.items is not None
         line = _words(message), message.layout.message.summary
         shapes.setdefault(shape, line)
     return [*shapes.values()]

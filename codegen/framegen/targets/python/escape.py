@@ -26,6 +26,11 @@ def literal(text: str) -> str:
     return f"{quote}{_inside(text, quote)}{quote}"
 
 
+def byte_literal(data: bytes) -> str:
+    """Bytes as a literal, each as an escape."""
+    return 'b"' + "".join(f"\\x{byte:02x}" for byte in data) + '"'
+
+
 def assigned(text: str, name: str, indent: int) -> str:
     """The assignment of a text to `name`, in brackets where it takes several lines."""
     line = f"{name} = {literal(text)}"
@@ -37,7 +42,7 @@ def assigned(text: str, name: str, indent: int) -> str:
 
 
 # A part of code: text as it is, or what can be broken.
-Part: TypeAlias = "str | Text | Bracketed"
+Part: TypeAlias = "str | Text | Sum | Bracketed"
 
 
 @dataclass(frozen=True, slots=True)
@@ -79,6 +84,21 @@ def _pieces(text: str, first: int, others: int) -> list[str]:
                 room = others
             pieces[-1] += part
     return pieces
+
+
+@dataclass(frozen=True, slots=True)
+class Sum:
+    """Terms with a plus between: a term a line where they are too long for one."""
+
+    terms: Sequence[str]
+
+    def __str__(self) -> str:
+        return " + ".join(self.terms)
+
+    def fitted(self, indent: int, *, last: str = "") -> str:
+        """On one line where it fits, `last` included, or else a term a line: as formatters do."""
+        fits = indent + columns(str(self)) + len(last) <= WIDTH
+        return str(self) if fits else f"\n{' ' * indent}+ ".join(self.terms)
 
 
 @dataclass(frozen=True, slots=True)

@@ -5,11 +5,12 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from framegen.language.spec import IdPart, LengthPart
+from framegen.model.slots import Number
 from framegen.targets.python.command_lines import verbs
-from framegen.targets.python.escape import Bracketed, literal
+from framegen.targets.python.escape import Bracketed, byte_literal, literal
 from framegen.targets.python.exports import HOMES, export_order, relative_import
-from framegen.targets.python.lookalike_view import LookalikeView, byte_literal
+from framegen.targets.python.list_view import ListView
+from framegen.targets.python.lookalike_view import LookalikeView
 from framegen.targets.python.message_view import MessageView
 from framegen.targets.python.words import direction_member, struct_order
 
@@ -18,7 +19,8 @@ if TYPE_CHECKING:
     from framegen.language.values import Direction
     from framegen.model.model import Model
     from framegen.targets.python.command_lines import VerbView
-    from framegen.targets.python.list_view import ListView
+    from framegen.targets.python.element_view import ElementView
+    from framegen.targets.python.number_view import NumberView
 
 
 # So many bytes have room in a line.
@@ -69,38 +71,40 @@ class LibraryView:
         return [MessageView(message, self.model) for message in self.model.messages.values()]
 
     @property
-    def elements(self) -> list[ListView]:
-        """The lists whose elements have a class of their own."""
-        lists = [message.repeat for message in self.messages]
-        return [repeat for repeat in lists if repeat is not None and repeat.element is not None]
+    def lists(self) -> list[ListView]:
+        """The lists of all messages."""
+        return [message.items for message in self.messages if message.items is not None]
 
     @property
-    def imports(self) -> list[str]:
-        """What the messages need of the standard library, by what their lists are read with."""
-        chained = any(
-            "chain." in message.repeat.read for message in self.messages if message.repeat
-        )
-        structs = [*(["Struct"] if self.elements else []), *(["iter_unpack"] if chained else [])]
-        wanted = {
-            "functools": ["partial"] if self.elements else [],
-            "itertools": ["chain"] if chained else [],
-            "struct": structs,
-        }
-        return [f"from {module} import {', '.join(n)}" for module, n in wanted.items() if n]
+    def elements(self) -> list[ElementView]:
+        """The classes of their elements."""
+        return [each.element for each in self.lists if each.element is not None]
+
+    @property
+    def _numbers(self) -> list[NumberView]:
+        """All numbers, those of lists included."""
+        numbers: list[NumberView] = []
+        for message in self.messages:
+            for field in message.fields:
+                numbers += field.fields if isinstance(field, ListView) else [field]
+        return numbers
+
+    @property
+    def number_types(self) -> set[str]:
+        """The classes of all numbers."""
+        return {number.type for number in self._numbers}
+
+    @property
+    def import_numbers(self) -> str:
+        return relative_import("number", self.number_types)
 
     @property
     def typing_imports(self) -> list[str]:
         """What the annotations of the messages need of the standard library."""
-        lists = any(message.repeat for message in self.messages)
-        fields = [field for message in self.messages for field in message.given]
-        fields += [field for element in self.elements for field in element.fields]
+        named = any(number.constants for number in self._numbers)
         wanted: dict[str, dict[str, object]] = {
-            "collections.abc": {"Callable": self.elements, "Iterable": lists},
-            "typing": {
-                "ClassVar": True,
-                "Final": any(field.constants for field in fields),
-                "TypeAlias": self.elements,
-            },
+            "collections.abc": {"Iterable": self.lists},
+            "typing": {"Final": named, "TypeAlias": self.elements},
         }
         found = {
             module: [name for name, needed in names.items() if needed]
@@ -109,21 +113,13 @@ class LibraryView:
         return [f"from {module} import {', '.join(n)}" for module, n in found.items() if n]
 
     @property
-    def from_fields(self) -> list[str]:
-        """What describes and takes in the fields."""
-        lists = any(message.repeat for message in self.messages)
-        numbers = any(message.numbers for message in self.messages)
-        names = {"Items": lists, "Number": numbers}
-        return [name for name, needed in names.items() if needed]
-
-    @property
     def import_message_classes(self) -> str:
-        return relative_import("messages", [message.name for message in self.messages])
+        return relative_import("messages", ["MESSAGES", *(each.name for each in self.messages)])
 
     @property
     def _homes(self) -> dict[str, str]:
         """Every name that the package exports from its modules, in the order that linters want."""
-        elements = [element.element for element in self.elements if element.element is not None]
+        elements = [element.name for element in self.elements]
         classes = [*(message.name for message in self.messages), *elements]
         homes = {**HOMES, **dict.fromkeys(classes, "messages")}
         return {name: homes[name] for name in sorted(homes, key=export_order)}
@@ -165,10 +161,12 @@ class LibraryView:
     @property
     def lookalikes(self) -> str:
         """The tuple of the protocols that are easily taken for this one."""
-        spec = self.model.spec
-        # With neither a frame nor commands of its own, there is nothing to tell it by.
-        told = [each for each in spec.lookalikes.values() if each.frame or each.commands]
-        entries = [LookalikeView(lookalike, spec).entry for lookalike in told]
+        entries = [
+            LookalikeView(lookalike, self.model.lookalikes[name]).entry
+            for name, lookalike in self.model.spec.lookalikes.items()
+            # With neither a frame nor commands of its own, there is nothing to tell it by.
+            if lookalike.frame or lookalike.commands
+        ]
         before = "LOOKALIKES: tuple[Lookalike, ...] = ("
         return Bracketed(before, entries, ")", lone=",").fitted(0)
 
@@ -204,12 +202,10 @@ class LibraryView:
 
     @property
     def head(self) -> list[str]:
-        """The expressions whose sum is the head of a frame."""
-        terms: list[str] = []
-        frame = self.model.frame
-        for part in self.model.spec.frame.values():
-            if isinstance(part, LengthPart):
-                terms.append(f'length.to_bytes({frame.length.size}, "{self.byte_order}")')
-            elif isinstance(part, IdPart):
-                terms.append(f'command.to_bytes({frame.id.size}, "{self.byte_order}")')
-        return terms
+        """The expressions whose sum is the head of a frame, behind its header."""
+        names = {"length": "length", "id": "command"}
+        return [
+            f'{names[slot.role]}.to_bytes({slot.size}, "{slot.order}")'
+            for slot in self.model.frame.head
+            if isinstance(slot, Number)
+        ]

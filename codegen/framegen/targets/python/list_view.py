@@ -1,27 +1,27 @@
-"""What the templates show of the list of a message: its elements, how it is given and read."""
+"""What the templates show of the list of a message: how it is declared, given and read."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from framegen.model.exchanges import snake_case
-from framegen.model.layout import Repeat, WireField
-from framegen.targets.python.escape import WIDTH, Bracketed, Part, literal
-from framegen.targets.python.number_view import RETURN, AbsentView, NumberView, absent_view
-from framegen.targets.python.words import range_expression, struct_order
+from framegen.model.slots import Items, Number
+from framegen.targets.python.element_view import ElementView
+from framegen.targets.python.escape import WIDTH, Bracketed, Part
+from framegen.targets.python.number_view import RETURN, NumberView
 
 if TYPE_CHECKING:
     from typing import Any
 
     from framegen.language.spec import Spec
+    from framegen.targets.python.number_view import Constant
 
 _COLUMNS_FOR = "For arrays and plots of a recording: several times as fast as"
 
 
-def given(argument: WireField | Repeat, value: Any, before: str = "") -> Part:
+def given(argument: Number | Items, value: Any, before: str = "") -> Part:
     """A value of an example as an argument, behind `before`; elements as plain tuples."""
-    if isinstance(argument, WireField):
+    if isinstance(argument, Number):
         return f"{before}{value}"
     if argument.element is None:
         return Bracketed(f"{before}[", [str(item) for item in value], "]")
@@ -36,124 +36,91 @@ def given(argument: WireField | Repeat, value: Any, before: str = "") -> Part:
 class ListView:
     """The list of a message."""
 
-    layout: Repeat
+    slot: Items
     spec: Spec
 
     @property
     def name(self) -> str:
-        return self.layout.name
-
-    @property
-    def element(self) -> str | None:
-        return self.layout.element
+        return self.slot.name
 
     @property
     def fields(self) -> list[NumberView]:
-        return [NumberView(field, self.spec) for field in self.layout.fields]
+        """The numbers of one element."""
+        return [NumberView(field, self.spec) for field in self.slot.fields]
 
     @property
-    def absent(self) -> AbsentView | None:
-        """What tells whether an element is absent, where one can be."""
-        return absent_view(self.fields)
+    def element(self) -> ElementView | None:
+        """The class of its elements, where they are no bare numbers."""
+        name = self.slot.element
+        return None if name is None else ElementView(name, self.name, self.fields)
 
     @property
-    def codes(self) -> str:
-        """The letters of one element in `struct`, behind that of the byte order."""
-        return struct_order(self.spec.byte_order) + "".join(
-            field.wire.code for field in self.layout.fields
-        )
-
-    @property
-    def match_args(self) -> str:
-        names = [literal(field.name) for field in self.fields]
-        return Bracketed("__match_args__ = (", names, ")", lone=",").fitted(4)
-
-    @property
-    def signature(self) -> str:
-        fields = [f"{field.name}: int" for field in self.fields]
-        return Bracketed("def __new__(", ["cls", *fields], ") -> Self:").fitted(4)
-
-    @property
-    def made(self) -> str:
-        """What makes one of the arguments of its signature."""
-        names = Bracketed("(", [field.name for field in self.fields], ")", lone=",")
-        return Bracketed("return tuple.__new__(", ["cls", names], ")").fitted(8)
-
-    @property
-    def element_doc(self) -> list[str]:
-        return [f"One of the {self.name} of a message: a tuple ({self.names}) with names."]
+    def constants(self) -> list[Constant]:
+        """The named values of bare numbers; elements have their own."""
+        return [] if self.element else self.fields[0].constants
 
     @property
     def declared(self) -> str:
-        """The declaration of the class of an element."""
-        bases: list[Part] = ["Element", Bracketed("tuple[", self._ints, "]")]
-        return Bracketed(f"class {self.element}(", bases, "):").fitted(0)
+        """The line that declares it: its place, what it is a list of, and how many there may be."""
+        of: Part = self.element.name if self.element else self.fields[0].made("", [])
+        bounds = [str(self.slot.low), str(self.slot.high), f"count={self.slot.counter.name}"]
+        return Bracketed(f"{self.name} = Items(", [str(self.slot.at), of, *bounds], ")").fitted(4)
 
     @property
-    def _ints(self) -> list[str]:
-        """The types of its fields."""
-        return ["int" for _ in self.layout.fields]
+    def doc(self) -> list[str]:
+        """What it is, and what else is known of it."""
+        return [" ".join([self.slot.field.about, *self._notes])]
 
     @property
-    def names(self) -> str:
-        """The names of its fields, as the tuple that one element is made of."""
-        return ", ".join(field.name for field in self.fields) + (
-            "," if len(self.fields) == 1 else ""
-        )
+    def argument_doc(self) -> list[str]:
+        """The same for an argument of a method, whose declaration does not say how many may be."""
+        bounds = f"{self.slot.low}..{self.slot.high} of them."
+        return [self.slot.field.about, bounds, *self._notes]
 
     @property
-    def strategy(self) -> Bracketed:
-        """Hypothesis's strategy for it, as an argument."""
-        items = [field.strategy for field in self.fields]
-        element: Bracketed = (
-            items[0] if self.element is None else Bracketed("st.tuples(", items, ")")
-        )
-        sizes = [f"min_size={self.layout.low}", f"max_size={self.layout.high}"]
-        return Bracketed(f"{self.name}=st.lists(", [element, *sizes], ")")
+    def _notes(self) -> list[str]:
+        sources = self.spec.sources
+        return [
+            f"{note.text} ({sources[note.cite.source].title})" for note in self.slot.field.notes
+        ]
 
     @property
-    def snake(self) -> str:
-        """The name of its element, for the functions that make and read one."""
-        return snake_case(self.element or "")
-
-    @property
-    def reader(self) -> str:
-        """The function that reads elements from the bytes of a frame."""
-        codes = [literal(self.codes)]
-        return Bracketed(f"_read_{self.snake} = Struct(", codes, ").iter_unpack").fitted(0)
-
-    @property
-    def maker(self) -> str:
-        """The function that makes an element of a tuple."""
-        element = str(self.element)
-        types = ["[tuple[int, ...]]", element]
-        kind = Bracketed(f"_make_{self.snake}: Callable[", types, "] = partial(")
-        if len(str(kind)) <= WIDTH:
-            return Bracketed(str(kind), ["tuple.__new__", element], ")").fitted(0)
-        return f"{kind.fitted(0)}tuple.__new__, {element})"
+    def argument(self) -> Part:
+        """How it is declared as an argument."""
+        if self.element is None:
+            return f"{self.name}: Iterable[int]"
+        element = Bracketed("tuple[", self.element.types, "]")
+        return Bracketed(f"{self.name}: Iterable[", [element], "]", comma="")
 
     @property
     def read_as(self) -> str:
         """The type that reading it gives."""
-        return f"tuple[{self.element or 'int'}, ...]"
+        return f"tuple[{self.slot.element or 'int'}, ...]"
 
     @property
-    def read(self) -> str:
-        """The expression that reads it from the frame."""
-        data = f"self._frame[{self.layout.offset}:]"
-        if self.element is not None:
-            read = Bracketed(f"_read_{self.snake}(", [data], ")")
-            each = Bracketed("map(", [f"_make_{self.snake}", read], ")")
-            return Bracketed("tuple(", [each], ")").fitted(8, last=RETURN)
-        if self.layout.fields[0].wire.is_byte:
-            return f"tuple({data})"
-        return f"tuple(chain.from_iterable(iter_unpack({literal(self.codes)}, {data})))"
+    def flat(self) -> str:
+        """The statement that makes one list of all numbers that are given."""
+        return Bracketed(f"flat = cls.{self.name}.flat(", [self.name], ")").fitted(8)
 
     @property
-    def column_types(self) -> str:
-        """The types of its columns, as many as there is room for in the line."""
+    def counted(self) -> str:
+        """The statement that counts the elements."""
+        width = len(self.fields)
+        each = f" // {width}" if width > 1 else ""
+        return f"{self.slot.counter.name} = len(flat){each}"
+
+    @property
+    def columns_declared(self) -> str:
+        """The declaration of what reads it as columns, as many as there is room for in the line."""
         types = ", ".join("Column" for _ in self.fields)
-        return f"tuple[{types if len(self.fields) <= 6 else 'Column, ...'}]"
+        returned = types if len(self.fields) <= 6 else "Column, ..."
+        return f"def columns(self) -> tuple[{returned}]:"
+
+    @property
+    def numbers(self) -> str:
+        """The statement that reads all its numbers."""
+        call = f"numbers = type(self).{self.name}.numbers("
+        return Bracketed(call, ["self._frame"], ")").fitted(8)
 
     @property
     def columns(self) -> str:
@@ -174,33 +141,3 @@ class ListView:
             f"The {self.name} as columns of plain numbers.",
             f"One for each field: {fields}. {_COLUMNS_FOR} `{self.name}`.",
         ]
-
-    @property
-    def counts(self) -> str:
-        return range_expression(range(self.layout.low, self.layout.high + 1))
-
-    @property
-    def bounds(self) -> str:
-        return f"{self.layout.low}..{self.layout.high}"
-
-    @property
-    def argument(self) -> Part:
-        """How it is declared as an argument."""
-        if self.element is None:
-            return f"{self.name}: Iterable[int]"
-        element = Bracketed("tuple[", self._ints, "]")
-        return Bracketed(f"{self.name}: Iterable[", [element], "]", comma="")
-
-    @property
-    def getter(self) -> str:
-        """The declaration of the property that reads it."""
-        return Bracketed(f"def {self.name}(", ["self"], f") -> {self.read_as}:").fitted(4)
-
-    @property
-    def doc(self) -> list[str]:
-        """What it is, how many there can be, and what else is known of it."""
-        field = self.layout.field
-        notes = [
-            f"{note.text} ({self.spec.sources[note.cite.source].title})" for note in field.notes
-        ]
-        return [field.about, f"{self.bounds} of them.", *notes]

@@ -2,15 +2,16 @@
 
 from __future__ import annotations
 
+import re
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from framegen.model.layout import Repeat, WireField
-from framegen.targets.python.escape import Bracketed, Part, literal, session
+from framegen.model.slots import Constant, Items, Number
+from framegen.targets.python.escape import Bracketed, Part, Sum, byte_literal, literal, session
 from framegen.targets.python.list_view import ListView, given
 from framegen.targets.python.names import strategy_name
 from framegen.targets.python.number_view import AbsentView, NumberView, absent_view
-from framegen.targets.python.words import direction_member, range_expression
+from framegen.targets.python.words import direction_member, range_expression, struct_order
 from framegen.wording import describe_range
 
 if TYPE_CHECKING:
@@ -22,7 +23,7 @@ if TYPE_CHECKING:
     from framegen.model.model import Model
 
 
-_ASSIGNED = "self._frame = "
+_WORD = re.compile(r"\w+")
 # So many bytes of a frame have room in a line of an example.
 _SHOWN = 31
 
@@ -41,19 +42,19 @@ class MessageView:
     @property
     def doc(self) -> list[str]:
         """The summary, and below it a paragraph each for what its user should know."""
-        message, frame = self.layout.message, self.layout.frame
+        message, frame, formula = self.layout.message, self.layout.frame, self.layout.formula
         found = [message.summary, message.description]
         if message.deprecated:
             found.append(f"Deprecated: {message.deprecated}")
-        if message.reply:
+        if message.reply and message.reply not in _WORD.findall(message.description):
             found.append(f"Answered by {message.reply}.")
-        identity = f"{frame.id_name.capitalize()} {self.layout.id} (0x{self.layout.id:02X})"
-        lengths = (
-            f"{frame.length_name} {self.layout.formula}: {describe_range(self.layout.lengths)}"
-        )
+        identity = f"{frame.id.name.capitalize()} {self.layout.id} (0x{self.layout.id:02X})"
+        lengths = f"{frame.length.name} {formula}"
+        if formula.factor:
+            lengths += f": {describe_range(self.layout.lengths)}"
         sender, receiver = self.layout.direction.sender, self.layout.direction.receiver
-        found.append(f"{identity}, {sender} to {receiver}, {lengths}.")
-        found.append(f"Source: {self.cited(message.cite)}.")
+        source = f"Source: {self.cited(message.cite)}."
+        found.append(f"{identity}, {sender} to {receiver}, {lengths}. {source}")
         return found
 
     def cited(self, cite: Citation) -> str:
@@ -78,65 +79,82 @@ class MessageView:
         return range_expression(self.layout.lengths)
 
     @property
+    def fields(self) -> list[NumberView | ListView]:
+        """Its fields in the order of the frame, the count among them."""
+        return [self._view(slot) for slot in self.layout.fields]
+
+    @property
+    def arguments(self) -> list[NumberView | ListView]:
+        """Those that a user gives."""
+        return [self._view(slot) for slot in self.layout.arguments]
+
+    def _view(self, slot: Number | Items) -> NumberView | ListView:
+        spec = self.model.spec
+        return ListView(slot, spec) if isinstance(slot, Items) else NumberView(slot, spec)
+
+    @property
     def numbers(self) -> list[NumberView]:
-        """The fields in front of the list, its count among them."""
-        return [NumberView(field, self.model.spec) for field in self.layout.numbers]
-
-    @property
-    def given(self) -> list[NumberView]:
         """The numbers that a user gives."""
-        return [
-            NumberView(field, self.model.spec)
-            for field in self.layout.arguments
-            if isinstance(field, WireField)
-        ]
+        return [each for each in self.arguments if isinstance(each, NumberView)]
 
     @property
-    def repeat(self) -> ListView | None:
-        repeat = self.layout.repeat
-        return None if repeat is None else ListView(repeat, self.model.spec)
-
-    @property
-    def counter(self) -> int:
-        """The position of the count among the numbers."""
-        return next(
-            at for at, field in enumerate(self.layout.numbers) if self.layout.counts_with(field)
-        )
-
-    @property
-    def narrowed(self) -> bool:
-        """Whether a field has a range narrower than its type."""
-        repeat = self.layout.repeat
-        fields = [*self.layout.numbers, *(repeat.fields if repeat else ())]
-        return any(field.narrowed for field in fields)
+    def items(self) -> ListView | None:
+        """Its list, where it has one."""
+        items = self.layout.items
+        return None if items is None else ListView(items, self.model.spec)
 
     @property
     def absent(self) -> AbsentView | None:
         """What tells whether the message says that there is nothing to tell of, where it can."""
-        return absent_view(self.given)
-
-    @property
-    def arguments(self) -> list[str]:
-        """The names of the constructor's arguments."""
-        return [argument.name for argument in self.layout.arguments]
+        return absent_view(self.numbers)
 
     @property
     def match_args(self) -> str:
-        names = [literal(name) for name in self.arguments]
+        names = [literal(each.name) for each in self.arguments]
         return Bracketed("__match_args__ = (", names, ")", lone=",").fitted(4)
 
     @property
     def signature(self) -> str:
-        numbers = [f"{field.name}: int" for field in self.given]
-        lists = [self.repeat.argument] if self.repeat else []
-        return Bracketed("def __init__(", ["self", *numbers, *lists], ") -> None:").fitted(4)
+        """The declaration of what makes it of the values that a user gives."""
+        given = [
+            each.argument if isinstance(each, ListView) else f"{each.name}: int"
+            for each in self.arguments
+        ]
+        return Bracketed("def __new__(", ["cls", *given], ") -> Self:").fitted(4)
 
     @property
-    def framed(self) -> str:
-        """The call that makes the frame of what the constructor was given."""
-        numbers = Bracketed("(", [field.name for field in self.given], ")", lone=",")
-        lists = [self.repeat.name] if self.repeat else []
-        return Bracketed("self.SHAPE.frame(", [numbers, *lists], ")").fitted(8, last=_ASSIGNED)
+    def packing(self) -> str:
+        """The arguments of what packs its frame: the notation, the head, and the fields."""
+        head = [self._in_front(slot) for slot in self.layout.frame.head]
+        fields = [slot.name for slot in self.layout.fields if isinstance(slot, Number)]
+        items: list[Part] = [
+            Sum(self._notation),
+            Bracketed("(", head, ")", lone=","),
+            Bracketed("(", fields, ")", lone=","),
+            *([] if self.layout.items is None else ["flat"]),
+        ]
+        call = "return cls._packed("
+        return Bracketed(call, items, ")").fitted(8).removeprefix(call).removesuffix(")")
+
+    @property
+    def _notation(self) -> list[str]:
+        """How its slots are packed, as `struct` has it; those of the list as often as counted."""
+        fixed, listed = struct_order(self.model.spec.byte_order), []
+        for slot in self.layout.slots:
+            if isinstance(slot, Constant):
+                fixed += f"{slot.size}s"
+            elif isinstance(slot, Number):
+                fixed += slot.wire.code
+            else:
+                codes = "".join(field.wire.code for field in slot.fields)
+                listed = [f"{slot.counter.name} * {literal(codes)}"]
+        return [literal(fixed), *listed]
+
+    def _in_front(self, slot: Constant | Number) -> str:
+        """A slot of the envelope, as what is packed for it."""
+        if isinstance(slot, Constant):
+            return "HEADER" if slot.data == self.layout.frame.header else byte_literal(slot.data)
+        return str(self.layout.formula) if slot.role == "length" else str(self.layout.id)
 
     @property
     def example(self) -> Example:
@@ -161,7 +179,7 @@ class MessageView:
         words: list[str] = []
         for argument in self.layout.arguments:
             value = values[argument.name]
-            if isinstance(argument, Repeat):
+            if isinstance(argument, Items):
                 names = [field.name for field in argument.fields]
                 parts = [
                     [str(item)] if argument.element is None else [str(item[name]) for name in names]
@@ -181,32 +199,3 @@ class MessageView:
         """The declaration of that function."""
         before = f"def {self.function}() -> SearchStrategy["
         return Bracketed(before, [self.name], "]:", comma="").fitted(0)
-
-    @property
-    def strategy(self) -> str:
-        """The statement that makes its strategy."""
-        if not self.arguments:
-            return f"return st.just({self.name}())"
-        numbers = [field.strategy_as(f"{field.name}=") for field in self.given]
-        lists = [self.repeat.strategy] if self.repeat else []
-        return Bracketed("return st.builds(", [self.name, *numbers, *lists], ")").fitted(4)
-
-    @property
-    def shape(self) -> str:
-        """The description of its wire side, for the runtime."""
-        items: list[Part] = [str(self.command), "LENGTHS"]
-        if self.numbers:
-            items.append(Bracketed("(", [each.described for each in self.numbers], ")", lone=","))
-        if self.repeat:
-            items.append(self._items(self.repeat))
-        if self.narrowed:
-            items.append("narrowed=True")
-        return Bracketed("SHAPE: ClassVar = Shape(", items, ")").fitted(4)
-
-    def _items(self, repeat: ListView) -> Bracketed:
-        fields = Bracketed("(", [field.described for field in repeat.fields], ")", lone=",")
-        items: list[Part] = [literal(repeat.name), fields, repeat.counts]
-        items.append(f"counter={self.counter}")
-        if repeat.element:
-            items.append(f"element={repeat.element}")
-        return Bracketed("Items(", items, ")")

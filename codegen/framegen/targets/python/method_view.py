@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from framegen.model.layout import Repeat, WireField
+from framegen.model.slots import Items, Number
 from framegen.targets.python.escape import WIDTH, Bracketed, Part, session
 from framegen.targets.python.list_view import ListView, given
 from framegen.targets.python.number_view import NumberView
@@ -80,7 +80,7 @@ class MethodView:
         result = self._result
         if result is None:
             return reply.name
-        return "int" if isinstance(result, WireField) else self._list(result).read_as
+        return "int" if isinstance(result, Number) else self._list(result).read_as
 
     @property
     def _sent(self) -> str:
@@ -97,7 +97,7 @@ class MethodView:
         if message.deprecated:
             found.append(f"Deprecated: {message.deprecated}")
         for name in self._names:
-            about, *rest = self._argument(name).doc
+            about, *rest = self._argument(name).argument_doc
             found.append(" ".join([f"`{name}`: {about}", *rest]))
         return [*found, *self._outcome]
 
@@ -108,7 +108,7 @@ class MethodView:
             return [*self._handed_over, f"{_REFUSED}, and TransportError."]
         told = f"Returns the {reply.name}."
         if result is not None:
-            about, *rest = self._shown(result).doc
+            about, *rest = self._shown(result).argument_doc
             told = " ".join([f"Returns `{result.name}` of the {reply.name}: {about}", *rest])
         lines = [told]
         if self.exchange.split is not None:
@@ -132,7 +132,7 @@ class MethodView:
         reply = self.exchange.reply
         if reply is None:
             return self._session(f"sent = {call}")
-        if isinstance(self._result, WireField):
+        if isinstance(self._result, Number):
             shown = str(reply.message.examples[0].values[self._result.name])
             return [*self._session(call), shown]
         return self._session(f"answer = {call}")
@@ -203,7 +203,7 @@ class MethodView:
         return self.exchange.method.arguments
 
     @property
-    def _result(self) -> WireField | Repeat | None:
+    def _result(self) -> Number | Items | None:
         """The field of the reply that it returns."""
         reply, name = self.exchange.reply, self.exchange.method.result
         fields = () if reply is None else reply.arguments
@@ -212,17 +212,17 @@ class MethodView:
     def _argument(self, name: str) -> NumberView | ListView:
         return self._shown(self._field(name))
 
-    def _field(self, name: str) -> WireField | Repeat:
+    def _field(self, name: str) -> Number | Items:
         fields = self.exchange.request.arguments
         return next(field for field in fields if field.name == name)
 
-    def _shown(self, field: WireField | Repeat) -> NumberView | ListView:
-        return self._list(field) if isinstance(field, Repeat) else self._number(field)
+    def _shown(self, field: Number | Items) -> NumberView | ListView:
+        return self._list(field) if isinstance(field, Items) else self._number(field)
 
-    def _list(self, field: Repeat) -> ListView:
+    def _list(self, field: Items) -> ListView:
         return ListView(field, self.model.spec)
 
-    def _number(self, field: WireField) -> NumberView:
+    def _number(self, field: Number) -> NumberView:
         return NumberView(field, self.model.spec)
 
     def _declared(self, argument: NumberView | ListView) -> Part:

@@ -109,8 +109,8 @@ class Names:
     @cached_property
     def _classes(self) -> frozenset[str]:
         """In lower case, since those that differ only in capitals are one word as functions."""
-        repeats = (message.repeat for message in self.model.messages.values())
-        elements = [repeat.element for repeat in repeats if repeat is not None and repeat.element]
+        lists = (message.items for message in self.model.messages.values())
+        elements = [items.element for items in lists if items is not None and items.element]
         return frozenset(name.lower() for name in (*self.model.messages, *elements))
 
     @cached_property
@@ -119,7 +119,7 @@ class Names:
         return frozenset(
             signed_name(number.name)
             for message in self.model.messages.values()
-            for number in (*message.numbers, *(message.repeat.fields if message.repeat else ()))
+            for number in message.numbers_by_path.values()
             if number.field.signed_as is not None
         )
 

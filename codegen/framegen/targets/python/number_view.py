@@ -1,4 +1,4 @@
-"""What the templates show of a number: how it is described, checked and read."""
+"""What the templates show of a number: how it is declared, documented and read as signed."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from framegen.targets.python.names import constant_name, signed_name
 
 if TYPE_CHECKING:
     from framegen.language.spec import Spec
-    from framegen.model.layout import WireField
+    from framegen.model.slots import Number
 
 
 # What stands in front of an expression that a property returns, 8 columns from the left.
@@ -46,39 +46,43 @@ class AbsentView:
 
 @dataclass(frozen=True, slots=True)
 class NumberView:
-    """A number: how it is described, checked and read."""
+    """A number: of a message, or of an element."""
 
-    layout: WireField
+    slot: Number
     spec: Spec
 
     @property
     def name(self) -> str:
-        return self.layout.name
-
-    @property
-    def low(self) -> int:
-        return self.layout.low
-
-    @property
-    def high(self) -> int:
-        return self.layout.high
+        return self.slot.name
 
     @property
     def doc(self) -> list[str]:
-        """What it is; its range, unit and scale; its named values; and what else is known of it."""
-        field = self.layout.field
+        """What it is, and what else is known of it; its range and unit stand in the code above."""
+        field = self.slot.field
+        scale = [f"A step is {field.scale}."] if field.scale else []
+        return [" ".join([field.about, *scale, *self._sent, *self._notes])]
+
+    @property
+    def argument_doc(self) -> list[str]:
+        """The same for an argument of a method, whose declaration says only that it is a number."""
+        field = self.slot.field
         unit = f" {field.unit}" if field.unit else ""
         scale = f", a step being {field.scale}" if field.scale else ""
+        range_ = f"{self.slot.low}..{self.slot.high}{unit}{scale}."
         named = [f"{value.value} ({name}): {value.about}" for name, value in field.values.items()]
-        notes = [
-            f"{note.text} ({self.spec.sources[note.cite.source].title})" for note in field.notes
+        return [field.about, range_, *self._sent, *named, *self._notes]
+
+    @property
+    def _notes(self) -> list[str]:
+        sources = self.spec.sources
+        return [
+            f"{note.text} ({sources[note.cite.source].title})" for note in self.slot.field.notes
         ]
-        return [field.about, f"{self.low}..{self.high}{unit}{scale}.", *self._sent, *named, *notes]
 
     @property
     def _sent(self) -> list[str]:
         """What a client sends of it unless told otherwise."""
-        limits = self.layout.field.limits
+        limits = self.slot.field.limits
         if limits is None:
             return []
         others = [f"{name} take {range_}" for name, range_ in limits.others.items()]
@@ -86,66 +90,53 @@ class NumberView:
         return [f"A client sends {limits.usual} unless its `limits` say otherwise{told}."]
 
     @property
-    def signed(self) -> SignedView | None:
-        """What reads it as signed, where it can be."""
-        signed_as = self.layout.field.signed_as
-        if signed_as is None:
-            return None
-        wire = WIRE_TYPES[signed_as]
-        sign = wire.high + 1
-        return SignedView(
-            signed_name(self.name),
-            [
-                f"`{self.name}` read as {signed_as}, which may be below zero.",
-                f"{wire.low}..{wire.high}. One that is `absent` has none."
-                if self.absent_values
-                else f"{wire.low}..{wire.high}.",
-            ],
-            _signed(f"self.{self.name} ^ {sign:#x}", f" - {sign:#x}"),
-        )
+    def type(self) -> str:
+        """The class of the field: `U16`."""
+        return self.slot.wire.name.upper()
 
     @property
-    def absent_values(self) -> list[int]:
-        """The values that say that there is nothing to tell of."""
-        return [each.value for each in self.layout.field.values.values() if each.absent]
+    def declared(self) -> str:
+        """The line that declares it: what it is called, its type and its place."""
+        return self.made(f"{self.name} = ", [str(self.slot.at)]).fitted(4)
+
+    def made(self, before: str, place: list[str]) -> Bracketed:
+        """The call that makes the field, with what its type alone does not say."""
+        slot, field = self.slot, self.slot.field
+        items: list[Part] = [*place]
+        items += [f"low={slot.low}"] if slot.low != slot.wire.low else []
+        items += [f"high={slot.high}"] if slot.high != slot.wire.high else []
+        items += [Text(field.unit, before="unit=")] if field.unit else []
+        names = [
+            f"{literal(name)}: {constant.name}"
+            for name, constant in zip(field.values, self.constants, strict=True)
+        ]
+        items += [Bracketed("names={", names, "}")] if names else []
+        return Bracketed(f"{before}{self.type}(", items, ")")
 
     @property
     def constants(self) -> list[Constant]:
         return [
             Constant(constant_name(self.name, name), value.value, value.about)
-            for name, value in self.layout.field.values.items()
+            for name, value in self.slot.field.values.items()
         ]
 
     @property
-    def read(self) -> str:
-        """The expression that reads it from the frame."""
-        start, end = self.layout.offset, self.layout.offset + self.layout.wire.size
-        if self.layout.wire.is_byte:
-            return f"self._frame[{start}]"
-        signed = ", signed=True" if self.layout.wire.low < 0 else ""
-        return f'int.from_bytes(self._frame[{start}:{end}], "{self.spec.byte_order}"{signed})'
+    def signed(self) -> SignedView | None:
+        """What reads it as signed, where it can be."""
+        signed_as = self.slot.field.signed_as
+        if signed_as is None:
+            return None
+        wire = WIRE_TYPES[signed_as]
+        sign = wire.high + 1
+        rest = "; one that is `absent` has none" if self.absent_values else ""
+        doc = [f"`{self.name}` read as {signed_as}, which may be below zero{rest}."]
+        read = _signed(f"self.{self.name} ^ {sign:#x}", f" - {sign:#x}")
+        return SignedView(signed_name(self.name), doc, read)
 
     @property
-    def strategy(self) -> Bracketed:
-        """Hypothesis's strategy for it."""
-        return self.strategy_as("")
-
-    def strategy_as(self, before: str) -> Bracketed:
-        """The same, as an argument behind `before`."""
-        return Bracketed(f"{before}st.integers(", [str(self.low), str(self.high)], ")")
-
-    @property
-    def described(self) -> Bracketed:
-        """The call that describes it to the runtime."""
-        field = self.layout.field
-        items: list[Part] = [literal(self.name), literal(self.layout.wire.code)]
-        items += [str(self.low), str(self.high)]
-        if field.unit:
-            items.append(Text(field.unit, before="unit="))
-        if field.values:
-            names = [f"{literal(name)}: {value.value}" for name, value in field.values.items()]
-            items.append(Bracketed("names={", names, "}"))
-        return Bracketed("Number(", items, ")")
+    def absent_values(self) -> list[int]:
+        """The values that say that there is nothing to tell of."""
+        return [each.value for each in self.slot.field.values.values() if each.absent]
 
 
 def absent_view(fields: list[NumberView]) -> AbsentView | None:
@@ -153,7 +144,7 @@ def absent_view(fields: list[NumberView]) -> AbsentView | None:
     for field in fields:
         values = field.absent_values
         if values:
-            named = field.layout.field.values
+            named = field.slot.field.values
             about = [each.about for each in named.values() if each.absent]
             whole = f"self.{field.name}"
             test = (

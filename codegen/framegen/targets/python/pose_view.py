@@ -14,8 +14,9 @@ from framegen.targets.python.words import range_expression
 if TYPE_CHECKING:
     from framegen.language.spec import Pose
     from framegen.model.exchanges import Exchange
-    from framegen.model.layout import MessageLayout, Repeat
+    from framegen.model.layout import MessageLayout
     from framegen.model.model import Model
+    from framegen.model.slots import Items
     from framegen.targets.python.method_view import Flavour
 
 _RAISED = "NoReplyError where no reply comes in time, and TransportError."
@@ -62,9 +63,9 @@ class PoseView:
         return name
 
     @property
-    def told(self) -> Repeat:
+    def told(self) -> Items:
         """The list of positions in the reply."""
-        found = self._message(self._exchange(self.pose.read).request.message.reply or "").repeat
+        found = self._message(self._exchange(self.pose.read).request.message.reply or "").items
         if found is None:
             raise AssertionError("the rule pose sees to that")
         return found
@@ -199,8 +200,8 @@ class PoseView:
         return signed_name(field.name) if field.field.signed_as else field.name
 
     @property
-    def _moved(self) -> Repeat:
-        found = self._message(self.pose.move).repeat
+    def _moved(self) -> Items:
+        found = self._message(self.pose.move).items
         if found is None:
             raise AssertionError("the rule pose sees to that")
         return found

@@ -69,11 +69,11 @@ LIBRARY_CLASSES = _words(
     """
     AbsentError AsyncClient AsyncController AsyncMotion Client ClosedError Column Controller
     Counters DecodeError Device Direction DisconnectedError EchoError Element EncodeError Exchange
-    EXCHANGES HEADER IncompleteReplyError Items LimitError Limits LIMITS LineCounters LineError
-    Message MESSAGES Motion Noise NoReplyError NoReportError Number PortAddressError PortBusyError
-    PortNotFoundError PortPermissionError Pose POSE ProtocolError Reason RECEIVED Rejects Report Run
-    SearchStrategy Sent Shape StreamDecoder Table Timed Transport TransportError UNFIT UnknownFrame
-    WriteStuckError
+    EXCHANGES Field HEADER I8 I16 I32 I64 IncompleteReplyError Items Kind LimitError Limits LIMITS
+    LineCounters LineError Message MESSAGES Motion Noise NoReplyError NoReportError Number
+    PortAddressError PortBusyError PortNotFoundError PortPermissionError Pose POSE ProtocolError
+    Reason RECEIVED Rejects Report Run SearchStrategy Sent Shape StreamDecoder Table Timed Transport
+    TransportError U8 U16 U32 U64 UNFIT UnknownFrame WriteStuckError
     """
 )
 
@@ -90,6 +90,9 @@ ELEMENT_ATTRIBUTES = _words("absent count index")
 
 # What methods have besides the fields of a message: in their declaration, or as a variable.
 ARGUMENTS = _words("cls exchanged kind latest replies reply self timeout")
+
+# What the constructor of a message has as a variable.
+CONSTRUCTOR = _words("flat")
 
 # The functions of the module of strategies, and what it imports.
 STRATEGIES = _words("annotations messages noise noisy_streams st")
@@ -150,6 +153,7 @@ RESERVED = (
     Reserved("field", BUILTINS, _BUILTIN, "_"),
     Reserved("field", MESSAGE_ATTRIBUTES, "is an attribute of every message", "_"),
     Reserved("field", ARGUMENTS, "is an argument or a variable of the client's methods", "_"),
+    Reserved("field", CONSTRUCTOR, "is a variable of the messages' constructors", "_"),
     Reserved("field", AMBIGUOUS, _AMBIGUOUS, "_"),
     Reserved("field of an element", KEYWORDS, _KEYWORD, "_"),
     Reserved("field of an element", BUILTINS, _BUILTIN, "_"),

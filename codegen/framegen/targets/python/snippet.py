@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from framegen.language.values import to_hex
+from framegen.model.slots import Number
 from framegen.targets.python.escape import Bracketed
 from framegen.targets.python.message_view import MessageView
 from framegen.targets.python.names import names_of
@@ -54,16 +55,14 @@ def _from_hex(before: str, example: Example) -> str:
 
 
 def _shown(message: MessageLayout, example: Example) -> list[str]:
-    lines = [
-        f"print(event.{field.name})  # {example.values[field.name]}"
-        for field in message.numbers
-        if not message.counts_with(field)
-    ]
-    repeat = message.repeat
-    if repeat is not None and repeat.element is None:
-        lines.append(f"print(*event.{repeat.name})")
-    elif repeat is not None:
-        names = ", ".join(field.name for field in repeat.fields)
-        comma = "," if len(repeat.fields) == 1 else ""
-        lines += [f"for {names}{comma} in event.{repeat.name}:", f"    print({names})"]
+    lines: list[str] = []
+    for field in message.arguments:
+        if isinstance(field, Number):
+            lines.append(f"print(event.{field.name})  # {example.values[field.name]}")
+        elif field.element is None:
+            lines.append(f"print(*event.{field.name})")
+        else:
+            names = ", ".join(each.name for each in field.fields)
+            comma = "," if len(field.fields) == 1 else ""
+            lines += [f"for {names}{comma} in event.{field.name}:", f"    print({names})"]
     return lines or ["print(event)"]

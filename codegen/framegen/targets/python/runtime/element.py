@@ -1,21 +1,44 @@
-"""What the elements of a message's list have in common."""
+"""What the elements of a message's list have in common: they are tuples whose parts have names."""
 
 from __future__ import annotations
 
 TYPE_CHECKING = False  # typing alone would double the time that the import takes
 if TYPE_CHECKING:
-    from typing import ClassVar
+    from typing import Any, ClassVar
+
+    from typing_extensions import Self
+
+    from .number import Number
 
 
 class Element:
-    """A tuple whose parts have names; equal to the plain tuple of the same numbers."""
+    """A named tuple of numbers: equal to the plain tuple of the same numbers, and as immutable."""
 
     __slots__ = ()
     __match_args__: ClassVar[tuple[str, ...]] = ()
 
+    FIELDS: ClassVar[tuple[Number, ...]]
+    _fields: ClassVar[tuple[str, ...]]
+
+    def __init_subclass__(cls) -> None:
+        cls._fields = cls.__match_args__
+        cls.FIELDS = tuple(getattr(cls, name) for name in cls._fields)
+
+    def _asdict(self) -> dict[str, int]:
+        """The numbers by name."""
+        return {name: getattr(self, name) for name in self._fields}
+
+    def _replace(self, **changes: int) -> Self:
+        """Another such element, with other numbers where some are given."""
+        make: Any = type(self)
+        other: Self = make(**{**self._asdict(), **changes})
+        return other
+
+    __replace__ = _replace  # as `copy.replace` wants it
+
     def __repr__(self) -> str:
-        fields = ", ".join(f"{name}={getattr(self, name)!r}" for name in self.__match_args__)
+        fields = ", ".join(f"{name}={value!r}" for name, value in self._asdict().items())
         return f"{type(self).__name__}({fields})"
 
     def __getnewargs__(self) -> tuple[int, ...]:
-        return tuple(getattr(self, name) for name in self.__match_args__)
+        return tuple(self._asdict().values())

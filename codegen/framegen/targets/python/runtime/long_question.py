@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from .exchanges import EXCHANGES
-from .fields import as_tuple
+from .items import as_tuple
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
@@ -26,7 +26,7 @@ def parts_of(kind: type[Message], items: Iterable[Any]) -> list[Message]:
     if not whole or kind.SHAPE.items is None:
         return [kind(**{name: items})]
     for position, item in enumerate(whole):
-        kind.SHAPE.items.checked_one(item, f"{name}[{position}]")
+        kind.SHAPE.items.checked_one(item, position)
     return [kind(**{name: whole[at : at + most]}) for at in range(0, len(whole), most)]
 
 

@@ -11,9 +11,10 @@ if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
     from typing import Any
 
-    from .fields import Number
+    from .items import Items
     from .limits import Bounds, Limits
     from .message import Message
+    from .number import Number
 
 HOLD_MS = 100
 """How long a motion takes, in milliseconds, that only holds what is there."""
@@ -30,17 +31,24 @@ class Pose:
     and a position; `moved` the list that `move` is given, and `time` the milliseconds that it may
     take. `position` is the property that tells a position, below zero included. `ids` are all
     numbers that there can be, `limits` those of the positions that are commanded.
+
+    Of what is commanded, `item` is the number that says whose a position is, `place` the position,
+    `duration` the milliseconds that a motion may take, and `room` how many one can move.
     """
 
     __slots__ = (
         "asked",
+        "duration",
         "ids",
+        "item",
         "limits",
         "move",
         "moved",
+        "place",
         "position",
         "read",
         "release",
+        "room",
         "time",
         "told",
     )
@@ -69,37 +77,15 @@ class Pose:
         self.moved = moved
         self.time = time
         self.limits = limits
+        targets: Items[Any] = getattr(move, moved)
+        self.item, self.place = targets.fields
+        self.room = targets.most
+        self.duration: Number = getattr(move, time)
 
     @property
     def noun(self) -> str:
         """What one of those is called whose positions these are."""
         return self.item.name.removesuffix("_id").replace("_", " ")
-
-    @property
-    def item(self) -> Number:
-        """The number that says whose a position is."""
-        return self._fields[0]
-
-    @property
-    def place(self) -> Number:
-        """A position that can be commanded."""
-        return self._fields[1]
-
-    @property
-    def duration(self) -> Number:
-        """The milliseconds that a motion may take."""
-        return next(each for each in self.move.SHAPE.numbers if each.name == self.time)
-
-    @property
-    def room(self) -> int:
-        """How many one motion can move."""
-        items = self.move.SHAPE.items
-        return items.counts[-1] if items is not None else 0
-
-    @property
-    def _fields(self) -> tuple[Number, ...]:
-        items = self.move.SHAPE.items
-        return items.fields if items is not None else ()
 
     def motion(self, targets: Iterable[tuple[int, int]], time_ms: int) -> Message:
         """The command that moves to these targets. Raises EncodeError."""

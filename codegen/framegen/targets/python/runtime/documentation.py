@@ -1,0 +1,28 @@
+"""Finds what stands in the source below an attribute: its documentation, which Python forgets."""
+
+from __future__ import annotations
+
+import ast
+import inspect
+from itertools import pairwise
+from textwrap import dedent
+
+
+def documentation(owner: type, name: str) -> str | None:
+    """The string below the line that assigns `name` in a class; None where there is no source."""
+    try:
+        source = inspect.getsource(owner)
+    except (OSError, TypeError):
+        return None
+    (declared,) = ast.parse(dedent(source)).body
+    body = declared.body if isinstance(declared, ast.ClassDef) else []
+    for line, below in pairwise(body):
+        if (
+            isinstance(line, ast.Assign)
+            and isinstance(below, ast.Expr)
+            and isinstance(below.value, ast.Constant)
+            and isinstance(below.value.value, str)
+            and name in [target.id for target in line.targets if isinstance(target, ast.Name)]
+        ):
+            return inspect.cleandoc(below.value.value)
+    return None

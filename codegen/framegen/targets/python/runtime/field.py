@@ -1,0 +1,77 @@
+"""What all fields of messages have in common: a field is a property that knows its place."""
+
+from __future__ import annotations
+
+TYPE_CHECKING = False  # typing alone would double the time that the import takes
+if TYPE_CHECKING:
+    from collections.abc import Callable
+    from typing import Any, Generic, TypeVar, overload
+
+    from typing_extensions import Never, Self
+
+    Value = TypeVar("Value")
+
+    class _Property(Generic[Value]):
+        """A property as type checkers are to see it: it is read, and never assigned."""
+
+        def __init__(self, read: Callable[[Any], Value]) -> None: ...
+
+        @overload
+        def __get__(self, held: None, owner: type) -> Self: ...
+        @overload
+        def __get__(self, held: object, owner: type) -> Value: ...
+        def __get__(self, held: object, owner: type) -> Any: ...
+
+        def __set__(self, held: object, value: Never) -> None: ...
+
+else:
+
+    class _Property(property):
+        __slots__ = ()
+
+        def __class_getitem__(cls, value: object) -> type:
+            return cls
+
+
+class Field(_Property["Value"]):
+    """A field: `message.level` is its value, `Kind.level` what is known of it (`Kind.level.high`).
+
+    In the class of a message or of an element, it stands in a line of its own, and its
+    documentation below.
+    """
+
+    __slots__ = ("name", "owner")
+
+    name: str
+    owner: type
+
+    def __init_subclass__(cls) -> None:
+        # Else a field would show the documentation of its class.
+        type.__setattr__(cls, "__doc__", _Documentation(cls.__doc__))
+
+    def __set_name__(self, owner: type, name: str) -> None:
+        self.name = name
+        self.owner = owner
+        super().__init__(self.reader())
+
+    def reader(self) -> Callable[[Any], Value]:
+        """What reads the value from a message, or from an element."""
+        raise NotImplementedError
+
+
+class _Documentation:
+    """The documentation of a class of fields; of a field, what stands below it."""
+
+    def __init__(self, of_class: str | None) -> None:
+        self.of_class = of_class
+
+    def __get__(self, field: Field[Any] | None, kind: type) -> str | None:
+        if field is None:
+            return self.of_class
+        # Whoever asks for help waits for what it takes to read sources; nobody else does.
+        from .documentation import documentation
+
+        return documentation(field.owner, field.name)
+
+    def __set__(self, field: Field[Any], doc: object) -> None:
+        """Does nothing: a property takes over what its getter says of itself."""

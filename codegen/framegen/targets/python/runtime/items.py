@@ -1,0 +1,163 @@
+"""Fields that are lists: where they begin, what they are of, how they are read and checked."""
+
+from __future__ import annotations
+
+from functools import partial
+from struct import Struct, calcsize
+
+from .errors import EncodeError
+from .field import Field
+from .number import Number, shown
+from .protocol import STRUCT_ORDER
+
+TYPE_CHECKING = False  # typing alone would double the time that the import takes
+if TYPE_CHECKING:
+    from collections.abc import Callable, Sequence
+    from typing import Any, TypeVar, overload
+
+    from .element import Element
+
+    Item = TypeVar("Item")
+
+_LISTS = (list, tuple)
+# What can be gone through, and is still no list of numbers: text, bytes, and what has no order.
+_NO_LISTS = (str, bytes, bytearray, memoryview, dict, set, frozenset)
+
+
+class Items(Field["tuple[Item, ...]"]):
+    """The list at the end of a message, from `least` to `most` elements, as many as `count` says.
+
+    `at` is the offset of its first byte; each element is an `of`: a class of elements, or a number.
+    """
+
+    __slots__ = (
+        "_plain",
+        "_unpackers",
+        "at",
+        "count",
+        "element",
+        "fields",
+        "layout",
+        "least",
+        "most",
+        "width",
+    )
+
+    if TYPE_CHECKING:
+
+        @overload
+        def __init__(
+            self: Items[int], at: int, of: Number, least: int, most: int, *, count: Number
+        ) -> None: ...
+        @overload
+        def __init__(
+            self, at: int, of: type[Item], least: int, most: int, *, count: Number
+        ) -> None: ...
+
+    def __init__(self, at: int, of: Any, least: int, most: int, *, count: Number) -> None:
+        self.at = at
+        self.element: type[Element] | None = None if isinstance(of, Number) else of
+        self.fields: tuple[Number, ...] = (of,) if isinstance(of, Number) else of.FIELDS
+        self.width = len(self.fields)
+        self.least = least
+        self.most = most
+        self.count = count
+        self.layout = "".join(field.code for field in self.fields)
+        self._plain = frozenset([*_LISTS, of])
+        self._unpackers: dict[int, Callable[[bytes], tuple[int, ...]]] = {}
+
+    @property
+    def counts(self) -> range:
+        """How many elements there may be."""
+        return range(self.least, self.most + 1)
+
+    def reader(self) -> Callable[[Any], tuple[Item, ...]]:
+        """What reads it from the bytes of a message."""
+        at = self.at
+        if self.element is None:
+            self.fields[0].name = self.name
+            if self.layout == "B":
+                return lambda message: tuple(message._frame[at:])
+            return lambda message: self.numbers(message._frame)
+        # As good as calling the class, and several times as fast.
+        kind: Any = self.element
+        make = partial(tuple.__new__, kind)
+        read = Struct(STRUCT_ORDER + self.layout).iter_unpack
+        return lambda message: tuple(map(make, read(message._frame[at:])))
+
+    def numbers(self, frame: bytes) -> Any:
+        """All numbers of all elements of a legal frame, in order."""
+        unpack = self._unpackers.get(len(frame)) or self._unpacker(len(frame))
+        return unpack(frame)
+
+    def _unpacker(self, size: int) -> Callable[[bytes], tuple[int, ...]]:
+        """What unpacks the list of a frame of this size. Made once for each size."""
+        count = (size - self.at) // calcsize(STRUCT_ORDER + self.layout)
+        unpack = Struct(f"{STRUCT_ORDER}{self.at}x{count * self.layout}").unpack
+        self._unpackers[size] = unpack
+        return unpack
+
+    def flat(self, values: Any) -> Sequence[int]:
+        """All numbers of all elements, in order. Raises EncodeError for what is no such list.
+
+        Whole numbers in plain lists are not looked at closely: to pack them will tell.
+        """
+        if type(values) not in _LISTS or not self.least <= len(values) <= self.most:
+            return self.checked(values)
+        numbers: Sequence[int] = values
+        if self.element is not None:
+            plain, width, numbers = self._plain, self.width, []
+            for item in values:
+                if type(item) not in plain or len(item) != width:
+                    return self.checked(values)
+                numbers += item
+        for number in numbers:
+            if type(number) is not int:
+                return self.checked(values)
+        return numbers
+
+    def checked(self, values: Any) -> list[int]:
+        """All numbers of all elements, in order. Raises EncodeError naming the first wrong one."""
+        items = as_tuple(values)
+        if items is None:
+            raise EncodeError(self.name, values, f"{shown(values)} is not a list of {self._wanted}")
+        if not self.least <= len(items) <= self.most:
+            bounds = f"{self.least}..{self.most}"
+            raise EncodeError(self.name, values, f"{len(items)} items is outside {bounds}")
+        numbers: list[int] = []
+        for position, item in enumerate(items):
+            numbers += self.checked_one(item, position)
+        return numbers
+
+    def checked_one(self, item: Any, position: int) -> list[int]:
+        """The numbers of the element at a position. Raises EncodeError naming the wrong one."""
+        parts = (item,) if self.element is None else as_tuple(item)
+        if parts is None or len(parts) != len(self.fields):
+            problem = f"{shown(item)} is not {self._wanted}"
+            raise EncodeError(f"{self.name}[{position}]", item, problem)
+        named = zip(parts, self.one(position), strict=True)
+        return [field.checked(part, path) for part, (path, field) in named]
+
+    def one(self, position: int) -> list[tuple[str, Number]]:
+        """The fields of the element at a position, each with its path: `items[1].level`."""
+        path = f"{self.name}[{position}]"
+        if self.element is None:
+            return [(path, self.fields[0])]
+        return [(f"{path}.{field.name}", field) for field in self.fields]
+
+    @property
+    def _wanted(self) -> str:
+        if self.element is None:
+            return "whole numbers"
+        return f"({', '.join(field.name for field in self.fields)})"
+
+
+def as_tuple(value: Any) -> tuple[Any, ...] | None:
+    """What `value` holds; None where it holds nothing in order, or is text or bytes."""
+    if isinstance(value, _NO_LISTS):
+        return None
+    try:
+        iterator = iter(value)
+    except TypeError:
+        return None
+    return tuple(iterator)

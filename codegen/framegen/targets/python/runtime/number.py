@@ -1,0 +1,155 @@
+"""Fields that are whole numbers: where they stand, what they can be, how they are read and checked.
+
+A message that is given good values never asks for these checks: they explain what is wrong with bad
+ones, and they turn whatever counts as a whole number elsewhere (such as NumPy's) into an int.
+"""
+
+from __future__ import annotations
+
+from operator import index, itemgetter
+from struct import Struct
+
+from .element import Element
+from .errors import EncodeError
+from .field import Field
+from .protocol import STRUCT_ORDER
+
+TYPE_CHECKING = False  # typing alone would double the time that the import takes
+if TYPE_CHECKING:
+    from collections.abc import Callable, Mapping
+    from typing import Any, ClassVar
+
+
+class Number(Field["int"]):
+    """A whole number at its place: the offset of its first byte, in the frame or in its element.
+
+    From `low` to `high`, where its type would hold more; in a `unit`, where it has one. `names`
+    maps the names that some values have to those values, such as `{"off": 0}`.
+    """
+
+    __slots__ = ("at", "high", "low", "names", "unit")
+
+    code: ClassVar[str]
+    """Its letter in `struct`."""
+    struct: ClassVar[Struct]
+    """What packs and unpacks it."""
+    lowest: ClassVar[int]
+    """The lowest value that its type holds."""
+    highest: ClassVar[int]
+    """The highest value that its type holds."""
+
+    def __init__(
+        self,
+        at: int = 0,
+        *,
+        low: int | None = None,
+        high: int | None = None,
+        unit: str = "",
+        names: Mapping[str, int] | None = None,
+    ) -> None:
+        self.at = at
+        self.low = self.lowest if low is None else low
+        self.high = self.highest if high is None else high
+        self.unit = unit
+        self.names: Mapping[str, int] = names or {}
+
+    def __init_subclass__(cls, *, code: str) -> None:
+        super().__init_subclass__()
+        cls.code, cls.struct = code, Struct(STRUCT_ORDER + code)
+        values = 1 << 8 * cls.struct.size
+        cls.lowest = -values // 2 if code.islower() else 0
+        cls.highest = cls.lowest + values - 1
+
+    @property
+    def narrowed(self) -> bool:
+        """Whether its type holds more than it can be."""
+        return self.low > self.lowest or self.high < self.highest
+
+    def reader(self) -> Callable[[Any], int]:
+        """What reads it: from the bytes of a message, or as a part of an element."""
+        if issubclass(self.owner, Element):
+            return itemgetter(self.owner.__match_args__.index(self.name))
+        at = self.at
+        if self.code == "B":
+            return lambda message: message._frame[at]
+        unpack = self.struct.unpack_from
+        return lambda message: unpack(message._frame, at)[0]
+
+    def checked(self, value: Any, path: str) -> int:
+        """`value` as an int. Raises EncodeError where it is none, or outside the range."""
+        # NumPy's truth values are numbers to its older versions, so their type has to be asked.
+        if isinstance(value, bool) or str(getattr(value, "dtype", "")) == "bool":
+            problem = f"{shown(value)} is a truth value, not a whole number"
+            raise EncodeError(path, value, problem)
+        try:
+            number = index(value)
+        except TypeError:
+            problem = f"{shown(value)} is not a whole number, but {_kind(value)}"
+            raise EncodeError(path, value, problem) from None
+        if not self.low <= number <= self.high:
+            raise EncodeError(path, value, f"{shown(number)} is outside {self.low}..{self.high}")
+        return number
+
+
+class U8(Number, code="B"):
+    """A byte."""
+
+    __slots__ = ()
+
+
+class U16(Number, code="H"):
+    """An unsigned number of two bytes."""
+
+    __slots__ = ()
+
+
+class U32(Number, code="I"):
+    """An unsigned number of four bytes."""
+
+    __slots__ = ()
+
+
+class U64(Number, code="Q"):
+    """An unsigned number of eight bytes."""
+
+    __slots__ = ()
+
+
+class I8(Number, code="b"):
+    """A signed number of one byte, in two's complement."""
+
+    __slots__ = ()
+
+
+class I16(Number, code="h"):
+    """A signed number of two bytes, in two's complement."""
+
+    __slots__ = ()
+
+
+class I32(Number, code="i"):
+    """A signed number of four bytes, in two's complement."""
+
+    __slots__ = ()
+
+
+class I64(Number, code="q"):
+    """A signed number of eight bytes, in two's complement."""
+
+    __slots__ = ()
+
+
+def shown(value: object) -> str:
+    """`value` for an error message, cut short where it would flood it."""
+    if isinstance(value, int) and value.bit_length() > 128:
+        return f"an integer of {value.bit_length()} bits"
+    try:
+        text = repr(value)
+    except ValueError:  # Python refuses to write out integers of thousands of digits
+        return _kind(value)
+    return text if len(text) <= 60 else text[:57] + "..."
+
+
+def _kind(value: object) -> str:
+    name = type(value).__name__
+    return "nothing" if value is None else f"{'an' if name[0] in 'aeiou' else 'a'} {name}"
