@@ -63,7 +63,8 @@ class NoiseLane:
         self.told = self.at = self.wake = 0
         self.unknown_frames = 0
 
-    def __copy__(self) -> NoiseLane:
+    def copy(self) -> NoiseLane:
+        """Another one in the same state."""
         other = NoiseLane(self._table)
         for name in self.__slots__:
             setattr(other, name, getattr(self, name))
