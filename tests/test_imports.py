@@ -23,7 +23,19 @@ CLIENT = CODEC | {
 }
 # What these bring, on one system or another.
 BROUGHT = set(
-    "abc collections copyreg genericpath keyword nt ntpath org posixpath reprlib types".split()
+    [
+        "abc",
+        "collections",
+        "copyreg",
+        "genericpath",
+        "keyword",
+        "nt",
+        "ntpath",
+        "org",
+        "posixpath",
+        "reprlib",
+        "types",
+    ]
 )
 
 
