@@ -22,21 +22,8 @@ CLIENT = CODEC | {
     "weakref",
 }
 # What these bring, on one system or another.
-BROUGHT = set(
-    [
-        "abc",
-        "collections",
-        "copyreg",
-        "genericpath",
-        "keyword",
-        "nt",
-        "ntpath",
-        "org",
-        "posixpath",
-        "reprlib",
-        "types",
-    ]
-)
+BROUGHT = {"abc", "collections", "copyreg", "genericpath", "keyword", "nt", "ntpath"}
+BROUGHT |= {"org", "posixpath", "reprlib", "types"}
 
 
 def imported(statement: str) -> set[str]:
