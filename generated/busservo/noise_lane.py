@@ -63,7 +63,8 @@ class NoiseLane:
         self.told = self.at = self.wake = 0
         self.unknown_frames = 0
 
-    def __copy__(self) -> NoiseLane:
+    def copy(self) -> NoiseLane:
+        """Another one in the same state."""
         other = NoiseLane(self._table)
         for name in self.__slots__:
             setattr(other, name, getattr(self, name))
@@ -154,23 +155,28 @@ class NoiseLane:
         until, weighed, horizon = until + base, weighed + base, horizon + base
         while number < len(refused):
             first, last, reason, claim = refused[number]
-            at, end = max(at, first), max(at, first) + claim
-            if at > last:
-                number += 1
-            elif claim and end > horizon:
+            at = max(at, first)
+            end = at + claim
+            if claim and end > horizon and at <= last:
                 until = at
                 break
-            elif claim and end <= weighed and self._stands_alone(data, at - base, end - base):
+            if (
+                at <= last
+                and claim
+                and end <= weighed
+                and self._stands_alone(data, at - base, end - base)
+            ):
                 self._tell_noise(events, data, base, at)
                 self._tell_unknown(events, data, base, end)
                 at = end
-            else:
+            elif at <= last:
                 self._begin_piece(events, data, base, at, reason)
                 # Of a run, so are all that are void like this one, or that end in the same run.
                 self._last = last
                 if claim and end <= weighed and at < last:
                     self._last = max(at, min(last, at + _run_length(data, end - base - 1) - 1))
                 at = self._last + 1
+            number += at > last
         del refused[:number]
         self._tell_noise(events, data, base, until)
 

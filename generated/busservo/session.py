@@ -30,10 +30,8 @@ GAP in the middle of a frame, the rest of that frame is lost; see CarefulDecoder
 
 from __future__ import annotations
 
-import logging
 from collections import deque
 from copy import copy
-from typing import TYPE_CHECKING
 
 from .acknowledgements import Acknowledgements
 from .careful_decoder import GAP, CarefulDecoder
@@ -42,6 +40,7 @@ from .exchanges import EXCHANGES, LIMITS, RECEIVED
 from .late_replies import LateReplies
 from .link_errors import EchoError, NoReplyError
 from .local_echo import EchoWatch, LocalEcho
+from .log import log
 from .noise import Noise
 from .pace import Pace
 from .reports import ReportLog
@@ -50,12 +49,12 @@ from .room import check_room
 from .settling import Settling
 from .wire import Wire
 
+TYPE_CHECKING = False  # typing alone would double the time that the import takes
 if TYPE_CHECKING:
     from .limits import Bounds
     from .message import Message
     from .tap import Tap
 
-logger = logging.getLogger(__package__)
 # How long before the line is free the next frame is handed over, so that it is never idle. More
 # would be lag that nobody sees.
 _AHEAD = 0.004
@@ -471,7 +470,7 @@ class Session:
         elif not possible and not asked.doubted:
             asked.doubted = True
             self.counters.impossible += 1
-            logger.debug("%s: %r came sooner than the wire allows", self._name, reply)
+            log().debug("%s: %r came sooner than the wire allows", self._name, reply)
 
     def _delay(self, asked: Request, reply: Message, at: float) -> float:
         """How much later the reply came than the wire can have carried both; below 0: sooner."""
@@ -524,7 +523,7 @@ class Session:
 
     def _drop(self, message: Message, why: str) -> None:
         self.counters.unsolicited += 1
-        logger.info("%s: dropped %r: %s", self._name, message, why)
+        log().info("%s: dropped %r: %s", self._name, message, why)
 
     def _echo_came(self, request: Request) -> None:
         self.counters.echoes += 1
@@ -537,7 +536,7 @@ class Session:
         if request is self._asked:
             self._give_up(request, request.deadline)
         elif request.latest:
-            logger.warning("%s (%r)", error, request.message)  # nobody waits for it
+            log().warning("%s (%r)", error, request.message)  # nobody waits for it
         if not request.done:
             request.finish(error=error)
 
@@ -550,7 +549,7 @@ class Session:
         """What is sent comes back, although nobody has said that it would: said once."""
         self.counters.echoes += 1
         if self.counters.echoes == 1:
-            logger.warning(
+            log().warning(
                 "%s gives back what is sent: say so (local_echo=True, or --local-echo), or else "
                 "commands that come back look like reports",
                 self._name,

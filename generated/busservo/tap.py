@@ -3,19 +3,16 @@
 
 from __future__ import annotations
 
-import logging
-from typing import TYPE_CHECKING
-
+from .log import log, shows_frames
 from .noise import Noise
 from .octets import spaced
 from .recording_file import NOISE, RecordingFile
 
+TYPE_CHECKING = False  # typing alone would double the time that the import takes
 if TYPE_CHECKING:
     from os import PathLike
 
     from .message import Message
-
-logger = logging.getLogger(__package__)
 
 
 class Tap:
@@ -46,8 +43,8 @@ class Tap:
             self._trace.quiet()
 
     def _tell(self, way: str, who: str, what: Message | str, data: bytes, now: float) -> None:
-        if logger.isEnabledFor(logging.DEBUG):
-            logger.debug("%s %s %s | %s", self._name, way, what, spaced(data))
+        if shows_frames():
+            log().debug("%s %s %s | %s", self._name, way, what, spaced(data))
         if self._trace is None:
             return
         if self._began is None:

@@ -2,13 +2,11 @@
 
 from __future__ import annotations
 
-import logging
 import threading
 import time
 import warnings
 import weakref
 from contextlib import contextmanager
-from typing import TYPE_CHECKING, TypeVar, overload
 
 from .error_mapping import ErrorMapping
 from .exchanges import LIMITS
@@ -18,6 +16,7 @@ from .link_errors import (
     NoReportError,
     TransportError,
 )
+from .log import log
 from .long_question import left_out, parts_of
 from .motion import Motion
 from .protocol import BAUD
@@ -26,11 +25,12 @@ from .session import Session
 from .tap import Tap
 from .wanted import Wanted
 
+TYPE_CHECKING = False  # typing alone would double the time that the import takes
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Iterator
     from os import PathLike
     from types import TracebackType
-    from typing import Any
+    from typing import Any, TypeVar, overload
 
     from typing_extensions import Self
 
@@ -40,6 +40,10 @@ if TYPE_CHECKING:
     from .request import Request, Sent
     from .transport import Transport
     from .wanted import Kinds
+
+    _Reply = TypeVar("_Reply", bound=Message)
+    _Second = TypeVar("_Second", bound=Message)
+    _Third = TypeVar("_Third", bound=Message)
 
 MARGIN = 0.25
 REPORT_LIMIT = 1024
@@ -51,10 +55,6 @@ _LONGEST_WAIT = 0.25
 # How long a line may take to be drained, beyond what its bytes take by calculation.
 DRAIN_TIMEOUT = 1.0
 NEVER_CLOSED = "use the client in a `with`, or call close()"
-logger = logging.getLogger(__package__)
-_Reply = TypeVar("_Reply", bound="Message")
-_Second = TypeVar("_Second", bound="Message")
-_Third = TypeVar("_Third", bound="Message")
 
 
 class Client:
@@ -246,28 +246,32 @@ class Client:
 
         return stop
 
-    @overload
-    def wait_for(self, kind: type[_Reply], *, timeout: float, **fields: int) -> _Reply: ...
+    if TYPE_CHECKING:
 
-    @overload
-    def wait_for(self, kind: tuple[type[_Reply]], *, timeout: float, **fields: int) -> _Reply: ...
+        @overload
+        def wait_for(self, kind: type[_Reply], *, timeout: float, **fields: int) -> _Reply: ...
 
-    @overload
-    def wait_for(
-        self, kind: tuple[type[_Reply], type[_Second]], *, timeout: float, **fields: int
-    ) -> _Reply | _Second: ...
+        @overload
+        def wait_for(
+            self, kind: tuple[type[_Reply]], *, timeout: float, **fields: int
+        ) -> _Reply: ...
 
-    @overload
-    def wait_for(
-        self,
-        kind: tuple[type[_Reply], type[_Second], type[_Third]],
-        *,
-        timeout: float,
-        **fields: int,
-    ) -> _Reply | _Second | _Third: ...
+        @overload
+        def wait_for(
+            self, kind: tuple[type[_Reply], type[_Second]], *, timeout: float, **fields: int
+        ) -> _Reply | _Second: ...
 
-    @overload
-    def wait_for(self, kind: Kinds, *, timeout: float, **fields: int) -> Message: ...
+        @overload
+        def wait_for(
+            self,
+            kind: tuple[type[_Reply], type[_Second], type[_Third]],
+            *,
+            timeout: float,
+            **fields: int,
+        ) -> _Reply | _Second | _Third: ...
+
+        @overload
+        def wait_for(self, kind: Kinds, *, timeout: float, **fields: int) -> Message: ...
 
     def wait_for(self, kind: Kinds, *, timeout: float, **fields: int) -> Message:
         """Waits for a report of a class, with these fields, and returns it.
@@ -549,7 +553,7 @@ class Client:
             if self._failure is None:
                 self._transport.drain(min(left, DRAIN_TIMEOUT) + DRAIN_TIMEOUT)
         except TransportError as error:
-            logger.debug("%s could not be drained: %s", self._name, error)
+            log().debug("%s could not be drained: %s", self._name, error)
         finally:
             # Whatever interrupts the wait, the port is given back.
             self._transport.close()
@@ -646,4 +650,5 @@ def _call(callback: Callable[[Message], object], report: Message) -> None:
     try:
         callback(report)
     except Exception:
+        logger = log()
         logger.exception("%r failed on %r", callback, report)

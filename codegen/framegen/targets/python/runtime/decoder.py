@@ -9,8 +9,6 @@ There are two lanes: frames back to back, here, by look-ups alone; and the way t
 
 from __future__ import annotations
 
-from copy import copy
-
 from .codec import table_for
 from .counters import Counters
 from .noise_lane import NoiseLane
@@ -79,7 +77,7 @@ class StreamDecoder:
         other = _new(type(self))
         for name in self.__slots__:
             setattr(other, name, getattr(self, name))
-        other._noise = copy(self._noise)
+        other._noise = self._noise.copy()
         return other
 
     def feed(self, data: bytes | bytearray | memoryview) -> list[Message | Noise]:

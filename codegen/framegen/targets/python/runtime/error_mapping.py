@@ -2,19 +2,19 @@
 
 from __future__ import annotations
 
-import logging
 from functools import partial
-from typing import TYPE_CHECKING, TypeVar
 
 from .link_errors import ClosedError, DisconnectedError, TransportError
+from .log import log
 
+TYPE_CHECKING = False  # typing alone would double the time that the import takes
 if TYPE_CHECKING:
     from collections.abc import Callable
+    from typing import TypeVar
 
     from .transport import Transport
 
-logger = logging.getLogger(__package__)
-_Result = TypeVar("_Result")
+    _Result = TypeVar("_Result")
 
 
 class ErrorMapping:
@@ -44,7 +44,7 @@ class ErrorMapping:
         try:
             self._mapped(self._transport.close)
         except TransportError as error:
-            logger.debug("%s could not be closed: %s", self.name, error)
+            log().debug("%s could not be closed: %s", self.name, error)
 
     @property
     def reopen(self) -> Callable[[], ErrorMapping]:
@@ -70,6 +70,6 @@ class ErrorMapping:
             advice = "see to the cable and the power, then reconnect()"
             return DisconnectedError(self.name, f"the line was lost ({error})", advice)
         # Whoever waits for the line must hear of it, in whichever thread it happened.
-        logger.error("%s failed", self.name, exc_info=error)
+        log().error("%s failed", self.name, exc_info=error)
         happened = f"its transport failed ({error!r})"
         return TransportError(self.name, happened, "mend the transport")

@@ -146,28 +146,21 @@ class Table(dict[bytes, "Entry"]):
         """Judges what `head` shows by itself; None where what follows decides."""
         size = len(head)
         if not head.startswith(HEADER[:size]):
-            at = next(at for at, byte in enumerate(HEADER) if head[at] != byte)
-            return Verdict(None, Reason.BAD_HEADER, at, at + 1)
-        refused = None
-        if size >= LENGTH_END and not self.may_have(read_length(head)):
-            refused = _NO_LENGTH
-        if size >= COMMAND_END and (refused is None or COMMAND_AT < LENGTH_AT):
-            refused = self._unknown(head, refused) or refused
-        if refused is None and size < BODY_AT:
-            return Verdict(None, Reason.TOO_SHORT, size, size + 1, is_open=True)
-        if refused is None and self._learn(head) is None:
-            return _NO_LENGTH_OF_ITS_COMMAND
-        return refused
-
-    def _unknown(self, head: bytes, refused: Verdict | None) -> Verdict | None:
-        """The verdict on a head whose command nothing has; None where the command is known."""
-        if read_command(head) in self.kinds:
-            return None
-        unknown = Reason.UNKNOWN_COMMAND
-        if len(head) < BODY_AT:
-            return Verdict(None, unknown, COMMAND_AT, BODY_AT, is_open=True)
-        claim = read_length(head) + UNCOUNTED if refused is None else 0
-        return Verdict(None, unknown, COMMAND_AT, COMMAND_END, claim=claim)
+            return _no_header(head)
+        length = read_length(head) if size >= LENGTH_END else None
+        no_length = length is not None and not self.may_have(length)
+        if no_length and LENGTH_AT < COMMAND_AT:
+            return _NO_LENGTH
+        if size >= COMMAND_END and read_command(head) not in self.kinds:
+            claim = 0 if length is None or no_length else length + UNCOUNTED
+            shown, is_open = (COMMAND_END, False) if size == BODY_AT else (BODY_AT, True)
+            unknown = Reason.UNKNOWN_COMMAND
+            return Verdict(None, unknown, COMMAND_AT, shown, claim=claim, is_open=is_open)
+        if no_length:
+            return _NO_LENGTH
+        if size < BODY_AT:
+            return _too_short(head, 0, size + 1)
+        return _NO_LENGTH_OF_ITS_COMMAND if self._learn(head) is None else None
 
     def _learn(self, head: bytes) -> Entry | None:
         """What may follow a whole head that was not seen before."""
@@ -215,6 +208,12 @@ class Table(dict[bytes, "Entry"]):
 def largest_of(messages: Sequence[type[Message]]) -> int:
     """The size of the largest frame of these messages; 0 where there are none."""
     return max((kind.LENGTHS[-1] + UNCOUNTED for kind in messages), default=0)
+
+
+def _no_header(head: bytes) -> Verdict:
+    """The verdict on what begins with no header."""
+    at = next(at for at, byte in enumerate(HEADER) if head[at] != byte)
+    return Verdict(None, Reason.BAD_HEADER, at, at + 1)
 
 
 def _fit(data: bytes, at: int, entry: Entry) -> Verdict:
