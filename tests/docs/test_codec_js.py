@@ -226,7 +226,7 @@ ENVELOPES: dict[str, dict[str, Any]] = {
     "an id of two bytes before a length of two": {
         "header": {"is": "constant", "bytes": "55 55"},
         "command": {"is": "id", "type": "u16"},
-        "length": {"is": "length", "type": "u16", "counts": ["parameters"]},
+        "length": {"is": "length", "type": "u16", "counts": ["length", "parameters"]},
         "parameters": {"is": "body"},
     },
 }
