@@ -263,6 +263,32 @@ def test_any_envelope_is_encoded_as_the_reference_encodes_it(wrapped: Model) -> 
     assert ask(wrapped, questions) == [list(encode(each, values)) for each, values in cases]
 
 
+# What a line says both ways: where each piece stands, its bytes, and the byte where it was refused.
+PIECES = {
+    "noise without a header": ("00 01 02", [(0, "000102", 0)]),
+    "a header that ends too early": ("00 55 AA", [(0, "0055aa", 0)]),
+    "each refused header begins a piece": (
+        "55 55 01 00 55 55 00",
+        [(0, "55550100", 2), (4, "555500", 6)],
+    ),
+    "a count that is wrong": ("55 55 08 03 02 E8", [(0, "5555080302e8", 4)]),
+    "what was cut short": ("55 55 08 03 01", [(0, "5555080301", 5)]),
+    "a run of header bytes is one": (
+        "55 55 55 55 55 01",
+        [(0, "555555", 3), (3, "555501", 5)],
+    ),
+    "a frame of unknown id": ("00 55 55 03 63 01", [(0, "00", 0), (1, "5555036301", 4)]),
+}
+
+
+@pytest.mark.parametrize("title", PIECES)
+def test_noise_is_told_in_pieces_with_the_byte_that_was_refused(title: str) -> None:
+    text, expected = PIECES[title]
+    (told,) = ask(reference("busservo").model, [{"ask": "stream", "text": text}])
+    pieces = [(each["at"], bytes(each["bytes"]).hex(), each["refusedAt"]) for each in told]
+    assert pieces == expected
+
+
 @pytest.mark.parametrize("name", ["busservo", "greenhouse"])
 def test_single_frames_of_either_way_are_judged_as_the_reference_judges_them(name: str) -> None:
     model = reference(name).model
