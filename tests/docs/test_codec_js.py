@@ -182,7 +182,10 @@ const answers = questions.map(({ ask, text, name, fields }) => {
     if (ask === "hex") return parseHex(text);
     if (ask === "encode") return codec.encode(name, fields);
     if (ask === "frame") return codec.decodeFrame(parseHex(text), null);
-    return codec.makeStream().flush(parseHex(text));
+    const stream = codec.makeStream();
+    if (ask === "line") return stream.flush(parseHex(text));
+    const cut = parseHex(text).flatMap((byte) => stream.feed([byte]));
+    return [...cut, ...stream.flush()];
   } catch (error) {
     if (error instanceof Unusable) return { refused: error.message };
     throw error;
@@ -242,7 +245,7 @@ def wrapped(request: pytest.FixtureRequest) -> Model:
 
 def test_any_envelope_is_decoded_as_the_reference_decodes_it_both_ways(wrapped: Model) -> None:
     lines = noisy_lines(wrapped, 5, 400)
-    told = ask(wrapped, [{"ask": "stream", "text": line.hex()} for line in lines])
+    told = ask(wrapped, [{"ask": "line", "text": line.hex()} for line in lines])
     for line, events in zip(lines, told, strict=True):
         said = [
             [event["type"], bytes(event["bytes"]).hex(), event.get("message", event.get("reason"))]
@@ -284,9 +287,22 @@ PIECES = {
 @pytest.mark.parametrize("title", PIECES)
 def test_noise_is_told_in_pieces_with_the_byte_that_was_refused(title: str) -> None:
     text, expected = PIECES[title]
-    (told,) = ask(reference("busservo").model, [{"ask": "stream", "text": text}])
-    pieces = [(each["at"], bytes(each["bytes"]).hex(), each["refusedAt"]) for each in told]
-    assert pieces == expected
+    questions = [{"ask": "line", "text": text}, {"ask": "bytes", "text": text}]
+    whole, cut = ask(reference("busservo").model, questions)
+    assert [
+        (each["at"], bytes(each["bytes"]).hex(), each["refusedAt"]) for each in whole
+    ] == expected
+    # A piece that is cut goes on, at its own place, and was refused where it was.
+    assert bytewise(cut) == bytewise(whole)
+
+
+def bytewise(events: list[dict[str, Any]]) -> list[tuple[int, int, int]]:
+    """Each byte of noise: its place on the line, the byte, and the place that was refused."""
+    return [
+        (event["at"] + index, byte, event["refusedAt"])
+        for event in events
+        for index, byte in enumerate(event["bytes"])
+    ]
 
 
 @pytest.mark.parametrize("name", ["busservo", "greenhouse"])
