@@ -1,4 +1,4 @@
-"""The codec in the page, under node: held to the reference, and to the published vectors."""
+"""The codec in the page, under node: held to the reference."""
 
 import json
 import random
@@ -12,12 +12,9 @@ from busservo.hextext import HexError, read_hex
 from framegen.compile import Compiled, compile_spec
 from framegen.conformance.language import (
     Decode,
-    Encode,
     Question,
     Stream,
     answer,
-    dashed,
-    fields,
     joined,
 )
 from framegen.language.load import read_source
@@ -27,8 +24,10 @@ from framegen.model.codec import NotAFrame, decode, encode
 from framegen.model.model import Model, derive
 from framegen.targets.docs.data import protocol_data
 
+from tests.conformance.answerers import page_command
+from tests.conformance.harness import run
 from tests.docs import peers
-from tests.docs.peers import noisy_lines, page_command, reference_events, vectors_of
+from tests.docs.peers import noisy_lines, reference_events
 from tests.docs.reference import NODE, ROOT, reference
 from tests.hex_cases import HEX, NO_HEX, random_texts
 from tests.specimens import BUSSERVO, data_of
@@ -47,7 +46,8 @@ class Page:
         self.command = page_command(compiled, folder)
 
     def answers(self, questions: list[Question]) -> list[list[str]]:
-        return [joined(lines) for lines in peers.ask(self.command, questions)]
+        told = run(self.command, [question.line for question in questions])
+        return [joined(lines) for lines in told]
 
 
 @pytest.fixture(params=SPECS, ids=lambda file: file.stem, scope="module")
@@ -90,25 +90,6 @@ def test_single_frames_are_judged_as_the_reference_judges_them(page: Page) -> No
     ]
     for question, told in zip(questions, page.answers(questions), strict=True):
         assert told == joined(answer(page.model, question)), question.line
-
-
-def test_published_frames_are_decoded_and_encoded(page: Page) -> None:
-    model = page.model
-    questions: list[Question] = []
-    expected: list[str] = []
-    for vector in vectors_of(page.compiled)["valid"]:
-        message, data = model.messages[vector["message"]], bytes.fromhex(vector["hex"])
-        said = " ".join(fields(message, vector["fields"]))
-        questions += [Decode(message.direction, data), Encode(message, vector["fields"])]
-        expected += [f"message {message.name} {data.hex()} {said}".rstrip(), f"frame {data.hex()}"]
-    assert page.answers(questions) == [[line] for line in expected]
-
-
-def test_published_refusals_have_the_right_reason_and_byte(page: Page) -> None:
-    ways = {way.key: way for way in page.model.directions}
-    invalid = vectors_of(page.compiled)["invalid"]
-    told = page.answers([Decode(ways[v["direction"]], bytes.fromhex(v["hex"])) for v in invalid])
-    assert told == [[f"refused {dashed(v['reason'])} {v['offset']}"] for v in invalid]
 
 
 # What a line says, by the parts in which it comes.
