@@ -84,5 +84,6 @@ function eventLine(event) {
 
 readline.createInterface({ input: process.stdin }).on("line", (question) => {
   const [verb, ...words] = question.split(" ");
-  process.stdout.write([...answers[verb](...words), "end", ""].join("\n"));
+  const lines = Object.hasOwn(answers, verb) ? answers[verb](...words) : ["unsupported"];
+  process.stdout.write([...lines, "end", ""].join("\n"));
 });

@@ -3,16 +3,21 @@
 from __future__ import annotations
 
 import sys
+from pathlib import Path
 from typing import TYPE_CHECKING
 
-from framegen.render import render
+from framegen.render import render, snippets
 from framegen.targets import python
+from framegen.targets.docs.pages import render_site
+
+from tests.docs.reference import NODE
 
 if TYPE_CHECKING:
     from collections.abc import Callable
-    from pathlib import Path
 
     from framegen.compile import Compiled
+
+ANSWER = Path(__file__).parent / "answer.js"
 
 
 def python_command(compiled: Compiled, folder: Path) -> list[str]:
@@ -25,5 +30,16 @@ def python_command(compiled: Compiled, folder: Path) -> list[str]:
     return [sys.executable, "-c", f"{code}sys.exit(main())", str(folder / "generated"), "answer"]
 
 
+def page_command(compiled: Compiled, folder: Path) -> list[str]:
+    """Write the page with the decoder to `folder`; the command that answers with its script."""
+    page = folder / "decoder.html"
+    path = f"{compiled.spec.protocol.name}/{page.name}"
+    page.write_text(render_site([compiled], snippets())[path], encoding="utf-8")
+    return [str(NODE), str(ANSWER), str(page)]
+
+
 # By language, the program that answers with what is made of a spec.
-ANSWERERS: dict[str, Callable[[Compiled, Path], list[str]]] = {"python": python_command}
+ANSWERERS: dict[str, Callable[[Compiled, Path], list[str]]] = {
+    "python": python_command,
+    "page": page_command,
+}

@@ -1,64 +1,25 @@
-"""What every comparison with a page needs: lines, what the reference says, and the page's codec."""
+"""What comparisons with a page need: noisy lines, and what the reference and the vectors say."""
 
 from __future__ import annotations
 
 import json
 import random
-import subprocess
 from itertools import groupby
 from typing import TYPE_CHECKING, Any
 
-from framegen.conformance.language import END
 from framegen.model.codec import encode
 from framegen.model.stream import Line
-from framegen.render import snippets
 from framegen.targets import vectors
-from framegen.targets.docs.pages import render_site
-
-from tests.docs.reference import NODE, ROOT
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Sequence
-    from pathlib import Path
+    from collections.abc import Iterable
 
     from framegen.compile import Compiled
-    from framegen.conformance.language import Question
     from framegen.language.values import Direction
     from framegen.model.model import Model
 
-ANSWER = ROOT / "tests" / "conformance" / "answer.js"
-
 # What a line said: the kind of the event, its bytes in hex, and the message or the reason.
 Event = list[Any]
-
-
-def page_command(compiled: Compiled, folder: Path) -> list[str]:
-    """Write the page with the decoder to `folder`; the program that answers with its codec."""
-    page = folder / "decoder.html"
-    name = compiled.spec.protocol.name
-    text = render_site([compiled], snippets())[f"{name}/decoder.html"]
-    page.write_text(text, encoding="utf-8")
-    return [str(NODE), str(ANSWER), str(page)]
-
-
-def ask(command: Sequence[str], questions: Iterable[Question]) -> list[list[str]]:
-    """What a program answers to each question, without the `end`."""
-    done = subprocess.run(
-        command,
-        input="".join(f"{question.line}\n" for question in questions),
-        capture_output=True,
-        encoding="utf-8",
-        check=False,
-    )
-    assert done.returncode == 0, done.stderr
-    answers: list[list[str]] = [[]]
-    for line in done.stdout.splitlines():
-        if line == END:
-            answers.append([])
-        else:
-            answers[-1].append(line)
-    assert answers.pop() == []
-    return answers
 
 
 def vectors_of(compiled: Compiled) -> dict[str, Any]:

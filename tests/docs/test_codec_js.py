@@ -1,4 +1,4 @@
-"""The codec in the page, under node: held to the reference, and to the published vectors."""
+"""The codec in the page, under node: held to the reference."""
 
 import json
 import random
@@ -12,12 +12,9 @@ from busservo.hextext import HexError, read_hex
 from framegen.compile import Compiled, compile_spec
 from framegen.conformance.language import (
     Decode,
-    Encode,
     Question,
     Stream,
     answer,
-    dashed,
-    fields,
     joined,
 )
 from framegen.language.load import read_source
@@ -27,8 +24,10 @@ from framegen.model.codec import NotAFrame, decode, encode
 from framegen.model.model import Model, derive
 from framegen.targets.docs.data import protocol_data
 
+from tests.conformance.answerers import page_command
+from tests.conformance.harness import run
 from tests.docs import peers
-from tests.docs.peers import noisy_lines, page_command, reference_events, vectors_of
+from tests.docs.peers import noisy_lines, reference_events
 from tests.docs.reference import NODE, ROOT, reference
 from tests.hex_cases import HEX, NO_HEX, random_texts
 from tests.specimens import BUSSERVO, data_of
@@ -47,7 +46,8 @@ class Page:
         self.command = page_command(compiled, folder)
 
     def answers(self, questions: list[Question]) -> list[list[str]]:
-        return [joined(lines) for lines in peers.ask(self.command, questions)]
+        told = run(self.command, [question.line for question in questions])
+        return [joined(lines) for lines in told]
 
 
 @pytest.fixture(params=SPECS, ids=lambda file: file.stem, scope="module")
@@ -90,25 +90,6 @@ def test_single_frames_are_judged_as_the_reference_judges_them(page: Page) -> No
     ]
     for question, told in zip(questions, page.answers(questions), strict=True):
         assert told == joined(answer(page.model, question)), question.line
-
-
-def test_published_frames_are_decoded_and_encoded(page: Page) -> None:
-    model = page.model
-    questions: list[Question] = []
-    expected: list[str] = []
-    for vector in vectors_of(page.compiled)["valid"]:
-        message, data = model.messages[vector["message"]], bytes.fromhex(vector["hex"])
-        said = " ".join(fields(message, vector["fields"]))
-        questions += [Decode(message.direction, data), Encode(message, vector["fields"])]
-        expected += [f"message {message.name} {data.hex()} {said}".rstrip(), f"frame {data.hex()}"]
-    assert page.answers(questions) == [[line] for line in expected]
-
-
-def test_published_refusals_have_the_right_reason_and_byte(page: Page) -> None:
-    ways = {way.key: way for way in page.model.directions}
-    invalid = vectors_of(page.compiled)["invalid"]
-    told = page.answers([Decode(ways[v["direction"]], bytes.fromhex(v["hex"])) for v in invalid])
-    assert told == [[f"refused {dashed(v['reason'])} {v['offset']}"] for v in invalid]
 
 
 # What a line says, by the parts in which it comes.
@@ -182,7 +163,10 @@ const answers = questions.map(({ ask, text, name, fields }) => {
     if (ask === "hex") return parseHex(text);
     if (ask === "encode") return codec.encode(name, fields);
     if (ask === "frame") return codec.decodeFrame(parseHex(text), null);
-    return codec.makeStream().flush(parseHex(text));
+    const stream = codec.makeStream();
+    if (ask === "line") return stream.flush(parseHex(text));
+    const cut = parseHex(text).flatMap((byte) => stream.feed([byte]));
+    return [...cut, ...stream.flush()];
   } catch (error) {
     if (error instanceof Unusable) return { refused: error.message };
     throw error;
@@ -226,7 +210,7 @@ ENVELOPES: dict[str, dict[str, Any]] = {
     "an id of two bytes before a length of two": {
         "header": {"is": "constant", "bytes": "55 55"},
         "command": {"is": "id", "type": "u16"},
-        "length": {"is": "length", "type": "u16", "counts": ["parameters"]},
+        "length": {"is": "length", "type": "u16", "counts": ["length", "parameters"]},
         "parameters": {"is": "body"},
     },
 }
@@ -242,7 +226,7 @@ def wrapped(request: pytest.FixtureRequest) -> Model:
 
 def test_any_envelope_is_decoded_as_the_reference_decodes_it_both_ways(wrapped: Model) -> None:
     lines = noisy_lines(wrapped, 5, 400)
-    told = ask(wrapped, [{"ask": "stream", "text": line.hex()} for line in lines])
+    told = ask(wrapped, [{"ask": "line", "text": line.hex()} for line in lines])
     for line, events in zip(lines, told, strict=True):
         said = [
             [event["type"], bytes(event["bytes"]).hex(), event.get("message", event.get("reason"))]
@@ -261,6 +245,45 @@ def test_any_envelope_is_encoded_as_the_reference_encodes_it(wrapped: Model) -> 
     ]
     questions = [{"ask": "encode", "name": each.name, "fields": values} for each, values in cases]
     assert ask(wrapped, questions) == [list(encode(each, values)) for each, values in cases]
+
+
+# What a line says both ways: where each piece stands, its bytes, and the byte where it was refused.
+PIECES = {
+    "noise without a header": ("00 01 02", [(0, "000102", 0)]),
+    "a header that ends too early": ("00 55 AA", [(0, "0055aa", 0)]),
+    "each refused header begins a piece": (
+        "55 55 01 00 55 55 00",
+        [(0, "55550100", 2), (4, "555500", 6)],
+    ),
+    "a count that is wrong": ("55 55 08 03 02 E8", [(0, "5555080302e8", 4)]),
+    "what was cut short": ("55 55 08 03 01", [(0, "5555080301", 5)]),
+    "a run of header bytes is one": (
+        "55 55 55 55 55 01",
+        [(0, "555555", 3), (3, "555501", 5)],
+    ),
+    "a frame of unknown id": ("00 55 55 03 63 01", [(0, "00", 0), (1, "5555036301", 4)]),
+}
+
+
+@pytest.mark.parametrize("title", PIECES)
+def test_noise_is_told_in_pieces_with_the_byte_that_was_refused(title: str) -> None:
+    text, expected = PIECES[title]
+    questions = [{"ask": "line", "text": text}, {"ask": "bytes", "text": text}]
+    whole, cut = ask(reference("busservo").model, questions)
+    assert [
+        (each["at"], bytes(each["bytes"]).hex(), each["refusedAt"]) for each in whole
+    ] == expected
+    # A piece that is cut goes on, at its own place, and was refused where it was.
+    assert bytewise(cut) == bytewise(whole)
+
+
+def bytewise(events: list[dict[str, Any]]) -> list[tuple[int, int, int]]:
+    """Each byte of noise: its place on the line, the byte, and the place that was refused."""
+    return [
+        (event["at"] + index, byte, event["refusedAt"])
+        for event in events
+        for index, byte in enumerate(event["bytes"])
+    ]
 
 
 @pytest.mark.parametrize("name", ["busservo", "greenhouse"])
