@@ -11,11 +11,11 @@ if TYPE_CHECKING:
 class Verdict:
     """What bytes begin: a message, no frame at all, or what more of them may make one.
 
-    Of a message, `kind` is its class and `size` that of its frame; `reason` and `offset` say what is
-    wrong if anything follows. Of all else, they say why it is no message and where that shows. It
-    `is_open` as long as more bytes may change what is to be done with it: `size` is the number at
-    which more can be told. Else it is the number of bytes that show it. `claim` is the size that a
-    frame of unknown command would have.
+    Of a message, `kind` is its class and `size` that of its frame; `reason` and `offset` say what
+    is wrong if anything follows. Of all else, they say why it is no message and where that shows.
+    It `is_open` as long as more bytes may change what is to be done with it: `size` is the number
+    at which more can be told. Else it is the number of bytes that show it. `claim` is the size that
+    a frame of unknown command would have.
     """
 
     __slots__ = ("claim", "is_open", "kind", "offset", "reason", "size")
