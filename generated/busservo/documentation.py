@@ -12,10 +12,9 @@ from textwrap import dedent
 def documentation(owner: type, name: str) -> str | None:
     """The string below the line that assigns `name` in a class; None where there is no source."""
     try:
-        source = inspect.getsource(owner)
-    except (OSError, TypeError):
+        (declared,) = ast.parse(dedent(inspect.getsource(owner))).body
+    except (OSError, TypeError, SyntaxError):  # what is there now may be something else
         return None
-    (declared,) = ast.parse(dedent(source)).body
     body = declared.body if isinstance(declared, ast.ClassDef) else []
     for line, below in pairwise(body):
         if (

@@ -1,4 +1,7 @@
-"""The number types that fields can have. A new type is a new row here, and nothing else."""
+"""The number types that fields can have: a new type is a new row here.
+
+The Python library has a class for each, in `number.py` of its runtime.
+"""
 
 from __future__ import annotations
 

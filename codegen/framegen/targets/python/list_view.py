@@ -60,11 +60,17 @@ class ListView:
         return [] if self.element else self.fields[0].constants
 
     @property
-    def declared(self) -> str:
-        """The line that declares it: its place, what it is a list of, and how many there may be."""
-        of: Part = self.element.name if self.element else self.fields[0].made("", [])
-        bounds = [str(self.slot.low), str(self.slot.high), f"count={self.slot.counter.name}"]
-        return Bracketed(f"{self.name} = Items(", [str(self.slot.at), of, *bounds], ")").fitted(4)
+    def described(self) -> str:
+        """The call that makes the field: its place, what it is a list of, how many there may be."""
+        of: Part = self.element.name if self.element else self.fields[0].call([])
+        bounds = [str(self.slot.low), str(self.slot.high), f"count={self.count}"]
+        items = [str(self.slot.at), of, *bounds]
+        return Bracketed("Items(", items, ")").fitted(4, last=f"{self.name} = ")
+
+    @property
+    def count(self) -> str:
+        """What its count is called."""
+        return self.slot.counter.name
 
     @property
     def doc(self) -> list[str]:
@@ -98,29 +104,25 @@ class ListView:
         return f"tuple[{self.slot.element or 'int'}, ...]"
 
     @property
-    def flat(self) -> str:
-        """The statement that makes one list of all numbers that are given."""
-        return Bracketed(f"flat = cls.{self.name}.flat(", [self.name], ")").fitted(8)
+    def taken(self) -> str:
+        """The argument of what makes one list of all numbers."""
+        return _only_argument(f"flat = cls.{self.name}.flat(", self.name)
 
     @property
-    def counted(self) -> str:
-        """The statement that counts the elements."""
-        width = len(self.fields)
-        each = f" // {width}" if width > 1 else ""
-        return f"{self.slot.counter.name} = len(flat){each}"
+    def per_element(self) -> str:
+        """What divides the count of those numbers by the numbers of an element."""
+        return f" // {len(self.fields)}" if len(self.fields) > 1 else ""
 
     @property
-    def columns_declared(self) -> str:
-        """The declaration of what reads it as columns, as many as there is room for in the line."""
+    def read_from(self) -> str:
+        """The argument of what reads all its numbers."""
+        return _only_argument(f"numbers = type(self).{self.name}.numbers(", "self._frame")
+
+    @property
+    def column_types(self) -> str:
+        """The types of its columns, as many as there is room for in the line."""
         types = ", ".join("Column" for _ in self.fields)
-        returned = types if len(self.fields) <= 6 else "Column, ..."
-        return f"def columns(self) -> tuple[{returned}]:"
-
-    @property
-    def numbers(self) -> str:
-        """The statement that reads all its numbers."""
-        call = f"numbers = type(self).{self.name}.numbers("
-        return Bracketed(call, ["self._frame"], ")").fitted(8)
+        return types if len(self.fields) <= 6 else "Column, ..."
 
     @property
     def columns(self) -> str:
@@ -141,3 +143,8 @@ class ListView:
             f"The {self.name} as columns of plain numbers.",
             f"One for each field: {fields}. {_COLUMNS_FOR} `{self.name}`.",
         ]
+
+
+def _only_argument(call: str, argument: str) -> str:
+    """The argument of a call in a body, broken where the line would be too long."""
+    return Bracketed(call, [argument], ")").fitted(8).removeprefix(call).removesuffix(")")

@@ -95,12 +95,12 @@ class NumberView:
         return self.slot.wire.name.upper()
 
     @property
-    def declared(self) -> str:
-        """The line that declares it: what it is called, its type and its place."""
-        return self.made(f"{self.name} = ", [str(self.slot.at)]).fitted(4)
+    def described(self) -> str:
+        """The call that makes the field."""
+        return self.call([str(self.slot.at)]).fitted(4, last=f"{self.name} = ")
 
-    def made(self, before: str, place: list[str]) -> Bracketed:
-        """The call that makes the field, with what its type alone does not say."""
+    def call(self, place: list[str]) -> Bracketed:
+        """That call, with what the type alone does not say."""
         slot, field = self.slot, self.slot.field
         items: list[Part] = [*place]
         items += [f"low={slot.low}"] if slot.low != slot.wire.low else []
@@ -111,7 +111,7 @@ class NumberView:
             for name, constant in zip(field.values, self.constants, strict=True)
         ]
         items += [Bracketed("names={", names, "}")] if names else []
-        return Bracketed(f"{before}{self.type}(", items, ")")
+        return Bracketed(f"{self.type}(", items, ")")
 
     @property
     def constants(self) -> list[Constant]:

@@ -54,6 +54,9 @@ class Field(_Property["Value"]):
         self.owner = owner
         super().__init__(self.reader())
 
+    def __repr__(self) -> str:
+        return f"<{type(self).__name__} {self.owner.__name__}.{self.name}>"
+
     def reader(self) -> Callable[[Any], Value]:
         """What reads the value from a message, or from an element."""
         raise NotImplementedError
