@@ -83,19 +83,9 @@ def _unfinished(sender: Sender, frame: bytes, empty: bytes) -> Iterator[tuple[st
     title = "an unknown frame that does not end"
     yield f"{title}, then quiet", (claim + calm, QUIET, frame, QUIET)
     yield f"{title}, with a frame in it", (claim + calm + frame, QUIET)
-    yield (
-        f"{title}, with two frames in it, byte by byte",
-        (
-            *single_bytes(claim + frame + calm + frame),
-            QUIET,
-        ),
-    )
+    frames = single_bytes(claim + frame + calm + frame)
+    yield f"{title}, with two frames in it, byte by byte", (*frames, QUIET)
     yield f"{title}, with an unknown frame in it", (claim + empty + calm, QUIET)
     yield f"{title}, with another such and a frame in it", (larger + claim + frame, QUIET)
-    yield (
-        f"{title}, with another such and an unknown frame in it",
-        (
-            *single_bytes(larger + claim + empty),
-            QUIET,
-        ),
-    )
+    claims = single_bytes(larger + claim + empty)
+    yield f"{title}, with another such and an unknown frame in it", (*claims, QUIET)
