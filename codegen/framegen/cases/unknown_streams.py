@@ -87,6 +87,7 @@ def _unfinished(sender: Sender, frame: bytes, empty: bytes) -> Iterator[tuple[st
     title = "an unknown frame that does not end"
     yield f"{title}, then quiet", (claim + calm, QUIET, frame, QUIET)
     yield f"{title}, with a frame in it", (claim + calm + frame, QUIET)
+    yield f"{title}, with a frame told before the line goes quiet", (claim + frame,)
     frames = single_bytes(claim + frame + calm + frame)
     yield f"{title}, with two frames in it, byte by byte", (*frames, QUIET)
     yield f"{title}, with an unknown frame in it", (claim + empty + calm, QUIET)
