@@ -8,6 +8,8 @@ from typing import TYPE_CHECKING
 from framegen.render import render
 from framegen.targets import python
 
+from tests.docs.peers import page_command
+
 if TYPE_CHECKING:
     from collections.abc import Callable
     from pathlib import Path
@@ -26,4 +28,7 @@ def python_command(compiled: Compiled, folder: Path) -> list[str]:
 
 
 # By language, the program that answers with what is made of a spec.
-ANSWERERS: dict[str, Callable[[Compiled, Path], list[str]]] = {"python": python_command}
+ANSWERERS: dict[str, Callable[[Compiled, Path], list[str]]] = {
+    "python": python_command,
+    "javascript": page_command,
+}
