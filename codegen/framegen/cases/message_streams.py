@@ -26,7 +26,7 @@ def _lines(sender: Sender, message: MessageLayout, frame: bytes) -> Iterator[tup
     half = len(frame) // 2
     yield "byte by byte", (*single_bytes(frame), QUIET)
     yield "behind noise, and told before the line goes quiet", (sender.noise(3) + frame,)
-    yield "whole, and held short of its last byte before the line goes quiet", (frame + frame[:-1],)
+    yield "without its last byte, held before the line goes quiet", (frame + frame[:-1],)
     yield "behind a stray byte of the header", (sender.header[:1] + frame, QUIET)
     twice = (frame[:half], frame[half:] + frame[:half], frame[half:], QUIET)
     yield "twice, in pieces that end inside of a frame", twice

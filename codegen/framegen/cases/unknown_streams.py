@@ -43,10 +43,10 @@ def _whole(
     yield "an unknown frame between frames", (frame + filled + frame, QUIET)
     yield "an unknown frame between noise", (noise(2) + filled + noise(3), QUIET)
     yield "an unknown frame, told before the line goes quiet", (filled + frame,)
-    yield (
-        "an unknown frame, held short of its last byte before the line goes quiet",
-        (frame + filled[:-1],),
-    )
+    known = sender.model.frame.id.at + sender.model.frame.id.size
+    held = "held before the line goes quiet"
+    yield f"an unknown frame without its last byte, {held}", (frame + filled[:-1],)
+    yield f"an unknown frame cut behind its id, {held}", (frame + filled[:known],)
     yield "an unknown frame byte by byte, then another", (*single_bytes(filled), frame, QUIET)
     yield "two unknown frames", (filled + empty, QUIET)
     yield "an unknown frame behind a stray byte of the header", (stray + filled, QUIET)
