@@ -269,6 +269,21 @@ def test_a_new_message_changes_what_shows_it() -> None:
     }
 
 
+def test_a_new_message_changes_few_vectors_of_others() -> None:
+    text = text_of("busservo")
+    where = text.index("  # -----", text.index("  ServoUnload:"))
+    path = "generated/busservo/vectors.json"
+    new = text[:where] + MESSAGE + text[where:]
+    before, after = (files(each)[path].splitlines() for each in (text, new))
+    gone = [json.loads(line.rstrip(","))["title"] for line in before if line not in after]
+    assert gone == [
+        "one frame of each message in one piece",
+        "one frame of each message in pieces of 7 bytes",
+    ]
+    kept = [line for line in after if line in before]
+    assert kept == [line for line in before if line in after]
+
+
 def test_a_new_named_value_changes_what_shows_it() -> None:
     data = data_of(BUSSERVO)
     before = files(as_text(data))

@@ -1,17 +1,27 @@
 """vectors.json: cases for implementations in any language, true of this one and of the oracle."""
 
 import json
+from collections.abc import Sequence
 from importlib.resources import files
 from typing import Any
 
 import busservo
 import pytest
-from busservo import MESSAGES, DecodeError, Direction, Reason
+from busservo import (
+    MESSAGES,
+    DecodeError,
+    Direction,
+    Message,
+    Noise,
+    Reason,
+    StreamDecoder,
+    UnknownFrame,
+)
 from framegen.cases.valid import range_ends
 
 from tests import oracle
 from tests.cases import CASES
-from tests.lines import said
+from tests.lines import joined, said
 from tests.specimens import DEMO, compiled_of, data_of
 
 VECTORS: dict[str, Any] = json.loads(
@@ -19,6 +29,7 @@ VECTORS: dict[str, Any] = json.loads(
 )
 VALID: list[dict[str, Any]] = VECTORS["valid"]
 INVALID: list[dict[str, Any]] = VECTORS["invalid"]
+STREAMS: list[dict[str, Any]] = VECTORS["streams"]
 CLASSES: dict[str, Any] = {kind.__name__: kind for kind in MESSAGES}
 
 each_valid = pytest.mark.parametrize(
@@ -26,6 +37,10 @@ each_valid = pytest.mark.parametrize(
 )
 each_invalid = pytest.mark.parametrize(
     "vector", INVALID, ids=lambda vector: f"{vector['direction']}: {vector['hex']}"
+)
+
+each_stream = pytest.mark.parametrize(
+    "vector", STREAMS, ids=lambda vector: f"{vector['direction']}: {vector['title']}"
 )
 
 
@@ -77,9 +92,84 @@ def test_the_oracle_refuses_an_invalid_vector(vector: dict[str, Any]) -> None:
         oracle.parse(bytes.fromhex(vector["hex"]), vector["direction"])
 
 
+def scanned_events(vector: dict[str, Any]) -> list[list[object]]:
+    """What a stream says up to each quiet, as the oracle has it: all noise is bytes, and joined."""
+    stretches: list[list[object]] = [[]]
+    for event in vector["events"]:
+        found = stretches[-1]
+        if event["event"] == "quiet":
+            stretches.append([])
+        elif event["event"] == "message":
+            found.append((event["message"], event["fields"]))
+        elif found and isinstance(found[-1], bytes):
+            found[-1] += bytes.fromhex(event["hex"])
+        else:
+            found.append(bytes.fromhex(event["hex"]))
+    return stretches
+
+
+def stretches_of(vector: dict[str, Any]) -> list[list[bytes]]:
+    """The chunks of a stream up to each quiet."""
+    stretches: list[list[bytes]] = [[]]
+    for part in vector["parts"]:
+        if part == "quiet":
+            stretches.append([])
+        else:
+            stretches[-1].append(bytes.fromhex(part))
+    return stretches
+
+
+@each_stream
+def test_a_stream_is_decoded(vector: dict[str, Any]) -> None:
+    decoder = StreamDecoder(Direction(vector["direction"]), vector["max_frame"])
+    *stretches, last = stretches_of(vector)
+    found = []
+    for chunks in stretches:
+        events = [event for chunk in chunks for event in decoder.feed(chunk)]
+        found += [*map(shown, joined(events + decoder.flush())), {"event": "quiet"}]
+    found += map(shown, joined(event for chunk in last for event in decoder.feed(chunk)))
+
+    assert found == vector["events"]
+
+
+def shown(event: Message | Noise) -> dict[str, Any]:
+    """An event as the vectors have it."""
+    if isinstance(event, Noise):
+        digits = event.data.hex(" ").upper()
+        if isinstance(event, UnknownFrame):
+            return {"event": "unknown", "hex": digits}
+        return {"event": "noise", "reason": event.reason.value, "hex": digits}
+    name, fields = said(event)
+    digits = event.encode().hex(" ").upper()
+    return {"event": "message", "message": name, "fields": fields, "hex": digits}
+
+
+@pytest.mark.parametrize("vector", [each for each in STREAMS if each["max_frame"] is None])
+def test_the_oracle_agrees_with_a_stream(vector: dict[str, Any]) -> None:
+    *stretches, last = map(b"".join, stretches_of(vector))
+    way = vector["direction"]
+    *found, begun = scanned_events(vector)
+
+    assert [oracle.scan(data, way) for data in stretches] == found
+    # What else has been told already depends on what is waited for.
+    early = oracle.scan(last, way, quiet=False)
+    assert messages_of(early) == messages_of(begun)
+
+
+def messages_of(events: Sequence[object]) -> list[object]:
+    """The messages alone."""
+    return [event for event in events if not isinstance(event, bytes)]
+
+
 def test_the_vectors_cover_every_message() -> None:
     assert {vector["message"] for vector in VALID} == set(CLASSES)
     assert {vector["title"].split(":")[0] for vector in INVALID} == set(CLASSES)
+    assert {name for vector in STREAMS for name in messages_in(vector)} == set(CLASSES)
+
+
+def messages_in(vector: dict[str, Any]) -> list[str]:
+    """The messages that a stream holds."""
+    return [event["message"] for event in vector["events"] if event["event"] == "message"]
 
 
 def test_the_vectors_cover_every_reason_that_this_protocol_has() -> None:
@@ -87,6 +177,8 @@ def test_the_vectors_cover_every_reason_that_this_protocol_has() -> None:
     reasons = {reason.value for reason in Reason if reason is not Reason.OUT_OF_RANGE}
 
     assert {vector["reason"] for vector in INVALID} == reasons
+    heard = {event.get("reason") for vector in STREAMS for event in vector["events"]}
+    assert heard == {*reasons, None} - {Reason.TRAILING_BYTES.value}
 
 
 def test_the_vectors_cover_the_table_of_truth() -> None:

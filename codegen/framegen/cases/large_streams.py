@@ -37,21 +37,11 @@ def _largest(sender: Sender, frame: bytes) -> Iterator[tuple[str, Parts]]:
     if largest is None:
         return
     yield "the largest frame", (largest, QUIET)
-    yield (
-        f"the largest frame in pieces of {_REPORT} bytes",
-        (
-            *chunks(sender.noise(2) + largest + frame, _REPORT),
-            QUIET,
-        ),
-    )
-    yield "the largest frame without its last byte, then another", (largest[:-1] + frame, QUIET)
-    yield (
-        "the largest frame without its last byte, then quiet",
-        (
-            *(largest[:-1], QUIET),
-            *(frame, QUIET),
-        ),
-    )
+    pieces = chunks(sender.noise(2) + largest + frame, _REPORT)
+    yield f"the largest frame in pieces of {_REPORT} bytes", (*pieces, QUIET)
+    short = largest[:-1]
+    yield "the largest frame without its last byte, then another", (short + frame, QUIET)
+    yield "the largest frame without its last byte, then quiet", (short, QUIET, frame, QUIET)
 
 
 def _bounded(sender: Sender, frame: bytes, limit: int) -> Iterator[tuple[str, Parts]]:
@@ -66,10 +56,6 @@ def _bounded(sender: Sender, frame: bytes, limit: int) -> Iterator[tuple[str, Pa
         unknown = sender.unknown(sender.noise(size - least))
         if unknown is not None:
             yield f"an unknown frame of {size}, then another", (unknown + frame, QUIET)
-            yield (
-                f"an unknown frame of {size} with a frame in it",
-                (
-                    unknown[: -len(frame)] + frame,
-                    QUIET,
-                ),
-            )
+        holding = sender.unknown(sender.noise(size - least - len(frame)) + frame)
+        if holding is not None and len(holding) == size:
+            yield f"an unknown frame of {size} that holds a frame", (holding, QUIET)

@@ -26,16 +26,11 @@ def _lines(sender: Sender, message: MessageLayout, frame: bytes) -> Iterator[tup
     half = len(frame) // 2
     yield "byte by byte", (*single_bytes(frame), QUIET)
     yield "behind noise, and told before the line goes quiet", (sender.noise(3) + frame,)
+    yield "without its last byte, held before the line goes quiet", (frame + frame[:-1],)
     yield "behind a stray byte of the header", (sender.header[:1] + frame, QUIET)
     twice = (frame[:half], frame[half:] + frame[:half], frame[half:], QUIET)
     yield "twice, in pieces that end inside of a frame", twice
-    yield (
-        "without its last byte until the line is quiet, then whole",
-        (
-            *(frame[:-1], QUIET),
-            *(frame, QUIET),
-        ),
-    )
+    yield "without its last byte, then quiet, then whole", (frame[:-1], QUIET, frame, QUIET)
     for placed in slots_once(message, frame):
         if message.frame.body_at < placed.end < len(frame):
             yield f"cut behind {placed.path}, then whole", (frame[: placed.end] + frame, QUIET)

@@ -43,6 +43,10 @@ def _whole(
     yield "an unknown frame between frames", (frame + filled + frame, QUIET)
     yield "an unknown frame between noise", (noise(2) + filled + noise(3), QUIET)
     yield "an unknown frame, told before the line goes quiet", (filled + frame,)
+    known = sender.model.frame.id.at + sender.model.frame.id.size
+    held = "held before the line goes quiet"
+    yield f"an unknown frame without its last byte, {held}", (frame + filled[:-1],)
+    yield f"an unknown frame cut behind its id, {held}", (frame + filled[:known],)
     yield "an unknown frame byte by byte, then another", (*single_bytes(filled), frame, QUIET)
     yield "two unknown frames", (filled + empty, QUIET)
     yield "an unknown frame behind a stray byte of the header", (stray + filled, QUIET)
@@ -83,19 +87,10 @@ def _unfinished(sender: Sender, frame: bytes, empty: bytes) -> Iterator[tuple[st
     title = "an unknown frame that does not end"
     yield f"{title}, then quiet", (claim + calm, QUIET, frame, QUIET)
     yield f"{title}, with a frame in it", (claim + calm + frame, QUIET)
-    yield (
-        f"{title}, with two frames in it, byte by byte",
-        (
-            *single_bytes(claim + frame + calm + frame),
-            QUIET,
-        ),
-    )
+    yield f"{title}, with a frame told before the line goes quiet", (claim + frame,)
+    frames = single_bytes(claim + frame + calm + frame)
+    yield f"{title}, with two frames in it, byte by byte", (*frames, QUIET)
     yield f"{title}, with an unknown frame in it", (claim + empty + calm, QUIET)
     yield f"{title}, with another such and a frame in it", (larger + claim + frame, QUIET)
-    yield (
-        f"{title}, with another such and an unknown frame in it",
-        (
-            *single_bytes(larger + claim + empty),
-            QUIET,
-        ),
-    )
+    claims = single_bytes(larger + claim + empty)
+    yield f"{title}, with another such and an unknown frame in it", (*claims, QUIET)

@@ -89,14 +89,13 @@ def _stream(model: Model, case: StreamCase) -> dict[str, Any]:
 def _event(event: Event | None) -> dict[str, Any]:
     if event is None:
         return {"event": "quiet"}
-    if event.message is None:
-        return {"event": event.kind, "reason": event.reason, "hex": to_hex(event.data)}
-    return {
-        "event": event.kind,
-        "message": event.message.name,
-        "fields": values_of(event.message, event.data),
-        "hex": to_hex(event.data),
-    }
+    shown: dict[str, Any] = {"event": event.kind}
+    if event.message is not None:
+        shown["message"] = event.message.name
+        shown["fields"] = values_of(event.message, event.data)
+    elif event.kind == "noise":
+        shown["reason"] = event.reason
+    return {**shown, "hex": to_hex(event.data)}
 
 
 TARGET = Target(
