@@ -142,9 +142,9 @@ WRONG = {
         old="else if (!quiet && (why == CUT",
         new="else if ((why == CUT",
         caught_by=frozenset({"stream"}),
-        smallest="stream controller_to_host 257 555504 quiet 0f0000",
+        smallest="stream host_to_controller 257 555508030100000000 quiet 00",
         parted=(
-            "noise too-short 555504",
+            "noise too-short 555508030100000000",
             "quiet",
         ),
     ),

@@ -20,6 +20,8 @@ if TYPE_CHECKING:
 
 # So many kinds of differences are told.
 _KINDS = 12
+# And so many lines of an error stream.
+_LAST_LINES = 8
 
 
 def as_text(model: Model, trial: Trial, command: Sequence[str], *, colour: bool) -> str:
@@ -31,6 +33,7 @@ def _text(model: Model, trial: Trial, program: str, *, colour: bool) -> Iterator
     if trial.smallest is not None:
         yield from _first(model, trial.smallest, colour=colour)
         yield ""
+        yield from _first_failure(trial)
         yield from _kinds(trial.differences)
         yield ""
     if trial.stopped:
@@ -64,10 +67,26 @@ def _first(model: Model, smallest: Smallest, *, colour: bool) -> Iterator[str]:
     if found.rubbish:
         yield ""
         yield f"  `{_short(found.rubbish)}` is no line of an answer"
-    if smallest.last_words:
+    yield from _last_words(smallest.last_words)
+
+
+def _first_failure(trial: Trial) -> Iterator[str]:
+    """Tell when it first gave no answer, where that was not the first difference."""
+    failed = next((found for found in trial.differences if found.failure), None)
+    if failed is not None and failed is not trial.differences[0]:
+        yield f"the first that it did not answer: {failed.title}"
+        yield f"  question: {_short(failed.question.line)}"
+        yield f"  {failed.failure}"
+        yield from _last_words(trial.last_words)
+        yield ""
+
+
+def _last_words(text: str) -> Iterator[str]:
+    lines = text.splitlines()
+    if lines:
         yield ""
         yield "  its error stream ended:"
-        yield from (f"    {line}" for line in smallest.last_words.splitlines()[-8:])
+        yield from (f"    {line}" for line in lines[-_LAST_LINES:])
 
 
 def _short(text: str) -> str:
