@@ -162,21 +162,28 @@ def _hold(model: Model, arguments: Namespace) -> int:
 
 
 def _tell(model: Model, trial: Trial, arguments: Namespace) -> None:
-    from framegen.colour import takes_colour  # noqa: PLC0415
     from framegen.conformance import report  # noqa: PLC0415
-    from framegen.console import write_as_it_is  # noqa: PLC0415
 
     match arguments.format:
         case "json":
-            told = report.as_json(model, trial, arguments.program, arguments.seed)
-            print(json.dumps(told))
+            print(json.dumps(report.as_json(model, trial, arguments.program, arguments.seed)))
         case "badge":
             print(report.as_badge(model, trial), end="")
         case _:
-            colour = takes_colour(sys.stdout)
-            text = report.as_text(model, trial, arguments.program, colour=colour)
-            write_as_it_is(sys.stdout, text + "\n")
+            for line in report.as_text(model, trial, arguments.program):
+                _show(line, report.colour_of(line))
     if arguments.more:
         sys.stdout.flush()
         again = f"--more {arguments.more} --seed {arguments.seed}"
         print(f"the same questions again: {again}", file=sys.stderr)
+
+
+def _show(line: str, colour: str) -> None:
+    from framegen.colour import painted, takes_colour  # noqa: PLC0415
+    from framegen.console import visible, write_as_it_is  # noqa: PLC0415
+
+    if colour and takes_colour(sys.stdout):
+        # What a program said must not command the terminal.
+        write_as_it_is(sys.stdout, painted(visible(line), colour) + "\n")
+    else:
+        print(line)

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 from framegen.conformance.badge import badge
 from framegen.conformance.language import Decode, Encode, Stream
 from framegen.conformance.strip import strip
+from framegen.console import visible
 from framegen.wording import counted
 
 if TYPE_CHECKING:
@@ -20,28 +21,31 @@ if TYPE_CHECKING:
 
 # So many kinds of differences are told.
 _KINDS = 12
+# The two sides of a difference.
+_COLOURS = {"reference": "green", "program": "red"}
 # And so many lines of an error stream.
 _LAST_LINES = 8
 
 
-def as_text(model: Model, trial: Trial, command: Sequence[str], *, colour: bool) -> str:
-    """Tell it to a person, without a final newline."""
-    return "\n".join(_text(model, trial, " ".join(command), colour=colour))
-
-
-def _text(model: Model, trial: Trial, program: str, *, colour: bool) -> Iterator[str]:
+def as_text(model: Model, trial: Trial, command: Sequence[str]) -> Iterator[str]:
+    """Tell it to a person, line by line."""
     if trial.smallest is not None:
-        yield from _first(model, trial.smallest, colour=colour)
+        yield from _first(model, trial.smallest)
         yield ""
         yield from _first_failure(trial)
         yield from _kinds(trial.differences)
         yield ""
     if trial.stopped:
         yield f"stopped after {counted(trial.asked, 'question')}: {trial.stopped}"
-    yield f"{program}: {_verdict(model.spec.protocol, trial)}"
+    yield f"{_short(visible(' '.join(command)))}: {_verdict(model.spec.protocol, trial)}"
     if trial.unsupported:
         verbs = ", ".join(f"{count} {verb}" for verb, count in sorted(trial.unsupported.items()))
         yield f"  not supported, and not held against it: {verbs}"
+
+
+def colour_of(line: str) -> str:
+    """Which colour a line of the text has on a terminal; empty for none."""
+    return _COLOURS.get(line[: line.find("  ", 2)].strip(), "") if line.startswith("  ") else ""
 
 
 def _verdict(protocol: Protocol, trial: Trial) -> str:
@@ -54,7 +58,7 @@ def _verdict(protocol: Protocol, trial: Trial) -> str:
     return f"differs from {what} in {len(trial.differences)} of {answers}"
 
 
-def _first(model: Model, smallest: Smallest, *, colour: bool) -> Iterator[str]:
+def _first(model: Model, smallest: Smallest) -> Iterator[str]:
     found = smallest.difference
     yield f"the first difference: {found.title}"
     if not smallest.alone:
@@ -63,7 +67,7 @@ def _first(model: Model, smallest: Smallest, *, colour: bool) -> Iterator[str]:
         yield f"  shrunk in {counted(smallest.tries, 'try', 'tries')}"
     yield f"  question: {_short(found.question.line)}"
     yield ""
-    yield from strip(model, found, colour=colour)
+    yield from strip(model, found)
     if found.rubbish:
         yield ""
         yield f"  `{_short(found.rubbish)}` is no line of an answer"
