@@ -128,8 +128,8 @@ def test_a_difference_is_shown_byte_by_byte(capsys: pytest.CaptureFixture[str]) 
         "     3  07     command  7      ActionGroupStop, CMD_ACTION_GROUP_STOP to the vendor"
     )
     assert re.match(
-        r"\d+ differences, \d+ with another message, or with none; "
-        r"by what the reference says there:\n +\d+  stream  ",
+        r"\d+ answers differ, \d+ of them in a message; by what the reference says there:\n"
+        r" +\d+  stream  ",
         kinds,
     )
     assert re.search(r": differs from busservo 1\.0\.0 in \d+ of \d+ answers\n$", verdict)
@@ -280,7 +280,13 @@ def test_what_stands_behind_the_dashes_is_the_programs_own(
 
 # -- What the guide shows ------------------------------------------------------------------------
 
-GUIDE = ROOT / "docs" / "conformance.md"
+GUIDE = (ROOT / "docs" / "conformance.md").read_text(encoding="utf-8")
+
+
+def shown(command: str) -> list[str]:
+    """What the guide shows of a command, in pieces, between which it leaves lines out."""
+    (block,) = re.findall(rf"```text\n\$ {re.escape(command)}\n(.*?)```", GUIDE, flags=re.DOTALL)
+    return re.split(r"^\.\.\.\n", block, flags=re.MULTILINE)
 
 
 @needs_compiler
@@ -291,6 +297,21 @@ def test_the_guide_shows_what_a_wrong_codec_gets(
     program = compile_codec(tmp_path, wrong.old, wrong.new)
     status, out, _ = told(capsys, SPEC, "--", program)
     assert status == 1
-    shown = out.replace(program, "./codec")
-    guide = GUIDE.read_text(encoding="utf-8")
-    assert f"```text\n{shown}```\n" in guide, f"{GUIDE.name} has to show:\n{shown}"
+    pieces = shown("framegen conform busservo -- ./codec")
+    assert re.fullmatch(r"(?:.*\n)*".join(map(re.escape, pieces)), out), out
+
+
+def test_the_guide_shows_what_the_reference_answers() -> None:
+    (block,) = shown("framegen conform busservo --answers")
+    asked = re.findall(r"^(?:decode|encode|stream) .*\n", block, flags=re.MULTILINE)
+    status, answers, _ = process(["busservo", "--answers"], "".join(asked))
+    session = zip(asked, re.findall(r"(?:.*\n)*?end\n", answers), strict=True)
+    assert "".join(question + answer for question, answer in session) == block
+    assert status == 0
+
+
+def test_the_guide_names_every_key_of_the_report(capsys: pytest.CaptureFixture[str]) -> None:
+    _, out, _ = told(capsys, SPEC, "--format", "json", *python(STUBBORN))
+    report: dict[str, Any] = json.loads(out)
+    keys = {*report, *report["smallest"], *report["differences"][0]}
+    assert sorted(key for key in keys if f"`{key}`" not in GUIDE) == []

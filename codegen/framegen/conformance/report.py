@@ -99,8 +99,10 @@ def _short(text: str) -> str:
 
 def _kinds(differences: Sequence[Difference]) -> Iterator[str]:
     wrong = sum(found.of_messages or bool(found.failure) for found in differences)
-    what = f"{wrong} with another message, or with none" if wrong else "all of noise alone"
-    yield f"{counted(len(differences), 'difference')}, {what}; by what the reference says there:"
+    yield (
+        f"{counted(len(differences), 'answer')} differ, {wrong or 'none'} of them in a message; "
+        "by what the reference says there:"
+    )
     kinds = Counter((found.question.verb, found.about) for found in differences)
     for (verb, about), count in kinds.most_common(_KINDS):
         yield f"  {count:>5}  {verb:<6}  {about}"
