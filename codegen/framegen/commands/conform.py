@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import json
 import sys
-from contextlib import closing
+from argparse import ArgumentTypeError
+from contextlib import closing, suppress
 from itertools import islice
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -27,6 +28,8 @@ EXAMPLES = (
     ("framegen conform --questions | framegen conform --answers", "and what is to be answered"),
 )
 _SEEDS = 2**32
+# More than these nobody means.
+_DIGITS, _LONGEST = 20, 3600
 # Seconds that a program has for an answer.
 _TIMEOUT = 10.0
 
@@ -67,16 +70,17 @@ def add_arguments(parser: ArgumentParser) -> None:
 
 
 def _natural(text: str) -> int:
-    if not text.isdecimal():
-        raise ValueError
+    if not (text.isascii() and text.isdigit() and len(text) < _DIGITS):
+        raise ArgumentTypeError(f"{text!r} is no number: write one from 0 up")
     return int(text)
 
 
 def _seconds(text: str) -> float:
-    seconds = float(text)
-    if not 0 < seconds < float("inf"):
-        raise ValueError
-    return seconds
+    with suppress(ValueError):
+        seconds = float(text)
+        if 0 < seconds <= _LONGEST:
+            return seconds
+    raise ArgumentTypeError(f"{text!r} is no time: write seconds, up to {_LONGEST}")
 
 
 def run(arguments: Namespace) -> int:
@@ -134,14 +138,14 @@ def _answer(model: Model) -> int:
     """Answer what comes on the input; what is no question is told, and the next one answered."""
     from framegen.conformance.language import END, answer  # noqa: PLC0415
     from framegen.conformance.question_reader import NotAQuestion, read_question  # noqa: PLC0415
-    from framegen.console import UNUSABLE  # noqa: PLC0415
+    from framegen.console import UNUSABLE, visible  # noqa: PLC0415
 
     status = 0
-    for line in sys.stdin:
+    for line in filter(bytes.strip, sys.stdin.buffer):
         try:
-            lines = answer(model, read_question(model, line))
+            lines = answer(model, read_question(model, line.decode("utf-8", "replace")))
         except NotAQuestion as error:
-            lines, status = [f"error {error}"], UNUSABLE
+            lines, status = [f"error {visible(str(error))}"], UNUSABLE
         print(*lines, END, sep="\n", flush=True)
     return status
 
@@ -158,21 +162,28 @@ def _hold(model: Model, arguments: Namespace) -> int:
 
 
 def _tell(model: Model, trial: Trial, arguments: Namespace) -> None:
-    from framegen.colour import takes_colour  # noqa: PLC0415
     from framegen.conformance import report  # noqa: PLC0415
-    from framegen.console import write_as_it_is  # noqa: PLC0415
 
     match arguments.format:
         case "json":
-            told = report.as_json(model, trial, arguments.program, arguments.seed)
-            print(json.dumps(told))
+            print(json.dumps(report.as_json(model, trial, arguments.program, arguments.seed)))
         case "badge":
             print(report.as_badge(model, trial), end="")
         case _:
-            colour = takes_colour(sys.stdout)
-            text = report.as_text(model, trial, arguments.program, colour=colour)
-            write_as_it_is(sys.stdout, text + "\n")
+            for line in report.as_text(model, trial, arguments.program):
+                _show(line, report.colour_of(line))
     if arguments.more:
         sys.stdout.flush()
         again = f"--more {arguments.more} --seed {arguments.seed}"
         print(f"the same questions again: {again}", file=sys.stderr)
+
+
+def _show(line: str, colour: str) -> None:
+    from framegen.colour import painted, takes_colour  # noqa: PLC0415
+    from framegen.console import visible, write_as_it_is  # noqa: PLC0415
+
+    if colour and takes_colour(sys.stdout):
+        # What a program said must not command the terminal.
+        write_as_it_is(sys.stdout, painted(visible(line), colour) + "\n")
+    else:
+        print(line)

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from html import escape
 
+from framegen.console import visible
+
 # How wide a character is, for want of a font: the text is fitted to it.
 _CHARACTER, _MARGIN, _HEIGHT = 6.5, 8, 20
 _COLOURS = {"good": "#2e7d32", "fair": "#8a6d00", "bad": "#b3261e"}
@@ -12,6 +14,7 @@ _LABEL = "#3c4043"
 
 def badge(label: str, text: str, mood: str) -> str:
     """Draw a label and what is said of it: `good`, `fair` or `bad`."""
+    label, text = visible(label), visible(text)
     left, right = (round(len(each) * _CHARACTER + 2 * _MARGIN) for each in (label, text))
     width = left + right
     title = escape(f"{label}: {text}")
@@ -29,6 +32,7 @@ def badge(label: str, text: str, mood: str) -> str:
 def _piece(at: int, width: int, text: str, colour: str) -> str:
     return (
         f'<rect x="{at}" width="{width}" height="{_HEIGHT}" fill="{colour}"/>\n'
-        f'<text x="{at + _MARGIN}" y="14" textLength="{width - 2 * _MARGIN}" fill="#fff" '
-        f'font-family="Verdana, DejaVu Sans, sans-serif" font-size="11">{escape(text)}</text>\n'
+        f'<text x="{at + _MARGIN}" y="14" textLength="{width - 2 * _MARGIN}" '
+        f'lengthAdjust="spacingAndGlyphs" font-family="Verdana, DejaVu Sans, sans-serif" '
+        f'font-size="11" fill="#fff">{escape(text)}</text>\n'
     )

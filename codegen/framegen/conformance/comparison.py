@@ -38,6 +38,8 @@ class Difference:
     @property
     def about(self) -> str:
         """What the reference says there, without bytes: `message ServoMove`, `noise bad-header`."""
+        if self.failure:
+            return "(no answer)"
         if isinstance(self.question, Encode):
             return self.question.message.name
         words = self.expected[self.at].split() if self.at < len(self.expected) else []

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 from framegen.conformance.badge import badge
 from framegen.conformance.language import Decode, Encode, Stream
 from framegen.conformance.strip import strip
+from framegen.console import visible
 from framegen.wording import counted
 
 if TYPE_CHECKING:
@@ -20,25 +21,31 @@ if TYPE_CHECKING:
 
 # So many kinds of differences are told.
 _KINDS = 12
+# The two sides of a difference.
+_COLOURS = {"reference": "green", "program": "red"}
+# And so many lines of an error stream.
+_LAST_LINES = 8
 
 
-def as_text(model: Model, trial: Trial, command: Sequence[str], *, colour: bool) -> str:
-    """Tell it to a person, without a final newline."""
-    return "\n".join(_text(model, trial, " ".join(command), colour=colour))
-
-
-def _text(model: Model, trial: Trial, program: str, *, colour: bool) -> Iterator[str]:
+def as_text(model: Model, trial: Trial, command: Sequence[str]) -> Iterator[str]:
+    """Tell it to a person, line by line."""
     if trial.smallest is not None:
-        yield from _first(model, trial.smallest, colour=colour)
+        yield from _first(model, trial.smallest)
         yield ""
+        yield from _first_failure(trial)
         yield from _kinds(trial.differences)
         yield ""
     if trial.stopped:
         yield f"stopped after {counted(trial.asked, 'question')}: {trial.stopped}"
-    yield f"{program}: {_verdict(model.spec.protocol, trial)}"
+    yield f"{_short(visible(' '.join(command)))}: {_verdict(model.spec.protocol, trial)}"
     if trial.unsupported:
         verbs = ", ".join(f"{count} {verb}" for verb, count in sorted(trial.unsupported.items()))
         yield f"  not supported, and not held against it: {verbs}"
+
+
+def colour_of(line: str) -> str:
+    """Which colour a line of the text has on a terminal; empty for none."""
+    return _COLOURS.get(line[: line.find("  ", 2)].strip(), "") if line.startswith("  ") else ""
 
 
 def _verdict(protocol: Protocol, trial: Trial) -> str:
@@ -51,7 +58,7 @@ def _verdict(protocol: Protocol, trial: Trial) -> str:
     return f"differs from {what} in {len(trial.differences)} of {answers}"
 
 
-def _first(model: Model, smallest: Smallest, *, colour: bool) -> Iterator[str]:
+def _first(model: Model, smallest: Smallest) -> Iterator[str]:
     found = smallest.difference
     yield f"the first difference: {found.title}"
     if not smallest.alone:
@@ -60,14 +67,30 @@ def _first(model: Model, smallest: Smallest, *, colour: bool) -> Iterator[str]:
         yield f"  shrunk in {counted(smallest.tries, 'try', 'tries')}"
     yield f"  question: {_short(found.question.line)}"
     yield ""
-    yield from strip(model, found, colour=colour)
+    yield from strip(model, found)
     if found.rubbish:
         yield ""
         yield f"  `{_short(found.rubbish)}` is no line of an answer"
-    if smallest.last_words:
+    yield from _last_words(smallest.last_words)
+
+
+def _first_failure(trial: Trial) -> Iterator[str]:
+    """Tell when it first gave no answer, where that was not the first difference."""
+    failed = next((found for found in trial.differences if found.failure), None)
+    if failed is not None and failed is not trial.differences[0]:
+        yield f"the first that it did not answer: {failed.title}"
+        yield f"  question: {_short(failed.question.line)}"
+        yield f"  {failed.failure}"
+        yield from _last_words(trial.last_words)
+        yield ""
+
+
+def _last_words(text: str) -> Iterator[str]:
+    lines = text.splitlines()
+    if lines:
         yield ""
         yield "  its error stream ended:"
-        yield from (f"    {line}" for line in smallest.last_words.splitlines()[-8:])
+        yield from (f"    {line}" for line in lines[-_LAST_LINES:])
 
 
 def _short(text: str) -> str:
@@ -76,8 +99,10 @@ def _short(text: str) -> str:
 
 def _kinds(differences: Sequence[Difference]) -> Iterator[str]:
     wrong = sum(found.of_messages or bool(found.failure) for found in differences)
-    what = f"{wrong} with another message, or with none" if wrong else "all of noise alone"
-    yield f"{counted(len(differences), 'difference')}, {what}; by what the reference says there:"
+    yield (
+        f"{counted(len(differences), 'answer')} differ, {wrong or 'none'} of them in a message; "
+        "by what the reference says there:"
+    )
     kinds = Counter((found.question.verb, found.about) for found in differences)
     for (verb, about), count in kinds.most_common(_KINDS):
         yield f"  {count:>5}  {verb:<6}  {about}"

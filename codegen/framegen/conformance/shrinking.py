@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+from contextlib import suppress
 from itertools import chain
 from typing import TYPE_CHECKING, Any
 
 from framegen.conformance.language import Decode, Encode, Stream
-from framegen.model.codec import encode
+from framegen.model.codec import Unencodable, encode, values_of
 from framegen.model.slots import Number
 from framegen.model.verdict import weigh
 
@@ -20,7 +21,7 @@ if TYPE_CHECKING:
 
 # What stands between the bytes of a stream.
 _QUIET, _CUT = -1, -2
-# A number is lowered by so much, and as many bytes behind it are left out: a length, a count.
+# A byte is lowered by so much, where as many symbols behind it are left out.
 _STEPS = (1, 2, 3, 4, 6)
 
 
@@ -104,41 +105,57 @@ def _parts(symbols: Sequence[int]) -> tuple[bytes | None, ...]:
 
 def _smaller_lines(model: Model, way: Direction, symbols: list[int]) -> Iterator[list[int]]:
     yield [symbol for symbol in symbols if symbol != _CUT]
-    yield from _without_runs(symbols)
-    yield from _with_least_frames(model, way, symbols)
+    for at, end in _runs(symbols):
+        yield symbols[:at] + symbols[end:]
+    yield from _with_smaller_frames(model, way, symbols)
+    for at, end in _runs(symbols):
+        yield symbols[:at] + [min(symbol, 0) for symbol in symbols[at:end]] + symbols[end:]
+    for at, symbol in enumerate(symbols):
+        for value in (1, symbol - 1):
+            if 0 <= value < symbol:
+                yield [*symbols[:at], value, *symbols[at + 1 :]]
+    yield from _lowered(symbols)
+
+
+def _lowered(symbols: list[int]) -> Iterator[list[int]]:
+    """Lower a byte, and leave out as many symbols behind it: a length, and what it counts."""
     for at, symbol in enumerate(symbols):
         for step in _STEPS:
             if symbol >= step:
                 lowered = [*symbols[:at], symbol - step, *symbols[at + 1 :]]
                 for gap in range(at + 1, len(symbols) - step + 1):
                     yield lowered[:gap] + lowered[gap + step :]
-    for at, symbol in enumerate(symbols):
-        for value in (0, 1, symbol - 1):
-            if 0 <= value < symbol:
-                yield [*symbols[:at], value, *symbols[at + 1 :]]
 
 
-def _without_runs(symbols: list[Any]) -> Iterator[list[Any]]:
-    """Leave out a half, a quarter, ... and each single one."""
-    size = len(symbols)
+def _runs(items: Sequence[object]) -> Iterator[tuple[int, int]]:
+    """Where a half, a quarter, ... and each single one begins and ends."""
+    size = len(items)
     while size:
-        for at in range(0, len(symbols) - size + 1, max(1, size // 2)):
-            yield symbols[:at] + symbols[at + size :]
+        for at in range(0, len(items) - size + 1, max(1, size // 2)):
+            yield at, at + size
         size //= 2
 
 
-def _with_least_frames(model: Model, way: Direction, symbols: list[int]) -> Iterator[list[int]]:
-    """Put the least frame of its message, or of any, in the place of a legal one."""
-    others = [_least(message) for message in model.sent(way).values()]
+def _with_smaller_frames(model: Model, way: Direction, symbols: list[int]) -> Iterator[list[int]]:
+    """Put a smaller frame in the place of a legal one: the least of any message, or of its own."""
+    others = sorted((_least(message) for message in model.sent(way).values()), key=len)
     for at in range(len(symbols)):
-        # A frame that is cut is met again when the cut has gone.
         rest = bytes(symbol for symbol in symbols[at:] if symbol >= 0)
         verdict = weigh(model, [way], rest)
         end = at + verdict.offset
+        # A frame that is cut is met again when the cut has gone.
         if verdict.message is None or min(symbols[at:end]) < 0:
             continue
-        for frame in (_least(verdict.message), *sorted(others, key=len)):
+        shorter = _shorter_frames(verdict.message, rest[: verdict.offset])
+        for frame in chain([_least(verdict.message)], others, shorter):
             yield symbols[:at] + list(frame) + symbols[end:]
+
+
+def _shorter_frames(message: MessageLayout, frame: bytes) -> Iterator[bytes]:
+    """The frames of the same message with fewer elements."""
+    for values in _shorter(values_of(message, frame)):
+        with suppress(Unencodable):
+            yield encode(message, values)
 
 
 def _least(message: MessageLayout) -> bytes:
@@ -169,8 +186,8 @@ def _numbers(values: Any) -> Iterator[int]:
 def _shorter(values: Any) -> Iterator[dict[str, Any]]:
     for name, value in values.items():
         if isinstance(value, list):
-            for items in _without_runs(value):
-                yield {**values, name: items}
+            for at, end in _runs(value):
+                yield {**values, name: value[:at] + value[end:]}
 
 
 def _lower(value: Any) -> Iterator[Any]:

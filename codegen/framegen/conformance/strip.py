@@ -7,7 +7,6 @@ from difflib import SequenceMatcher
 from itertools import accumulate
 from typing import TYPE_CHECKING
 
-from framegen.colour import painted
 from framegen.conformance.language import HEX_AT, Decode, Encode, Stream
 from framegen.explain import seen_rows
 from framegen.explain_text import table
@@ -24,14 +23,13 @@ if TYPE_CHECKING:
 _BYTES_A_LINE = 16
 # A line of an answer is shown as far as this, and of an answer so many lines.
 _WIDTH, _LINES = 200, 40
-_COLOURS = {"reference": "green", "program": "red"}
 
 
-def strip(model: Model, difference: Difference, *, colour: bool) -> Iterator[str]:
-    """Show a difference in lines of text, the answers in colour where that is wanted."""
+def strip(model: Model, difference: Difference) -> Iterator[str]:
+    """Show a difference in lines of text."""
     question = difference.question
     if isinstance(question, Encode):
-        yield from _answers(difference, colour=colour)
+        yield from _answers(difference)
         yield ""
         yield from _frame(question)
         return
@@ -39,7 +37,7 @@ def strip(model: Model, difference: Difference, *, colour: bool) -> Iterator[str
     data = question.data if isinstance(question, Decode) else _joined(question.parts)
     yield from _bytes(data, reason.refused_at if reason else None)
     yield ""
-    yield from _answers(difference, colour=colour)
+    yield from _answers(difference)
     if reason and reason.rows:
         yield ""
         yield from table(reason.rows)
@@ -63,7 +61,7 @@ def _bytes(data: bytes, marked: int | None = None) -> Iterator[str]:
             yield "      " + "    " * (marked - start) + "  ^^"
 
 
-def _answers(difference: Difference, *, colour: bool) -> Iterator[str]:
+def _answers(difference: Difference) -> Iterator[str]:
     """Both answers, what they have in common once, with the byte at which each line begins."""
     ours, theirs = _placed(difference.expected), _placed(difference.answered)
     rows: list[tuple[str, str, str]] = []
@@ -82,8 +80,7 @@ def _answers(difference: Difference, *, colour: bool) -> Iterator[str]:
         rows.append(("program", "", "nothing"))
     for who, at, line in rows[:_LINES]:
         cut = line if len(line) <= _WIDTH else f"{line[: _WIDTH - 3]}..."
-        text = f"  {who:<9}  {at:>4}  {cut}"
-        yield painted(text, _COLOURS[who]) if colour and who in _COLOURS else text
+        yield f"  {who:<9}  {at:>4}  {cut}"
     if len(rows) > _LINES:
         yield f"  ... and {len(rows) - _LINES} more lines"
 

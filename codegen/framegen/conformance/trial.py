@@ -27,7 +27,7 @@ class Smallest:
     """The first difference, as small as it could be made, and in how many tries.
 
     `alone` is false where a program that was asked nothing before answers as the reference does.
-    `last_words` is what the program printed on its error stream when it failed.
+    `last_words` is what the program printed on its error stream when it was asked this alone.
     """
 
     difference: Difference
@@ -38,7 +38,10 @@ class Smallest:
 
 @dataclass(slots=True)
 class Trial:
-    """What was asked and how it was answered; `stopped` says why not everything was asked."""
+    """What was asked and how it was answered; `stopped` says why not everything was asked.
+
+    `last_words` is what the program had printed on its error stream when it first gave no answer.
+    """
 
     asked: int = 0
     agreed: int = 0
@@ -46,6 +49,7 @@ class Trial:
     differences: list[Difference] = field(default_factory=list)
     smallest: Smallest | None = None
     stopped: str = ""
+    last_words: str = ""
 
     @property
     def conforms(self) -> bool:
@@ -57,7 +61,6 @@ def hold(model: Model, program: Program, questions: Iterable[tuple[str, Question
     """Ask every question, each with a title. Raises Unusable for what cannot be started."""
     trial = Trial()
     failures: Counter[bool] = Counter()
-    last_words = ""
     for title, question in questions:
         reply = program.ask(question.line)
         trial.asked += 1
@@ -70,13 +73,13 @@ def hold(model: Model, program: Program, questions: Iterable[tuple[str, Question
             continue
         trial.differences.append(difference)
         if reply.failure:
-            last_words = last_words or program.last_words
+            trial.last_words = trial.last_words or program.last_words
             failures[reply.hangs] += 1
             trial.stopped = _enough(failures, answered=trial.asked > len(trial.differences))
             if trial.stopped:
                 break
     if trial.differences:
-        trial.smallest = _smallest(model, program, trial.differences[0], last_words)
+        trial.smallest = _smallest(model, program, trial.differences[0])
     return trial
 
 
@@ -89,7 +92,7 @@ def _enough(failures: Counter[bool], *, answered: bool) -> str:
     return f"it ended {_CRASHES} times" if failures[False] >= _CRASHES else ""
 
 
-def _smallest(model: Model, program: Program, first: Difference, last_words: str) -> Smallest:
+def _smallest(model: Model, program: Program, first: Difference) -> Smallest:
     """Shrink the first difference; as it was found where a program that is asked alone has none."""
 
     def ask(question: Question, timeout: float | None = None) -> Difference | None:
@@ -98,7 +101,7 @@ def _smallest(model: Model, program: Program, first: Difference, last_words: str
 
     program.close()
     if ask(first.question) is None:
-        return Smallest(first, 0, alone=False, last_words=last_words)
+        return Smallest(first, 0, alone=False)
     # What hangs is given less time; whether it does is asked again in the end.
     timeout, most = (program.timeout / 10, _HANGING_TRIES) if first.hangs else (None, _TRIES)
 
@@ -110,6 +113,4 @@ def _smallest(model: Model, program: Program, first: Difference, last_words: str
     program.close()
     found = ask(question)
     program.close()
-    if found is None:
-        return Smallest(first, tries, alone=True, last_words=last_words)
-    return Smallest(found, tries, alone=True, last_words=program.last_words)
+    return Smallest(found or first, tries, alone=True, last_words=program.last_words)

@@ -1,0 +1,317 @@
+"""`framegen conform`, as it is used: what it prints, with which status, and what it refuses."""
+
+from __future__ import annotations
+
+import io
+import json
+import re
+import subprocess
+import sys
+from typing import TYPE_CHECKING, Any
+from xml.etree import ElementTree as ET
+
+import pytest
+from framegen.cli import main
+
+from tests.conformance.c_codecs import WRONG, compile_codec, needs_compiler
+from tests.patience import PATIENCE
+from tests.specimens import BUSSERVO, DEMO, ROOT
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+    from pathlib import Path
+
+SPEC = str(BUSSERVO)
+LIBRARY = [sys.executable, "-m", "busservo", "answer"]
+FRAMEGEN = [sys.executable, "-m", "framegen"]
+# Answers everything alike, which is right for bytes that have only begun to be a frame.
+STUBBORN = """
+import sys
+for line in sys.stdin:
+    print("refused too-short 3", "end", sep="\\n", flush=True)
+"""
+# Cannot decode lines, and encodes nothing; for all else it asks the library.
+LIMITED = """
+import sys
+from busservo.cli.answer import answer
+for line in sys.stdin:
+    said = ["unsupported"] if line.startswith("stream") else answer(line)
+    print(*said, "end", sep="\\n", flush=True)
+"""
+
+
+def told(capsys: pytest.CaptureFixture[str], *words: str) -> tuple[int, str, str]:
+    """Status, output and errors."""
+    status = main(["conform", *words])
+    printed = capsys.readouterr()
+    assert "Traceback" not in printed.out + printed.err
+    return status, printed.out, printed.err
+
+
+def python(source: str) -> list[str]:
+    return ["--", sys.executable, "-c", source]
+
+
+def process(words: Sequence[str], given: str = "") -> tuple[int, str, str]:
+    done = subprocess.run(
+        [*FRAMEGEN, "conform", *words],
+        input=given,
+        capture_output=True,
+        encoding="utf-8",
+        timeout=5 * PATIENCE,
+        cwd=ROOT,
+        check=False,
+    )
+    return done.returncode, done.stdout, done.stderr
+
+
+# -- What conforms -------------------------------------------------------------------------------
+
+
+def test_our_own_library_conforms() -> None:
+    status, out, err = process(["busservo", "--more", "300", "--seed", "1", "--", *LIBRARY])
+    assert (status, err) == (0, "the same questions again: --more 300 --seed 1\n")
+    name = re.escape(" ".join(LIBRARY))
+    assert re.fullmatch(
+        rf"{name}: conforms to busservo 1\.0\.0: \d{{3,}} answers as the reference's\n", out
+    )
+
+
+@pytest.mark.parametrize("spec", [BUSSERVO, DEMO], ids=lambda spec: spec.stem)
+def test_the_reference_itself_answers_by_hand(spec: Path) -> None:
+    status, questions, _ = process([str(spec), "--questions", "--more", "20", "--seed", "1"])
+    assert status == 0
+    status, answers, errors = process([str(spec), "--answers"], questions)
+    assert (status, errors) == (0, "")
+    assert answers.splitlines().count("end") == questions.count("\n") > 100
+    assert not re.search("^error", answers, flags=re.MULTILINE)
+
+
+def test_what_is_no_question_is_answered_so_and_the_next_one_is_read() -> None:
+    asked = "decode host_to_controller 55\n\n  \nwhat?\ndecode host_to_controller 31\n"
+    status, answers, errors = process(["busservo", "--answers"], asked)
+    assert (status, errors) == (2, "")
+    assert answers == (
+        "refused too-short 1\nend\n"
+        "error there is no question `what?`: choose one of `decode`, `encode`, `stream`\nend\n"
+        "refused bad-header 0\nend\n"
+    )
+
+
+def test_without_a_seed_every_run_asks_something_else(capsys: pytest.CaptureFixture[str]) -> None:
+    first, second = (told(capsys, SPEC, "--questions", "--more", "20")[1] for _ in range(2))
+    assert first != second
+
+
+# -- What differs --------------------------------------------------------------------------------
+
+
+def test_a_difference_is_shown_byte_by_byte(capsys: pytest.CaptureFixture[str]) -> None:
+    status, out, err = told(capsys, SPEC, *python(STUBBORN))
+    assert (status, err) == (1, "")
+    head, strip, answers, rows, kinds, verdict = out.split("\n\n")
+    assert re.fullmatch(
+        r"the first difference: ServoMove: .+\n"
+        r"  shrunk in \d+ tries\n"
+        r"  question: decode host_to_controller 55550207",
+        head,
+    )
+    assert strip == "  byte   0   1   2   3\n        55  55  02  07"
+    assert answers == (
+        "  reference     0  message ActionGroupStop 55550207\n"
+        "  program          refused too-short 3"
+    )
+    assert rows == (
+        "  byte  hex    part     value  meaning\n"
+        "     0  55 55  header          Two bytes that announce a frame\n"
+        "     2  02     length   2      always 2\n"
+        "     3  07     command  7      ActionGroupStop, CMD_ACTION_GROUP_STOP to the vendor"
+    )
+    assert re.match(
+        r"\d+ answers differ, \d+ of them in a message; by what the reference says there:\n"
+        r" +\d+  stream  ",
+        kinds,
+    )
+    assert re.search(r": differs from busservo 1\.0\.0 in \d+ of \d+ answers\n$", verdict)
+
+
+def test_it_is_in_colour_on_a_terminal_alone(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    class Terminal(io.StringIO):
+        def isatty(self) -> bool:
+            return True
+
+    monkeypatch.delenv("NO_COLOR", raising=False)
+    monkeypatch.setenv("TERM", "xterm")
+    plain = told(capsys, SPEC, *python(STUBBORN))[1]
+    terminal = Terminal()
+    with monkeypatch.context() as patched:
+        patched.setattr(sys, "stdout", terminal)
+        assert main(["conform", SPEC, *python(STUBBORN)]) == 1
+    shown = terminal.getvalue()
+    assert "\x1b" not in plain
+    assert "\x1b[32m  reference     0  message ActionGroupStop 55550207\x1b[0m\n" in shown
+    assert "\x1b[31m  program          refused too-short 3\x1b[0m\n" in shown
+    assert re.sub(r"\x1b\[\d+m", "", shown) == plain
+
+
+def test_what_a_program_prints_does_not_command_the_terminal(
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    rude = "import sys\nfor line in sys.stdin: print('\\x1b[2J', 'end', sep='\\n', flush=True)"
+    status, out, _ = told(capsys, SPEC, *python(rude))
+    assert status == 1
+    assert "\x1b" not in out
+    assert "  program          \\x1b[2J\n" in out
+    assert "  `\\x1b[2J` is no line of an answer\n" in out
+
+
+def test_json_tells_everything(capsys: pytest.CaptureFixture[str]) -> None:
+    words = ["--format", "json", "--more", "5", "--seed", "7"]
+    status, out, _ = told(capsys, SPEC, *words, *python(STUBBORN))
+    told_as: dict[str, Any] = json.loads(out)
+    assert status == 1
+    assert {**told_as, "smallest": None, "differences": []} == {
+        "protocol": "busservo",
+        "version": "1.0.0",
+        "program": python(STUBBORN)[1:],
+        "conforms": False,
+        "asked": told_as["agreed"] + told_as["differed"],
+        "agreed": told_as["agreed"],
+        "differed": len(told_as["differences"]),
+        "unsupported": {"decode": 0, "encode": 0, "stream": 0},
+        "seed": 7,
+        "stopped": "",
+        "smallest": None,
+        "differences": [],
+    }
+    assert told_as["smallest"] == {
+        "title": told_as["differences"][0]["title"],
+        "verb": "decode",
+        "about": "message ActionGroupStop",
+        "question": "decode host_to_controller 55550207",
+        "expected": ["message ActionGroupStop 55550207"],
+        "answered": ["refused too-short 3"],
+        "failure": "",
+        "tries": told_as["smallest"]["tries"],
+        "alone": True,
+        "stderr": "",
+    }
+    assert {found["verb"] for found in told_as["differences"]} == {"decode", "encode", "stream"}
+    assert told_as["agreed"] > 0
+
+
+def test_what_is_unsupported_is_told_and_does_no_harm(capsys: pytest.CaptureFixture[str]) -> None:
+    status, out, _ = told(capsys, SPEC, *python(LIMITED))
+    assert status == 0
+    assert re.search(r"\n  not supported, and not held against it: \d+ stream\n$", out)
+
+
+# -- The badge -----------------------------------------------------------------------------------
+
+SVG = "{http://www.w3.org/2000/svg}"
+
+
+@pytest.mark.parametrize(
+    ("source", "status", "text"),
+    [
+        ("import sys; from busservo.cli import main; sys.exit(main(['answer']))", 0, "conforms"),
+        (LIMITED, 0, r"conforms, \d+ stream not supported"),
+        (STUBBORN, 1, r"\d+ of \d+"),
+        ("raise SystemExit(1)", 1, "0 of 1"),
+    ],
+    ids=["right", "limited", "stubborn", "dead"],
+)
+def test_a_badge_says_it_in_a_word(
+    source: str, status: int, text: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    code, out, _ = told(capsys, SPEC, "--format", "badge", *python(source))
+    assert code == status
+    picture = ET.fromstring(out)  # noqa: S314 - our own
+    label, said = [element.text or "" for element in picture.iter(f"{SVG}text")]
+    assert label == "busservo 1.0.0"
+    assert re.fullmatch(text, said)
+    assert picture.findtext(f"{SVG}title") == picture.get("aria-label") == f"{label}: {said}"
+    assert picture.get("role") == "img"
+    # It asks nobody for anything: of addresses, it has the name of its language alone.
+    assert re.findall(r"\w+://[^\"]*", out) == ["http://www.w3.org/2000/svg"]
+    assert not re.search("href|@import|url", out)
+
+
+# -- What is of no use ---------------------------------------------------------------------------
+
+UNUSABLE = {
+    "no program": ([SPEC], "no program is named"),
+    "nothing behind the dashes": ([SPEC, "--"], "no program is named"),
+    "no such program": ([SPEC, "--", "no-such-codec"], "`no-such-codec` cannot be started: "),
+    "a program that is asked nothing": (
+        [SPEC, "--answers", "--", "codec"],
+        "no program is asked with --answers",
+    ),
+    "questions and answers": ([SPEC, "--answers", "--questions"], "argument --questions: "),
+    "no spec": (["no-such.yaml", "--", "codec"], "no-such.yaml does not exist"),
+    "no number": ([SPEC, "--more", "many", "--", "codec"], "'many' is no number: write one from 0"),
+    "no seed": ([SPEC, "--more", "1", "--seed", "-1", "--", "codec"], "argument --seed: "),
+    "no time": ([SPEC, "--timeout", "0", "--", "codec"], "'0' is no time: write seconds, up to"),
+    "no such time": ([SPEC, "--timeout", "nan", "--", "codec"], "'nan' is no time: "),
+    "no format": ([SPEC, "--format", "png", "--", "codec"], "argument --format: invalid choice"),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize(("words", "error"), UNUSABLE.values(), ids=list(UNUSABLE))
+def test_what_is_of_no_use_is_refused_with_a_way_out(
+    words: list[str], error: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    status, out, err = told(capsys, *words)
+    assert (status, out) == (2, "")
+    assert err.startswith("framegen: error: ")
+    assert error in err.splitlines()[0]
+    assert err.splitlines()[1].startswith("  hint: ")
+
+
+def test_what_stands_behind_the_dashes_is_the_programs_own(
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    source = "import sys; print(sys.argv[1:], file=sys.stderr)"
+    _, out, _ = told(capsys, SPEC, *python(source), "--help", "--more", "1", "--", "x")
+    assert "    ['--help', '--more', '1', '--', 'x']\n" in out
+
+
+# -- What the guide shows ------------------------------------------------------------------------
+
+GUIDE = (ROOT / "docs" / "conformance.md").read_text(encoding="utf-8")
+
+
+def shown(command: str) -> list[str]:
+    """What the guide shows of a command, in pieces, between which it leaves lines out."""
+    (block,) = re.findall(rf"```text\n\$ {re.escape(command)}\n(.*?)```", GUIDE, flags=re.DOTALL)
+    return re.split(r"^\.\.\.\n", block, flags=re.MULTILINE)
+
+
+@needs_compiler
+def test_the_guide_shows_what_a_wrong_codec_gets(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    wrong = WRONG["the count is not held against the length"]
+    program = compile_codec(tmp_path, wrong.old, wrong.new)
+    status, out, _ = told(capsys, SPEC, "--", program)
+    assert status == 1
+    pieces = shown("framegen conform busservo -- ./codec")
+    assert re.fullmatch(r"(?:.*\n)*".join(map(re.escape, pieces)), out), out
+
+
+def test_the_guide_shows_what_the_reference_answers() -> None:
+    (block,) = shown("framegen conform busservo --answers")
+    asked = re.findall(r"^(?:decode|encode|stream) .*\n", block, flags=re.MULTILINE)
+    status, answers, _ = process(["busservo", "--answers"], "".join(asked))
+    session = zip(asked, re.findall(r"(?:.*\n)*?end\n", answers), strict=True)
+    assert "".join(question + answer for question, answer in session) == block
+    assert status == 0
+
+
+def test_the_guide_names_every_key_of_the_report(capsys: pytest.CaptureFixture[str]) -> None:
+    _, out, _ = told(capsys, SPEC, "--format", "json", *python(STUBBORN))
+    report: dict[str, Any] = json.loads(out)
+    keys = {*report, *report["smallest"], *report["differences"][0]}
+    assert sorted(key for key in keys if f"`{key}`" not in GUIDE) == []

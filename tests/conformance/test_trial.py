@@ -1,0 +1,373 @@
+"""Answers are held to the reference's; the first that differs is shrunk, and all are counted."""
+
+from __future__ import annotations
+
+from itertools import islice
+from typing import TYPE_CHECKING, TypeAlias
+
+import pytest
+from framegen.conformance.comparison import compare
+from framegen.conformance.further import further
+from framegen.conformance.language import Decode, Encode, Question, Stream, answer
+from framegen.conformance.program import Program, Reply
+from framegen.conformance.question_reader import NotAQuestion, read_question
+from framegen.conformance.questions import questions
+from framegen.conformance.trial import Trial, hold
+from framegen.language.values import Direction
+
+from tests.specimens import BUSSERVO, ROOT, data_of, layout_of
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+    from pathlib import Path
+
+    # What a program makes of a question that the reference answers so, having been asked as often.
+    Change: TypeAlias = Callable[[Question, list[str], int], list[str] | Reply]
+
+SPECS = [BUSSERVO, *sorted((ROOT / "tests" / "specs").glob("*.yaml"))]
+MODEL = layout_of(data_of(BUSSERVO))
+HOST = Direction("host", "controller")
+
+
+class Fake(Program):
+    """A program in this process."""
+
+    def __init__(self, change: Change) -> None:
+        super().__init__(["fake"], timeout=10)
+        self.change = change
+        self.asked = 0
+        self.timeouts: list[float | None] = []
+
+    def ask(self, question: str, timeout: float | None = None) -> Reply:
+        self.asked += 1
+        self.timeouts.append(timeout)
+        read = read_question(MODEL, question)
+        said = self.change(read, answer(MODEL, read), self.asked)
+        if isinstance(said, Reply):
+            self.close()
+            return said
+        return Reply(tuple(said))
+
+    def close(self) -> None:
+        self.asked = 0
+
+
+def held(change: Change, *asked: Question) -> Trial:
+    return hold(MODEL, Fake(change), [(f"case {at}", each) for at, each in enumerate(asked, 1)])
+
+
+def read(line: str) -> Question:
+    return read_question(MODEL, line)
+
+
+STOP = read("decode host_to_controller 55550207")
+CUT = read("decode host_to_controller 555502")
+LINE = read("stream host_to_controller 64 00 5555 0207 quiet 31")
+ENCODE = read("encode ServoMove time_ms=700 targets=1:500,2:600,3:700")
+
+
+# -- What agrees ---------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("spec", SPECS, ids=lambda spec: spec.stem)
+def test_the_reference_conforms_when_it_is_asked_in_lines(spec: Path) -> None:
+    model = layout_of(data_of(spec))
+    asked = [*questions(model), *islice(further(model, seed=5), 200)]
+    assert len(asked) > 200
+    for title, question in asked:
+        again = read_question(model, question.line)
+        assert again.line == question.line
+        assert compare(model, title, question, Reply(tuple(answer(model, again)))) is None
+
+
+SAID = {
+    "noise in pieces": (
+        "stream host_to_controller 257 000131 quiet",
+        ["noise bad-header 00", "noise bad-header 01", "noise bad-header 31", "quiet"],
+    ),
+    "capitals, blanks and tabs": (
+        "stream host_to_controller 257 55550207 AA quiet",
+        ["message  ActionGroupStop\t55550207 ", "noise bad-header AA", "quiet"],
+    ),
+    "noise that is still held": ("stream host_to_controller 257 000131", []),
+    "some of the noise that is still held": (
+        "stream host_to_controller 257 000131",
+        ["noise bad-header 00"],
+    ),
+}
+
+
+@pytest.mark.parametrize(("question", "said"), SAID.values(), ids=list(SAID))
+def test_an_answer_may_be_put_otherwise(question: str, said: list[str]) -> None:
+    assert compare(MODEL, "", read(question), Reply(tuple(said))) is None
+
+
+DIFFER = {
+    "another reason": ("decode host_to_controller 55", ["refused bad-header 1"], 0),
+    "another place": ("decode host_to_controller 55", ["refused too-short 2"], 0),
+    "nothing": ("decode host_to_controller 55", [], 0),
+    "a line too many": (
+        "decode host_to_controller 55",
+        ["refused too-short 1", "refused too-short 1"],
+        1,
+    ),
+    "another value": (
+        "decode controller_to_host 5555040f0100",
+        ["message BatteryVoltage 5555040f0100 voltage_mv=256"],
+        0,
+    ),
+    "a message that is held": (
+        "stream host_to_controller 257 0055550207",
+        ["noise bad-header 00"],
+        1,
+    ),
+    "noise that no quiet lets go": (
+        "stream host_to_controller 257 00 quiet 01 quiet",
+        ["quiet", "noise bad-header 0001", "quiet"],
+        0,
+    ),
+    "noise that is not there": (
+        "stream host_to_controller 257 0031",
+        ["noise bad-header 0032"],
+        0,
+    ),
+    "unsupported, and yet answered": (
+        "stream host_to_controller 257 00 quiet",
+        ["unsupported", "quiet"],
+        0,
+    ),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize(("question", "said", "at"), DIFFER.values(), ids=list(DIFFER))
+def test_a_difference_is_found_where_it_is(question: str, said: list[str], at: int) -> None:
+    found = compare(MODEL, "a title", read(question), Reply(tuple(said)))
+    assert found is not None
+    assert (found.title, found.question, found.at) == ("a title", read(question), at)
+
+
+# -- What is counted -----------------------------------------------------------------------------
+
+
+def test_a_program_that_answers_rightly_conforms() -> None:
+    trial = held(lambda _question, right, _asked: right, STOP, CUT, LINE, ENCODE)
+    assert trial.conforms
+    assert (trial.asked, trial.agreed, trial.differences, trial.smallest) == (4, 4, [], None)
+
+
+def test_what_is_unsupported_is_counted_and_no_difference() -> None:
+    def change(question: Question, right: list[str], _asked: int) -> list[str]:
+        return ["unsupported"] if isinstance(question, Stream) else right
+
+    trial = held(change, STOP, LINE, LINE)
+    assert trial.conforms
+    assert (trial.asked, trial.agreed, dict(trial.unsupported)) == (3, 1, {"stream": 2})
+
+
+def test_a_program_that_supports_nothing_does_not_conform() -> None:
+    trial = held(lambda *_: ["unsupported"], STOP, LINE)
+    assert not trial.conforms
+    assert (trial.differences, trial.unsupported.total()) == ([], 2)
+
+
+def test_every_difference_is_kept_with_what_the_reference_says_there() -> None:
+    trial = held(lambda *_: ["refused"], STOP, CUT, LINE, ENCODE)
+    assert [(found.question.verb, found.about) for found in trial.differences] == [
+        ("decode", "message ActionGroupStop"),
+        ("decode", "refused too-short"),
+        ("stream", "noise bad-header"),
+        ("encode", "ServoMove"),
+    ]
+    assert [found.of_messages for found in trial.differences] == [True, False, True, True]
+
+
+def test_what_is_no_line_of_the_language_is_named() -> None:
+    trial = held(lambda _question, right, _asked: ["ready.", *right], STOP)
+    assert trial.differences[0].rubbish == "ready."
+
+
+# -- What fails ----------------------------------------------------------------------------------
+
+
+def test_a_program_that_ends_now_and_then_is_asked_on() -> None:
+    def change(question: Question, right: list[str], _asked: int) -> list[str] | Reply:
+        return Reply((), "it ended") if question == CUT else right
+
+    trial = held(change, STOP, CUT, STOP, CUT, LINE)
+    assert (trial.asked, trial.agreed, trial.stopped) == (5, 3, "")
+    assert [found.failure for found in trial.differences] == ["it ended"] * 2
+
+
+@pytest.mark.parametrize(
+    ("hangs", "asked", "why"),
+    [(False, 32, "it ended 30 times"), (True, 5, "it did not answer in time 3 times")],
+)
+def test_a_program_that_always_fails_is_not_asked_for_ever(
+    hangs: bool, asked: int, why: str
+) -> None:
+    def change(question: Question, right: list[str], _asked: int) -> list[str] | Reply:
+        return right if question == STOP else Reply((), "it fails", hangs)
+
+    trial = held(change, STOP, STOP, *[LINE] * 100)
+    assert (trial.asked, trial.stopped) == (asked, why)
+
+
+def test_a_program_that_never_answered_is_asked_no_more() -> None:
+    trial = held(lambda *_: Reply((), "it ended with status 1 before it printed a line"), STOP, CUT)
+    assert (trial.asked, trial.stopped, trial.conforms) == (1, "it never answered", False)
+
+
+def test_what_hangs_is_given_less_time_while_it_is_shrunk() -> None:
+    def change(question: Question, right: list[str], _asked: int) -> list[str] | Reply:
+        return Reply((), "it hangs", hangs=True) if "31" in question.line else right
+
+    program = Fake(change)
+    trial = hold(MODEL, program, [("", STOP), ("", LINE)])
+    assert smallest_of(trial) == "stream host_to_controller 257 31"
+    assert set(program.timeouts) == {None, 1.0}
+    assert program.timeouts[-1] is None
+    assert program.timeouts.count(1.0) <= 40
+
+
+# -- What is shrunk ------------------------------------------------------------------------------
+
+
+def smallest_of(trial: Trial) -> str:
+    assert trial.smallest is not None
+    assert trial.smallest.alone
+    return trial.smallest.difference.question.line
+
+
+def test_a_line_is_shrunk_to_what_is_answered_wrongly() -> None:
+    def change(question: Question, right: list[str], _asked: int) -> list[str]:
+        return [*right, "quiet"] if "31" in question.line else right
+
+    line = "stream host_to_controller 64 00 5555 0207 quiet 013177 55550207 quiet quiet"
+    assert smallest_of(held(change, read(line))) == "stream host_to_controller 257 31"
+
+
+def test_a_cut_that_matters_is_kept() -> None:
+    def change(question: Question, right: list[str], _asked: int) -> list[str]:
+        assert isinstance(question, Stream)
+        loses = any(part and part.endswith(b"\x55") for part in question.parts[:-1])
+        return [line for line in right if not (loses and line.startswith("message"))]
+
+    line = "stream host_to_controller 257 0055 550207 55550207 quiet"
+    assert smallest_of(held(change, read(line))) == "stream host_to_controller 257 55 550207"
+
+
+def test_a_small_buffer_that_matters_is_kept() -> None:
+    def change(question: Question, right: list[str], _asked: int) -> list[str]:
+        assert isinstance(question, Stream)
+        return right if question.max_frame > 64 else [*right, "quiet"]
+
+    assert smallest_of(held(change, LINE)) == "stream host_to_controller 64"
+
+
+def test_a_frame_gives_way_to_the_least_one() -> None:
+    def change(_question: Question, right: list[str], _asked: int) -> list[str]:
+        return [line for line in right if not line.startswith("message")]
+
+    line = "stream host_to_controller 257 5555080301e803012003 quiet"
+    assert smallest_of(held(change, read(line))) == "stream host_to_controller 257 55550207"
+
+
+def test_values_are_shrunk_one_by_one() -> None:
+    def change(_question: Question, _right: list[str], _asked: int) -> list[str]:
+        return ["refused"]
+
+    assert smallest_of(held(change, ENCODE)) == "encode ServoMove time_ms=0 targets=0:0"
+
+    def too_high(question: Question, right: list[str], _asked: int) -> list[str]:
+        assert isinstance(question, Encode)
+        high = any(target["position"] > 550 for target in question.values["targets"])
+        return ["refused"] if high else right
+
+    assert smallest_of(held(too_high, ENCODE)) == "encode ServoMove time_ms=0 targets=0:551"
+
+
+def test_what_is_shrunk_stays_a_difference_of_its_kind() -> None:
+    """A codec that also words its refusals otherwise is shown the message that it does not know."""
+
+    def change(question: Question, right: list[str], _asked: int) -> list[str]:
+        assert isinstance(question, Decode)
+        return ["refused bad-header 0"]
+
+    assert smallest_of(held(change, STOP)) == "decode host_to_controller 55550207"
+    assert smallest_of(held(change, CUT)) == "decode host_to_controller "[:-1]
+
+
+def test_a_program_that_remembers_is_shown_as_it_was_found() -> None:
+    def change(_question: Question, right: list[str], asked: int) -> list[str]:
+        return right if asked < 3 else ["refused"]
+
+    trial = held(change, STOP, CUT, LINE, STOP)
+    assert trial.smallest is not None
+    assert not trial.smallest.alone
+    assert (trial.smallest.difference, trial.smallest.tries) == (trial.differences[0], 0)
+    assert trial.smallest.difference.question == LINE
+
+
+def test_a_small_case_that_only_a_tired_program_gets_wrong_is_not_shown() -> None:
+    def change(question: Question, right: list[str], asked: int) -> list[str]:
+        return right if asked < 3 and question != LINE else ["refused"]
+
+    trial = held(change, LINE)
+    assert trial.smallest is not None
+    assert trial.smallest.difference.question == LINE
+
+
+# -- What is asked besides -----------------------------------------------------------------------
+
+
+def test_a_seed_always_asks_the_same_and_another_does_not() -> None:
+    first, again, other = (
+        [question.line for _, question in islice(further(MODEL, seed), 50)] for seed in (1, 1, 2)
+    )
+    assert first == again
+    assert first != other
+    # On any Python.
+    assert first[:2] == [
+        "decode controller_to_host 55556e0fffff",
+        "stream host_to_controller 257 8ea42f555555 55041501b8",
+    ]
+
+
+def test_further_questions_reach_every_answer_there_is() -> None:
+    told = set()
+    for _, question in islice(further(MODEL, seed=3), 2_000):
+        for line in answer(MODEL, question):
+            told.add(" ".join(line.split()[: 2 if line.startswith(("noise", "refused")) else 1]))
+    reasons = ["too-short", "bad-header", "length-mismatch", "count-mismatch", "unknown-command"]
+    assert told == {
+        *("message", "frame", "unknown", "quiet", "refused", "refused trailing-bytes"),
+        *(f"noise {reason}" for reason in reasons),
+        *(f"refused {reason}" for reason in reasons),
+    }
+
+
+NO_QUESTIONS = {
+    "": "there is no question ``: choose one of `decode`, `encode`, `stream`",
+    "decoed host_to_controller 55": "there is no question `decoed`: did you mean `decode`?",
+    "decode": "too short: write `decode WAY HEX`",
+    "decode host_to_board 55": "there is no way `host_to_board`: "
+    "did you mean `host_to_controller`?",
+    "decode host_to_controller 5": "`5` is no hex: write two digits a byte",
+    "encode": "too short: write `encode NAME FIELDS...`",
+    "encode Servomove": "there is no message `Servomove`: did you mean `ServoMove`?",
+    "encode ActionGroupRun group=1": "ActionGroupRun lacks `times=`",
+    "encode ActionGroupStop group=1": "ActionGroupStop has no `group` to be given",
+    "encode ActionGroupRun group=x times=1": "`x` is no group of ActionGroupRun: write a number",
+    "encode ServoUnload servo_ids=1:2": "`1:2` is no servo_ids of ServoUnload: "
+    "write a list, servo_ids,servo_ids",
+    "stream host_to_controller": "too short: write `stream WAY LARGEST PARTS...`",
+    "stream host_to_controller x": "`x` is no size of a frame: write a number of bytes",
+    "stream host_to_controller 64 quite": "`quite` is no hex: write two digits a byte",
+}
+
+
+@pytest.mark.parametrize(("line", "error"), NO_QUESTIONS.items(), ids=repr)
+def test_what_is_no_question_is_told(line: str, error: str) -> None:
+    with pytest.raises(NotAQuestion) as caught:
+        read(line)
+    assert str(caught.value) == error
