@@ -113,7 +113,7 @@ NAMED = "name a port, such as /dev/ttyUSB0 or COM7"
 REACHED = "see that the address is right, and that the other end is there"
 NAMES = [
     ("", "'' is no port that can be asked", NAMED),
-    ("spy:///dev/null?file=/tmp/x", "is no port that can be asked", NAMED),
+    ("spy:///dev/null?file=a", "is no port that can be asked", NAMED),
     ("hid://", "is no port that can be asked", NAMED),
     ("nothing://x", "nothing://x cannot be reached: invalid URL", REACHED),
     ("socket://127.0.0.1:1", "socket://127.0.0.1:1 cannot be reached: ", REACHED),
