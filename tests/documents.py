@@ -47,7 +47,9 @@ PAGES = [ROOT / "README.md", ROOT / "CONTRIBUTING.md", *_GUIDES]
 
 # A page need not say that the machine on which it is tried may be busy.
 PATIENT = {"margin": PATIENCE, "settle": 0}
-PATIENT_WORDS = {verb: ["--timeout", str(PATIENCE)] for verb in ("send", "bench-line", "doctor")}
+PATIENT_WORDS = {
+    verb: ["--timeout", str(PATIENCE)] for verb in ("bench-line", "conform", "doctor", "send")
+}
 
 _NEEDED = ("spec", "generated", "codegen", "docs", "tests/captures")
 _COMMANDS = {"busservo", "framegen"}

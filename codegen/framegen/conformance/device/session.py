@@ -21,6 +21,8 @@ if TYPE_CHECKING:
 
 # A reply that is due is waited for so many timeouts longer, to tell a late one from none.
 _PATIENT = 4
+# What comes in so many seconds before anything is sent was not asked for.
+_UNASKED = 0.25
 # The line is quiet once nothing has come for so many seconds.
 _QUIET = 0.05
 # So long a device may go on sending by itself, in seconds, before it is not waited for any more.
@@ -96,8 +98,8 @@ class Session:
         return self.permission.objection(self._sent + data_of(burst))
 
     def listen(self) -> list[Received]:
-        """Hear what a device sends unasked, for as long as a reply may take."""
-        self._read_until(self.now + self.timing.timeout)
+        """Hear what a device sends unasked, before anything is sent."""
+        self._read_until(self.now + _UNASKED)
         return self._end()
 
     def send(self, burst: Burst) -> Transcript:
