@@ -7,7 +7,8 @@ from pathlib import Path
 import pytest
 from busservo import Direction, Message, StreamDecoder
 from framegen.conformance.device.permission import permit
-from framegen.model.model import Model
+from framegen.language.spec import Spec
+from framegen.model.model import Model, derive
 from framegen.reading.yamltree import Unusable
 from hypothesis import given
 from hypothesis import strategies as st
@@ -15,7 +16,7 @@ from hypothesis import strategies as st
 from tests.firmware.devices import Answer, VirtualLine, by_the_reference
 from tests.firmware.runs import model_of, run
 from tests.independent.firmware import Reader, well_formed
-from tests.specimens import BUSSERVO, DEMO, data_of, layout_of
+from tests.specimens import BUSSERVO, DEMO, Data, data_of, layout_of
 
 MODEL = model_of()
 COMMANDS = ["ServoMove", "ActionGroupRun", "ActionGroupStop", "ActionGroupSpeed", "ServoUnload"]
@@ -37,6 +38,11 @@ DEVICES: dict[str, Callable[[], Answer]] = {
     "is silent": lambda: lambda _: [],
     "babbles": lambda: babbling,
 }
+
+
+def begun(data: bytes) -> set[int]:
+    """The codes of what firmware begins that looks at header and command alone."""
+    return {data[at + 3] for at in range(len(data) - 3) if data[at : at + 2] == b"UU"}
 
 
 def allowed_by(options: list[str]) -> set[str]:
@@ -68,6 +74,8 @@ def test_nothing_is_sent_but_what_is_allowed(options: list[str], device: str) ->
     allowed = allowed_by(options)
     done = run(MODEL, VirtualLine(DEVICES[device]()), *options)
     assert heard(done.written, quiet=True) | heard(done.written, quiet=False) <= allowed
+    codes = {MODEL.messages[name].id for name in {*COMMANDS} - allowed}
+    assert not begun(b"".join(done.written)) & codes
     assert set(done.report["will_send"]) == allowed
     assert set(done.report["will_not_send"]) == {*COMMANDS} - allowed
 
@@ -234,6 +242,32 @@ def test_a_device_of_another_protocol_passes(file: Path) -> None:
     done = run(model, VirtualLine(by_the_reference(model)), "--malformed")
     assert (done.code, done.faults) == (0, [])
     assert sum(step["malformed"] for step in done.report["steps"]) >= 3
+
+
+# Frames of another kind, whether or not a spec can have them yet.
+ENVELOPES: dict[str, Data] = {
+    "a part behind the fields": {"end": {"is": "constant", "bytes": "0D 0A"}},
+    "a header that overlaps itself": {"header": {"is": "constant", "bytes": "55 03 55"}},
+    "an id of two bytes before a length of two": {
+        "command": {"is": "id", "type": "u16"},
+        "length": {"is": "length", "type": "u16", "counts": ["parameters"]},
+        "parameters": {"is": "body"},
+    },
+}
+
+
+@pytest.mark.parametrize("name", ENVELOPES)
+def test_a_device_of_another_frame_passes(name: str) -> None:
+    data = data_of(BUSSERVO)
+    parts = ENVELOPES[name]
+    header = {"header": data["frame"]["header"]}
+    data["frame"] = {**(header if "parameters" in parts else data["frame"]), **parts}
+    model = derive(Spec.model_validate(data))
+    done = run(model, VirtualLine(by_the_reference(model)), "--malformed")
+    assert (done.code, done.faults) == (0, [])
+    steps = [step for step in done.report["steps"] if step["malformed"]]
+    assert len(steps) >= 5
+    assert all(step["not_sent"] is None for step in done.report["steps"])
 
 
 @pytest.mark.parametrize(("name", "allow"), [("weather", ""), ("lamp", "name what may be sent")])
