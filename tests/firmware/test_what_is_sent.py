@@ -80,11 +80,11 @@ def test_nothing_is_sent_but_what_is_allowed(options: list[str], device: str) ->
     assert set(done.report["will_not_send"]) == {*COMMANDS} - allowed
 
 
-def test_all_that_is_allowed_is_sent() -> None:
-    for options in OPTIONS:
-        done = run(MODEL, VirtualLine(by_the_reference(MODEL)), *options)
-        assert heard(done.written, quiet=True) == allowed_by(options)
-        assert all(step["not_sent"] is None for step in done.report["steps"])
+@pytest.mark.parametrize("options", OPTIONS, ids="_".join)
+def test_all_that_is_allowed_is_sent(options: list[str]) -> None:
+    done = run(MODEL, VirtualLine(by_the_reference(MODEL)), *options)
+    assert heard(done.written, quiet=True) == allowed_by(options)
+    assert all(step["not_sent"] is None for step in done.report["steps"])
 
 
 def test_of_what_is_allowed_the_examples_are_sent_and_nothing_is_made_up() -> None:

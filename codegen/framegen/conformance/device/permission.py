@@ -59,21 +59,23 @@ class Permission:
         way, there must still be no legal frame in it that is not allowed.
         """
         head = self.model.frame.id.at + self.model.frame.id.size
-        for at in self._headers(data):
+        for at in self._headers(data, range(len(data))):
             found = self._dangerous.get(self._id(data, at))
             if found is not None:
                 return f"it holds {to_hex(data[at : at + head])}, which begins {found}"
-        if name := self._holds(data):
+        if name := self._holds(data, range(len(data))):
             return f"it holds a frame of {name}"
         for lost in range(len(data)):
-            if name := self._holds(data[:lost] + data[lost + 1 :], lost):
+            # Frames that end before it, or begin behind it, are as they were.
+            near = range(max(0, lost - self._largest), lost + 1)
+            if name := self._holds(data[:lost] + data[lost + 1 :], near):
                 byte, before = to_hex(data[lost : lost + 1]), to_hex(data[max(0, lost - 4) : lost])
                 return f"it holds a frame of {name} if the {byte} behind {before} is lost"
         return ""
 
-    def _holds(self, data: bytes, lost: int = 0) -> str:
-        """The first message in `data` that must not be there, but for those in front of a loss."""
-        for at in self._headers(data, max(0, lost - self._largest)):
+    def _holds(self, data: bytes, places: range) -> str:
+        """The first message that must not be there of those that begin at these places."""
+        for at in self._headers(data, places):
             if self._id(data, at) not in self._guarded:
                 continue
             for way in self._ways:
@@ -82,10 +84,10 @@ class Permission:
                     return message.name
         return ""
 
-    def _headers(self, data: bytes, start: int = 0) -> Iterator[int]:
+    def _headers(self, data: bytes, places: range) -> Iterator[int]:
         header = self.model.frame.header
-        at = data.find(header, start)
-        while 0 <= at < len(data):
+        at = data.find(header, places.start)
+        while 0 <= at < places.stop:
             yield at
             at = data.find(header, at + 1)
 
