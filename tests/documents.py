@@ -48,7 +48,7 @@ PAGES = [ROOT / "README.md", ROOT / "CONTRIBUTING.md", *_GUIDES]
 # A page need not say that the machine on which it is tried may be busy.
 PATIENT = {"margin": PATIENCE, "settle": 0}
 PATIENT_WORDS = {
-    verb: ["--timeout", str(PATIENCE)] for verb in ("send", "bench-line", "doctor", "conform")
+    verb: ["--timeout", str(PATIENCE)] for verb in ("bench-line", "conform", "doctor", "send")
 }
 
 _NEEDED = ("spec", "generated", "codegen", "docs", "tests/captures")

@@ -91,7 +91,7 @@ def _replies(model: Model, event: Any) -> Iterator[bytes]:
     exchange = next((each for each in model.exchanges if each.request == event.message), None)
     if exchange is None or exchange.reply is None:
         return
-    values = values_of(exchange.reply, exchange.reply.message.examples[0].hex)
+    values = dict(exchange.reply.message.examples[0].values)
     asked = values_of(exchange.request, event.data)
     for one, other in exchange.echoed:
         name, _, inner = other.partition(".")

@@ -7,6 +7,13 @@ from typing import TYPE_CHECKING
 import pytest
 from busservo_simulator import VirtualController
 from busservo_simulator.clock import VirtualClock
+from framegen.conformance.device.judgement import judge
+from framegen.conformance.device.permission import permit
+from framegen.conformance.device.queries import requests
+from framegen.conformance.device.recording import Recording
+from framegen.conformance.device.session import Session, Timing
+from hypothesis import given
+from hypothesis import strategies as st
 
 from tests.firmware.devices import VirtualLine
 from tests.firmware.runs import Run, model_of, run
@@ -274,3 +281,36 @@ def test_a_command_that_is_acknowledged_is_noted() -> None:
     step = ignored.step("ActionGroupRun, example 1, then BatteryVoltageRead")
     assert step["notes"] == ["no ActionGroupStarted came for ActionGroupRun"]
     assert (done.code, ignored.code) == (0, 0)
+
+
+# What might come: whole replies and pieces of them, reports, what was asked, and noise.
+PIECES = st.one_of(
+    st.sampled_from(
+        [
+            firmware.battery_reply(7500),
+            firmware.positions_reply([(1, 500), (2, 500)]),
+            firmware.positions_reply([(9, 500)]),
+            firmware.positions_question([1, 2]),
+            REPORT,
+            UNKNOWN,
+            b"UU",
+        ]
+    ),
+    st.binary(max_size=8),
+)
+
+
+@given(st.lists(st.tuples(st.floats(0, 1.5), PIECES), max_size=6))
+def test_whatever_comes_is_judged_and_soon(pieces: list[tuple[float, bytes]]) -> None:
+    line = VirtualLine(lambda _: pieces)
+    permission = permit(MODEL, [])
+    with Recording(MODEL, None) as recording:
+        session = Session(line, permission, Timing(9600, 10, 0.25), recording, line.clock)
+        transcript = session.send(tuple(requests(permission)[:2]))
+    came = b"".join(each.event.data for each in transcript.received)
+    ordered = b"".join(data for at, data in sorted(pieces, key=lambda piece: piece[0]))
+    assert ordered.startswith(came)
+    assert line.now < 3.0
+    judgement = judge(MODEL, transcript)
+    assert len(judgement.seconds) <= 2
+    assert bool(judgement.faults) or len(judgement.seconds) == 2

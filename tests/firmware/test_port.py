@@ -1,6 +1,7 @@
 """The port that firmware is asked through, and what is said of one that does not open."""
 
 import errno
+import json
 import subprocess
 import sys
 from argparse import ArgumentParser
@@ -10,11 +11,13 @@ from typing import Any
 import pytest
 import serial
 from busservo_simulator import VirtualController
+from framegen.cli import main
 from framegen.conformance import firmware
 from framegen.conformance.device.port import open_port
 from framegen.reading.yamltree import Unusable
 
 from tests.firmware.runs import model_of
+from tests.specimens import BUSSERVO
 
 MODEL = model_of()
 LINK = MODEL.spec.link
@@ -49,6 +52,40 @@ def test_a_line_at_another_rate_is_told(capsys: pytest.CaptureFixture[str]) -> N
     out = capsys.readouterr().out
     assert f"controller at {board.port}, 19200 8N1\n" in out
     assert "FAIL     BatteryVoltageRead, example 1\n" in out
+
+
+def test_the_command_asks_firmware(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
+    log = str(tmp_path / "run.hex")
+    with VirtualController("tcp") as board:
+        words = [str(BUSSERVO), "--port", board.port, "--format", "json", "--log", log]
+        assert main(["conform", *words]) == 0
+        assert json.loads(capsys.readouterr().out)["passed"]
+        assert main(["conform", *words]) == 2
+    told = capsys.readouterr().err
+    assert told.startswith("framegen: error: ")
+    assert "a recording is never overwritten\n  hint: give another name, or remove it\n" in told
+
+
+# What is said of a command line, and how to mend it.
+SLIPS = [
+    (["--log", "run.hex"], "--log is for firmware", "name its port, as by --port COM5"),
+    (["--malformed", "--questions"], "--malformed is for firmware", "name its port"),
+    (["--allow", "ServoMove", "--", "x"], "--allow is for firmware", "name its port"),
+    (["--port", "", "--allow", "x"], "there is no message `x`", "choose one of `ServoMove`"),
+    (["--port", ""], "'' is no port", "name a port, such as"),
+    (["--port", "x", "--format", "badge"], "there is no badge of firmware", "--format text or"),
+]
+
+
+@pytest.mark.parametrize(("words", "problem", "hint"), SLIPS, ids=lambda each: str(each)[:30])
+def test_a_slip_in_the_command_is_told(
+    words: list[str], problem: str, hint: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main(["conform", str(BUSSERVO), *words]) == 2
+    told = capsys.readouterr()
+    assert told.err.startswith(f"framegen: error: {problem}")
+    assert f"\n  hint: {hint}" in told.err
+    assert told.out == ""
 
 
 def test_a_device_that_hangs_up_is_told() -> None:
@@ -113,7 +150,7 @@ NAMED = "name a port, such as /dev/ttyUSB0 or COM7"
 REACHED = "see that the address is right, and that the other end is there"
 NAMES = [
     ("", "'' is no port that can be asked", NAMED),
-    ("spy:///dev/null?file=/tmp/x", "is no port that can be asked", NAMED),
+    ("spy:///dev/null?file=a", "is no port that can be asked", NAMED),
     ("hid://", "is no port that can be asked", NAMED),
     ("nothing://x", "nothing://x cannot be reached: invalid URL", REACHED),
     ("socket://127.0.0.1:1", "socket://127.0.0.1:1 cannot be reached: ", REACHED),

@@ -86,6 +86,7 @@ def _seconds(text: str) -> float:
 def run(arguments: Namespace) -> int:
     """Ask, compare and tell. 0 where all answers agree, 1 where one does not. Raises Unusable."""
     from framegen.commands.spec_argument import compiled  # noqa: PLC0415
+    from framegen.conformance import firmware  # noqa: PLC0415
     from framegen.reading.yamltree import Unusable  # noqa: PLC0415
 
     if arguments.program and (arguments.questions or arguments.answers):
@@ -96,6 +97,7 @@ def run(arguments: Namespace) -> int:
     model = compiled(arguments.spec).model
     if arguments.port is not None:
         return _ask_firmware(model, arguments)
+    firmware.refuse_without_port(arguments)
     if arguments.answers:
         return _answer(model)
     if arguments.more and arguments.seed is None:

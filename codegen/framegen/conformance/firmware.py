@@ -69,6 +69,13 @@ def _rate(text: str) -> int:
     return int(text)
 
 
+def refuse_without_port(arguments: Namespace) -> None:
+    """Refuse what is said of a port where none is named. Raises Unusable."""
+    for name in ("baud", "malformed", "allow", "log"):
+        if getattr(arguments, name):
+            raise Unusable(f"--{name} is for firmware", hint="name its port, as by --port COM5")
+
+
 def run(
     model: Model,
     arguments: Namespace,

@@ -58,22 +58,24 @@ class Permission:
         allowed, even one that tests neither length nor count. Should any one byte be lost on the
         way, there must still be no legal frame in it that is not allowed.
         """
-        for at in self._headers(data):
+        head = self.model.frame.id.at + self.model.frame.id.size
+        for at in self._headers(data, range(len(data))):
             found = self._dangerous.get(self._id(data, at))
             if found is not None:
-                return f"its bytes from {at} on begin {found}"
-        for lost in range(-1, len(data)):
-            bytes_left = data if lost < 0 else data[:lost] + data[lost + 1 :]
-            name = self._holds(bytes_left, lost)
-            if name and lost < 0:
-                return f"its bytes hold a frame of {name}"
-            if name:
-                return f"its bytes hold a frame of {name} if byte {lost} of {to_hex(data)} is lost"
+                return f"it holds {to_hex(data[at : at + head])}, which begins {found}"
+        if name := self._holds(data, range(len(data))):
+            return f"it holds a frame of {name}"
+        for lost in range(len(data)):
+            # Frames that end before it, or begin behind it, are as they were.
+            near = range(max(0, lost - self._largest), lost + 1)
+            if name := self._holds(data[:lost] + data[lost + 1 :], near):
+                byte, before = to_hex(data[lost : lost + 1]), to_hex(data[max(0, lost - 4) : lost])
+                return f"it holds a frame of {name} if the {byte} behind {before} is lost"
         return ""
 
-    def _holds(self, data: bytes, lost: int) -> str:
-        """The first message in `data` that must not be there, but for those in front of a loss."""
-        for at in self._headers(data, max(0, lost - self._largest)):
+    def _holds(self, data: bytes, places: range) -> str:
+        """The first message that must not be there of those that begin at these places."""
+        for at in self._headers(data, places):
             if self._id(data, at) not in self._guarded:
                 continue
             for way in self._ways:
@@ -82,10 +84,10 @@ class Permission:
                     return message.name
         return ""
 
-    def _headers(self, data: bytes, start: int = 0) -> Iterator[int]:
+    def _headers(self, data: bytes, places: range) -> Iterator[int]:
         header = self.model.frame.header
-        at = data.find(header, start)
-        while 0 <= at < len(data):
+        at = data.find(header, places.start)
+        while 0 <= at < places.stop:
             yield at
             at = data.find(header, at + 1)
 
@@ -121,12 +123,12 @@ class Permission:
         spec = self.model.spec
         received = self.model.roles.received
         found = {
-            code: f"what id {code} means to {lookalike.title}"
+            code: f"a frame of id {code}, as in {lookalike.title}"
             for lookalike in spec.lookalikes.values()
             for code in lookalike.commands
         }
         found |= {
-            each.id: f"id {each.id}, which is reserved"
+            each.id: f"a frame of the reserved id {each.id}"
             for each in spec.reserved
             if each.id is not None and each.direction != received
         }

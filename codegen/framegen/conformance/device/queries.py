@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from framegen.conformance.device.step import Request, Step
-from framegen.model.codec import encode, values_of
+from framegen.model.codec import encode
 from framegen.model.slots import Items, Number
 
 if TYPE_CHECKING:
@@ -74,8 +74,8 @@ def _pairs(firsts: list[Request]) -> Iterator[tuple[Request, Request]]:
 def _examples(exchange: Exchange) -> Iterator[Request]:
     message = exchange.request
     for number, example in enumerate(message.message.examples, 1):
-        values = values_of(message, example.hex)
-        yield Request(exchange, values, example.hex, f"example {number}")
+        frame = encode(message, example.values)
+        yield Request(exchange, example.values, frame, f"example {number}")
 
 
 def _sized(model: Model, exchange: Exchange) -> Iterator[Request]:
@@ -102,7 +102,7 @@ def _pattern(exchange: Exchange) -> Mapping[str, Any]:
     """Values to go by: those of the first example, or else the lowest of each field."""
     message = exchange.request
     if message.message.examples:
-        return values_of(message, message.message.examples[0].hex)
+        return message.message.examples[0].values
     return {
         slot.name: max(slot.low, 0) if isinstance(slot, Number) else []
         for slot in message.arguments

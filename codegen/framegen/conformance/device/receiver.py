@@ -43,19 +43,12 @@ class Receiver:
                 events.pop()
         return self._taken(events)
 
-    def peek(self) -> list[Received]:
-        """Tell what the bytes held would be, if no more came."""
-        return self._timed(self._line.decode(self._held))
-
     def flush(self) -> list[Received]:
         """Tell what the bytes held are, now that the line is quiet."""
         return self._taken(self._line.decode(self._held))
 
     def _taken(self, events: list[Event]) -> list[Received]:
-        received = self._timed(events)
+        received = [Received(self._times[each.at + len(each.data) - 1], each) for each in events]
         size = sum(len(event.data) for event in events)
         self._held, self._times = self._held[size:], self._times[size:]
         return received
-
-    def _timed(self, events: list[Event]) -> list[Received]:
-        return [Received(self._times[each.at + len(each.data) - 1], each) for each in events]

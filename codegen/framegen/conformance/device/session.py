@@ -19,8 +19,10 @@ if TYPE_CHECKING:
     from framegen.conformance.device.transport import Transport
     from framegen.model.layout import MessageLayout
 
-# A reply is waited for so many times longer than it may take, to tell a late one from none.
+# A reply that is due is waited for so many timeouts longer, to tell a late one from none.
 _PATIENT = 4
+# What comes in so many seconds before anything is sent was not asked for.
+_UNASKED = 0.25
 # The line is quiet once nothing has come for so many seconds.
 _QUIET = 0.05
 # So long a device may go on sending by itself, in seconds, before it is not waited for any more.
@@ -96,8 +98,8 @@ class Session:
         return self.permission.objection(self._sent + data_of(burst))
 
     def listen(self) -> list[Received]:
-        """Hear what a device sends unasked, for as long as a reply may take."""
-        self._read_until(self.now + self.timing.timeout)
+        """Hear what a device sends unasked, before anything is sent."""
+        self._read_until(self.now + _UNASKED)
         return self._end()
 
     def send(self, burst: Burst) -> Transcript:
@@ -112,10 +114,8 @@ class Session:
         self._sent = (self._sent + data)[-self._most :]
         due = [request.reply for request in requests_of(burst) if request.reply is not None]
         until = at + max(limits, default=self.timing.timeout)
-        self._read_until(until, due)
-        # A beginning that is none may hold back what is there already.
-        if due and not _has(due, [*self._received, *self._receiver.peek()]):
-            self._read_until(until + _PATIENT * self.timing.timeout, due)
+        # A late reply is told from none; and a beginning that is none may hold back one in time.
+        self._read_until(until + _PATIENT * self.timing.timeout if due else until, due)
         return Transcript(at, burst, limits, self._end())
 
     def _read_until(self, moment: float, due: Sequence[MessageLayout] = ()) -> None:
