@@ -67,9 +67,9 @@ def test_each_field_of_an_element_stands_behind_the_one_before() -> None:
     message["length"] = "4 * servo_count + 3"
     spec = compiled_of(data).read
     assert spec is not None
-    repeat = derive(spec).messages["ServoPositions"].repeat
+    repeat = derive(spec).messages["ServoPositions"].items
     assert repeat is not None
-    assert [(field.name, field.offset) for field in repeat.fields] == [
+    assert [(field.name, field.at) for field in repeat.fields] == [
         ("servo_id", 0),
         ("position", 1),
         ("load", 3),
@@ -77,18 +77,18 @@ def test_each_field_of_an_element_stands_behind_the_one_before() -> None:
 
 
 def test_a_bare_number_in_a_list_has_the_name_of_the_list() -> None:
-    repeat = layout_of(data_of(BUSSERVO)).messages["ServoUnload"].repeat
-    assert repeat is not None
-    assert [field.name for field in repeat.fields] == ["servo_ids"]
-    assert repeat.field is repeat.fields[0].field
+    items = layout_of(data_of(BUSSERVO)).messages["ServoUnload"].items
+    assert items is not None
+    assert [field.name for field in items.fields] == ["servo_ids"]
+    assert items.field is items.fields[0].field
 
 
 def test_a_list_without_declared_counts_may_be_empty() -> None:
     data = data_of(BUSSERVO)
     del data["messages"]["ServoUnload"]["fields"]["servo_ids"]["count"]
-    repeat = layout_of(data).messages["ServoUnload"].repeat
-    assert repeat is not None
-    assert (repeat.low, repeat.high) == (0, 252)
+    items = layout_of(data).messages["ServoUnload"].items
+    assert items is not None
+    assert (items.low, items.high) == (0, 252)
 
 
 def test_a_length_above_127_is_no_negative_number() -> None:

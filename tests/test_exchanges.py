@@ -32,7 +32,7 @@ def test_only_a_question_whose_reply_repeats_its_list_is_asked_in_parts(
 ) -> None:
     model = layout_of(long_question(echoed=echoed))
     [exchange] = [each for each in model.exchanges if each.request.name == "DamperRead"]
-    assert exchange.request.repeat is not None
+    assert exchange.request.items is not None
     assert (exchange.most, exchange.split is not None) == (most, split)
 
 

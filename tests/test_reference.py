@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 import pytest
 from framegen.model.codec import NotAFrame, decode
 from framegen.model.slots import Body, Constant, Number
-from framegen.model.stream import Line
+from framegen.model.stream import ReferenceDecoder
 from hypothesis import given
 from hypothesis import strategies as st
 
@@ -164,7 +164,7 @@ def told(events: Sequence[Any], name: str) -> list[Found]:
     return found
 
 
-def expected(line: Line, stretch: bytes) -> list[Found]:
+def expected(line: ReferenceDecoder, stretch: bytes) -> list[Found]:
     """What the reference tells of a stretch of a line, behind which that is quiet."""
     names = {"unknown": "unknown frame"}
     return [
@@ -189,7 +189,7 @@ def test_a_stream_decoder_tells_what_the_reference_tells(name: str, data: st.Dat
     largest = model.largest(directions)
     max_frame = data.draw(st.none() | st.integers(model.frame.least, largest + 2))
     decoder = lib(name).StreamDecoder(way_of(name, directions), max_frame)
-    line = Line(model, directions, max_frame)
+    line = ReferenceDecoder(model, directions, max_frame)
     # From quiet to quiet.
     for stretch in data.draw(st.lists(lines(model), min_size=1, max_size=3)):
         chunks = data.draw(st.composite(pieces)(stretch))

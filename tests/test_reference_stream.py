@@ -2,24 +2,24 @@
 
 import pytest
 from framegen.language.values import Direction
-from framegen.model.stream import Line
+from framegen.model.stream import ReferenceDecoder
 from hypothesis import given
 from hypothesis import strategies as st
 
 from tests.specimens import BUSSERVO, DEMO, data_of, layout_of
 
 SERVO = layout_of(data_of(BUSSERVO))
-HOST = Line(SERVO, [Direction("host", "controller")])
-SMALL = Line(SERVO, [Direction("host", "controller")], max_frame=64)
-BOTH = Line(SERVO, SERVO.directions)
+HOST = ReferenceDecoder(SERVO, [Direction("host", "controller")])
+SMALL = ReferenceDecoder(SERVO, [Direction("host", "controller")], max_frame=64)
+BOTH = ReferenceDecoder(SERVO, SERVO.directions)
 
-HOUSE = Line(layout_of(data_of(DEMO)), [Direction("gateway", "station")])
-TIGHT = Line(HOUSE.model, HOUSE.directions, max_frame=8)
+HOUSE = ReferenceDecoder(layout_of(data_of(DEMO)), [Direction("gateway", "station")])
+TIGHT = ReferenceDecoder(HOUSE.model, HOUSE.directions, max_frame=8)
 
 STOP = "55550207"
 TAIL = ("too short", "5555")
 # A line, its bytes, and what they are: a message by name, else `?` or the reason, and the bytes.
-LINES: list[tuple[Line, str, list[tuple[str, str]]]] = [
+LINES: list[tuple[ReferenceDecoder, str, list[tuple[str, str]]]] = [
     (HOST, "", []),
     (HOST, STOP + STOP, [("ActionGroupStop", STOP)] * 2),
     # Bytes without a header are one piece, and a refused header costs one byte.
@@ -68,7 +68,7 @@ LINES: list[tuple[Line, str, list[tuple[str, str]]]] = [
 
 
 @pytest.mark.parametrize(("line", "text", "told"), LINES)
-def test_a_line_says(line: Line, text: str, told: list[tuple[str, str]]) -> None:
+def test_a_line_says(line: ReferenceDecoder, text: str, told: list[tuple[str, str]]) -> None:
     events = line.decode(bytes.fromhex(text))
     assert [
         (
@@ -102,7 +102,7 @@ def test_a_line_says(line: Line, text: str, told: list[tuple[str, str]]) -> None
         (HOUSE, "C35AA577", 4),
     ],
 )
-def test_what_may_become_a_frame_is_held(line: Line, text: str, held: int) -> None:
+def test_what_may_become_a_frame_is_held(line: ReferenceDecoder, text: str, held: int) -> None:
     data = bytes.fromhex(text)
     told = line.decode_so_far(data)
     assert b"".join(event.data for event in told) == data[: len(data) - held]
@@ -113,7 +113,9 @@ texts = st.lists(heads, max_size=10).map("".join).map(bytes.fromhex)
 
 
 @given(st.sampled_from([HOST, SMALL, BOTH]), texts, texts)
-def test_what_is_told_already_stands_whatever_comes(line: Line, begun: bytes, rest: bytes) -> None:
+def test_what_is_told_already_stands_whatever_comes(
+    line: ReferenceDecoder, begun: bytes, rest: bytes
+) -> None:
     early = line.decode_so_far(begun)
     messages = [(event.at, event.data) for event in early if event.kind != "noise"]
     for whole in line.decode(begun + rest), line.decode_so_far(begun + rest):

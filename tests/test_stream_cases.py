@@ -10,7 +10,7 @@ from framegen.cases.streams import streams
 from framegen.cases.unknown_id import unknown_id
 from framegen.compile import compile_spec
 from framegen.model import verdict
-from framegen.model.stream import Line
+from framegen.model.stream import ReferenceDecoder
 
 from tests.specimens import BUSSERVO, DEMO, compiled_of, data_of, layout_of
 from tests.test_linear import many
@@ -35,7 +35,7 @@ def model_of(spec: Path) -> Model:
 
 
 def told(model: Model, case: StreamCase) -> list[Event | None]:
-    return [*Line(model, [case.direction], case.max_frame).follow(case.parts)]
+    return [*ReferenceDecoder(model, [case.direction], case.max_frame).follow(case.parts)]
 
 
 @each_spec

@@ -5,7 +5,7 @@ from framegen.language.spec import Spec
 from framegen.language.values import Direction
 from framegen.model.codec import NotAFrame, decode, encode
 from framegen.model.model import Model, derive
-from framegen.model.stream import Line
+from framegen.model.stream import ReferenceDecoder
 from framegen.model.verdict import weigh
 from hypothesis import given
 from hypothesis import strategies as st
@@ -146,5 +146,5 @@ def test_a_part_behind_the_fields_is_a_slot_like_any_other() -> None:
     wrong = weigh(model, [HOST], frame[:-1] + b"\x0b")
     assert (wrong.reason, wrong.offset) == ("bad header", 11)
     assert weigh(model, [HOST], frame[:-1]).undecided
-    told = Line(model, [HOST]).decode(b"\x55" + frame + frame[:-1])
+    told = ReferenceDecoder(model, [HOST]).decode(b"\x55" + frame + frame[:-1])
     assert [event.kind for event in told] == ["noise", "message", "noise"]

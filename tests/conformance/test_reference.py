@@ -13,7 +13,7 @@ from framegen.conformance.language import Stream, answer, joined
 from framegen.language.values import Direction as Way
 from framegen.model.codec import values_of
 from framegen.model.model import Model
-from framegen.model.stream import Event, Line
+from framegen.model.stream import Event, ReferenceDecoder
 from hypothesis import given
 from hypothesis import strategies as st
 
@@ -27,9 +27,11 @@ SERVO = layout_of(data_of(BUSSERVO))
 # --- The reference and the oracle ----------------------------------------------------------------
 
 
-def line(direction: Direction | None) -> Line:
+def line(direction: Direction | None) -> ReferenceDecoder:
     ways = SERVO.directions
-    return Line(SERVO, ways if direction is None else [Way(direction.sender, direction.receiver)])
+    return ReferenceDecoder(
+        SERVO, ways if direction is None else [Way(direction.sender, direction.receiver)]
+    )
 
 
 def scanned(events: list[Event]) -> list[object]:

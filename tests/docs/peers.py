@@ -8,7 +8,7 @@ from itertools import groupby
 from typing import TYPE_CHECKING, Any
 
 from framegen.model.codec import encode
-from framegen.model.stream import Line
+from framegen.model.stream import ReferenceDecoder
 from framegen.targets import vectors
 
 if TYPE_CHECKING:
@@ -31,7 +31,7 @@ def vectors_of(compiled: Compiled) -> dict[str, Any]:
 
 def reference_events(model: Model, data: bytes, way: Direction | None) -> list[Event]:
     """What the reference makes of `data` and the silence after it; both ways without `way`."""
-    line = Line(model, model.directions if way is None else [way])
+    line = ReferenceDecoder(model, model.directions if way is None else [way])
     return [
         [event.kind, event.data.hex(), event.message.name if event.message else event.reason]
         for event in line.decode(data)

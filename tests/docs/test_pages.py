@@ -161,7 +161,7 @@ def test_a_message_has_a_page_with_all_that_the_spec_says(name: str, message: st
         *" ".join(said.description.split()).split(" . "),
         said.vendor_name,
         f"{layout.direction.sender} to {layout.direction.receiver}",
-        f"{layout.frame.length_name} = {layout.formula}",
+        f"{layout.frame.length.name} = {layout.formula}",
         f"{layout.largest} bytes",
         spec.sources[said.cite.source].title,
         said.cite.place,
@@ -180,12 +180,8 @@ def test_every_field_has_an_anchor_and_what_the_spec_says_of_it(name: str, messa
     layout = site.model.messages[message]
     page = site.pages[f"messages/{message}.html"]
     words = " ".join(page.words.split())
-    repeat = layout.repeat
-    inner = () if repeat is None else repeat.fields
-    for field in [*layout.numbers, *inner]:
-        within = repeat is not None and repeat.element is not None and field in inner
-        anchor = f"field-{repeat.name}-{field.name}" if repeat and within else f"field-{field.name}"
-        assert anchor in page.ids
+    for path, field in layout.numbers_by_path.items():
+        assert f"field-{path.replace('.', '-')}" in page.ids
         said = field.field
         about = [value.about for value in said.values.values()]
         for text in [said.about, said.unit, *about, *(note.text for note in said.notes)]:
@@ -207,9 +203,9 @@ def test_the_links_to_the_spec_land_where_it_speaks_of_the_message(name: str, me
     here = f"messages.{message}"
     expected = {here, *(f"{here}.fields.{field}" for field in layout.message.fields)}
     expected |= {f"{here}.examples[{i}]" for i in range(len(layout.message.examples))}
-    if layout.repeat is not None and layout.repeat.element is not None:
-        inner = f"{here}.fields.{layout.repeat.name}.fields"
-        expected |= {f"{inner}.{field.name}" for field in layout.repeat.fields}
+    if layout.items is not None and layout.items.element is not None:
+        inner = f"{here}.fields.{layout.items.name}.fields"
+        expected |= {f"{inner}.{field.name}" for field in layout.items.fields}
     assert anchors == expected
 
 

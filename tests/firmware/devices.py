@@ -8,7 +8,7 @@ from typing import Any
 from framegen.conformance.device.step import column
 from framegen.model.codec import encode, values_of
 from framegen.model.model import Model
-from framegen.model.stream import Line
+from framegen.model.stream import ReferenceDecoder
 
 # What a device sends once it has heard bytes: after how many seconds, and what.
 Answer = Callable[[bytes], list[tuple[float, bytes]]]
@@ -75,7 +75,7 @@ class Observed:
 def by_the_reference(model: Model) -> Answer:
     """A device that hears what the reference hears, and replies as the spec's examples do."""
     held = b""
-    line = Line(model, [model.roles.sent])
+    line = ReferenceDecoder(model, [model.roles.sent])
 
     def answer(data: bytes) -> list[tuple[float, bytes]]:
         nonlocal held

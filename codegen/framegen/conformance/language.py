@@ -21,7 +21,7 @@ from typing import TYPE_CHECKING, Any, ClassVar, TypeAlias
 
 from framegen.model.codec import NotAFrame, Unencodable, decode, encode, values_of
 from framegen.model.slots import Items, Number
-from framegen.model.stream import Line
+from framegen.model.stream import ReferenceDecoder
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator, Mapping
@@ -113,7 +113,7 @@ def _decoded(model: Model, question: Decode) -> str:
 
 def _streamed(model: Model, question: Stream) -> Iterator[str]:
     """What is told up to each quiet; what is still held at the end is not."""
-    line = Line(model, [question.way], question.max_frame)
+    line = ReferenceDecoder(model, [question.way], question.max_frame)
     for event in line.follow(question.parts):
         yield QUIET if event is None else _event(event)
 

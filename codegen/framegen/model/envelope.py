@@ -95,26 +95,6 @@ class Envelope:
         return self.least - self.uncounted
 
     @property
-    def length_at(self) -> int:
-        """Goes soon."""
-        return self.length.at
-
-    @property
-    def length_name(self) -> str:
-        """Goes soon."""
-        return self.length.name
-
-    @property
-    def id_at(self) -> int:
-        """Goes soon."""
-        return self.id.at
-
-    @property
-    def id_name(self) -> str:
-        """Goes soon."""
-        return self.id.name
-
-    @property
     def legal_ids(self) -> range:
         """The ids that a message can have."""
         return range(self.id.low, self.id.high + 1)
@@ -128,9 +108,9 @@ def derive_envelope(parts: Mapping[str, FramePart], order: ByteOrder) -> Envelop
     """Work out where the parts of a frame stand. Needs parts that keep the rule frame-parts."""
     slots: list[Constant | Number | Body] = []
     at = 0
-    left = sum(map(part_size, parts.values()))
+    left = sum(map(_size_of, parts.values()))
     for name, part in parts.items():
-        left -= part_size(part)
+        left -= _size_of(part)
         if isinstance(part, BodyPart):
             slots.append(Body(name, at, part.about))
             at = -left
@@ -139,7 +119,7 @@ def derive_envelope(parts: Mapping[str, FramePart], order: ByteOrder) -> Envelop
             slots.append(Constant(name, at, part.bytes_, part.about))
         else:
             slots.append(_number(name, part, at, order))
-        at += part_size(part)
+        at += _size_of(part)
     return Envelope(tuple(slots))
 
 
@@ -155,7 +135,7 @@ def _number(
     return Number(name, part.is_, at, WIRE_TYPES[part.type], order, field, of)
 
 
-def part_size(part: FramePart) -> int:
+def _size_of(part: FramePart) -> int:
     """How many bytes a part of a frame has; 0 for the body, whose size varies."""
     if isinstance(part, ConstantPart):
         return len(part.bytes_)

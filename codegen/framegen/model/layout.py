@@ -125,35 +125,9 @@ class MessageLayout:
         """Say what stands where in a frame with `count` elements, from its first byte on."""
         return lay_out(self.slots, self.size_at(count), count)
 
-    # Until every consumer walks the slots.
-
-    @property
-    def numbers(self) -> tuple[Number, ...]:
-        """The numbers in front of the list."""
-        return tuple(slot for slot in self.fields if isinstance(slot, Number))
-
-    @property
-    def repeat(self) -> Items | None:
-        """The list."""
-        return self.items
-
-    def counts_with(self, field: Number) -> bool:
-        """Whether it is the count."""
-        return field.role == "count"
-
-    def fields_of(self, count: int) -> Iterator[tuple[str, int, Number]]:
-        """Each number of a frame."""
-        for placed in self.lay_out(count):
-            if isinstance(placed.slot, Number) and placed.slot.is_field:
-                yield placed.path, placed.at, placed.slot
-
     def wire_seconds(self, size: int) -> float:
         """How long `size` bytes are on the line."""
         return size * self.link.bits_per_byte / self.link.baud
-
-
-WireField = Number
-Repeat = Items
 
 
 def derive_message(spec: Spec, frame: Envelope, name: str) -> MessageLayout:

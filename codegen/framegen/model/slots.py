@@ -62,11 +62,6 @@ class Number:
         return self.wire.size
 
     @property
-    def offset(self) -> int:
-        """Goes soon."""
-        return self.at
-
-    @property
     def low(self) -> int:
         """The lowest value allowed."""
         return self.wire.low if self.field.range is None else self.field.range.low
@@ -118,11 +113,6 @@ class Items:
     low: int
     high: int
     field: GroupField | NumberField
-
-    @property
-    def offset(self) -> int:
-        """Goes soon."""
-        return self.at
 
     @property
     def size(self) -> int:

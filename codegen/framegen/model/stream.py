@@ -32,8 +32,11 @@ class Event:
 
 
 @dataclass(frozen=True)
-class Line:
-    """Who can be heard on a line, and how large a frame may be there."""
+class ReferenceDecoder:
+    """Decodes what is heard of `directions` on a line, by weighing every place of it anew.
+
+    Frames of more than `max_frame` bytes are refused by their length; None for any.
+    """
 
     model: Model
     directions: Sequence[Direction]

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 from framegen.conformance.device.queries import requests
 from framegen.conformance.device.step import Malformed, Step
 from framegen.model.slots import Number
-from framegen.model.stream import Line
+from framegen.model.stream import ReferenceDecoder
 from framegen.model.verdict import (
     COUNT_MISMATCH,
     LENGTH_MISMATCH,
@@ -59,7 +59,9 @@ def _is_fit(permission: Permission, data: bytes, reason: str, after: Request) ->
     around = after.frame + data + after.frame
     if permission.objection(around + after.frame):
         return False
-    heard = [event.data for event in Line(model, sent).decode_so_far(around) if event.message]
+    heard = [
+        event.data for event in ReferenceDecoder(model, sent).decode_so_far(around) if event.message
+    ]
     return heard == [after.frame, after.frame]
 
 

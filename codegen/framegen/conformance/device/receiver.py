@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from framegen.model.stream import Line
+from framegen.model.stream import ReferenceDecoder
 
 if TYPE_CHECKING:
     from framegen.model.model import Model
@@ -27,7 +27,7 @@ class Receiver:
     """Takes what comes, chunk by chunk; a message is told as soon as it is whole."""
 
     def __init__(self, model: Model) -> None:
-        self._line = Line(model, [model.roles.received])
+        self._line = ReferenceDecoder(model, [model.roles.received])
         self._held = b""
         # When each of the bytes held has come.
         self._times: list[float] = []

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 
 from framegen.language.values import to_hex
 from framegen.model.slots import Number
-from framegen.model.stream import Line
+from framegen.model.stream import ReferenceDecoder
 from framegen.model.verdict import BAD_HEADER, COUNT_MISMATCH, LENGTH_MISMATCH, TOO_SHORT
 from framegen.wording import counted, describe_range
 
@@ -37,7 +37,7 @@ class Step:
 
 
 @dataclass(frozen=True, slots=True)
-class Piece:
+class EventView:
     """What the decoder gives: a message by name; or no name, and why it is none."""
 
     data: bytes
@@ -57,7 +57,7 @@ class Walk:
     data: bytes
     direction: Direction
     steps: list[Step]
-    events: list[Piece]
+    events: list[EventView]
 
     @property
     def hex(self) -> str:
@@ -77,11 +77,11 @@ class Walk:
 
 def walk(model: Model, direction: Direction, data: bytes) -> Walk:
     """Decode `data`, after which the line stays quiet."""
-    line = Line(model, [direction])
+    line = ReferenceDecoder(model, [direction])
     events = [piece for event in line.decode(data) for piece in _pieces(model, event)]
     steps = [step for event in events for step in _steps(line, event, data[event.at :])]
     told = [
-        Piece(event.data, "" if event.message is None else event.message.name, event.reason)
+        EventView(event.data, "" if event.message is None else event.message.name, event.reason)
         for event in events
     ]
     return Walk(data, direction, steps, told)
@@ -96,7 +96,7 @@ def _pieces(model: Model, event: Event) -> Iterator[Event]:
         yield replace(event, at=event.at + start, data=event.data[start:end])
 
 
-def _steps(line: Line, event: Event, rest: bytes) -> Iterator[Step]:
+def _steps(line: ReferenceDecoder, event: Event, rest: bytes) -> Iterator[Step]:
     """Tell one piece of the line slot by slot, until a frame is whole or there is no hope of it."""
     verdict = line.weigh(rest)
     if verdict.reason == BAD_HEADER:

@@ -14,7 +14,7 @@ from framegen.cases.streams import streams
 from framegen.cases.valid import valid_frames
 from framegen.language.values import to_hex
 from framegen.model.codec import values_of
-from framegen.model.stream import Line
+from framegen.model.stream import ReferenceDecoder
 from framegen.output import banner
 from framegen.targets.filenames import file_stem
 from framegen.targets.target import Target
@@ -76,7 +76,7 @@ def _invalid(frame: InvalidFrame) -> dict[str, Any]:
 
 
 def _stream(model: Model, case: StreamCase) -> dict[str, Any]:
-    line = Line(model, [case.direction], case.max_frame)
+    line = ReferenceDecoder(model, [case.direction], case.max_frame)
     return {
         "title": case.title,
         "direction": case.direction.key,
