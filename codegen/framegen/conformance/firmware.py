@@ -14,7 +14,7 @@ from framegen.conformance.device.port import open_port
 from framegen.conformance.device.queries import command_steps, query_steps, requests
 from framegen.conformance.device.recording import Recording
 from framegen.conformance.device.report import Report
-from framegen.conformance.device.run import Run, Voice
+from framegen.conformance.device.run import Progress, Run
 from framegen.conformance.device.session import Session, Timing
 from framegen.reading.yamltree import Unusable
 
@@ -96,22 +96,22 @@ def run(
     baud = arguments.baud or link.baud
     timing = Timing(baud, link.bits_per_byte, arguments.timeout or TIMEOUT)
     report = Report(model, arguments.port, baud, permission)
-    voice = Voice(as_json=arguments.format == "json")
+    progress = Progress(as_json=arguments.format == "json")
     with Recording(model, arguments.log) as recording:
         transport = connect(arguments.port, link, baud)
         try:
-            voice.begin(report, steps)
+            progress.begin(report, steps)
             recording.begin(arguments.port)
             session = Session(transport, permission, timing, recording, clock)
-            Run(report, session, recording, after).go(steps, voice)
+            Run(report, session, recording, after).go(steps, progress)
         except OSError as error:
             report.stopped = f"{arguments.port}: {error}"
-            voice.end(report)
+            progress.end(report)
             raise Unusable(report.stopped, hint=_LOST) from None
         finally:
             with suppress(OSError):
                 transport.close()
-    voice.end(report)
+    progress.end(report)
     return 0 if report.has_passed else 1
 
 

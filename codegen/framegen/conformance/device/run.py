@@ -43,15 +43,15 @@ class Run:
         self._recording = recording
         self._after = after
 
-    def go(self, steps: Sequence[Step], voice: Voice) -> None:
+    def go(self, steps: Sequence[Step], progress: Progress) -> None:
         """Try all of them, or stop where it is of no use to go on. Raises OSError."""
         self._report.unasked = self._session.listen()
-        voice.say(unasked(self._report))
+        progress.say(unasked(self._report))
         for step in steps:
             self._recording.note(step.title)
             result = self._try(step)
             self._report.results.append(result)
-            voice.say(line_of(result))
+            progress.say(line_of(result))
             if self._is_silent():
                 self._report.stopped = (
                     "nothing comes at all: is the device switched on, and is this its port?"
@@ -104,7 +104,7 @@ class Run:
         return len(results) >= _SILENT_STEPS and not anything
 
 
-class Voice:
+class Progress:
     """Tells of a run while it goes on; as JSON, all at its end, and what will be sent before it."""
 
     def __init__(self, *, as_json: bool) -> None:

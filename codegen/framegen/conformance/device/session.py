@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from framegen.model.layout import MessageLayout
 
 # A reply that is due is waited for so many timeouts longer, to tell a late one from none.
-_PATIENT = 4
+_LATE = 4
 # What comes in so many seconds before anything is sent was not asked for.
 _UNASKED = 0.25
 # The line is quiet once nothing has come for so many seconds.
@@ -115,7 +115,7 @@ class Session:
         due = [request.reply for request in requests_of(burst) if request.reply is not None]
         until = at + max(limits, default=self.timing.timeout)
         # A late reply is told from none; and a beginning that is none may hold back one in time.
-        self._read_until(until + _PATIENT * self.timing.timeout if due else until, due)
+        self._read_until(until + _LATE * self.timing.timeout if due else until, due)
         return Transcript(at, burst, limits, self._end())
 
     def _read_until(self, moment: float, due: Sequence[MessageLayout] = ()) -> None:
