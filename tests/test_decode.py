@@ -136,6 +136,16 @@ def test_a_bad_frame_is_refused_with_reason_and_offset(bad: BadFrame) -> None:
         ("55", HOST, "too short at byte 1: a frame begins 55 55"),
         ("55 55 02", HOST, "too short at byte 3: the shortest frame has 4 bytes"),
         (
+            "55 55 01 63",
+            HOST,
+            "length mismatch at byte 2: the length is 1, and must be 2..255",
+        ),
+        (
+            "55 55 01 07",
+            HOST,
+            "length mismatch at byte 2: the length is 1, and must be 2 (ActionGroupStop)",
+        ),
+        (
             "55 55 02 63",
             CONTROLLER,
             "unknown command at byte 3: the command is 99, and only 6, 7, 8, 15, 21 can be here",
@@ -181,6 +191,14 @@ def test_a_refusal_says_what_was_expected(
     with pytest.raises(DecodeError) as caught:
         busservo.decode(bytes.fromhex(frame), direction)
 
+    assert str(caught.value) == text
+
+
+def test_a_class_says_what_no_frame_can_be() -> None:
+    with pytest.raises(DecodeError) as caught:
+        busservo.ActionGroupStop.decode(bytes.fromhex("55 55 01 63"))
+
+    text = "length mismatch at byte 2: the length is 1, and must be at least 2"
     assert str(caught.value) == text
 
 

@@ -189,19 +189,21 @@ class Table(dict[bytes, "Entry"]):
             known = ", ".join(str(number) for number in sorted(self.kinds))
             return f"the command is {read_command(frame)}, and only {known} can be here"
         if verdict.reason is Reason.LENGTH_MISMATCH:
-            legal = self._lengths(verdict, frame)
+            legal = self._lengths(frame)
             return f"the length is {read_length(frame)}, and must be {legal}"
         for entry in self.entries(frame[:BODY_AT]):
             if _fit(frame, 0, entry).offset == verdict.offset:
                 return _misfit(frame, verdict, entry)
         return f"the shortest frame has {BODY_AT} bytes"
 
-    def _lengths(self, verdict: Verdict, frame: bytes) -> str:
+    def _lengths(self, frame: bytes) -> str:
         """The lengths that could stand there, in words."""
-        if verdict is _NO_LENGTH:
-            return f"{BODY_AT - UNCOUNTED}..{self.largest - UNCOUNTED}"
+        kinds = self.kinds.get(read_command(frame), []) if len(frame) >= COMMAND_END else []
+        if not kinds:
+            least, most = BODY_AT - UNCOUNTED, self.largest - UNCOUNTED
+            return f"at least {least}" if self.largest == ANY_SIZE else f"{least}..{most}"
         names: dict[str, list[str]] = {}
-        for kind in self.kinds[read_command(frame)]:
+        for kind in kinds:
             names.setdefault(describe_range(kind.LENGTHS), []).append(kind.__name__)
         return " or ".join(f"{words} ({', '.join(who)})" for words, who in names.items())
 

@@ -4,11 +4,13 @@
 from __future__ import annotations
 
 import csv
-import json
 
 from ..noise import Noise
-from .events import as_record
+from ..octets import spaced
+from ..recording_file import EITHER
+from .events import in_json, names_of
 from .lines import in_line, time_of_day
+from .values import fields_in_json
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
@@ -107,13 +109,14 @@ class EntryLines:
 
 
 def _as_json(event: Message | Noise, direction: Direction | None) -> str:
-    return json.dumps(as_record(event, direction))[1:]
+    return in_json(event, direction)[1:]
 
 
 def _as_cells(event: Message | Noise, direction: Direction | None) -> list[str]:
-    record = as_record(event, direction)
     if isinstance(event, Noise):
-        return [record["from"], "", "", "", "", record["noise"], record["reason"]]
-    named = [record["from"], record["direction"], record["message"]]
-    others, fields = " ".join(record.get("or", ())), json.dumps(record["fields"])
-    return [*named, others, fields, record["hex"], ""]
+        sender = EITHER if direction is None else direction.sender
+        return [sender, "", "", "", "", spaced(event.data), event.reason.value]
+    name, *others = names_of(event, direction)
+    sender = EITHER if others else event.DIRECTION.sender
+    fields, frame = fields_in_json(event), spaced(event.encode())
+    return [sender, event.DIRECTION.value, name, " ".join(others), fields, frame, ""]

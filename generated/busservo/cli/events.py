@@ -3,6 +3,8 @@
 
 from __future__ import annotations
 
+import json
+
 from ..codec import table_for
 from ..noise import Noise, UnknownFrame
 from ..octets import spaced
@@ -10,7 +12,7 @@ from ..recording_entry import SENDERS
 from ..recording_file import EITHER, NOISE
 from ..twins import twins
 from ..wording import counted
-from .values import fields_as_json, fields_as_text
+from .values import fields_as_text, fields_in_json
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
@@ -34,8 +36,8 @@ def names_of(event: Message | Noise, direction: Direction | None) -> list[str]:
     """The messages that it may be; none for noise."""
     if isinstance(event, Noise):
         return []
-    others = twins(event) if direction is None else []
-    return [kind.__name__ for kind in (type(event), *others)]
+    name = type(event).__name__
+    return [name, *(kind.__name__ for kind in twins(event))] if direction is None else [name]
 
 
 def sender_of(event: Message | Noise, direction: Direction | None) -> str:
@@ -55,23 +57,20 @@ def in_words(event: Message | Noise, direction: Direction | None) -> str:
     return " ".join(part for part in (name, fields_as_text(event)) if part)
 
 
-def as_record(event: Message | Noise, direction: Direction | None) -> dict[str, Any]:
-    """What it says, for JSON: who sent it, noise or no, and what it is."""
+def in_json(event: Message | Noise, direction: Direction | None) -> str:
+    """What it says, as the text of a JSON object: who sent it, noise or no, and what it is."""
     if isinstance(event, Noise):
         record: dict[str, Any] = {"from": EITHER if direction is None else direction.sender}
         record |= {"noise": spaced(event.data), "reason": event.reason.value}
         if isinstance(event, UnknownFrame):
             record |= {"command": event.command, "parameters": spaced(event.parameters)}
-        return record
+        return json.dumps(record)
     name, *others = names_of(event, direction)
-    record = {
-        "from": EITHER if others else event.DIRECTION.sender,
-        "direction": event.DIRECTION.value,
-        "message": name,
-        "fields": fields_as_json(event),
-        "hex": spaced(event.encode()),
-    }
-    return record | {"or": others} if others else record
+    way = event.DIRECTION
+    sender = json.dumps(EITHER if others else way.sender)
+    what = f'"direction": "{way.value}", "message": "{name}", "fields": {fields_in_json(event)}'
+    either = f', "or": {json.dumps(others)}' if others else ""
+    return f'{{"from": {sender}, {what}, "hex": "{spaced(event.encode())}"{either}}}'
 
 
 def totals(seen: Counters) -> str:

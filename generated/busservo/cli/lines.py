@@ -3,7 +3,6 @@
 
 from __future__ import annotations
 
-import json
 import time
 
 from ..octets import spaced
@@ -11,7 +10,7 @@ from ..recording_entry import SENDERS
 from ..recording_file import EITHER, NOISE
 from .colour import painted, takes_colour
 from .console import visible, write_as_it_is
-from .events import UNKNOWN, as_record, bytes_of, in_words, sender_of
+from .events import UNKNOWN, bytes_of, in_json, in_words, sender_of
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
@@ -70,7 +69,7 @@ class Lines:
         return f"{when:>12}  {line}"
 
     def _as_json(self, event: Message | Noise, direction: Direction | None, at: float) -> str:
-        return json.dumps({"time": round(at, 6)} | as_record(event, direction))
+        return f'{{"time": {round(at, 6)}, {in_json(event, direction)[1:]}'
 
 
 def in_line(event: Message | Noise, direction: Direction | None) -> str:

@@ -32,10 +32,17 @@ def fields_as_json(message: Message) -> dict[str, Any]:
     return fields
 
 
-def _rows(items: Items[Any], message: Message) -> Iterator[tuple[int, ...]]:
-    """The elements of a list as plain numbers: many times as fast as one by one."""
-    numbers = iter(items.numbers(message.encode()))
-    return zip(*[numbers] * len(items.fields), strict=True)
+def fields_in_json(message: Message) -> str:
+    """The same as the text of a JSON object, many times as fast as by way of the mapping."""
+    items = message.SHAPE.items
+    shown: list[str] = []
+    for name in message.__match_args__:
+        if items is not None and items.name == name:
+            listed = _listed(items, message, _json_of(items), ", ")
+            shown.append(f'"{name}": [{listed}]')
+        else:
+            shown.append(f'"{name}": {getattr(message, name)}')
+    return f"{{{', '.join(shown)}}}"
 
 
 def fields_as_text(message: Message) -> str:
@@ -44,17 +51,40 @@ def fields_as_text(message: Message) -> str:
     shown: list[str] = []
     for name in message.__match_args__:
         if items is not None and items.name == name:
-            elements = [":".join(map(str, each)) for each in _rows(items, message)]
-            shown.append(f"{name}={','.join(elements)}")
+            shown.append(f"{name}={_listed(items, message, ':'.join(['%d'] * items.width), ',')}")
         else:
             number = getattr(type(message), name)
             shown.append(f"{name}={_number_as_text(number, getattr(message, name))}")
     return " ".join(shown)
 
 
+def _rows(items: Items[Any], message: Message) -> Iterator[tuple[int, ...]]:
+    """The elements of a list as plain numbers: many times as fast as one by one."""
+    numbers = iter(items.numbers(message.encode()))
+    return zip(*[numbers] * len(items.fields), strict=True)
+
+
+def _listed(items: Items[Any], message: Message, element: str, comma: str) -> str:
+    """The elements of a list, each in a form with a %d for each of its numbers, all at once."""
+    numbers = items.numbers(message.encode())
+    text: str = comma.join([element] * (len(numbers) // items.width)) % numbers
+    return text
+
+
+def _json_of(items: Items[Any]) -> str:
+    """The form of an element in JSON."""
+    if items.element is None:
+        return "%d"
+    fields = ", ".join([f'"{field.name}": %d' for field in items.fields])
+    return f"{{{fields}}}"
+
+
 def _number_as_text(number: Number, value: int) -> str:
+    unit = f" {number.unit}" if number.unit else ""
+    if not number.names:
+        return f"{value}{unit}"
     named = [f" ({name})" for name, known in number.names.items() if known == value]
-    return f"{value}{' ' + number.unit if number.unit else ''}{''.join(named)}"
+    return f"{value}{unit}{''.join(named)}"
 
 
 def message_from_text(kind: type[Message], words: list[str]) -> Message:
