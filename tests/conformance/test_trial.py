@@ -306,6 +306,7 @@ def test_a_program_that_remembers_is_shown_as_it_was_found() -> None:
     assert not trial.smallest.alone
     assert (trial.smallest.difference, trial.smallest.tries) == (trial.differences[0], 0)
     assert trial.smallest.difference.question == LINE
+    assert trial.smallest.behind == CUT.line
 
 
 def test_a_small_case_that_only_a_tired_program_gets_wrong_is_not_shown() -> None:
