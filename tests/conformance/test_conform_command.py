@@ -196,6 +196,7 @@ def test_json_tells_everything(capsys: pytest.CaptureFixture[str]) -> None:
         "failure": "",
         "tries": told_as["smallest"]["tries"],
         "alone": True,
+        "behind": "",
         "stderr": "",
     }
     assert {found["verb"] for found in told_as["differences"]} == {"decode", "encode", "stream"}

@@ -2,18 +2,23 @@
 
 from __future__ import annotations
 
+import json
 from itertools import islice
 from typing import TYPE_CHECKING, TypeAlias
 
 import pytest
+from framegen.conformance import report
 from framegen.conformance.comparison import compare
 from framegen.conformance.further import further
 from framegen.conformance.language import Decode, Encode, Question, Stream, answer
 from framegen.conformance.program import Program, Reply
 from framegen.conformance.question_reader import NotAQuestion, read_question
 from framegen.conformance.questions import questions
+from framegen.conformance.strip import strip
 from framegen.conformance.trial import Trial, hold
 from framegen.language.values import Direction
+from hypothesis import given
+from hypothesis import strategies as st
 
 from tests.specimens import BUSSERVO, ROOT, data_of, layout_of
 
@@ -105,6 +110,7 @@ def test_an_answer_may_be_put_otherwise(question: str, said: list[str]) -> None:
 DIFFER = {
     "another reason": ("decode host_to_controller 55", ["refused bad-header 1"], 0),
     "another place": ("decode host_to_controller 55", ["refused too-short 2"], 0),
+    "a blank line": ("decode host_to_controller 55", ["", "refused too-short 1"], 0),
     "nothing": ("decode host_to_controller 55", [], 0),
     "a line too many": (
         "decode host_to_controller 55",
@@ -306,6 +312,7 @@ def test_a_program_that_remembers_is_shown_as_it_was_found() -> None:
     assert not trial.smallest.alone
     assert (trial.smallest.difference, trial.smallest.tries) == (trial.differences[0], 0)
     assert trial.smallest.difference.question == LINE
+    assert trial.smallest.behind == CUT.line
 
 
 def test_a_small_case_that_only_a_tired_program_gets_wrong_is_not_shown() -> None:
@@ -371,3 +378,48 @@ def test_what_is_no_question_is_told(line: str, error: str) -> None:
     with pytest.raises(NotAQuestion) as caught:
         read(line)
     assert str(caught.value) == error
+
+
+# -- What is told --------------------------------------------------------------------------------
+
+WORDS = [
+    "message",
+    "noise",
+    "refused",
+    "frame",
+    "unknown",
+    "quiet",
+    "ActionGroupStop",
+    "bad-header",
+]
+LINES_SAID = st.lists(
+    st.lists(st.one_of(st.sampled_from([*WORDS, "55", "555", "55550207"]), st.text(max_size=4)))
+    .map(" ".join)
+    .filter(lambda line: "\n" not in line)
+)
+
+
+@given(said=LINES_SAID, question=st.sampled_from([STOP, CUT, LINE, ENCODE]))
+def test_whatever_a_program_says_can_be_told(said: list[str], question: Question) -> None:
+    trial = held(lambda *_: said, question)
+    text = list(report.as_text(MODEL, trial, ["./codec"]))
+    assert text[-1].startswith("./codec: ")
+    assert all("\n" not in line for line in text)
+    assert json.loads(json.dumps(report.as_json(MODEL, trial, ["./codec"], None)))["asked"] == 1
+
+
+def test_of_a_long_answer_is_shown_where_it_differs() -> None:
+    question = read("stream host_to_controller 257 " + "55550207" * 300 + " quiet")
+    right = answer(MODEL, question)
+    wrong = [*right[:200], "quiet", *right[200:]]
+    found = compare(MODEL, "", question, Reply(tuple(wrong)))
+    assert found is not None
+    lines = list(strip(MODEL, found))
+    assert "  ... 190 lines before, in which they agree" in lines
+    assert "  program          quiet" in lines
+    assert "  ... and more" in lines
+
+
+def test_of_endless_rubbish_a_little_is_shown() -> None:
+    trial = held(lambda *_: ["what?"] * 100_000, STOP)
+    assert len(list(report.as_text(MODEL, trial, ["./codec"]))) < 80

@@ -55,7 +55,8 @@ class Difference:
         if self.of_messages:
             return ("messages",)
         lines = (self.expected, self.answered)
-        return tuple(line.split()[0] for each in lines for line in each[self.at : self.at + 1])
+        parted = [line for each in lines for line in each[self.at : self.at + 1]]
+        return tuple(line.partition(" ")[0] for line in parted)
 
     @property
     def of_messages(self) -> bool:
@@ -69,7 +70,7 @@ class Difference:
     @property
     def rubbish(self) -> str:
         """The first line of the answer that the language does not have."""
-        return next((line for line in self.answered if line.split()[0] not in _KNOWN), "")
+        return next((line for line in self.answered if line.partition(" ")[0] not in _KNOWN), "")
 
 
 def unsupported(reply: Reply) -> bool:

@@ -63,6 +63,7 @@ def _first(model: Model, smallest: Smallest) -> Iterator[str]:
     yield f"the first difference: {found.title}"
     if not smallest.alone:
         yield "  Asked this alone, anew, it answers rightly: it keeps something between questions."
+        yield f"  the question before: {_short(smallest.behind)}"
     elif smallest.tries:
         yield f"  shrunk in {counted(smallest.tries, 'try', 'tries')}"
     yield f"  question: {_short(found.question.line)}"
@@ -130,6 +131,7 @@ def as_json(model: Model, trial: Trial, command: Sequence[str], seed: int | None
             **_difference_json(smallest.difference),
             "tries": smallest.tries,
             "alone": smallest.alone,
+            "behind": smallest.behind,
             "stderr": smallest.last_words,
         },
         "differences": [_difference_json(found) for found in trial.differences],

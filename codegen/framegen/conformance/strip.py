@@ -5,13 +5,14 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from difflib import SequenceMatcher
 from itertools import accumulate
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, TypeAlias
 
 from framegen.conformance.language import HEX_AT, Decode, Encode, Stream
 from framegen.explain import seen_rows
 from framegen.explain_text import table
 from framegen.model.codec import Unencodable, encode
 from framegen.model.verdict import TRAILING_BYTES, weigh
+from framegen.wording import counted
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
@@ -20,9 +21,12 @@ if TYPE_CHECKING:
     from framegen.explain import Row
     from framegen.model.model import Model
 
+    # Lines of an answer, each behind the offset of its first byte, if it has any.
+    _Lines: TypeAlias = list[tuple[str, str]]
+
 _BYTES_A_LINE = 16
-# A line of an answer is shown as far as this, and of an answer so many lines.
-_WIDTH, _LINES = 200, 40
+# A line of an answer is shown as far as this; so many lines are, and of these before they differ.
+_WIDTH, _LINES, _BEFORE = 200, 40, 10
 
 
 def strip(model: Model, difference: Difference) -> Iterator[str]:
@@ -63,29 +67,35 @@ def _bytes(data: bytes, marked: int | None = None) -> Iterator[str]:
 
 def _answers(difference: Difference) -> Iterator[str]:
     """Both answers, what they have in common once, with the byte at which each line begins."""
-    ours, theirs = _placed(difference.expected), _placed(difference.answered)
-    rows: list[tuple[str, str, str]] = []
+    end = difference.at + _LINES
+    rows = list(_rows(_placed(difference.expected)[:end], _placed(difference.answered)[:end]))
+    if difference.failure:
+        rows.append(("program", "", f"({difference.failure})"))
+    elif not difference.answered:
+        rows.append(("program", "", "nothing"))
+    if not difference.expected:
+        rows.insert(0, ("reference", "", "nothing"))
+    start = max(0, difference.at - _BEFORE)
+    if start:
+        yield f"  ... {counted(start, 'line')} before, in which they agree"
+    for who, at, line in rows[start : start + _LINES]:
+        cut = line if len(line) <= _WIDTH else f"{line[: _WIDTH - 3]}..."
+        yield f"  {who:<9}  {at:>4}  {cut}".rstrip()
+    if len(rows) > start + _LINES:
+        yield "  ... and more"
+
+
+def _rows(ours: _Lines, theirs: _Lines) -> Iterator[tuple[str, str, str]]:
     matcher = SequenceMatcher(None, ours, theirs, autojunk=False)
     for kind, start, end, other_start, other_end in matcher.get_opcodes():
         if kind == "equal":
-            rows += [("both", *row) for row in ours[start:end]]
+            yield from (("both", *line) for line in ours[start:end])
             continue
-        rows += [("reference", *row) for row in ours[start:end]]
-        rows += [("program", *row) for row in theirs[other_start:other_end]]
-    if len(ours) == 0:
-        rows.append(("reference", "", "nothing"))
-    if difference.failure:
-        rows.append(("program", "", f"({difference.failure})"))
-    elif not theirs:
-        rows.append(("program", "", "nothing"))
-    for who, at, line in rows[:_LINES]:
-        cut = line if len(line) <= _WIDTH else f"{line[: _WIDTH - 3]}..."
-        yield f"  {who:<9}  {at:>4}  {cut}"
-    if len(rows) > _LINES:
-        yield f"  ... and {len(rows) - _LINES} more lines"
+        yield from (("reference", *line) for line in ours[start:end])
+        yield from (("program", *line) for line in theirs[other_start:other_end])
 
 
-def _placed(lines: Sequence[str]) -> list[tuple[str, str]]:
+def _placed(lines: Sequence[str]) -> _Lines:
     """Each line behind the offset of its first byte, as it follows from what was told before."""
     offsets = accumulate((len(_told(line)) // 2 for line in lines), initial=0)
     return [

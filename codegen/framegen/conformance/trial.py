@@ -26,13 +26,15 @@ _TRIES, _HANGING_TRIES = 2_000, 40
 class Smallest:
     """The first difference, as small as it could be made, and in how many tries.
 
-    `alone` is false where a program that was asked nothing before answers as the reference does.
+    `alone` is false where a program that was asked nothing before answers as the reference does;
+    `behind` is then the question that was asked before it.
     `last_words` is what the program printed on its error stream when it was asked this alone.
     """
 
     difference: Difference
     tries: int
     alone: bool
+    behind: str = ""
     last_words: str = ""
 
 
@@ -61,9 +63,11 @@ def hold(model: Model, program: Program, questions: Iterable[tuple[str, Question
     """Ask every question, each with a title. Raises Unusable for what cannot be started."""
     trial = Trial()
     failures: Counter[bool] = Counter()
+    before = behind = ""
     for title, question in questions:
         reply = program.ask(question.line)
         trial.asked += 1
+        before, previous = question.line, before
         if unsupported(reply):
             trial.unsupported[question.verb] += 1
             continue
@@ -71,6 +75,8 @@ def hold(model: Model, program: Program, questions: Iterable[tuple[str, Question
         if difference is None:
             trial.agreed += 1
             continue
+        if not trial.differences:
+            behind = previous
         trial.differences.append(difference)
         if reply.failure:
             trial.last_words = trial.last_words or program.last_words
@@ -79,7 +85,7 @@ def hold(model: Model, program: Program, questions: Iterable[tuple[str, Question
             if trial.stopped:
                 break
     if trial.differences:
-        trial.smallest = _smallest(model, program, trial.differences[0])
+        trial.smallest = _smallest(model, program, trial.differences[0], behind)
     return trial
 
 
@@ -92,7 +98,7 @@ def _enough(failures: Counter[bool], *, answered: bool) -> str:
     return f"it ended {_CRASHES} times" if failures[False] >= _CRASHES else ""
 
 
-def _smallest(model: Model, program: Program, first: Difference) -> Smallest:
+def _smallest(model: Model, program: Program, first: Difference, behind: str) -> Smallest:
     """Shrink the first difference; as it was found where a program that is asked alone has none."""
 
     def ask(question: Question, timeout: float | None = None) -> Difference | None:
@@ -101,7 +107,7 @@ def _smallest(model: Model, program: Program, first: Difference) -> Smallest:
 
     program.close()
     if ask(first.question) is None:
-        return Smallest(first, 0, alone=False)
+        return Smallest(first, 0, alone=False, behind=behind)
     # What hangs is given less time; whether it does is asked again in the end.
     timeout, most = (program.timeout / 10, _HANGING_TRIES) if first.hangs else (None, _TRIES)
 
