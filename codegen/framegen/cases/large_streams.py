@@ -11,7 +11,6 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from framegen.cases.sender import Sender
-    from framegen.cases.sender import LONGEST
 from framegen.cases.stream_case import Parts
 
 # What a report of USB HID holds, and many a small buffer.
