@@ -11,7 +11,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from framegen.cases.sender import Sender
-from framegen.cases.stream_case import Parts
+    from framegen.cases.stream_case import Parts
 
 # What a report of USB HID holds, and many a small buffer.
 _REPORT = 64
