@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from framegen.cases.sender import LONGEST
 from framegen.cases.stream_case import QUIET, StreamCase, chunks
 
 if TYPE_CHECKING:
@@ -14,8 +15,6 @@ if TYPE_CHECKING:
 
 # What a report of USB HID holds, and many a small buffer.
 _REPORT = 64
-# Longer lines would show nothing else.
-_LONGEST = 300
 
 
 def large_streams(sender: Sender) -> Iterator[StreamCase]:
@@ -33,22 +32,24 @@ def large_streams(sender: Sender) -> Iterator[StreamCase]:
 
 
 def _largest(sender: Sender, frame: bytes) -> Iterator[tuple[str, Parts]]:
-    largest, _ = sender.frames_around(min(sender.largest, _LONGEST))
+    largest, _ = sender.frames_around(min(sender.largest, LONGEST))
     if largest is None:
         return
-    yield "the largest frame", (largest, QUIET)
+    bound = "" if len(largest) == sender.largest else f" of at most {LONGEST} bytes"
+    title = f"the largest frame{bound}"
+    yield title, (largest, QUIET)
     pieces = chunks(sender.noise(2) + largest + frame, _REPORT)
-    yield f"the largest frame in pieces of {_REPORT} bytes", (*pieces, QUIET)
+    yield f"{title}, in pieces of {_REPORT} bytes", (*pieces, QUIET)
     short = largest[:-1]
-    yield "the largest frame without its last byte, then another", (short + frame, QUIET)
-    yield "the largest frame without its last byte, then quiet", (short, QUIET, frame, QUIET)
+    yield f"{title}, without its last byte, then another", (short + frame, QUIET)
+    yield f"{title}, without its last byte, then quiet", (short, QUIET, frame, QUIET)
 
 
 def _bounded(sender: Sender, frame: bytes, limit: int) -> Iterator[tuple[str, Parts]]:
     within, beyond = sender.frames_around(limit)
     if within is not None:
         yield f"a frame of {len(within)}", (within + within, QUIET)
-    if beyond is not None and len(beyond) <= _LONGEST:
+    if beyond is not None:
         yield f"a frame of {len(beyond)}, then another", (beyond + frame, QUIET)
         yield f"a frame of {len(beyond)} in pieces", (*chunks(beyond + frame, limit), QUIET)
     least = sender.model.frame.least

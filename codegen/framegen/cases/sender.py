@@ -20,6 +20,8 @@ if TYPE_CHECKING:
 # a line shows does not depend on how many messages there are.
 _MESSAGES = 8
 _SMALL = 64
+# Longer frames than that would show nothing else.
+LONGEST = 300
 # All bytes that there are, so that neighbours have nothing in common.
 _NOISE = [(0x13 + at * 0x25) % 0x100 for at in range(0x100)]
 
@@ -88,11 +90,15 @@ class Sender:
         return self.enveloped(code, body, size)
 
     def frames_around(self, limit: int) -> tuple[bytes | None, bytes | None]:
-        """The largest frame of at most `limit` bytes, and the smallest that is larger."""
+        """The largest frame of at most `limit` bytes, and the smallest that is larger.
+
+        None where there is none, or none that a line has room for.
+        """
         sizes: dict[int, tuple[MessageLayout, int]] = {}
         for message in self.model.sent(self.direction).values():
             for count in _counts_around(message, limit):
-                sizes.setdefault(message.size_at(count), (message, count))
+                if message.size_at(count) <= LONGEST:
+                    sizes.setdefault(message.size_at(count), (message, count))
         within = max((size for size in sizes if size <= limit), default=None)
         beyond = min((size for size in sizes if size > limit), default=None)
         return (
