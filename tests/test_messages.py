@@ -131,6 +131,8 @@ def test_named_elements_and_plain_pairs_make_the_same_message() -> None:
         iter,
         np.array,
         lambda items: (item for item in items),
+        lambda items: [iter(item) for item in items],
+        lambda items: [items[0], [*items[1]]],
         lambda items: dict.fromkeys(items).keys(),
         lambda items: map(tuple, items),
         lambda items: np.array(items, dtype=np.uint16),

@@ -102,19 +102,17 @@ class Items(Field["tuple[Item, ...]"]):
 
         Whole numbers in plain lists are not looked at closely: to pack them will tell.
         """
-        if type(values) not in _LISTS or not self.least <= len(values) <= self.most:
-            return self.checked(values)
-        numbers: Sequence[int] = values
-        if self.element is not None:
-            plain, width, numbers = self._plain, self.width, []
-            for item in values:
-                if type(item) not in plain or len(item) != width:
-                    return self.checked(values)
-                numbers += item
-        for number in numbers:
-            if type(number) is not int:
-                return self.checked(values)
-        return numbers
+        if type(values) in _LISTS and self.least <= len(values) <= self.most:
+            flat: Sequence[int] | None
+            if self.element is None:
+                flat = _plain_numbers(values)
+            elif self.width == 2:
+                flat = _plain_pairs(values, self._plain)
+            else:
+                flat = _plain_rows(values, self._plain, self.width)
+            if flat is not None:
+                return flat
+        return self.checked(values)
 
     def checked(self, values: Any) -> list[int]:
         """All numbers of all elements, in order. Raises EncodeError naming the first wrong one."""
@@ -150,6 +148,40 @@ class Items(Field["tuple[Item, ...]"]):
         if self.element is None:
             return "whole numbers"
         return f"({', '.join(field.name for field in self.fields)})"
+
+
+def _plain_numbers(values: Sequence[Any]) -> Sequence[int] | None:
+    """These values, if they are ints; or else None."""
+    for number in values:
+        if type(number) is not int:
+            return None
+    return values
+
+
+def _plain_pairs(values: Sequence[Any], plain: frozenset[Any]) -> list[int] | None:
+    """The numbers of pairs of ints; None if there is anything else. Most elements are pairs."""
+    numbers: list[int] = []
+    try:
+        for pair in values:
+            if type(pair) is not tuple and type(pair) not in plain:
+                return None
+            first, second = pair
+            if type(first) is not int or type(second) is not int:
+                return None
+            numbers += pair
+    except ValueError:  # more than two, or less
+        return None
+    return numbers
+
+
+def _plain_rows(values: Sequence[Any], plain: frozenset[Any], width: int) -> Sequence[int] | None:
+    """The numbers of rows of so many ints; None if there is anything else."""
+    numbers: list[int] = []
+    for row in values:
+        if type(row) not in plain or len(row) != width:
+            return None
+        numbers += row
+    return _plain_numbers(numbers)
 
 
 def as_tuple(value: Any) -> tuple[Any, ...] | None:
