@@ -133,7 +133,7 @@ class StreamDecoder:
                     self._hold(data, at, at, at)
                     return events
             if entry is not None and not quiet:
-                self._hold(data, at, at, end)
+                self._hold(data, at, at, at + entry[0])
                 return events
             entry = noise.search(events, data, base, at, quiet=quiet)
             at = noise.at - base

@@ -99,7 +99,9 @@ class NoiseLane:
                 if verdict.kind is not None:
                     entry = verdict.size, 0, 0, b"", verdict.kind, None
             if verdict is None or entry is not None:
-                self._cut(events, data, base, at, at, _NEVER)
+                if self._refused:
+                    self._cut(events, data, base, at, at, _NEVER)
+                self._tell_noise(events, data, base, base + at)
                 self.at = base + at
                 return entry
             if verdict.is_open:
@@ -157,9 +159,6 @@ class NoiseLane:
         are void, and others are undecided.
         """
         refused, number, at = self._refused, 0, self.told
-        if not refused:
-            self._tell_noise(events, data, base, until + base)
-            return
         until, weighed, horizon = until + base, weighed + base, horizon + base
         while number < len(refused):
             first, last, reason, claim = refused[number]
