@@ -24,6 +24,9 @@ if TYPE_CHECKING:
 
 _new = object.__new__
 
+# The beginnings of frames that are remembered, with what they wait for, are of this size at most.
+_REMEMBERED = BODY_AT + 1
+
 
 class StreamDecoder:
     """Turns bytes, fed in pieces of any size, into messages and noise.
@@ -87,7 +90,7 @@ class StreamDecoder:
         if len(held) < self._wake:
             self._held = held
             return []
-        if len(held) <= BODY_AT:
+        if len(held) <= _REMEMBERED:
             wake = self._table.waits.get(held)
             if wake is not None:
                 self._held, self._wake = held, wake
@@ -126,8 +129,11 @@ class StreamDecoder:
                 self._messages += len(events) - before
                 self._message_bytes += at - begun
                 noise.begin_anew(base + at)
+                if at == size:
+                    self._hold(data, at, at, at)
+                    return events
             if entry is not None and not quiet:
-                self._hold(data, at, at, end)
+                self._hold(data, at, at, at + entry[0])
                 return events
             entry = noise.search(events, data, base, at, quiet=quiet)
             at = noise.at - base
@@ -139,5 +145,5 @@ class StreamDecoder:
         """Keeps the bytes from `start` on, of which nothing can be told before `wake`."""
         self._held = held = data[start:]
         self._scanned, self._wake = scanned - start, wake - start
-        if 0 < len(held) <= BODY_AT and scanned == start:
+        if 0 < len(held) <= _REMEMBERED and scanned == start:
             self._table.wait(held, self._wake)

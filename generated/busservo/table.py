@@ -101,6 +101,15 @@ class Table(dict[bytes, "Entry"]):
                 furthest = verdict
         return furthest
 
+    def whole(self, data: bytes, at: int) -> Entry | None:
+        """The message at `at`, where a look-up shows that it is all there; else `weigh` knows."""
+        entry = self.get(data[at : at + BODY_AT])
+        if entry is not None and at + entry[0] <= len(data):
+            _, count_at, count_end, count, _, _ = entry
+            if data[at + count_at : at + count_end] == count:
+                return entry
+        return None
+
     def entries(self, head: bytes) -> Iterator[Entry]:
         """What may follow `head`; where two directions share it, the first of them comes first."""
         entry = self._legal.get(head) or self._learn(head)
@@ -127,14 +136,15 @@ class Table(dict[bytes, "Entry"]):
 
     def find(self, frame: bytes) -> Message | None:
         """The message that `frame` is, whole and with nothing after it; None where it is none."""
-        entry = self.get(frame[:BODY_AT])
-        if entry is not None and len(frame) == entry[0] and frame[entry[1] : entry[2]] == entry[3]:
-            kind = entry[4]
+        entry = self.whole(frame, 0)
+        kind: type[Message] | None
+        if entry is not None:
+            size, kind = entry[0], entry[4]
         else:
             verdict = self.weigh(frame)
-            if verdict.kind is None or verdict.size != len(frame):
-                return None
-            kind = verdict.kind
+            size, kind = verdict.size, verdict.kind
+        if kind is None or size != len(frame):
+            return None
         message = _new(kind)
         message._frame = frame
         return message

@@ -83,7 +83,8 @@ class NoiseLane:
         `data` begins at the place `base`. Returns what the message is, which begins at `at`; None
         where none came, and `told`, `at` and `wake` say what is held.
         """
-        size, known = len(data), self._table.verdicts
+        size, table = len(data), self._table
+        known = table.verdicts
         while True:
             found = data.find(HEADER, at)
             at = found if found >= 0 else _begun_header(data, at)
@@ -91,11 +92,18 @@ class NoiseLane:
                 self._cut(events, data, base, at, at, _NEVER if quiet else at)
                 self._stop(base + at, BODY_AT if self._refused else 0)
                 return None
-            verdict = known.get(data[at : at + BODY_AT]) or self._table.weigh(data, at)
-            if verdict.kind is not None:
-                self._cut(events, data, base, at, at, _NEVER)
+            verdict = known.get(data[at : at + BODY_AT])
+            entry = table.whole(data, at) if verdict is None else None
+            if verdict is None and entry is None:
+                verdict = table.weigh(data, at)
+                if verdict.kind is not None:
+                    entry = verdict.size, 0, 0, b"", verdict.kind, None
+            if verdict is None or entry is not None:
+                if self._refused:
+                    self._cut(events, data, base, at, at, _NEVER)
+                self._tell_noise(events, data, base, base + at)
                 self.at = base + at
-                return verdict.size, 0, 0, b"", verdict.kind, None
+                return entry
             if verdict.is_open:
                 # A message may begin here; or, of unknown command, so much more than is known yet.
                 weighed = at if verdict.reason is _TOO_SHORT else size
