@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from framegen.cases.sender import Sender
+from framegen.cases.sender import LONGEST, Sender
 from hypothesis import strategies as st
 
 if TYPE_CHECKING:
@@ -15,8 +15,11 @@ if TYPE_CHECKING:
 def lines_of(model: Model, way: Direction) -> st.SearchStrategy[bytes]:
     """What may be heard in one direction."""
     sender = Sender(model, way)
-    frames = st.sampled_from([*sender.small_frames.values()])
     header = sender.header
+    large = [frame for frame in sender.frames_around(LONGEST) if frame is not None]
+    # A header of equal bytes begins with its first byte in two places.
+    strays = [header[:1] + frame for frame in large]
+    frames = st.sampled_from([*sender.small_frames.values(), *large, *strays])
     near = [*header, *header, *model.sent(way), *range(8), 99, 255]
     alike = st.lists(st.sampled_from([each & 0xFF for each in near]), max_size=12).map(bytes)
     heads = alike.map(lambda rest: header + rest)

@@ -101,3 +101,7 @@ def test_a_library_answers_as_the_reference_does(
     max_frame = data.draw(st.just(largest) | st.just(64) | st.integers(least, largest))
     question = Stream(way, max_frame, (*parts, None))
     assert joined(answers[name](question.line)) == joined(answer(model, question))
+    # Noise may be told later, and no message.
+    question = Stream(way, max_frame, tuple(parts))
+    early = [line for line in answers[name](question.line) if line.startswith("message")]
+    assert early == [line for line in answer(model, question) if line.startswith("message")]

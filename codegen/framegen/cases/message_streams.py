@@ -25,9 +25,10 @@ def message_streams(sender: Sender) -> Iterator[StreamCase]:
 def _lines(sender: Sender, message: MessageLayout, frame: bytes) -> Iterator[tuple[str, Parts]]:
     half = len(frame) // 2
     yield "byte by byte", (*single_bytes(frame), QUIET)
-    yield "behind noise, and told before the line goes quiet", (sender.noise(3) + frame,)
+    told = "told before the line goes quiet"
+    yield f"behind noise, {told}", (sender.noise(3) + frame,)
+    yield f"behind a stray byte of the header, {told}", (sender.header[:1] + frame,)
     yield "without its last byte, held before the line goes quiet", (frame + frame[:-1],)
-    yield "behind a stray byte of the header", (sender.header[:1] + frame, QUIET)
     twice = (frame[:half], frame[half:] + frame[:half], frame[half:], QUIET)
     yield "twice, in pieces that end inside of a frame", twice
     yield "without its last byte, then quiet, then whole", (frame[:-1], QUIET, frame, QUIET)
