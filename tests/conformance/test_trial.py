@@ -132,6 +132,16 @@ DIFFER = {
         ["quiet", "noise bad-header 0001", "quiet"],
         0,
     ),
+    "a quiet that is not told": (
+        "stream host_to_controller 257 00 quiet",
+        ["noise bad-header 00"],
+        1,
+    ),
+    "some of an unknown frame": (
+        "stream host_to_controller 257 55550242",
+        ["unknown 5555"],
+        0,
+    ),
     "noise that is not there": (
         "stream host_to_controller 257 0031",
         ["noise bad-header 0032"],
@@ -168,6 +178,11 @@ def test_what_is_unsupported_is_counted_and_no_difference() -> None:
     trial = held(change, STOP, LINE, LINE)
     assert trial.conforms
     assert (trial.asked, trial.agreed, dict(trial.unsupported)) == (3, 1, {"stream": 2})
+
+
+def test_what_is_unsupported_is_said_alone() -> None:
+    trial = held(lambda *_: ["unsupported", "quiet"], LINE)
+    assert (len(trial.differences), trial.unsupported.total()) == (1, 0)
 
 
 def test_a_program_that_supports_nothing_does_not_conform() -> None:
@@ -276,6 +291,17 @@ def test_a_frame_gives_way_to_the_least_one() -> None:
 
     line = "stream host_to_controller 257 5555080301e803012003 quiet"
     assert smallest_of(held(change, read(line))) == "stream host_to_controller 257 55550207"
+
+
+def test_a_length_is_lowered_with_what_it_counts() -> None:
+    def change(question: Question, right: list[str], _asked: int) -> list[str]:
+        assert isinstance(question, Decode)
+        whole = len(question.data) > 4 and len(question.data) == question.data[2] + 2
+        return ["message"] if whole and right == ["refused count-mismatch 4"] else right
+
+    line = "decode host_to_controller 55550e0302e803012003022003032003"
+    smallest = "decode host_to_controller 55550803000000000000"
+    assert smallest_of(held(change, read(line))) == smallest
 
 
 def test_values_are_shrunk_one_by_one() -> None:
@@ -406,6 +432,23 @@ def test_whatever_a_program_says_can_be_told(said: list[str], question: Question
     assert text[-1].startswith("./codec: ")
     assert all("\n" not in line for line in text)
     assert json.loads(json.dumps(report.as_json(MODEL, trial, ["./codec"], None)))["asked"] == 1
+
+
+@pytest.mark.parametrize(
+    "said",
+    [
+        ["noise bad-header 0031", "noise length-mismatch 55550207", "quiet"],
+        ["noise bad-header 003155550207", "quiet"],
+    ],
+    ids=["for another reason", "for the same reason"],
+)
+def test_what_is_taken_apart_begins_where_the_answers_part(said: list[str]) -> None:
+    question = read("stream host_to_controller 257 31 quiet 0031 5555 0207 quiet")
+    found = compare(MODEL, "", question, Reply(("noise bad-header 31", "quiet", *said)))
+    assert found is not None
+    lines = list(strip(MODEL, found))
+    assert lines[:2] == ["  byte   0   1   2   3   4   5   6", "        31  00  31  55  55  02  07"]
+    assert "     3  55 55  header          Two bytes that announce a frame" in lines
 
 
 def test_of_a_long_answer_is_shown_where_it_differs() -> None:

@@ -98,7 +98,7 @@ def _agree(question: Question, expected: Sequence[str], answered: Sequence[str])
     decided = max((at for at, line in enumerate(expected, 1) if _is_due(line)), default=0)
     last = len(answered) - 1
     return (
-        decided <= len(answered) <= len(expected)
+        len(answered) <= len(expected)
         and expected[: max(decided, last)] == answered[: max(decided, last)]
         and (last < decided or _begins(expected[last], answered[last]))
     )

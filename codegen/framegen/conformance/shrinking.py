@@ -104,7 +104,6 @@ def _parts(symbols: Sequence[int]) -> tuple[bytes | None, ...]:
 
 
 def _smaller_lines(model: Model, way: Direction, symbols: list[int]) -> Iterator[list[int]]:
-    yield [symbol for symbol in symbols if symbol != _CUT]
     for at, end in _runs(symbols):
         yield symbols[:at] + symbols[end:]
     yield from _with_smaller_frames(model, way, symbols)
