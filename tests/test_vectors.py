@@ -11,6 +11,7 @@ from busservo import (
     MESSAGES,
     DecodeError,
     Direction,
+    EncodeError,
     Message,
     Noise,
     Reason,
@@ -28,12 +29,16 @@ VECTORS: dict[str, Any] = json.loads(
     files("busservo").joinpath("vectors.json").read_text(encoding="utf-8")
 )
 VALID: list[dict[str, Any]] = VECTORS["valid"]
+UNENCODABLE: list[dict[str, Any]] = VECTORS["unencodable"]
 INVALID: list[dict[str, Any]] = VECTORS["invalid"]
 STREAMS: list[dict[str, Any]] = VECTORS["streams"]
 CLASSES: dict[str, Any] = {kind.__name__: kind for kind in MESSAGES}
 
 each_valid = pytest.mark.parametrize(
     "vector", VALID, ids=lambda vector: f"{vector['message']}: {vector['title']}"
+)
+each_unencodable = pytest.mark.parametrize(
+    "vector", UNENCODABLE, ids=lambda vector: str(vector["title"])
 )
 each_invalid = pytest.mark.parametrize(
     "vector", INVALID, ids=lambda vector: f"{vector['direction']}: {vector['hex']}"
@@ -75,6 +80,24 @@ def test_the_oracle_agrees_with_a_valid_vector(vector: dict[str, Any]) -> None:
 
     assert oracle.build(vector["message"], vector["fields"]) == frame
     assert oracle.parse(frame, vector["direction"]) == (vector["message"], vector["fields"])
+
+
+@each_unencodable
+def test_values_that_no_frame_carries_are_refused(vector: dict[str, Any]) -> None:
+    with pytest.raises(EncodeError):
+        CLASSES[vector["message"]](**arguments(vector["fields"]))
+
+    with pytest.raises(oracle.OracleError):
+        oracle.build(vector["message"], vector["fields"])
+
+
+def test_every_bound_is_overstepped() -> None:
+    assert [each["title"] for each in UNENCODABLE if each["message"] == "ServoUnload"] == [
+        "ServoUnload: 0 servo_ids",
+        "ServoUnload: 253 servo_ids",
+        "ServoUnload: a servo_ids of -1",
+        "ServoUnload: a servo_ids of 256",
+    ]
 
 
 @each_invalid

@@ -39,6 +39,9 @@ def asked(document: dict[str, Any]) -> Iterator[Asked]:
         yield Asked(vector["title"], f"decode {way} {frame}", [_message(vector)])
         fields = "".join(f" {field}" for field in _fields(vector["fields"]))
         yield Asked(vector["title"], f"encode {name}{fields}", [f"frame {frame}"])
+    for vector in document["unencodable"]:
+        fields = "".join(f" {field}" for field in _fields(vector["fields"]))
+        yield Asked(vector["title"], f"encode {vector['message']}{fields}", ["refused"])
     for vector in document["invalid"]:
         answer = f"refused {_dashed(vector['reason'])} {vector['offset']}"
         question = f"decode {vector['direction']} {_hex(vector['hex'])}".rstrip()

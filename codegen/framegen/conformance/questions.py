@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 from framegen.cases.invalid import invalid_frames
 from framegen.cases.streams import streams
+from framegen.cases.unencodable import unencodable
 from framegen.cases.valid import valid_frames
 from framegen.conformance.language import Decode, Encode, Stream
 
@@ -17,11 +18,13 @@ if TYPE_CHECKING:
 
 
 def questions(model: Model) -> Iterator[tuple[str, Question]]:
-    """Ask for each frame both ways, for bytes that are none, and for lines; titles in front."""
+    """Ask for each frame both ways, for what is none, and for lines; titles in front."""
     for frame in valid_frames(model):
         title = f"{frame.message.name}: {frame.title}"
         yield title, Decode(frame.message.direction, frame.data)
         yield title, Encode(frame.message, frame.values)
+    for asked in unencodable(model):
+        yield asked.title, Encode(asked.message, asked.values)
     for wrong in invalid_frames(model):
         yield wrong.title, Decode(wrong.direction, wrong.data)
     for case in streams(model):

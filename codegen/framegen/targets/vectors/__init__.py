@@ -1,4 +1,4 @@
-"""Test vectors for codecs in any language: frames, bytes that are none, and lines of both.
+"""Test vectors for codecs in any language: frames, what is none, and lines of both.
 
 Made from the spec's examples and the ends of its ranges by the reference codec, never by a
 generated library, so that a library can be held to them.
@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 from framegen.cases.invalid import invalid_frames
 from framegen.cases.streams import streams
+from framegen.cases.unencodable import unencodable
 from framegen.cases.valid import valid_frames
 from framegen.language.values import to_hex
 from framegen.model.codec import values_of
@@ -22,6 +23,7 @@ from framegen.targets.target import Target
 if TYPE_CHECKING:
     from framegen.cases.invalid import InvalidFrame
     from framegen.cases.stream_case import StreamCase
+    from framegen.cases.unencodable import UnencodableValues
     from framegen.cases.valid import ValidFrame
     from framegen.compile import Compiled
     from framegen.model.model import Model
@@ -38,6 +40,7 @@ def render(compiled: Compiled, _snippets: Snippets) -> dict[str, str]:
         "protocol": protocol.name,
         "version": protocol.version,
         "valid": [_valid(frame) for frame in valid_frames(model)],
+        "unencodable": [_unencodable(asked) for asked in unencodable(model)],
         "invalid": [_invalid(frame) for frame in invalid_frames(model)],
         "streams": [_stream(model, case) for case in streams(model)],
     }
@@ -63,6 +66,10 @@ def _valid(frame: ValidFrame) -> dict[str, Any]:
         "fields": frame.values,
         "hex": to_hex(frame.data),
     }
+
+
+def _unencodable(asked: UnencodableValues) -> dict[str, Any]:
+    return {"title": asked.title, "message": asked.message.name, "fields": asked.values}
 
 
 def _invalid(frame: InvalidFrame) -> dict[str, Any]:
