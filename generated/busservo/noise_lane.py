@@ -105,10 +105,10 @@ class NoiseLane:
                 self._tell_noise(events, data, base, base + at)
                 self.at = base + at
                 return entry
-            after: int | None = at
+            after = at
             if verdict.is_open:
                 after = self._give_up(events, data, base, at, verdict, quiet=quiet)
-                if after is None:
+                if after < 0:
                     return None
             at = self._refuse(events, data, base, at, verdict) if after == at else after
 
@@ -121,11 +121,11 @@ class NoiseLane:
         verdict: Verdict,
         *,
         quiet: bool,
-    ) -> int | None:
+    ) -> int:
         """Waits for the rest of what may begin at data[at], or gives it up as the line is quiet.
 
-        Returns None where it waits, and else where the next message may begin: at data[at] itself
-        as long as that is not refused.
+        Returns -1 where it waits, and else where to go on: at data[at] itself as long as that is
+        not refused.
         """
         # Of an unknown command, all that is not known yet is how much it claims.
         weighed = at if verdict.reason is _TOO_SHORT else len(data)
@@ -134,7 +134,7 @@ class NoiseLane:
             return self.told - base
         if not quiet:
             self._stop(base + at, verdict.size)
-            return None
+            return -1
         return at if data.startswith(HEADER, at) else at + 1
 
     def _stop(self, at: int, needed: int) -> None:
