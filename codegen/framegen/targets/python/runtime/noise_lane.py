@@ -104,20 +104,37 @@ class NoiseLane:
                 self._tell_noise(events, data, base, base + at)
                 self.at = base + at
                 return entry
+            after = at
             if verdict.is_open:
-                # A message may begin here; or, of unknown command, so much more than is known yet.
-                weighed = at if verdict.reason is _TOO_SHORT else size
-                self._cut(events, data, base, at, weighed, _NEVER if quiet else size)
-                if self.told > base + at:
-                    at = self.told - base
-                    continue
-                if not quiet:
-                    self._stop(base + at, verdict.size)
+                after = self._give_up(events, data, base, at, verdict, quiet=quiet)
+                if after < 0:
                     return None
-                if not data.startswith(HEADER, at):
-                    at += 1
-                    continue
-            at = self._refuse(events, data, base, at, verdict)
+            at = self._refuse(events, data, base, at, verdict) if after == at else after
+
+    def _give_up(
+        self,
+        events: list[Message | Noise],
+        data: bytes,
+        base: int,
+        at: int,
+        verdict: Verdict,
+        *,
+        quiet: bool,
+    ) -> int:
+        """Waits for the rest of what may begin at data[at], or gives it up as the line is quiet.
+
+        Returns -1 where it waits, and else where to go on: at data[at] itself as long as that is
+        not refused.
+        """
+        # Of an unknown command, all that is not known yet is how much it claims.
+        weighed = at if verdict.reason is _TOO_SHORT else len(data)
+        self._cut(events, data, base, at, weighed, _NEVER if quiet else len(data))
+        if self.told > base + at:
+            return self.told - base
+        if not quiet:
+            self._stop(base + at, verdict.size)
+            return -1
+        return at if data.startswith(HEADER, at) else at + 1
 
     def _stop(self, at: int, needed: int) -> None:
         """Notes that the search stops at `at` until so much is there, or a claim is whole."""
