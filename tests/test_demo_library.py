@@ -282,6 +282,8 @@ def test_a_field_is_told_in_one_place(greenhouse: Any) -> None:
     assert vents.count is greenhouse.VentsOpen.vent_count
     readings = greenhouse.StationState.readings
     assert (readings.element, readings.fields[0].unit) == (None, "cK")
+    assert "A step is 0.01 K." in readings.__doc__
+    assert greenhouse.VentsOpen.VENDOR_NAME == ""
 
 
 def test_an_id_means_what_its_direction_says(greenhouse: Any) -> None:

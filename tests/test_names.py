@@ -91,14 +91,22 @@ def names_in(module: str) -> set[str]:
 def variables_in(module: str) -> set[str]:
     """What the methods of a module have as variables, or as arguments that no message gives."""
     tree = ast.parse((PACKAGE / module).read_text(encoding="utf-8"))
+    functions = [
+        node for node in ast.walk(tree) if isinstance(node, (ast.FunctionDef, ast.AsyncFunctionDef))
+    ]
     stored = {
         node.id
-        for node in ast.walk(tree)
+        for function in functions
+        for node in ast.walk(function)
         if isinstance(node, ast.Name) and isinstance(node.ctx, ast.Store)
     }
-    functions = (ast.FunctionDef, ast.AsyncFunctionDef)
-    arguments = [node.args for node in ast.walk(tree) if isinstance(node, functions)]
-    return stored | {each.arg for args in arguments for each in args.kwonlyargs}
+    return stored | {each.arg for function in functions for each in function.args.kwonlyargs}
+
+
+def test_what_the_constructors_of_messages_need_is_reserved() -> None:
+    # What counts a list is a field itself, and has a name of its own among them.
+    counts = {kind.SHAPE.items.count.name for kind in busservo.MESSAGES if kind.SHAPE.items}
+    assert variables_in("messages.py") - counts - {"numbers"} == reserved.CONSTRUCTOR
 
 
 def public(kind: type) -> set[str]:
@@ -128,7 +136,7 @@ def test_what_a_class_of_the_library_has_is_reserved() -> None:
     element = type("Made", (busservo.element.Element, tuple), {"__slots__": ()})
     # No field is in capitals.
     assert public(Client) | public(AsyncClient) <= {*taken("method")}
-    assert public(busservo.Message) <= {*taken("field"), "COMMAND", "DIRECTION", "LENGTHS", "SHAPE"}
+    assert public(busservo.Message) <= {*taken("field"), "VENDOR_NAME"}
     assert public(element) <= {*taken("field of an element"), "FIELDS"}
     assert not any(name.startswith("on_") for name in public(busservo.Device) - HANDLERS)
 

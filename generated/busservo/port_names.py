@@ -86,7 +86,7 @@ def _wrong_host(host: str | None) -> str:
     try:
         host.encode("idna")
     except UnicodeError:
-        return f"{host[:40]!r} is no name of a host"
+        return f"{host[:40]!r} is no host name"
     return ""
 
 

@@ -234,7 +234,7 @@ REFUSED_NAMES = {
     "spy://loop://?file=all.log": "would write to any file .*; name the port alone, and record it",
     "socket://": "it names no host; write socket://HOST:PORT",
     "socket://:4000": "it names no host; write socket://HOST:PORT",
-    "socket://a..b:4000": r"'a\.\.b' is no name of a host; write socket://HOST:PORT",
+    "socket://a..b:4000": r"'a\.\.b' is no host name; write socket://HOST:PORT",
     "socket://board": "it names no TCP port; write socket://HOST:PORT",
     "socket://[::1]": "it names no TCP port; write socket://HOST:PORT",
     "socket://board:": "it names no TCP port; write socket://HOST:PORT",

@@ -74,7 +74,9 @@ class ListView:
 
     @property
     def doc(self) -> list[str]:
-        """What it is, and what else is known of it."""
+        """What it is, and what else is known of it, or of the numbers that it is a list of."""
+        if self.element is None:
+            return self.fields[0].doc
         return [" ".join([self.slot.field.about, *self._notes])]
 
     @property

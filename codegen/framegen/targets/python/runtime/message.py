@@ -40,7 +40,7 @@ class Message:
     __slots__ = ("__weakref__", "_frame")
     __match_args__: ClassVar[tuple[str, ...]] = ()
 
-    VENDOR_NAME: ClassVar[str]
+    VENDOR_NAME: ClassVar[str] = ""
     COMMAND: ClassVar[int]
     DIRECTION: ClassVar[Direction]
     LENGTHS: ClassVar[range]

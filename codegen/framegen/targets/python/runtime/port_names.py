@@ -85,7 +85,7 @@ def _wrong_host(host: str | None) -> str:
     try:
         host.encode("idna")
     except UnicodeError:
-        return f"{host[:40]!r} is no name of a host"
+        return f"{host[:40]!r} is no host name"
     return ""
 
 
