@@ -7,6 +7,7 @@ gives the reason and the place. Single frames and streams are judged by this alo
 from __future__ import annotations
 
 from dataclasses import dataclass
+from itertools import islice
 from typing import TYPE_CHECKING
 
 from framegen.model.slots import Constant, Number
@@ -121,7 +122,7 @@ class _Look:
         due = f"a {self.frame.length.name} of {length} makes {size} bytes"
         seen = list(self.seen)
         try:
-            for placed in list(message.lay_out(count))[len(seen) :]:
+            for placed in islice(message.lay_out(count), len(seen), None):
                 self._field(placed, length, count, due)
                 seen.append(placed)
         except _Refused as refused:
