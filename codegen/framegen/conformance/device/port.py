@@ -94,7 +94,11 @@ class SerialPort:
 
     def close(self) -> None:
         """Close the port."""
+        behind = getattr(self._port, "_socket", None)
         self._port.close()
+        # Where the other end has hung up, pyserial leaves its socket open.
+        if behind is not None:
+            behind.close()
 
 
 def _handle_of(port: Any) -> int | None:
