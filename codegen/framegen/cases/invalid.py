@@ -63,10 +63,8 @@ def spoilt(model: Model, message: MessageLayout, frame: bytes) -> Iterator[tuple
 
 def slots_once(message: MessageLayout, frame: bytes) -> Iterator[Placed]:
     """Where the slots of a legal frame stand; of a list, those of its first element."""
-    length = message.frame.length
-    count = message.count_at(length.read(frame[length.at : length.at + length.size]))
     seen: set[int] = set()
-    for placed in message.lay_out(count):
+    for placed in message.lay_out(message.count_of(frame)):
         if id(placed.slot) not in seen:
             seen.add(id(placed.slot))
             yield placed

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 from framegen.model.slots import Body, Constant, Items, Number
-from framegen.model.verdict import TRAILING_BYTES, weigh
+from framegen.model.verdict import weigh_whole
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -45,18 +45,16 @@ class Unencodable(ValueError):  # noqa: N818 - says what the values are
 
 def decode(model: Model, direction: Direction | None, data: bytes) -> Decoded:
     """Understand exactly one frame; with no direction, of whichever it is. Raises NotAFrame."""
-    verdict = weigh(model, model.directions if direction is None else [direction], data)
+    directions = model.directions if direction is None else [direction]
+    verdict = weigh_whole(model, directions, data)
     if verdict.message is None:
         raise NotAFrame(verdict.reason, verdict.offset, verdict.expected)
-    if verdict.offset < len(data):
-        raise NotAFrame(TRAILING_BYTES, verdict.offset, verdict.expected)
     return Decoded(verdict.message, values_of(verdict.message, data))
 
 
 def values_of(message: MessageLayout, frame: bytes) -> dict[str, Any]:
     """Read the values of a legal frame, by field."""
-    length = message.frame.length
-    count = message.count_at(length.read(frame[length.at : length.at + length.size]))
+    count = message.count_of(frame)
     numbers = {
         placed.path: placed.slot.read(placed.of(frame))
         for placed in message.lay_out(count)

@@ -116,6 +116,10 @@ class MessageLayout:
         """How many elements a frame of this legal length has. Raises ValueError for no such one."""
         return self.counts[self.lengths.index(length)]
 
+    def count_of(self, frame: bytes) -> int:
+        """How many elements a legal frame has."""
+        return self.count_at(self.frame.length.read_in(frame))
+
     @property
     def largest(self) -> int:
         """Bytes of the largest legal frame."""

@@ -88,7 +88,7 @@ class ReferenceDecoder:
                 events.append(Event("message", at, frame, verdict.message))
                 at, reason = at + len(frame), BAD_HEADER
                 continue
-            claim = self._claim(rest, verdict)
+            claim = verdict.claim
             waits = verdict.undecided or (claim > len(rest) and not self._has_message(rest))
             if waits and not quiet:
                 break
@@ -101,21 +101,6 @@ class ReferenceDecoder:
             events.append(Event("noise", at, rest[:1], reason=reason))
             at += 1
         return events, at
-
-    def _claim(self, data: bytes, verdict: Verdict) -> int:
-        """Tell how many bytes a frame of unknown id claims, at the least; 0 where there is none.
-
-        Its length is possible, and no more can be said for it: nothing proves it.
-        """
-        frame = self.model.frame
-        if verdict.reason != UNKNOWN_COMMAND or len(data) < frame.body_at:
-            return frame.least if verdict.reason == UNKNOWN_COMMAND else 0
-        length = frame.length
-        size = length.read(data[length.at : length.at + length.size]) + frame.uncounted
-        largest = self.model.largest(self.directions)
-        if self.max_frame is not None:
-            largest = min(largest, self.max_frame)
-        return size if frame.least <= size <= largest else 0
 
     def _lives(self, claimed: bytes) -> bool:
         """Tell whether a frame begins, or may begin, behind the first of the bytes claimed.

@@ -6,7 +6,7 @@ gives the reason and the place. Single frames and streams are judged by this alo
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import islice
 from typing import TYPE_CHECKING
 
@@ -39,6 +39,9 @@ class Verdict:
     `offset` say where it shows that this is no frame: `too short` is what may become one.
     `expected` says what was due. `seen` are the slots that agreed up to there, and `likely` is the
     message that they began, once that is known.
+
+    Of a frame of unknown id, `claim` is how many bytes it says that it has, which nothing proves;
+    the least that a frame has, as long as its head is cut short; 0 where no frame has as many.
     """
 
     message: MessageLayout | None
@@ -47,6 +50,7 @@ class Verdict:
     expected: str
     seen: tuple[Placed, ...]
     likely: MessageLayout | None
+    claim: int = 0
 
     @property
     def undecided(self) -> bool:
@@ -72,11 +76,20 @@ def weigh(
     try:
         length, candidates = look.head()
     except _Refused as refused:
-        return Verdict(None, *refused.verdict, tuple(look.seen), look.likely)
+        claim = look.claim() if refused.verdict[0] == UNKNOWN_COMMAND else 0
+        return Verdict(None, *refused.verdict, tuple(look.seen), look.likely, claim)
     verdicts = [look.fields(message, length) for message in candidates]
     legal = (verdict for verdict in verdicts if verdict.message is not None)
     # Of equals, `max` gives the first.
     return next(legal, None) or max(verdicts, key=lambda verdict: verdict.offset)
+
+
+def weigh_whole(model: Model, directions: Sequence[Direction], data: bytes) -> Verdict:
+    """Judge `data` as exactly one frame: what comes behind one is refused, too."""
+    verdict = weigh(model, directions, data)
+    if verdict.message is None or verdict.offset == len(data):
+        return verdict
+    return replace(verdict, message=None, reason=TRAILING_BYTES)
 
 
 class _Look:
@@ -115,6 +128,13 @@ class _Look:
             raise AssertionError("the rule frame-parts sees to both")
         return length, candidates
 
+    def claim(self) -> int:
+        """Tell how many bytes a frame of unknown id says that it has; 0 where no frame has them."""
+        if len(self.data) < self.frame.body_at:
+            return self.frame.least
+        size = self.frame.length.read_in(self.data) + self.frame.uncounted
+        return size if self._is_possible(size) else 0
+
     def fields(self, message: MessageLayout, length: int) -> Verdict:
         """Judge what follows the head as the fields of one message."""
         count = message.count_at(length)
@@ -143,10 +163,12 @@ class _Look:
         return placed.of(self.data)
 
     def _length(self, length: int) -> int:
-        size = length + self.frame.uncounted
-        if not self.frame.least <= size <= self.largest:
+        if not self._is_possible(length + self.frame.uncounted):
             raise self._mismatch(length, self._named())
         return length
+
+    def _is_possible(self, size: int) -> bool:
+        return self.frame.least <= size <= self.largest
 
     @property
     def largest(self) -> int:
@@ -161,8 +183,7 @@ class _Look:
     def _named(self) -> list[MessageLayout]:
         """The messages that have the id of these bytes, whatever stands in front of it."""
         place = self.frame.id
-        code = self.data[place.at : place.at + place.size]
-        return self._messages(place.read(code)) if len(code) == place.size else []
+        return self._messages(place.read_in(self.data)) if place.is_in(self.data) else []
 
     def _mismatch(self, length: int, messages: list[MessageLayout]) -> _Refused:
         name = self.frame.length.name
