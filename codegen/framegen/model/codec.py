@@ -55,23 +55,23 @@ def decode(model: Model, direction: Direction | None, data: bytes) -> Decoded:
 def values_of(message: MessageLayout, frame: bytes) -> dict[str, Any]:
     """Read the values of a legal frame, by field."""
     count = message.count_of(frame)
-    numbers = {
-        placed.path: placed.slot.read(placed.of(frame))
+    # In the order of the frame, which is that of the fields.
+    numbers = (
+        placed.slot.read(placed.of(frame))
         for placed in message.lay_out(count)
-        if isinstance(placed.slot, Number)
-    }
+        if isinstance(placed.slot, Number) and placed.slot.is_field
+    )
     values: dict[str, Any] = {}
-    for slot in message.arguments:
+    for slot in message.fields:
         if isinstance(slot, Number):
-            values[slot.name] = numbers[slot.name]
+            values[slot.name] = next(numbers)
         elif slot.element is None:
-            values[slot.name] = [numbers[f"{slot.name}[{index}]"] for index in range(count)]
+            values[slot.name] = [next(numbers) for _ in range(count)]
         else:
             values[slot.name] = [
-                {field.name: numbers[slot.path(index, field)] for field in slot.fields}
-                for index in range(count)
+                {field.name: next(numbers) for field in slot.fields} for _ in range(count)
             ]
-    return values
+    return {argument.name: values[argument.name] for argument in message.arguments}
 
 
 def encode(message: MessageLayout, values: Mapping[str, Any]) -> bytes:

@@ -40,6 +40,16 @@ class Envelope:
         return found
 
     @cached_property
+    def opening(self) -> str:
+        """How a frame begins, in words."""
+        return f"a frame begins {self.header.hex(' ').upper()}"
+
+    @cached_property
+    def shortest(self) -> str:
+        """How small a frame may be, in words."""
+        return f"the shortest frame has {self.least} bytes"
+
+    @cached_property
     def length(self) -> Number:
         """The number that says how long the frame is."""
         return self._only("length")

@@ -9,6 +9,7 @@ kind of part is a role here, a case in the codec, and a case in each target that
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 from typing import TYPE_CHECKING, ClassVar, Literal, TypeAlias
 
 if TYPE_CHECKING:
@@ -61,12 +62,12 @@ class Number:
         """How many bytes it has."""
         return self.wire.size
 
-    @property
+    @cached_property
     def low(self) -> int:
         """The lowest value allowed."""
         return self.wire.low if self.field.range is None else self.field.range.low
 
-    @property
+    @cached_property
     def high(self) -> int:
         """The highest value allowed."""
         declared = self.field.range
@@ -123,7 +124,7 @@ class Items:
     high: int
     field: GroupField | NumberField
 
-    @property
+    @cached_property
     def size(self) -> int:
         """How many bytes an element has."""
         return sum(field.size for field in self.fields)

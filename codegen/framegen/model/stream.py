@@ -88,10 +88,9 @@ class ReferenceDecoder:
                 events.append(Event("message", at, frame, verdict.message))
                 at, reason = at + len(frame), BAD_HEADER
                 continue
-            claim = verdict.claim
-            waits = verdict.undecided or (claim > len(rest) and not self._has_message(rest))
-            if waits and not quiet:
+            if not quiet and self._may_change(rest, verdict):
                 break
+            claim = verdict.claim
             if 0 < claim <= len(rest) and not self._lives(rest[:claim]):
                 events.append(Event("unknown", at, rest[:claim], reason=UNKNOWN_COMMAND))
                 at, reason = at + claim, BAD_HEADER
@@ -101,6 +100,11 @@ class ReferenceDecoder:
             events.append(Event("noise", at, rest[:1], reason=reason))
             at += 1
         return events, at
+
+    def _may_change(self, data: bytes, verdict: Verdict) -> bool:
+        """Tell whether more bytes could change what is to be done with what `data` begins."""
+        unfinished = verdict.claim > len(data)
+        return verdict.undecided or (unfinished and not self._has_message(data))
 
     def _lives(self, claimed: bytes) -> bool:
         """Tell whether a frame begins, or may begin, behind the first of the bytes claimed.

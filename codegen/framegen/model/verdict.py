@@ -7,6 +7,7 @@ gives the reason and the place. Single frames and streams are judged by this alo
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from functools import cached_property, lru_cache
 from itertools import islice
 from typing import TYPE_CHECKING
 
@@ -72,6 +73,8 @@ def weigh(
     Frames larger than `max_frame` bytes are refused by their length. A frame that is legal in
     several directions is the first's; where none has it, the refusal that shows last is given.
     """
+    if data and data[0] != model.frame.header[0]:
+        return _begins_otherwise(model.frame.opening)
     look = _Look(model, directions, data, max_frame)
     try:
         length, candidates = look.head()
@@ -92,6 +95,12 @@ def weigh_whole(model: Model, directions: Sequence[Direction], data: bytes) -> V
     return replace(verdict, message=None, reason=TRAILING_BYTES)
 
 
+@lru_cache
+def _begins_otherwise(opening: str) -> Verdict:
+    """The verdict on most places of a line, made once."""
+    return Verdict(None, BAD_HEADER, 0, opening, (), None)
+
+
 class _Look:
     """One place where a frame may begin, looked at slot by slot."""
 
@@ -110,13 +119,12 @@ class _Look:
         """Read what stands in front of the fields: the length, and which messages can have it."""
         length: int | None = None
         candidates: list[MessageLayout] | None = None
-        shortest = f"the shortest frame has {self.frame.least} bytes"
         for placed in self.frame.placed_head:
             slot = placed.slot
             if isinstance(slot, Constant):
                 self._constant(placed, slot)
             elif isinstance(slot, Number):
-                number = slot.read(self._whole(placed, shortest))
+                number = slot.read(self._whole(placed, self.frame.shortest))
                 if slot.role == "length":
                     length = self._length(number)
                 elif slot.role == "id":
@@ -150,17 +158,19 @@ class _Look:
         return Verdict(message, "", size, due, tuple(seen), message)
 
     def _constant(self, placed: Placed, slot: Constant) -> None:
-        due = f"a frame begins {self.frame.header.hex(' ').upper()}"
-        for at, byte in enumerate(slot.data, placed.at):
-            if at >= len(self.data):
-                raise _Refused(TOO_SHORT, len(self.data), due)
-            if self.data[at] != byte:
-                raise _Refused(BAD_HEADER, at, due)
+        found = placed.of(self.data)
+        if found == slot.data:
+            return
+        for at, (byte, right) in enumerate(zip(found, slot.data, strict=False), placed.at):
+            if byte != right:
+                raise _Refused(BAD_HEADER, at, self.frame.opening)
+        raise _Refused(TOO_SHORT, len(self.data), self.frame.opening)
 
     def _whole(self, placed: Placed, due: str) -> bytes:
-        if placed.end > len(self.data):
+        found = placed.of(self.data)
+        if len(found) < placed.size:
             raise _Refused(TOO_SHORT, len(self.data), due)
-        return placed.of(self.data)
+        return found
 
     def _length(self, length: int) -> int:
         if not self._is_possible(length + self.frame.uncounted):
@@ -170,7 +180,7 @@ class _Look:
     def _is_possible(self, size: int) -> bool:
         return self.frame.least <= size <= self.largest
 
-    @property
+    @cached_property
     def largest(self) -> int:
         """How many bytes a frame may have here."""
         largest = self.model.largest(self.directions)
@@ -218,9 +228,8 @@ class _Look:
         if not isinstance(slot, Number):
             return
         if slot.role == "count" and not slot.write(count).startswith(placed.of(self.data)):
-            value = slot.read(self._whole(placed, due)) if placed.end <= len(self.data) else None
             has = f"a {self.frame.length.name} of {length} makes {slot.name} {count}"
-            shown = "" if value is None else f", not {value}"
+            shown = f", not {slot.read_in(self.data)}" if slot.is_in(self.data) else ""
             raise _Refused(COUNT_MISMATCH, placed.at, f"{has}{shown}")
         value = slot.read(self._whole(placed, due))
         if not slot.low <= value <= slot.high:
