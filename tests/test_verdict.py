@@ -121,7 +121,7 @@ def test_a_frame_larger_than_there_is_room_for_is_refused_by_its_length(
         (SERVO, HOST, "55 55 04 07", None, 0),
         # The id comes first: as long as the length is cut short, it is no less than of any frame.
         (HOUSE, GATEWAY, "C3 5A A5 77", None, 6),
-        (HOUSE, GATEWAY, "C3 5A A5 77 00", None, 6),
+        (HOUSE, GATEWAY, "C3 5A A5 77 FF", None, 6),
         (HOUSE, GATEWAY, "C3 5A A5 77 00 1B", None, 33),
         (HOUSE, GATEWAY, "C3 5A A5 77 00 1C", None, 0),
         (HOUSE, GATEWAY, "C3 5A A5 77 00 1A", 32, 32),
