@@ -6,8 +6,8 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from framegen.cases.unknown_id import unknown_id
-from framegen.model.codec import NotAFrame, decode
 from framegen.model.slots import Constant, Number
+from framegen.model.verdict import weigh_whole
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -39,12 +39,10 @@ def invalid_frames(model: Model) -> Iterator[InvalidFrame]:
                     if data in seen:
                         continue
                     seen.add(data)
-                    try:
-                        decode(model, direction, data)
-                    except NotAFrame as error:
-                        yield InvalidFrame(
-                            f"{message.name}: {title}", direction, data, error.reason, error.offset
-                        )
+                    said = weigh_whole(model, [direction], data)
+                    if said.message is None:
+                        what = f"{message.name}: {title}"
+                        yield InvalidFrame(what, direction, data, said.reason, said.offset)
 
 
 def spoilt(model: Model, message: MessageLayout, frame: bytes) -> Iterator[tuple[str, bytes]]:

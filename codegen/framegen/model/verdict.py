@@ -7,7 +7,7 @@ gives the reason and the place. Single frames and streams are judged by this alo
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from functools import cached_property, lru_cache
+from functools import lru_cache
 from itertools import islice
 from typing import TYPE_CHECKING
 
@@ -111,7 +111,8 @@ class _Look:
         self.frame = model.frame
         self.directions = directions
         self.data = data
-        self.max_frame = max_frame
+        largest = model.largest(directions)
+        self.largest = largest if max_frame is None else min(largest, max_frame)
         self.seen: list[Placed] = []
         self.likely: MessageLayout | None = None
 
@@ -179,12 +180,6 @@ class _Look:
 
     def _is_possible(self, size: int) -> bool:
         return self.frame.least <= size <= self.largest
-
-    @cached_property
-    def largest(self) -> int:
-        """How many bytes a frame may have here."""
-        largest = self.model.largest(self.directions)
-        return largest if self.max_frame is None else min(largest, self.max_frame)
 
     def _messages(self, code: int) -> list[MessageLayout]:
         sent = (self.model.sent(direction).get(code) for direction in self.directions)
