@@ -164,9 +164,8 @@ def _reason(model: Model, difference: Difference, question: Decode | Stream) -> 
     rows = [replace(row, offset=row.offset + at) for row in seen_rows(verdict, rest)]
     if verdict.message is not None:
         return _Reason(rows, None, "")
-    refused_at = at + verdict.offset
-    text = f"{verdict.reason} at byte {refused_at}: {verdict.expected}"
-    return _Reason(rows, refused_at, text)
+    verdict = replace(verdict, offset=at + verdict.offset)
+    return _Reason(rows, verdict.offset, verdict.refusal)
 
 
 def _frame(question: Encode) -> Iterator[str]:

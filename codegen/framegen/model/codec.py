@@ -19,6 +19,7 @@ if TYPE_CHECKING:
     from framegen.model.layout import MessageLayout
     from framegen.model.model import Model
     from framegen.model.slots import Placed
+    from framegen.model.verdict import Verdict
 
 
 @dataclass(frozen=True, slots=True)
@@ -32,11 +33,11 @@ class Decoded:
 class NotAFrame(ValueError):  # noqa: N818 - says what the bytes are
     """Bytes that are no frame: the reason, the offset where it shows, and what was expected."""
 
-    def __init__(self, reason: str, offset: int, expected: str) -> None:
-        super().__init__(f"{reason} at byte {offset}: {expected}")
-        self.reason = reason
-        self.offset = offset
-        self.expected = expected
+    def __init__(self, verdict: Verdict) -> None:
+        super().__init__(verdict.refusal)
+        self.reason = verdict.reason
+        self.offset = verdict.offset
+        self.expected = verdict.expected
 
 
 class Unencodable(ValueError):  # noqa: N818 - says what the values are
@@ -48,7 +49,7 @@ def decode(model: Model, direction: Direction | None, data: bytes) -> Decoded:
     directions = model.directions if direction is None else [direction]
     verdict = weigh_whole(model, directions, data)
     if verdict.message is None:
-        raise NotAFrame(verdict.reason, verdict.offset, verdict.expected)
+        raise NotAFrame(verdict)
     return Decoded(verdict.message, values_of(verdict.message, data))
 
 

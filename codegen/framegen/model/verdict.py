@@ -58,6 +58,11 @@ class Verdict:
         """Whether more bytes could still make a frame of it."""
         return self.reason == TOO_SHORT
 
+    @property
+    def refusal(self) -> str:
+        """Why this is no frame, in a line: `too short at byte 4: a length of 8 makes 10 bytes`."""
+        return f"{self.reason} at byte {self.offset}: {self.expected}"
+
 
 class _Refused(Exception):  # noqa: N818 - says what became of the bytes
     def __init__(self, reason: str, offset: int, expected: str) -> None:
