@@ -208,6 +208,21 @@ def test_what_stands_behind_the_body_counts_from_the_end() -> None:
     )
 
 
+def test_a_number_is_read_where_it_stands() -> None:
+    move, lookalike = SERVO.messages["ServoMove"], SERVO.lookalikes["lx16a"]
+    frame = bytes.fromhex("55 55 08 03 01 E8 03 09 D0 07")
+    read = [slot.read_in(frame) for slot in move.slots if isinstance(slot, Number)]
+    assert read == [8, 3, 1, 1000]
+    *_, checksum = lookalike.slots
+    assert isinstance(checksum, Number)
+    assert checksum.read_in(bytes.fromhex("55 55 01 03 1C DF")) == 0xDF
+    time = move.slots[4]
+    assert isinstance(time, Number)
+    assert [size for size in range(len(frame)) if time.is_in(frame[:size])] == [7, 8, 9]
+    # Where bytes are cut short, nobody knows how far off their end is.
+    assert not checksum.is_in(bytes.fromhex("55 55 01 03 1C DF"))
+
+
 def every_message() -> list[Any]:
     return [
         pytest.param(message, id=f"{house} {name}")
@@ -232,7 +247,8 @@ def test_each_legal_length_has_one_count_and_each_count_one_length(message: Mess
     assert lengths == list(message.lengths)
     assert [message.formula.count_at(length) for length in lengths] == list(message.counts)
     assert message.lengths[-1] <= message.frame.length.high
-    assert message.largest == len(encode(message, _values(message, message.counts[-1])))
+    largest = encode(message, _values(message, message.counts[-1]))
+    assert (message.largest, message.counts[-1]) == (len(largest), message.count_of(largest))
 
 
 def _values(message: MessageLayout, count: int) -> dict[str, Any]:

@@ -42,6 +42,7 @@ from busservo import (
 )
 from busservo.element import Element
 from busservo.number import U8
+from framegen.model import verdict
 from hypothesis import given
 from hypothesis import strategies as st
 
@@ -651,6 +652,15 @@ def test_the_reasons_are_words() -> None:
         "UNKNOWN_COMMAND": "unknown command",
         "OUT_OF_RANGE": "out of range",
     }
+
+
+def test_the_reasons_are_those_of_the_reference() -> None:
+    words = {
+        name: word
+        for name, word in vars(verdict).items()
+        if name.isupper() and isinstance(word, str)
+    }
+    assert {reason.name: reason.value for reason in Reason} == words
 
 
 def test_a_direction_knows_its_ends() -> None:

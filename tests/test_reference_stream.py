@@ -96,6 +96,7 @@ def test_a_line_says(line: ReferenceDecoder, text: str, told: list[tuple[str, st
         (HOST, "5555080301E803", 7),
         # A claim waits for all of its bytes, unless a frame in it is there already.
         (HOST, "5555046301", 5),
+        (HOST, "555504630102", 0),
         (HOST, "55550A635555", 6),
         (HOST, "55550A63" + STOP, 0),
         (HOST, "55550A63" + STOP + "55", 1),

@@ -110,6 +110,30 @@ def test_a_frame_larger_than_there_is_room_for_is_refused_by_its_length(
     assert (verdict.reason, verdict.offset) == (reason, 4 if reason == "too short" else 2)
 
 
+@pytest.mark.parametrize(
+    ("model", "way", "text", "largest", "claim"),
+    [
+        (SERVO, HOST, "55 55 04 63", None, 6),
+        (SERVO, HOST, "55 55 3E 63 55 55", 64, 64),
+        # A length that no frame has, a message, and one with a wrong length: nothing is unknown.
+        (SERVO, HOST, "55 55 3F 63", 64, 0),
+        (SERVO, HOST, "55 55 02 07", None, 0),
+        (SERVO, HOST, "55 55 04 07", None, 0),
+        # The id comes first: as long as the length is cut short, it is no less than of any frame.
+        (HOUSE, GATEWAY, "C3 5A A5 77", None, 6),
+        (HOUSE, GATEWAY, "C3 5A A5 77 FF", None, 6),
+        (HOUSE, GATEWAY, "C3 5A A5 77 00 1B", None, 33),
+        (HOUSE, GATEWAY, "C3 5A A5 77 00 1C", None, 0),
+        (HOUSE, GATEWAY, "C3 5A A5 77 00 1A", 32, 32),
+        (HOUSE, GATEWAY, "C3 5A A5 77 00 1B", 32, 0),
+    ],
+)
+def test_a_frame_of_unknown_id_claims_what_its_length_says(
+    model: Model, way: Direction, text: str, largest: int | None, claim: int
+) -> None:
+    assert weigh(model, [way], bytes.fromhex(text), largest).claim == claim
+
+
 @given(st.sampled_from([(SERVO, HOST), (SERVO, CONTROLLER), (HOUSE, GATEWAY)]), st.data())
 def test_a_verdict_stands_whatever_comes_behind(
     where: tuple[Model, Direction], data: st.DataObject

@@ -8,10 +8,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from framegen.model.codec import NotAFrame, decode
 from framegen.model.lookalikes import recognise
 from framegen.model.slots import Number
-from framegen.model.verdict import UNKNOWN_COMMAND, weigh
+from framegen.model.verdict import UNKNOWN_COMMAND, weigh_whole
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
@@ -100,13 +99,11 @@ def explain(model: Model, data: bytes, directions: Sequence[Direction]) -> Expla
 
 
 def _outcome(model: Model, data: bytes, direction: Direction) -> Reading | Refusal:
-    verdict = weigh(model, [direction], data)
-    rows = seen_rows(verdict, data)
-    try:
-        message = decode(model, direction, data).layout
-    except NotAFrame as error:
-        right = tuple(row for row in rows if row.end <= error.offset)
-        return Refusal(direction, error.reason, error.offset, error.expected, right)
+    verdict = weigh_whole(model, [direction], data)
+    message, rows = verdict.message, seen_rows(verdict, data)
+    if message is None:
+        right = tuple(row for row in rows if row.end <= verdict.offset)
+        return Refusal(direction, verdict.reason, verdict.offset, verdict.expected, right)
     facts = tuple(_facts(model, message, data))
     return Reading(message.name, direction, message.message.summary, rows, facts)
 
@@ -197,7 +194,7 @@ def _command_hints(model: Model, data: bytes, refusals: Sequence[Refusal]) -> It
     unknown = [refusal for refusal in refusals if refusal.reason == UNKNOWN_COMMAND]
     if not unknown:
         return
-    code = _number(model.frame.id, data)
+    code = model.frame.id.read_in(data)
     for lookalike in spec.lookalikes.values():
         if lookalike.frame is None and code in lookalike.commands:
             yield Hint(f"in {_the(lookalike.title)}, {code} {lookalike.commands[code]}")
@@ -248,24 +245,13 @@ def _frames_within(model: Model, data: bytes) -> Iterator[Hint]:
 
 def _claimed_size(model: Model, data: bytes, at: int) -> int:
     """Tell how many bytes a frame that begins at `at` says that it has."""
-    return model.frame.uncounted + _number(model.frame.length, data[at:])
-
-
-def _number(number: Number, data: bytes) -> int:
-    return number.read(data[number.at : number.at + number.size])
+    return model.frame.uncounted + model.frame.length.read_in(data[at:])
 
 
 def _names(model: Model, directions: Sequence[Direction], data: bytes) -> str:
     """Name the messages that `data` is, one a direction at most; nothing where it is none."""
     return " or ".join(
-        f"{name} ({direction})"
+        f"{message.name} ({direction})"
         for direction in directions
-        if (name := _name(model, direction, data)) is not None
+        if (message := weigh_whole(model, [direction], data).message) is not None
     )
-
-
-def _name(model: Model, direction: Direction, data: bytes) -> str | None:
-    try:
-        return decode(model, direction, data).layout.name
-    except NotAFrame:
-        return None

@@ -6,8 +6,8 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from framegen.cases.unknown_id import unknown_id
-from framegen.model.codec import NotAFrame, decode
 from framegen.model.slots import Constant, Number
+from framegen.model.verdict import weigh_whole
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -39,12 +39,10 @@ def invalid_frames(model: Model) -> Iterator[InvalidFrame]:
                     if data in seen:
                         continue
                     seen.add(data)
-                    try:
-                        decode(model, direction, data)
-                    except NotAFrame as error:
-                        yield InvalidFrame(
-                            f"{message.name}: {title}", direction, data, error.reason, error.offset
-                        )
+                    said = weigh_whole(model, [direction], data)
+                    if said.message is None:
+                        what = f"{message.name}: {title}"
+                        yield InvalidFrame(what, direction, data, said.reason, said.offset)
 
 
 def spoilt(model: Model, message: MessageLayout, frame: bytes) -> Iterator[tuple[str, bytes]]:
@@ -63,10 +61,8 @@ def spoilt(model: Model, message: MessageLayout, frame: bytes) -> Iterator[tuple
 
 def slots_once(message: MessageLayout, frame: bytes) -> Iterator[Placed]:
     """Where the slots of a legal frame stand; of a list, those of its first element."""
-    length = message.frame.length
-    count = message.count_at(length.read(frame[length.at : length.at + length.size]))
     seen: set[int] = set()
-    for placed in message.lay_out(count):
+    for placed in message.lay_out(message.count_of(frame)):
         if id(placed.slot) not in seen:
             seen.add(id(placed.slot))
             yield placed

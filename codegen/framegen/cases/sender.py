@@ -56,8 +56,12 @@ class Sender:
 
     def noise(self, size: int) -> bytes:
         """Bytes of which none can be of a header."""
-        calm = [byte for byte in _NOISE if byte not in self.header]
+        calm = self._calm
         return bytes(calm[:1] and [calm[at % len(calm)] for at in range(size)])
+
+    @cached_property
+    def _calm(self) -> list[int]:
+        return [byte for byte in _NOISE if byte not in self.header]
 
     def enveloped(self, code: int, body: bytes, size: int | None = None) -> bytes | None:
         """A frame of any id; its length says `size` instead of the truth. None where none can."""

@@ -53,11 +53,9 @@ def _other_order(model: Model, message: MessageLayout, example: Example) -> str:
         frame = encode(message, example.values)
     except Unencodable:
         return ""
-    items = message.items
-    count = 0 if items is None else len(example.values[items.name])
     swapped = b"".join(
         placed.of(frame)[::-1] if isinstance(placed.slot, Number) else placed.of(frame)
-        for placed in message.lay_out(count)
+        for placed in message.lay_out(message.count_of(frame))
     )
     if swapped != example.hex:
         return ""

@@ -19,9 +19,10 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, ClassVar, TypeAlias
 
-from framegen.model.codec import NotAFrame, Unencodable, decode, encode, values_of
+from framegen.model.codec import Unencodable, encode, values_of
 from framegen.model.slots import Items, Number
 from framegen.model.stream import ReferenceDecoder
+from framegen.model.verdict import weigh_whole
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator, Mapping
@@ -104,11 +105,10 @@ def answer(model: Model, question: Question) -> list[str]:
 
 
 def _decoded(model: Model, question: Decode) -> str:
-    try:
-        message = decode(model, question.way, question.data).layout
-    except NotAFrame as error:
-        return f"refused {dashed(error.reason)} {error.offset}"
-    return _message(message, question.data)
+    verdict = weigh_whole(model, [question.way], question.data)
+    if verdict.message is None:
+        return f"refused {dashed(verdict.reason)} {verdict.offset}"
+    return _message(verdict.message, question.data)
 
 
 def _streamed(model: Model, question: Stream) -> Iterator[str]:

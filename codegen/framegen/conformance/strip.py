@@ -11,7 +11,7 @@ from framegen.conformance.language import HEX_AT, Decode, Encode, Stream
 from framegen.explain import seen_rows
 from framegen.explain_text import table
 from framegen.model.codec import Unencodable, encode
-from framegen.model.verdict import TRAILING_BYTES, weigh
+from framegen.model.verdict import weigh, weigh_whole
 from framegen.wording import counted
 
 if TYPE_CHECKING:
@@ -149,25 +149,23 @@ class _Reason:
 
 def _reason(model: Model, difference: Difference, question: Decode | Stream) -> _Reason | None:
     """Take apart what begins where the answers part; None where nothing does."""
-    at, most, rest = 0, None, b""
+    at = 0
     if isinstance(question, Decode):
         rest = question.data
+        verdict = weigh_whole(model, [question.way], rest)
     elif difference.at < len(difference.expected):
-        at, most = _parting(difference), question.max_frame
+        at = _parting(difference)
         rest = _rest(question.parts, at)
         if not rest:
             return None
+        verdict = weigh(model, [question.way], rest, question.max_frame)
     else:
         return None
-    verdict = weigh(model, [question.way], rest, most)
     rows = [replace(row, offset=row.offset + at) for row in seen_rows(verdict, rest)]
-    reason, refused_at = verdict.reason, verdict.offset
     if verdict.message is not None:
-        if isinstance(question, Stream) or refused_at == len(rest):
-            return _Reason(rows, None, "")
-        reason = TRAILING_BYTES
-    text = f"{reason} at byte {at + refused_at}: {verdict.expected}"
-    return _Reason(rows, at + refused_at, text)
+        return _Reason(rows, None, "")
+    verdict = replace(verdict, offset=at + verdict.offset)
+    return _Reason(rows, verdict.offset, verdict.refusal)
 
 
 def _frame(question: Encode) -> Iterator[str]:

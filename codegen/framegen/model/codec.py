@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 from framegen.model.slots import Body, Constant, Items, Number
-from framegen.model.verdict import TRAILING_BYTES, weigh
+from framegen.model.verdict import weigh_whole
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -19,6 +19,7 @@ if TYPE_CHECKING:
     from framegen.model.layout import MessageLayout
     from framegen.model.model import Model
     from framegen.model.slots import Placed
+    from framegen.model.verdict import Verdict
 
 
 @dataclass(frozen=True, slots=True)
@@ -32,11 +33,11 @@ class Decoded:
 class NotAFrame(ValueError):  # noqa: N818 - says what the bytes are
     """Bytes that are no frame: the reason, the offset where it shows, and what was expected."""
 
-    def __init__(self, reason: str, offset: int, expected: str) -> None:
-        super().__init__(f"{reason} at byte {offset}: {expected}")
-        self.reason = reason
-        self.offset = offset
-        self.expected = expected
+    def __init__(self, verdict: Verdict) -> None:
+        super().__init__(verdict.refusal)
+        self.reason = verdict.reason
+        self.offset = verdict.offset
+        self.expected = verdict.expected
 
 
 class Unencodable(ValueError):  # noqa: N818 - says what the values are
@@ -45,35 +46,33 @@ class Unencodable(ValueError):  # noqa: N818 - says what the values are
 
 def decode(model: Model, direction: Direction | None, data: bytes) -> Decoded:
     """Understand exactly one frame; with no direction, of whichever it is. Raises NotAFrame."""
-    verdict = weigh(model, model.directions if direction is None else [direction], data)
+    directions = model.directions if direction is None else [direction]
+    verdict = weigh_whole(model, directions, data)
     if verdict.message is None:
-        raise NotAFrame(verdict.reason, verdict.offset, verdict.expected)
-    if verdict.offset < len(data):
-        raise NotAFrame(TRAILING_BYTES, verdict.offset, verdict.expected)
+        raise NotAFrame(verdict)
     return Decoded(verdict.message, values_of(verdict.message, data))
 
 
 def values_of(message: MessageLayout, frame: bytes) -> dict[str, Any]:
     """Read the values of a legal frame, by field."""
-    length = message.frame.length
-    count = message.count_at(length.read(frame[length.at : length.at + length.size]))
-    numbers = {
-        placed.path: placed.slot.read(placed.of(frame))
+    count = message.count_of(frame)
+    # In the order of the frame, which is that of the fields.
+    numbers = (
+        placed.slot.read(placed.of(frame))
         for placed in message.lay_out(count)
-        if isinstance(placed.slot, Number)
-    }
+        if isinstance(placed.slot, Number) and placed.slot.is_field
+    )
     values: dict[str, Any] = {}
-    for slot in message.arguments:
+    for slot in message.fields:
         if isinstance(slot, Number):
-            values[slot.name] = numbers[slot.name]
+            values[slot.name] = next(numbers)
         elif slot.element is None:
-            values[slot.name] = [numbers[f"{slot.name}[{index}]"] for index in range(count)]
+            values[slot.name] = [next(numbers) for _ in range(count)]
         else:
             values[slot.name] = [
-                {field.name: numbers[slot.path(index, field)] for field in slot.fields}
-                for index in range(count)
+                {field.name: next(numbers) for field in slot.fields} for _ in range(count)
             ]
-    return values
+    return {argument.name: values[argument.name] for argument in message.arguments}
 
 
 def encode(message: MessageLayout, values: Mapping[str, Any]) -> bytes:

@@ -14,13 +14,13 @@ from framegen.language.spec import (
     NumberField,
 )
 from framegen.language.wiretypes import WIRE_TYPES
-from framegen.model.slots import Body, Constant, Number, lay_out
+from framegen.model.slots import Body, Constant, Number, Placed, lay_out
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
 
     from framegen.language.spec import AddressPart, FramePart, IdPart
-    from framegen.model.slots import ByteOrder, Placed
+    from framegen.model.slots import ByteOrder
 
 
 @dataclass(frozen=True)
@@ -38,6 +38,16 @@ class Envelope:
                 break
             found += slot.data
         return found
+
+    @cached_property
+    def opening(self) -> str:
+        """How a frame begins, in words."""
+        return f"a frame begins {self.header.hex(' ').upper()}"
+
+    @cached_property
+    def shortest(self) -> str:
+        """How small a frame may be, in words."""
+        return f"the shortest frame has {self.least} bytes"
 
     @cached_property
     def length(self) -> Number:
@@ -68,7 +78,7 @@ class Envelope:
     @cached_property
     def placed_head(self) -> tuple[Placed, ...]:
         """The same, each in its place, which is the same in every frame."""
-        return tuple(placed for placed in self.lay_out(self.least) if placed.slot in self.head)
+        return tuple(Placed(slot.name, slot.at, slot.size, slot) for slot in self.head)
 
     @cached_property
     def tail(self) -> tuple[Constant | Number, ...]:

@@ -96,8 +96,7 @@ def _of_example(model: Model, message: MessageLayout, number: int, field: str | 
     if field in values:
         return Fact(values[field])
     if field == "length":
-        length = message.frame.length
-        return Fact(length.read(data[length.at : length.at + length.size]))
+        return Fact(message.frame.length.read_in(data))
     raise NoSuchFact(
         "field",
         f"the examples of {message.name} give no field `{field}`",

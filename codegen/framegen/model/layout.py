@@ -17,12 +17,15 @@ from framegen.language.wiretypes import WIRE_TYPES
 from framegen.model.slots import Body, Constant, Items, Number, lay_out
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Iterable, Iterator
 
     from framegen.language.spec import Limits, Link, Message, NumberField, Spec
     from framegen.language.values import Direction
     from framegen.model.envelope import Envelope
     from framegen.model.slots import MessageSlot, NumberRole, Placed
+
+# What stands where is not remembered of frames with more elements: they would fill the memory.
+_KEPT = 0x100
 
 
 @dataclass(frozen=True)
@@ -59,7 +62,7 @@ class MessageLayout:
         """Its list, where it has one."""
         return next((slot for slot in self.slots if isinstance(slot, Items)), None)
 
-    @property
+    @cached_property
     def arguments(self) -> tuple[Number | Items, ...]:
         """What a user gives: every field but the count."""
         return tuple(slot for slot in self.fields if isinstance(slot, Items) or slot.given)
@@ -116,14 +119,27 @@ class MessageLayout:
         """How many elements a frame of this legal length has. Raises ValueError for no such one."""
         return self.counts[self.lengths.index(length)]
 
+    def count_of(self, frame: bytes) -> int:
+        """How many elements a legal frame has."""
+        return self.count_at(self.frame.length.read_in(frame))
+
     @property
     def largest(self) -> int:
         """Bytes of the largest legal frame."""
         return self.size_at(self.counts[-1])
 
-    def lay_out(self, count: int) -> Iterator[Placed]:
+    def lay_out(self, count: int) -> Iterable[Placed]:
         """Say what stands where in a frame with `count` elements, from its first byte on."""
-        return lay_out(self.slots, self.size_at(count), count)
+        if count > _KEPT:
+            return lay_out(self.slots, self.size_at(count), count)
+        if count not in self._laid_out:
+            self._laid_out[count] = tuple(lay_out(self.slots, self.size_at(count), count))
+        return self._laid_out[count]
+
+    @cached_property
+    def _laid_out(self) -> dict[int, tuple[Placed, ...]]:
+        """By count, what is asked for again and again: made once."""
+        return {}
 
     def wire_seconds(self, size: int) -> float:
         """How long `size` bytes are on the line."""

@@ -9,6 +9,7 @@ kind of part is a role here, a case in the codec, and a case in each target that
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 from typing import TYPE_CHECKING, ClassVar, Literal, TypeAlias
 
 if TYPE_CHECKING:
@@ -61,12 +62,12 @@ class Number:
         """How many bytes it has."""
         return self.wire.size
 
-    @property
+    @cached_property
     def low(self) -> int:
         """The lowest value allowed."""
         return self.wire.low if self.field.range is None else self.field.range.low
 
-    @property
+    @cached_property
     def high(self) -> int:
         """The highest value allowed."""
         declared = self.field.range
@@ -91,6 +92,15 @@ class Number:
         """Read it from its bytes."""
         return int.from_bytes(data, self.order, signed=self.wire.low < 0)
 
+    def read_in(self, frame: bytes) -> int:
+        """Read it where it stands in `frame`, which has all of it."""
+        at = _from_front(self.at, len(frame))
+        return self.read(frame[at : at + self.size])
+
+    def is_in(self, data: bytes) -> bool:
+        """Whether all of it is there, in the beginning of a frame; never of what counts back."""
+        return 0 <= self.at <= len(data) - self.size
+
     def write(self, value: int) -> bytes:
         """Make the bytes that stand for `value`. OverflowError where they do not hold it."""
         return value.to_bytes(self.size, self.order, signed=self.wire.low < 0)
@@ -114,7 +124,7 @@ class Items:
     high: int
     field: GroupField | NumberField
 
-    @property
+    @cached_property
     def size(self) -> int:
         """How many bytes an element has."""
         return sum(field.size for field in self.fields)
@@ -164,7 +174,7 @@ def lay_out(slots: Iterable[Slot], size: int, count: int = 0) -> Iterator[Placed
     """Say what stands where in a frame of `size` bytes with `count` elements, in its order."""
     slots = list(slots)
     for slot in slots:
-        at = slot.at if slot.at >= 0 else size + slot.at
+        at = _from_front(slot.at, size)
         match slot:
             case Items():
                 for index in range(count):
@@ -177,3 +187,8 @@ def lay_out(slots: Iterable[Slot], size: int, count: int = 0) -> Iterator[Placed
                 yield Placed(slot.name, at, size - fixed, slot)
             case _:
                 yield Placed(slot.name, at, slot.size, slot)
+
+
+def _from_front(at: int, size: int) -> int:
+    """Turn a place that may count from the end of a frame into one that counts from its front."""
+    return at if at >= 0 else size + at

@@ -88,10 +88,9 @@ class ReferenceDecoder:
                 events.append(Event("message", at, frame, verdict.message))
                 at, reason = at + len(frame), BAD_HEADER
                 continue
-            claim = self._claim(rest, verdict)
-            waits = verdict.undecided or (claim > len(rest) and not self._has_message(rest))
-            if waits and not quiet:
+            if not quiet and self._may_change(rest, verdict):
                 break
+            claim = verdict.claim
             if 0 < claim <= len(rest) and not self._lives(rest[:claim]):
                 events.append(Event("unknown", at, rest[:claim], reason=UNKNOWN_COMMAND))
                 at, reason = at + claim, BAD_HEADER
@@ -102,20 +101,10 @@ class ReferenceDecoder:
             at += 1
         return events, at
 
-    def _claim(self, data: bytes, verdict: Verdict) -> int:
-        """Tell how many bytes a frame of unknown id claims, at the least; 0 where there is none.
-
-        Its length is possible, and no more can be said for it: nothing proves it.
-        """
-        frame = self.model.frame
-        if verdict.reason != UNKNOWN_COMMAND or len(data) < frame.body_at:
-            return frame.least if verdict.reason == UNKNOWN_COMMAND else 0
-        length = frame.length
-        size = length.read(data[length.at : length.at + length.size]) + frame.uncounted
-        largest = self.model.largest(self.directions)
-        if self.max_frame is not None:
-            largest = min(largest, self.max_frame)
-        return size if frame.least <= size <= largest else 0
+    def _may_change(self, data: bytes, verdict: Verdict) -> bool:
+        """Tell whether more bytes could change what is to be done with what `data` begins."""
+        unfinished = verdict.claim > len(data)
+        return verdict.undecided or (unfinished and not self._has_message(data))
 
     def _lives(self, claimed: bytes) -> bool:
         """Tell whether a frame begins, or may begin, behind the first of the bytes claimed.

@@ -6,7 +6,8 @@ gives the reason and the place. Single frames and streams are judged by this alo
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from functools import lru_cache
 from itertools import islice
 from typing import TYPE_CHECKING
 
@@ -39,6 +40,9 @@ class Verdict:
     `offset` say where it shows that this is no frame: `too short` is what may become one.
     `expected` says what was due. `seen` are the slots that agreed up to there, and `likely` is the
     message that they began, once that is known.
+
+    Of a frame of unknown id, `claim` is how many bytes it says that it has, which nothing proves;
+    the least that a frame has, as long as its head is cut short; 0 where no frame has as many.
     """
 
     message: MessageLayout | None
@@ -47,11 +51,17 @@ class Verdict:
     expected: str
     seen: tuple[Placed, ...]
     likely: MessageLayout | None
+    claim: int = 0
 
     @property
     def undecided(self) -> bool:
         """Whether more bytes could still make a frame of it."""
         return self.reason == TOO_SHORT
+
+    @property
+    def refusal(self) -> str:
+        """Why this is no frame, in a line: `too short at byte 4: a length of 8 makes 10 bytes`."""
+        return f"{self.reason} at byte {self.offset}: {self.expected}"
 
 
 class _Refused(Exception):  # noqa: N818 - says what became of the bytes
@@ -68,15 +78,32 @@ def weigh(
     Frames larger than `max_frame` bytes are refused by their length. A frame that is legal in
     several directions is the first's; where none has it, the refusal that shows last is given.
     """
+    if data and data[0] != model.frame.header[0]:
+        return _begins_otherwise(model.frame.opening)
     look = _Look(model, directions, data, max_frame)
     try:
         length, candidates = look.head()
     except _Refused as refused:
-        return Verdict(None, *refused.verdict, tuple(look.seen), look.likely)
+        claim = look.claim() if refused.verdict[0] == UNKNOWN_COMMAND else 0
+        return Verdict(None, *refused.verdict, tuple(look.seen), look.likely, claim)
     verdicts = [look.fields(message, length) for message in candidates]
     legal = (verdict for verdict in verdicts if verdict.message is not None)
     # Of equals, `max` gives the first.
     return next(legal, None) or max(verdicts, key=lambda verdict: verdict.offset)
+
+
+def weigh_whole(model: Model, directions: Sequence[Direction], data: bytes) -> Verdict:
+    """Judge `data` as exactly one frame: what comes behind one is refused, too."""
+    verdict = weigh(model, directions, data)
+    if verdict.message is None or verdict.offset == len(data):
+        return verdict
+    return replace(verdict, message=None, reason=TRAILING_BYTES)
+
+
+@lru_cache
+def _begins_otherwise(opening: str) -> Verdict:
+    """The verdict on most places of a line, made once."""
+    return Verdict(None, BAD_HEADER, 0, opening, (), None)
 
 
 class _Look:
@@ -89,7 +116,8 @@ class _Look:
         self.frame = model.frame
         self.directions = directions
         self.data = data
-        self.max_frame = max_frame
+        largest = model.largest(directions)
+        self.largest = largest if max_frame is None else min(largest, max_frame)
         self.seen: list[Placed] = []
         self.likely: MessageLayout | None = None
 
@@ -97,13 +125,12 @@ class _Look:
         """Read what stands in front of the fields: the length, and which messages can have it."""
         length: int | None = None
         candidates: list[MessageLayout] | None = None
-        shortest = f"the shortest frame has {self.frame.least} bytes"
         for placed in self.frame.placed_head:
             slot = placed.slot
             if isinstance(slot, Constant):
                 self._constant(placed, slot)
             elif isinstance(slot, Number):
-                number = slot.read(self._whole(placed, shortest))
+                number = slot.read(self._whole(placed, self.frame.shortest))
                 if slot.role == "length":
                     length = self._length(number)
                 elif slot.role == "id":
@@ -114,6 +141,13 @@ class _Look:
         if length is None or candidates is None:
             raise AssertionError("the rule frame-parts sees to both")
         return length, candidates
+
+    def claim(self) -> int:
+        """Tell how many bytes a frame of unknown id says that it has; 0 where no frame has them."""
+        if len(self.data) < self.frame.body_at:
+            return self.frame.least
+        size = self.frame.length.read_in(self.data) + self.frame.uncounted
+        return size if self._is_possible(size) else 0
 
     def fields(self, message: MessageLayout, length: int) -> Verdict:
         """Judge what follows the head as the fields of one message."""
@@ -130,29 +164,27 @@ class _Look:
         return Verdict(message, "", size, due, tuple(seen), message)
 
     def _constant(self, placed: Placed, slot: Constant) -> None:
-        due = f"a frame begins {self.frame.header.hex(' ').upper()}"
-        for at, byte in enumerate(slot.data, placed.at):
-            if at >= len(self.data):
-                raise _Refused(TOO_SHORT, len(self.data), due)
-            if self.data[at] != byte:
-                raise _Refused(BAD_HEADER, at, due)
+        found = placed.of(self.data)
+        if found == slot.data:
+            return
+        for at, (byte, right) in enumerate(zip(found, slot.data, strict=False), placed.at):
+            if byte != right:
+                raise _Refused(BAD_HEADER, at, self.frame.opening)
+        raise _Refused(TOO_SHORT, len(self.data), self.frame.opening)
 
     def _whole(self, placed: Placed, due: str) -> bytes:
-        if placed.end > len(self.data):
+        found = placed.of(self.data)
+        if len(found) < placed.size:
             raise _Refused(TOO_SHORT, len(self.data), due)
-        return placed.of(self.data)
+        return found
 
     def _length(self, length: int) -> int:
-        size = length + self.frame.uncounted
-        if not self.frame.least <= size <= self.largest:
+        if not self._is_possible(length + self.frame.uncounted):
             raise self._mismatch(length, self._named())
         return length
 
-    @property
-    def largest(self) -> int:
-        """How many bytes a frame may have here."""
-        largest = self.model.largest(self.directions)
-        return largest if self.max_frame is None else min(largest, self.max_frame)
+    def _is_possible(self, size: int) -> bool:
+        return self.frame.least <= size <= self.largest
 
     def _messages(self, code: int) -> list[MessageLayout]:
         sent = (self.model.sent(direction).get(code) for direction in self.directions)
@@ -161,8 +193,7 @@ class _Look:
     def _named(self) -> list[MessageLayout]:
         """The messages that have the id of these bytes, whatever stands in front of it."""
         place = self.frame.id
-        code = self.data[place.at : place.at + place.size]
-        return self._messages(place.read(code)) if len(code) == place.size else []
+        return self._messages(place.read_in(self.data)) if place.is_in(self.data) else []
 
     def _mismatch(self, length: int, messages: list[MessageLayout]) -> _Refused:
         name = self.frame.length.name
@@ -197,9 +228,8 @@ class _Look:
         if not isinstance(slot, Number):
             return
         if slot.role == "count" and not slot.write(count).startswith(placed.of(self.data)):
-            value = slot.read(self._whole(placed, due)) if placed.end <= len(self.data) else None
             has = f"a {self.frame.length.name} of {length} makes {slot.name} {count}"
-            shown = "" if value is None else f", not {value}"
+            shown = f", not {slot.read_in(self.data)}" if slot.is_in(self.data) else ""
             raise _Refused(COUNT_MISMATCH, placed.at, f"{has}{shown}")
         value = slot.read(self._whole(placed, due))
         if not slot.low <= value <= slot.high:

@@ -189,8 +189,7 @@ class _Judge:
             at = each.event.data.find(header)
             if at >= 0 and each.event.kind == "noise":
                 data = each.event.data[at:]
-                verdict = weigh(self.model, [self.model.roles.received], data)
-                return f"{verdict.reason} at byte {verdict.offset}: {verdict.expected}"
+                return weigh(self.model, [self.model.roles.received], data).refusal
         return ""
 
     def _fault(self, kind: FaultKind, text: str) -> None:

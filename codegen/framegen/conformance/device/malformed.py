@@ -100,9 +100,7 @@ def _unknown(permission: Permission, request: Request) -> Iterator[bytes]:
 
 
 def _numbers(request: Request) -> Iterator[tuple[Placed, Number]]:
-    items = request.message.items
-    count = 0 if items is None else len(request.values[items.name])
-    for placed in request.message.lay_out(count):
+    for placed in request.message.lay_out(request.message.count_of(request.frame)):
         if isinstance(placed.slot, Number):
             yield placed, placed.slot
 

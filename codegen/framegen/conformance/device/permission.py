@@ -93,9 +93,8 @@ class Permission:
 
     def _id(self, data: bytes, at: int) -> int:
         """The id of what begins at `at`; -1 where there is none yet."""
-        place = self.model.frame.id
-        code = data[at + place.at : at + place.at + place.size]
-        return place.read(code) if len(code) == place.size else -1
+        place, begun = self.model.frame.id, data[at : at + self.model.frame.body_at]
+        return place.read_in(begun) if place.is_in(begun) else -1
 
     @cached_property
     def _ways(self) -> list[Direction]:

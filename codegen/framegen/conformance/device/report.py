@@ -158,8 +158,7 @@ def _event(model: Model, received: Received) -> str:
         return " ".join([event.message.name, *fields(event.message, values)])
     if event.kind == "unknown":
         return "a frame of unknown id"
-    verdict = weigh(model, [model.roles.received], event.data)
-    return f"noise, {verdict.reason} at byte {verdict.offset}: {verdict.expected}"
+    return f"noise, {weigh(model, [model.roles.received], event.data).refusal}"
 
 
 def _bytes(data: bytes) -> str:

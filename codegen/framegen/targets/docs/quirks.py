@@ -7,15 +7,16 @@ from typing import TYPE_CHECKING, Any
 
 from framegen.language.formula import Formula
 from framegen.language.values import to_hex
-from framegen.model.codec import NotAFrame, decode
 from framegen.model.lookalikes import recognise
 from framegen.model.slots import Constant
+from framegen.model.verdict import weigh_whole
 from framegen.targets.docs.cite import CiteView, Place, cite_view
 from framegen.targets.docs.escape import paragraphs
 from framegen.targets.docs.strip import Cell, given_strip, parts_strip
 
 if TYPE_CHECKING:
     from framegen.language.spec import Concern, Lookalike
+    from framegen.language.values import Direction
     from framegen.model.model import Model
     from framegen.model.slots import Number
 
@@ -150,11 +151,11 @@ def _foreign(model: Model, title: str, data: bytes) -> ForeignFrame:
     return ForeignFrame(title, to_hex(data), query, cells, verdicts)
 
 
-def _verdict(model: Model, way: Any, data: bytes) -> str:
-    try:
-        return f"{way.sender} to {way.receiver}: {decode(model, way, data).layout.name}"
-    except NotAFrame as error:
-        return f"{way.sender} to {way.receiver}: no frame, {error}"
+def _verdict(model: Model, way: Direction, data: bytes) -> str:
+    verdict = weigh_whole(model, [way], data)
+    refused = f"no frame, {verdict.refusal}"
+    said = refused if verdict.message is None else verdict.message.name
+    return f"{way.sender} to {way.receiver}: {said}"
 
 
 def _codes(model: Model, other: Lookalike) -> list[ForeignCode]:

@@ -167,7 +167,7 @@ def _refusal(model: Model, verdict: Verdict, data: bytes, at: int) -> tuple[byte
     if verdict.reason == COUNT_MISMATCH and message.items is not None:
         counter = message.items.counter
         count = rest[: counter.size]
-        number = frame.length.read(data[frame.length.at : frame.length.at + frame.length.size])
+        number = frame.length.read_in(data)
         due = f"with a {frame.length.name} of {number} it is {message.count_at(number)}"
         return count, f"{counter.name} {counter.read(count)}: {due}"
     return b"", verdict.expected

@@ -1,4 +1,4 @@
-"""Lines of text for what comes and goes on a line: time, who, bytes, and what they mean."""
+"""Lines of text for what comes and goes on a line: time, who, what it says, and its bytes."""
 
 from __future__ import annotations
 

@@ -37,7 +37,7 @@ if TYPE_CHECKING:
 
 ENDS = link.ENDS
 ABOUT = """\
-One line for each frame and each piece of noise: the time, who sent it, its bytes, what they mean.
+One line for each frame and each piece of noise: the time, who sent it, what it says, its bytes.
 Ctrl-C ends it, and the totals follow on the error stream. Colours are for terminals alone, and for
 nobody who has set NO_COLOR."""
 # How long to read in one piece, so that Ctrl-C is noticed on every system.
