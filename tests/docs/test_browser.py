@@ -11,10 +11,11 @@ import pytest
 from framegen.cli import main
 from framegen.language.values import Scale
 
-from tests.docs.peers import joined, noisy_lines, reference_events, vectors_of
+from tests.docs.peers import joined, noisy_lines, reference_events
 from tests.docs.reference import NODE_MODULES, SPECS, reference
 from tests.docs.test_hostile_pages import PAYLOADS, hostile
 from tests.patience import PATIENCE
+from tests.specimens import vectors_of
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
