@@ -215,6 +215,7 @@ def doctests(text: str) -> list[str]:
     ]
 
 
+@cache
 def imports(text: str) -> list[str]:
     found = (ast.Import, ast.ImportFrom)
     return [
@@ -606,7 +607,7 @@ def _works(data: Data, folder: Path) -> None:
                 name: [tuple(item.values()) if isinstance(item, dict) else item for item in value]
                 if isinstance(value, list)
                 else value
-                for name, value in names.values(written, valid.values).items()
+                for name, value in names.values(written, dict(valid.values)).items()
             }
             assert type(message)(**given_).encode() == frame
             assert {name: _plain(getattr(message, name)) for name in given_} == given_
