@@ -1,6 +1,7 @@
 """Specs as data that tests can change, and the files and libraries that follow from them."""
 
 import importlib
+import json
 import re
 import sys
 from collections.abc import Callable, Iterator
@@ -14,7 +15,7 @@ from framegen.language.load import read_source
 from framegen.model.model import Model
 from framegen.reading.source import Source
 from framegen.reading.yamltree import Unusable, read_tree
-from framegen.render import render
+from framegen.render import render_target
 from framegen.targets import python, vectors
 
 ROOT = Path(__file__).parent.parent
@@ -78,10 +79,18 @@ def layout_of(data: Data) -> Model:
 
 
 def files_of(data: Data, name: str = "made_up.yaml") -> dict[str, str]:
-    """The library and the vectors of a spec without findings; its schema says nothing of it."""
+    """The library of a spec without findings."""
     compiled = compiled_of(data, name)
     assert [finding.message for finding in compiled.findings] == []
-    return render(compiled, [python.TARGET, vectors.TARGET]).files
+    return render_target(python.TARGET, compiled)
+
+
+def vectors_of(compiled: Compiled) -> dict[str, Any]:
+    """The test vectors of a protocol, as they are published."""
+    (text,) = render_target(vectors.TARGET, compiled).values()
+    assert text.isascii()
+    document: dict[str, Any] = json.loads(text)
+    return document
 
 
 def leaves(value: Any, path: Steps = ()) -> Iterator[tuple[Steps, str]]:

@@ -2,6 +2,7 @@
 
 import ast
 import re
+from functools import cache
 from pathlib import Path
 
 import pytest
@@ -96,10 +97,15 @@ def test_a_template_is_tidy(template: Path) -> None:
     assert text.startswith(('"""', "{{ library.doc | docstring"))
 
 
+@cache
+def emitted_for(spec: Path) -> dict[str, str]:
+    return files_of(data_of(spec))
+
+
 @pytest.mark.parametrize("runtime", RUNTIME, ids=named)
 @pytest.mark.parametrize("spec", [BUSSERVO, DEMO], ids=["busservo", "greenhouse"])
 def test_the_runtime_is_emitted_as_it_is(runtime: Path, spec: Path) -> None:
-    files = files_of(data_of(spec))
+    files = emitted_for(spec)
     [package] = {path.split("/")[1] for path in files}
     name = runtime.relative_to(TARGET / "runtime").as_posix()
     if spec == DEMO and name in _FOR_POSES:
@@ -111,12 +117,12 @@ def test_the_runtime_is_emitted_as_it_is(runtime: Path, spec: Path) -> None:
 
 
 def test_every_emitted_module_is_a_template_or_a_runtime_file() -> None:
-    files = files_of(data_of(DEMO))
+    files = emitted_for(DEMO)
     emitted = {path.removeprefix("generated/greenhouse/") for path in files}
     templates = {t.relative_to(TARGET / "templates").as_posix()[:-6] for t in TEMPLATES}
     runtime = {r.relative_to(TARGET / "runtime").as_posix() for r in RUNTIME} - _FOR_POSES
     assert templates & runtime == set()
-    assert emitted == templates | runtime | {*_SHARED} | {"py.typed", "vectors.json"}
+    assert emitted == templates | runtime | {*_SHARED} | {"py.typed"}
 
 
 @pytest.mark.parametrize("path", SOURCES, ids=lambda path: path.relative_to(CODEGEN).as_posix())

@@ -29,10 +29,10 @@ def render(compiled: Compiled, targets: Collection[Target] | None = None) -> Out
         if target.shared:
             continue
         if target in chosen:
-            files |= _headed(target, compiled, compiled.source.path)
+            files |= render_target(target, compiled)
             folders += target.folders(compiled.model)
         else:
-            others |= _headed(target, compiled, compiled.source.path)
+            others |= render_target(target, compiled)
     return Output(
         f"generated/{file_stem(compiled.spec.protocol.name)}.manifest",
         compiled.source.path,
@@ -48,12 +48,13 @@ def render_shared(compiled: Compiled, targets: Collection[Target] | None = None)
     files: dict[str, str] = {}
     for target in table.TARGETS if targets is None else targets:
         if target.shared:
-            files |= _headed(target, compiled, "")
+            files |= render_target(target, compiled)
     return Output("spec/framegen.manifest", "", dict(sorted(files.items())))
 
 
-def _headed(target: Target, compiled: Compiled, spec: str) -> dict[str, str]:
-    """The files of a target; those whose language has comments, unless empty, with a banner."""
+def render_target(target: Target, compiled: Compiled) -> dict[str, str]:
+    """The files of one target; those whose language has comments, unless empty, with a banner."""
+    spec = "" if target.shared else compiled.source.path
     headed = target.render(compiled, snippets())
     for path, text in headed.items():
         comment = target.comments.get(PurePosixPath(path).suffix)

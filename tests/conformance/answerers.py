@@ -6,7 +6,7 @@ import sys
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from framegen.render import render, snippets
+from framegen.render import render_target, snippets
 from framegen.targets import python
 from framegen.targets.docs.pages import render_site
 
@@ -22,7 +22,7 @@ ANSWER = Path(__file__).parent / "answer.js"
 
 def python_command(compiled: Compiled, folder: Path) -> list[str]:
     """Write the library to `folder`; the command that answers with it."""
-    for path, text in render(compiled, [python.TARGET]).files.items():
+    for path, text in render_target(python.TARGET, compiled).items():
         (folder / path).parent.mkdir(parents=True, exist_ok=True)
         (folder / path).write_text(text, encoding="utf-8", newline="")
     name = compiled.spec.protocol.name

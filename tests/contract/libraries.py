@@ -12,6 +12,7 @@ import subprocess
 import sys
 from contextlib import contextmanager
 from dataclasses import dataclass
+from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -58,7 +59,7 @@ class Library:
             if "/" not in path:
                 (folder / self.name / path).write_text(text, encoding="utf-8", newline="")
 
-    @property
+    @cached_property
     def code(self) -> str:
         """What type checkers tell libraries apart by: the code without what its texts say."""
         return "\n".join(_code(text) for text in self.modules.values())

@@ -165,10 +165,10 @@ def _changed_wrongly(
         made.write(sources)
         failures.setdefault(str(mutant), []).extend(_conversed(made, compiled, sources))
         # To a type checker, those that differ in numbers and texts alone are one.
-        if made.code not in seen and typed < TYPED:
+        if typed < TYPED and made.code not in seen:
             typed += 1
+            seen.add(made.code)
             made.write_whole(whole)
-        seen.add(made.code)
     for checked in (linted(sources), type_checked(whole, folder / "cache")):
         for name, faults in checked.items():
             failures[str(changed[int(name[1:])][0])] += faults

@@ -2,31 +2,21 @@
 
 from __future__ import annotations
 
-import json
 import random
 from itertools import groupby
 from typing import TYPE_CHECKING, Any
 
 from framegen.model.codec import encode
 from framegen.model.stream import ReferenceDecoder
-from framegen.targets import vectors
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
-    from framegen.compile import Compiled
     from framegen.language.values import Direction
     from framegen.model.model import Model
 
 # What a line said: the kind of the event, its bytes in hex, and the message or the reason.
 Event = list[Any]
-
-
-def vectors_of(compiled: Compiled) -> dict[str, Any]:
-    """The test vectors of a protocol, as they are published."""
-    (text,) = vectors.render(compiled, {}).values()
-    document: dict[str, Any] = json.loads(text)
-    return document
 
 
 def reference_events(model: Model, data: bytes, way: Direction | None) -> list[Event]:

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 from framegen.compile import Compiled, compile_spec
 from framegen.language.load import read_source
 from framegen.reading.source import Source
-from framegen.render import render, snippets
+from framegen.render import render_target, snippets
 from framegen.targets import docs
 from framegen.targets.docs.pages import render_site
 
@@ -132,7 +132,7 @@ def reference_of(source: Source) -> Reference:
     name = compiled.spec.protocol.name
     files = {
         path.removeprefix(f"docs/reference/{name}/"): text
-        for path, text in render(compiled, [docs.TARGET]).files.items()
+        for path, text in render_target(docs.TARGET, compiled).items()
     }
     site = {
         path.removeprefix(f"{name}/"): text

@@ -11,10 +11,11 @@ import pytest
 from framegen.cli import main
 from framegen.language.values import Scale
 
-from tests.docs.peers import joined, noisy_lines, reference_events, vectors_of
+from tests.docs.peers import joined, noisy_lines, reference_events
 from tests.docs.reference import NODE_MODULES, SPECS, reference
 from tests.docs.test_hostile_pages import PAYLOADS, hostile
 from tests.patience import PATIENCE
+from tests.specimens import vectors_of
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -255,13 +256,13 @@ def test_values_are_shown_in_their_larger_unit_as_they_are_explained(visit: Visi
 
 @pytest.mark.parametrize("word", ["controller", "controller_to_host"])
 def test_an_address_names_the_direction_or_who_sends(visit: Visit, word: str) -> None:
-    tab = visit.open(f"decoder.html?hex=5555040F4C1D&direction={word}")
+    tab = visit.open(f"decoder.html?hex=5555040f4c1d&direction={word}")
     assert tab.get_by_label("Sent").input_value() == "controller_to_host"
     assert decoded(tab) == ["✓ BatteryVoltage"]
 
 
 def test_an_address_that_names_neither_leaves_both_directions_open(visit: Visit) -> None:
-    tab = visit.open("decoder.html?hex=5555040F4C1D&direction=nobody")
+    tab = visit.open("decoder.html?hex=5555040f4c1d&direction=nobody")
     assert tab.get_by_label("Sent").input_value() == ""
 
 
@@ -294,7 +295,7 @@ def test_the_decoder_says_what_is_no_hex(visit: Visit) -> None:
 def test_an_example_opens_in_the_decoder(visit: Visit) -> None:
     tab = visit.open("messages/BatteryVoltage.html")
     tab.get_by_role("link", name="Open in the decoder").first.click()
-    arrives(tab, "decoder.html?hex=5555040F4C1D&direction=controller_to_host")
+    arrives(tab, "decoder.html?hex=5555040f4c1d&direction=controller_to_host")
     assert decoded(tab) == ["✓ BatteryVoltage"]
     assert tab.get_by_label("Sent").input_value() == "controller_to_host"
 

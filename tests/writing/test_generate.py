@@ -11,7 +11,7 @@ import pytest
 from framegen.cli import main
 from framegen.compile import compile_spec
 from framegen.reading.source import Source
-from framegen.render import render, render_shared
+from framegen.render import render, render_shared, render_target
 from framegen.targets.table import TARGETS
 from framegen.writing import Change, write
 
@@ -20,6 +20,9 @@ from tests.writing.trees import put, snapshot, times
 
 if TYPE_CHECKING:
     from collections.abc import Callable
+
+    from framegen.compile import Compiled
+    from framegen.targets.target import Target
 
 Capture: TypeAlias = "pytest.CaptureFixture[str]"
 
@@ -33,6 +36,22 @@ GIT = shutil.which("git")
 LIBRARY = "generated/greenhouse"
 CODEC = f"{LIBRARY}/codec.py"
 SCHEMA = "spec/framegen.schema.json"
+
+
+_RENDERED: dict[tuple[str, str, str], dict[str, str]] = {}
+
+
+@pytest.fixture(autouse=True)
+def the_same_is_rendered_once(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The same text gives the same files, as tests/test_deterministic.py has it."""
+
+    def remembered(target: Target, compiled: Compiled) -> dict[str, str]:
+        key = target.name, compiled.source.path, compiled.source.text
+        if key not in _RENDERED:
+            _RENDERED[key] = render_target(target, compiled)
+        return dict(_RENDERED[key])
+
+    monkeypatch.setattr("framegen.render.render_target", remembered)
 
 
 @pytest.fixture

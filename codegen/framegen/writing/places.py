@@ -39,8 +39,9 @@ class Places:
         pure = PurePosixPath(path)
         if pure.parent not in self._looked_at:
             for folder in reversed(pure.parents[:-1]):
-                self._look_at(folder)
-            self._looked_at.add(pure.parent)
+                if folder not in self._looked_at:
+                    self._look_at(folder)
+                    self._looked_at.add(folder)
         place = self.root / path
         if place.is_symlink():
             self._stay(path)

@@ -41,7 +41,8 @@ def render(compiled: Compiled, _snippets: Snippets) -> dict[str, str]:
     """The library's files, by path below the project's root."""
     library = LibraryView(names_of(compiled.model).library)
     poses = compiled.model.spec.pose is not None
-    files = dict([*_runtime(poses=poses), *_from_templates(library), ("py.typed", "")])
+    copied = {name: text for name, text in _runtime().items() if poses or name not in _FOR_POSES}
+    files = {**copied, **dict(_from_templates(library)), "py.typed": ""}
     (root,) = folders(compiled.model)
     return {f"{root}/{name}": text for name, text in files.items()}
 
@@ -51,16 +52,13 @@ def folders(model: Model) -> tuple[str, ...]:
     return (f"generated/{package_of(model)}",)
 
 
-def _runtime(*, poses: bool) -> list[tuple[str, str]]:
-    """The files that are the same for every protocol, with poses or without, copied as they are."""
+@cache
+def _runtime() -> dict[str, str]:
+    """The files that are the same for every protocol, copied as they are, and so read once."""
     root = _HERE / "runtime"
     files = {file.relative_to(root).as_posix(): file for file in sorted(root.rglob("*.py"))}
     files |= {name: _HERE.parents[1] / shared for name, shared in _SHARED.items()}
-    return [
-        (name, file.read_text(encoding="utf-8"))
-        for name, file in files.items()
-        if poses or name not in _FOR_POSES
-    ]
+    return {name: file.read_text(encoding="utf-8") for name, file in files.items()}
 
 
 def _from_templates(library: LibraryView) -> list[tuple[str, str]]:
