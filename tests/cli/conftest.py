@@ -2,16 +2,17 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 import pytest
-from busservo import session
-from busservo.settling import Settling
+
+from tests.patience import undoubted
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
 
 
 @pytest.fixture(autouse=True)
-def _nothing_settles(monkeypatch: pytest.MonkeyPatch) -> None:
-    """A verb asks at once: replies to whoever asked before it are none of these tests' business."""
-
-    def settled(seconds: float | None, opened_at: float) -> Settling:
-        return Settling(0 if seconds is None else seconds, opened_at)
-
-    monkeypatch.setattr(session, "Settling", settled)
+def _no_reply_is_doubted() -> Iterator[None]:
+    with undoubted():
+        yield
