@@ -3,6 +3,8 @@
 Fenced blocks are played from the top of a page to its end, in a copy of the project: `console`
 (commands after `$`, with what they print), `pycon` (a Python session), `python` (a program),
 `output` (what the last program printed) and `diff`, which is applied to the file that it names.
+A command is a process of its own once a page has changed what it is made of, and runs in this one
+until then, as its entry point does: for most pages, starting it would be most of the work.
 Whatever port a command or a program opens, a virtual board is there.
 What is printed may leave lines out with `...`; all else must agree to the letter.
 
@@ -30,11 +32,13 @@ from typing import TYPE_CHECKING, Any
 from unittest import mock
 
 import busservo
+import busservo.cli
+import framegen.cli
 from busservo.async_opening import open_async_controller
 from busservo.opening import open_controller
-from busservo_simulator import VirtualController
+from busservo_simulator import ActionGroup, Step, VirtualController
 
-from tests.patience import PATIENCE
+from tests.patience import PATIENCE, undoubted
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
@@ -51,8 +55,13 @@ PATIENT_WORDS = {
     verb: ["--timeout", str(PATIENCE)] for verb in ("bench-line", "conform", "doctor", "send")
 }
 
+# What a page runs is to take no longer than it must.
+GROUPS = {8: ActionGroup([Step(20, {2: 500})])}
+
 _NEEDED = ("spec", "generated", "codegen", "docs", "tests/captures")
-_COMMANDS = {"busservo", "framegen"}
+_COMMANDS = {"busservo": busservo.cli.main, "framegen": framegen.cli.main}
+# What each of them is made of, by the folder at the top.
+_MADE_OF = {"busservo": {"spec", "codegen", "generated"}, "framegen": {"codegen"}}
 _BLOCK = re.compile(r"^```(console|pycon|python|output|diff)\n(.*?)^```$", re.MULTILINE | re.DOTALL)
 _COMMAND = re.compile(r"^\$ (.*)\n", re.MULTILINE)
 
@@ -76,6 +85,8 @@ class _Player:
         self._folder = folder
         self._names: dict[str, Any] = {"__name__": "__main__"}
         self._printed = ""
+        # The folders that the page has changed so far.
+        self._changed: set[str] = set()
 
     def play(self, kind: str, block: str) -> str:
         match kind:
@@ -88,14 +99,13 @@ class _Player:
             case "python":
                 self._printed = self._program(block)
             case _:
-                _apply(block, self._folder)
+                self._changed.add(_apply(block, self._folder))
         return block
 
     def _program(self, source: str) -> str:
         """What a program prints that opens a port, whichever it names: a virtual board is there."""
         output = io.StringIO()
-        before = Path.cwd()
-        with VirtualController(via="tcp") as board:
+        with VirtualController(via="tcp", groups=GROUPS) as board:
             opening = mock.patch.multiple(
                 busservo,
                 open_controller=lambda _port, **given: open_controller(
@@ -106,12 +116,8 @@ class _Player:
                 ),
                 Controller=partial(busservo.Controller, margin=PATIENCE),
             )
-            os.chdir(self._folder)
-            try:
-                with opening, contextlib.redirect_stdout(output):
-                    exec(source, self._names)  # noqa: S102 - our own pages
-            finally:
-                os.chdir(before)
+            with opening, undoubted(), _at(self._folder), contextlib.redirect_stdout(output):
+                exec(source, self._names)  # noqa: S102 - our own pages
         return output.getvalue()
 
     def _console(self, block: str) -> str:
@@ -124,31 +130,46 @@ class _Player:
 
     def _run(self, line: str) -> str:
         """What a terminal shows for a command line, which may hold pipes."""
-        environment = os.environ | {
-            "COLUMNS": "80",
-            "PYTHONPATH": os.pathsep.join(
-                [str(self._folder / "generated"), str(self._folder / "codegen")]
-            ),
-            "PYTHONUTF8": "1",
-        }
         output = ""
         for command in line.split(" | "):
             name, *arguments = shlex.split(command)
             assert name in _COMMANDS, f"{name} is not run here: put it into a block of `sh`"
+            run = self._start if self._changed & _MADE_OF[name] else self._call
             with _connected(arguments) as (words, told_as):
-                printed = subprocess.run(
-                    [sys.executable, "-m", name, *words],
-                    cwd=self._folder,
-                    env=environment,
-                    input=output,
-                    stdout=subprocess.PIPE,
-                    stderr=subprocess.STDOUT,
-                    encoding="utf-8",
-                    timeout=5 * PATIENCE,
-                    check=False,
-                ).stdout
-            output = told_as(printed)
+                output = told_as(run(name, words, output))
         return output
+
+    def _start(self, name: str, words: list[str], given: str) -> str:
+        """What a command of the changed project prints."""
+        folders = (str(self._folder / each) for each in ("generated", "codegen"))
+        return subprocess.run(
+            [sys.executable, "-m", name, *words],
+            cwd=self._folder,
+            env=os.environ
+            | {"COLUMNS": "80", "PYTHONPATH": os.pathsep.join(folders), "PYTHONUTF8": "1"},
+            input=given,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.STDOUT,
+            encoding="utf-8",
+            timeout=5 * PATIENCE,
+            check=False,
+        ).stdout
+
+    def _call(self, name: str, words: list[str], given: str) -> str:
+        """What a command of the project prints as it is."""
+        screen = io.TextIOWrapper(io.BytesIO(), encoding="utf-8", newline="\n", write_through=True)
+        keys = io.TextIOWrapper(io.BytesIO(given.encode()), encoding="utf-8")
+        with (
+            _at(self._folder),
+            undoubted(),
+            mock.patch.dict(os.environ, COLUMNS="80"),
+            mock.patch.object(sys, "stdin", keys),
+            contextlib.redirect_stdout(screen),
+            contextlib.redirect_stderr(screen),
+        ):
+            _COMMANDS[name](words)
+        screen.seek(0)
+        return screen.read()
 
     def _session(self, block: str) -> str:
         shown = ""
@@ -174,13 +195,24 @@ class _Player:
 
 
 @contextlib.contextmanager
+def _at(folder: Path) -> Iterator[None]:
+    """contextlib.chdir, which Python 3.10 lacks."""
+    before = Path.cwd()
+    os.chdir(folder)
+    try:
+        yield
+    finally:
+        os.chdir(before)
+
+
+@contextlib.contextmanager
 def _connected(words: list[str]) -> Iterator[tuple[list[str], Callable[[str], str]]]:
     """A command line with a virtual board at its port, and how to tell what it then prints."""
     if "--port" not in words:
         yield words, str
         return
     at = words.index("--port") + 1
-    with VirtualController(via="tcp") as board:
+    with VirtualController(via="tcp", groups=GROUPS) as board:
         yield (
             [*words[:at], board.port, *words[at + 1 :], *PATIENT_WORDS.get(words[0], [])],
             lambda text: text.replace(board.port, words[at]),
@@ -194,8 +226,11 @@ def _told(expected: str, actual: str) -> str:
     return expected if re.fullmatch(pattern, actual) else actual
 
 
-def _apply(diff: str, folder: Path) -> None:
-    """Change a file as a diff says. Lines are found by what they hold, so `@@` has no numbers."""
+def _apply(diff: str, folder: Path) -> str:
+    """Change a file as a diff says, and tell the folder at the top that it is in.
+
+    Lines are found by what they hold, so `@@` has no numbers.
+    """
     _, target, *hunks = re.split(r"^(?:--- .*\n\+\+\+ (.*)\n|@@\n)", diff, flags=re.MULTILINE)
     file = folder / target
     text = file.read_text(encoding="utf-8")
@@ -206,6 +241,7 @@ def _apply(diff: str, folder: Path) -> None:
         assert text.count(old) == 1, f"{target} holds {text.count(old)} times:\n{old}"
         text = text.replace(old, new)
     file.write_text(text, encoding="utf-8", newline="\n")
+    return target.partition("/")[0]
 
 
 def _refresh() -> None:

@@ -36,6 +36,15 @@ RUN = ActionGroupRun(group=8, times=1)
 LAST = ServoPositionsRead([200])
 
 
+# How long a replay waits for the last answer, where the test is about one.
+LAST_ANSWER = playback._QUIET
+
+
+@pytest.fixture(autouse=True)
+def _no_answer_is_waited_for(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(playback, "_QUIET", 0.0)
+
+
 def hexed(message: Message) -> str:
     return message.encode().hex(" ")
 
@@ -108,8 +117,9 @@ def test_a_line_that_is_lost_ends_it_and_says_how_far_it_got(
 
 
 def test_half_a_frame_that_comes_back_is_given_up_when_the_line_is_quiet(
-    log: Path, capsys: pytest.CaptureFixture[str]
+    log: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
+    monkeypatch.setattr(playback, "_QUIET", LAST_ANSWER)
     log.write_text(f"{hexed(MOVE)}  # 0 s, host: a\n{hexed(ASK)}  # 2.5 s, host: b\n")
     with VirtualController("tcp") as board:
 

@@ -84,6 +84,8 @@ def test_poses_are_recorded_at_each_enter_and_held_at_the_end(
     assert "servos 1, 2, 3 will go limp, and what they hold up falls: hold it." in errors
     assert "'what' is nothing that can be done here" in errors
     assert "2 poses recorded; servos 1, 2, 3 held\n" in errors
+    # The last of them may be on its way yet.
+    await_that(lambda: len(heard) == 9)
     assert heard[4] == ServoUnload([1, 2, 3])
     assert heard[5:] == [
         *(2 * [ServoPositionsRead([1, 2, 3])]),
@@ -137,7 +139,7 @@ def test_holding_can_be_had_without_being_asked(
     typed("\n")
     words = ["teach", str(tmp_path / "new"), "--port", board.port, "--yes", "--hold"]
     assert main([*words, "--ids", "2", *PATIENT]) == 0
-    assert board.servos[2].loaded
+    await_that(lambda: board.servos[2].loaded)
 
 
 def test_who_does_not_answer_costs_a_pose_and_no_more(

@@ -9,6 +9,7 @@ from __future__ import annotations
 import asyncio
 import math
 import sys
+import traceback
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import contextmanager
 from dataclasses import replace
@@ -30,7 +31,8 @@ from tests.client.conversation import (
 )
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Callable, Iterable, Iterator
+    from contextlib import AbstractAsyncContextManager
     from pathlib import Path
 
     from busservo import Message
@@ -149,6 +151,7 @@ LIVE_MARGIN = 0.5
 
 @contextmanager
 def board_at(way: str, folder: Path, faults: Faults) -> Iterator[tuple[VirtualController, Ledger]]:
+    folder.mkdir(exist_ok=True)
     link = folder / "board" if way == "pty" else None
     with VirtualController(way, faults=faults, link=link) as board:  # type: ignore[arg-type]
         yield board, Ledger(board)
@@ -166,65 +169,91 @@ def opened(board: VirtualController, way: str) -> Controller:
     return open_controller(board.port, **line_at(way))
 
 
-@pytest.mark.parametrize("kind", FAULTS)
-@pytest.mark.parametrize("way", WAYS)
-def test_over_a_live_line(way: str, kind: str, tmp_path: Path) -> None:
-    seed = WAYS.index(way)
-    with board_at(way, tmp_path, replace(FAULTS[kind], seed=seed)) as (board, ledger):
-        with opened(board, way) as controller:
-            converse(controller, ledger, seed, 30)
-            if kind == "mixed":
-                assert heard_by(controller, ledger) == ledger.reported
-            assert controller.counters.lost_reports == 0
-        assert ledger.right >= 5
+def opened_async(
+    board: VirtualController, way: str
+) -> AbstractAsyncContextManager[AsyncController]:
+    if way == "memory":
+        return AsyncController(board.transport, **line_at(way))
+    return open_async_controller(board.port, **line_at(way))
 
 
-@pytest.mark.parametrize("kind", FAULTS)
-@pytest.mark.parametrize("way", WAYS)
-def test_over_a_live_line_with_asyncio(way: str, kind: str, tmp_path: Path) -> None:
-    seed = 10 + WAYS.index(way)
-    with board_at(way, tmp_path, replace(FAULTS[kind], seed=seed)) as (board, ledger):
+LINES = [(way, kind) for way in WAYS for kind in FAULTS]
 
-        async def work() -> None:
-            async with (
-                AsyncController(board.transport, **line_at(way))
-                if way == "memory"
-                else open_async_controller(board.port, **line_at(way))
-            ) as controller:
-                await converse_async(controller, ledger, seed, 30)
+
+def at_once(talk: Callable[[str, str], None], lines: Iterable[tuple[str, str]] = LINES) -> None:
+    """The same talk on each of these lines, all at the same time: most of a talk is waiting."""
+
+    def told(line: tuple[str, str]) -> str:
+        try:
+            talk(*line)
+        except Exception:  # noqa: BLE001 - it is shown
+            return f"{line}: {traceback.format_exc()}"
+        return ""
+
+    lines = [*lines]
+    with ThreadPoolExecutor(len(lines)) as pool:
+        assert "\n".join(filter(None, pool.map(told, lines))) == ""
+
+
+def test_over_a_live_line(tmp_path: Path) -> None:
+    def talk(way: str, kind: str) -> None:
+        seed = WAYS.index(way)
+        folder = tmp_path / kind
+        with board_at(way, folder, replace(FAULTS[kind], seed=seed)) as (board, ledger):
+            with opened(board, way) as controller:
+                converse(controller, ledger, seed, 30)
                 if kind == "mixed":
-                    assert await heard_by_async(controller, ledger) == ledger.reported
+                    assert heard_by(controller, ledger) == ledger.reported
                 assert controller.counters.lost_reports == 0
+            assert ledger.right >= 5
 
-        asyncio.run(work())
-        assert ledger.right >= 5
-
-
-@pytest.mark.parametrize("way", WAYS)
-def test_eight_threads_share_a_line_with_faults(way: str, tmp_path: Path) -> None:
-    with board_at(way, tmp_path, replace(FAULTS["mixed"], seed=3)) as (board, ledger):
-        with opened(board, way) as controller, ThreadPoolExecutor(8) as pool:
-            list(pool.map(lambda seed: converse(controller, ledger, seed, 6), range(8)))
-            assert heard_by(controller, ledger) == ledger.reported
-        assert ledger.right >= 10
+    at_once(talk)
 
 
-@pytest.mark.parametrize("way", WAYS)
-def test_a_hundred_tasks_share_a_line_with_faults(way: str, tmp_path: Path) -> None:
-    with board_at(way, tmp_path, replace(FAULTS["mixed"], seed=4)) as (board, ledger):
+def test_over_a_live_line_with_asyncio(tmp_path: Path) -> None:
+    def talk(way: str, kind: str) -> None:
+        seed = 10 + WAYS.index(way)
+        folder = tmp_path / kind
+        with board_at(way, folder, replace(FAULTS[kind], seed=seed)) as (board, ledger):
 
-        async def work() -> None:
-            async with (
-                AsyncController(board.transport, **line_at(way))
-                if way == "memory"
-                else open_async_controller(board.port, **line_at(way))
-            ) as controller:
-                talks = (converse_async(controller, ledger, seed, 1) for seed in range(100))
-                await asyncio.gather(*talks)
-                assert await heard_by_async(controller, ledger) == ledger.reported
+            async def work() -> None:
+                async with opened_async(board, way) as controller:
+                    await converse_async(controller, ledger, seed, 30)
+                    if kind == "mixed":
+                        assert await heard_by_async(controller, ledger) == ledger.reported
+                    assert controller.counters.lost_reports == 0
 
-        asyncio.run(work())
-        assert ledger.right >= 40
+            asyncio.run(work())
+            assert ledger.right >= 5
+
+    at_once(talk)
+
+
+def test_eight_threads_share_a_line_with_faults(tmp_path: Path) -> None:
+    def talk(way: str, kind: str) -> None:
+        with board_at(way, tmp_path, replace(FAULTS[kind], seed=3)) as (board, ledger):
+            with opened(board, way) as controller, ThreadPoolExecutor(8) as pool:
+                list(pool.map(lambda seed: converse(controller, ledger, seed, 6), range(8)))
+                assert heard_by(controller, ledger) == ledger.reported
+            assert ledger.right >= 10
+
+    at_once(talk, [(way, "mixed") for way in WAYS])
+
+
+def test_a_hundred_tasks_share_a_line_with_faults(tmp_path: Path) -> None:
+    def talk(way: str, kind: str) -> None:
+        with board_at(way, tmp_path, replace(FAULTS[kind], seed=4)) as (board, ledger):
+
+            async def work() -> None:
+                async with opened_async(board, way) as controller:
+                    talks = (converse_async(controller, ledger, seed, 1) for seed in range(100))
+                    await asyncio.gather(*talks)
+                    assert await heard_by_async(controller, ledger) == ledger.reported
+
+            asyncio.run(work())
+            assert ledger.right >= 40
+
+    at_once(talk, [(way, "mixed") for way in WAYS])
 
 
 def test_the_soak_runs(capsys: pytest.CaptureFixture[str]) -> None:

@@ -1,0 +1,18 @@
+"""What holds for the tests of verbs that are run in this process: nobody else is on their lines."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import pytest
+
+from tests.patience import undoubted
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+
+@pytest.fixture(autouse=True)
+def _no_reply_is_doubted() -> Iterator[None]:
+    with undoubted():
+        yield
