@@ -451,6 +451,20 @@ def test_what_is_taken_apart_begins_where_the_answers_part(said: list[str]) -> N
     assert "     3  55 55  header          Two bytes that announce a frame" in lines
 
 
+def test_what_is_refused_within_a_line_is_shown_in_its_place() -> None:
+    question = read("stream host_to_controller 257 55550207 5555 0163 quiet")
+    first, *_ = answer(MODEL, question)
+    found = compare(MODEL, "", question, Reply((first, "noise unknown-command 55550163", "quiet")))
+    assert found is not None
+    lines = list(strip(MODEL, found))
+    assert lines[:3] == [
+        "  byte   0   1   2   3   4   5   6   7",
+        "        55  55  02  07  55  55  01  63",
+        "                                ^^",
+    ]
+    assert lines[-1] == "  length mismatch at byte 6: the length of a frame is 2..255, not 1"
+
+
 def test_of_a_long_answer_is_shown_where_it_differs() -> None:
     question = read("stream host_to_controller 257 " + "55550207" * 300 + " quiet")
     right = answer(MODEL, question)

@@ -44,8 +44,7 @@ class ReferenceDecoder:
 
     def decode(self, data: bytes) -> list[Event]:
         """Say what one stretch of the line held, after which it stays quiet."""
-        events, _ = self._read(data, quiet=True)
-        return joined(events)
+        return self._read(data, quiet=True)
 
     def follow(self, parts: Iterable[bytes | None]) -> Iterator[Event | None]:
         """Say what a line brings in pieces; None is where it goes quiet, in `parts` and here.
@@ -67,14 +66,13 @@ class ReferenceDecoder:
 
         A decoder has told at least the messages among these.
         """
-        events, _ = self._read(data, quiet=False)
-        return joined(events)
+        return self._read(data, quiet=False)
 
     def weigh(self, data: bytes) -> Verdict:
         """Judge what `data` begins."""
         return weigh(self.model, self.directions, data, self.max_frame)
 
-    def _read(self, data: bytes, *, quiet: bool) -> tuple[list[Event], int]:
+    def _read(self, data: bytes, *, quiet: bool) -> list[Event]:
         events: list[Event] = []
         header = self.model.frame.header
         # Why the noise at hand is none: as long as no header came, because none did.
@@ -97,9 +95,9 @@ class ReferenceDecoder:
                 continue
             if rest.startswith(header):
                 reason = verdict.reason
-            events.append(Event("noise", at, rest[:1], reason=reason))
+            _tell_noise(events, at, rest[:1], reason)
             at += 1
-        return events, at
+        return events
 
     def _may_change(self, data: bytes, verdict: Verdict) -> bool:
         """Tell whether more bytes could change what is to be done with what `data` begins."""
@@ -118,13 +116,9 @@ class ReferenceDecoder:
         return any(self.weigh(data[at:]).message for at in range(1, len(data)))
 
 
-def joined(events: Iterable[Event]) -> list[Event]:
-    """The events, with neighbouring noise of one reason made one; unknown frames stay whole."""
-    found: list[Event] = []
-    for event in events:
-        last = found[-1] if found else None
-        if last and event.kind == last.kind == "noise" and event.reason == last.reason:
-            found[-1] = Event("noise", last.at, last.data + event.data, reason=last.reason)
-        else:
-            found.append(event)
-    return found
+def _tell_noise(events: list[Event], at: int, data: bytes, reason: str) -> None:
+    """Tell noise, as one with what is in front of it if that is noise for the same reason."""
+    if events and events[-1].kind == "noise" and events[-1].reason == reason:
+        before = events.pop()
+        at, data = before.at, before.data + data
+    events.append(Event("noise", at, data, reason=reason))
