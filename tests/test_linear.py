@@ -2,7 +2,7 @@
 
 import sys
 from collections.abc import Callable
-from functools import partial
+from functools import cache, partial
 from types import FrameType
 from typing import Any
 
@@ -145,6 +145,7 @@ DEAR = (
 RUNS = ("55", "55 " * 40 + "02 07", "55 " * 80 + "00 00 00")
 
 
+@cache
 def lines_per_byte(pattern: bytes, size: int) -> float:
     """How many lines run for a byte of a pattern that goes on and on, in chunks of a size."""
 

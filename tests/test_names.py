@@ -19,13 +19,13 @@ from busservo.async_client import AsyncClient
 from busservo.client import Client
 from framegen.cli import main
 from framegen.model.exchanges import snake_case
-from framegen.render import render, snippets
+from framegen.render import render, render_target, snippets
+from framegen.targets.docs import TARGET as DOCS
 from framegen.targets.docs.pages import render_site
 from framegen.targets.filenames import DEVICES, file_stem
 from framegen.targets.python import reserved
 from framegen.targets.python.names import names_of, strategy_name
 from framegen.targets.table import TARGETS
-from framegen.targets.vectors import TARGET as VECTORS
 from hypothesis import Phase, find, settings
 from hypothesis import strategies as st
 
@@ -41,6 +41,7 @@ from tests.specimens import (
     layout_of,
     library,
     renamed,
+    vectors_of,
 )
 
 if TYPE_CHECKING:
@@ -238,14 +239,20 @@ def test_where_nothing_is_bent_the_library_is_made_of_the_model_itself(file: Pat
     assert names_of(model).library is model
 
 
-def test_the_vectors_keep_the_names_of_the_author() -> None:
-    data = taken_names()
-    [document] = VECTORS.render(compiled_of(data), {}).values()
-    shown = json.loads(document)
-    assert shown["protocol"] == "json"
-    assert {each["message"] for each in shown["valid"]} == {*data["messages"]}
-    [told] = [each for each in shown["valid"] if each["message"] == "Call0"][:1]
-    assert told["direction"] == "any_to_noise"
+@pytest.mark.parametrize("name", CROWDS)
+def test_the_vectors_and_the_reference_keep_the_names_of_the_author(name: str) -> None:
+    data = CROWDS[name]()
+    compiled = compiled_of(data)
+    shown = vectors_of(compiled)
+    assert shown["protocol"] == data["protocol"]["name"]
+    assert {each["message"]: each["direction"] for each in shown["valid"]} == {
+        message: said["direction"].replace(" -> ", "_to_")
+        for message, said in data["messages"].items()
+    }
+    pages = render_target(DOCS, compiled)
+    for message in data["messages"]:
+        page = f"docs/reference/{file_stem(shown['protocol'])}/messages/{file_stem(message)}.md"
+        assert f"# {message}\n" in pages[page]
 
 
 # ------------------------------------------------------------------ the libraries of such names

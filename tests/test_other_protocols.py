@@ -12,8 +12,10 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from framegen.render import render_target
+from framegen.targets.vectors import TARGET as VECTORS
 
-from tests.specimens import BUSSERVO, DEMO, Data, data_of, files_of, leaves
+from tests.specimens import BUSSERVO, DEMO, Data, compiled_of, data_of, files_of, leaves
 
 # One that asks and answers, one with poses, a sensor that only reports, a lamp that only obeys.
 FILES = [DEMO, *(DEMO.with_name(f"{name}.yaml") for name in ("blinds", "weather", "lamp"))]
@@ -84,7 +86,8 @@ def told(files: dict[str, str], words: re.Pattern[str]) -> list[str]:
 @pytest.mark.parametrize("name", OTHERS)
 def test_no_library_speaks_of_another_protocol(name: str) -> None:
     spec = data_of(OTHERS[name])
-    assert told(files_of(spec), forbidden(spec)) == []
+    vectors = render_target(VECTORS, compiled_of(spec))
+    assert told({**files_of(spec), **vectors}, forbidden(spec)) == []
 
 
 def test_what_is_looked_for_is_found_where_it_belongs() -> None:
