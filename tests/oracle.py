@@ -13,7 +13,7 @@ may hold none; ids, groups and 16-bit values are limited by their width alone.
 
 import functools
 import operator
-from collections.abc import Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from typing import Any
 
 from construct import (
@@ -208,24 +208,34 @@ def _beginnings(direction: str) -> list[tuple[bytes, bytes]]:
     bytes, decide which beginnings are legal; in a frame without a count, the first four do.
     """
     one = {"servo_id": 0, "position": 0}
-    # More elements than any frame can hold are tried: build() knows where the limit is.
-    counts = range(256)
-    attempts: list[dict[str, Any]] = [
+    bare: list[dict[str, Any]] = [
         {},
         {"group": 0, "times": 0},
         {"group": 0, "percent": 0},
         {"voltage_mv": 0},
-        *({"time_ms": 0, "targets": [one] * count} for count in counts),
-        *({"servo_ids": [0] * count} for count in counts),
-        *({"positions": [one] * count} for count in counts),
+    ]
+    lists: list[Callable[[int], dict[str, Any]]] = [
+        lambda count: {"time_ms": 0, "targets": [one] * count},
+        lambda count: {"servo_ids": [0] * count},
+        lambda count: {"positions": [one] * count},
     ]
     pairs = []
     for name in MESSAGES[direction]:
-        for fields in attempts:
-            try:
-                frame = build(name, fields)
-            except OracleError:
-                continue
-            counted = any(isinstance(value, list) for value in fields.values())
-            pairs.append((frame[: 5 if counted else 4], frame))
+        pairs += [(frame[:4], frame) for frame in _built(name, bare)]
+        for listed in lists:
+            # A list that is no part of a message is refused whatever its length. More elements
+            # than any frame can hold are tried: build() knows where the limit is.
+            if [*_built(name, [listed(1)])]:
+                frames = _built(name, map(listed, range(256)))
+                pairs += [(frame[:5], frame) for frame in frames]
     return pairs
+
+
+def _built(name: str, attempts: Iterable[dict[str, Any]]) -> Iterator[bytes]:
+    """Build the frames of a message that can be built."""
+    for fields in attempts:
+        try:
+            frame = build(name, fields)
+        except OracleError:
+            continue
+        yield frame

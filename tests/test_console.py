@@ -28,7 +28,6 @@ from tests.documents import ROOT
 from tests.patience import PATIENCE
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
     from pathlib import Path
 
 Capture: TypeAlias = "pytest.CaptureFixture[str]"
@@ -64,46 +63,40 @@ SIMULATOR = Command(["-m", "busservo_simulator", "--tcp"])
 EXAMPLE = Command([str(ROOT / "examples" / "virtual_arm.py")])
 
 
-def environments(folder: Path) -> list[dict[str, str]]:
-    """With and without buffers, and with and without bytecode."""
+def environments() -> list[dict[str, str]]:
+    """With buffers and bytecode that is written where it is missing; and without either."""
     path = os.pathsep.join(filter(None, sys.path))
     switches = ("PYTHONUNBUFFERED", "PYTHONDONTWRITEBYTECODE", "PYTHONPYCACHEPREFIX")
     plain = {name: value for name, value in os.environ.items() if name not in switches}
     plain |= {"PYTHONPATH": path, "LC_ALL": "C.UTF-8", "COLUMNS": "80"}
     return [
-        plain | {"PYTHONPYCACHEPREFIX": str(folder)},
+        plain,
         plain | {"PYTHONUNBUFFERED": "1", "PYTHONDONTWRITEBYTECODE": "1"},
     ]
 
 
-@pytest.fixture(scope="module")
-def run(tmp_path_factory: pytest.TempPathFactory) -> Callable[..., tuple[int, str]]:
-    """Runs a command in each environment at once; status and errors, which must be the same."""
-    folder = tmp_path_factory.mktemp("bytecode")
-
-    def run_in_each(
-        command: Command, closed: tuple[int, ...] = (), stdout: int = subprocess.DEVNULL
-    ) -> tuple[int, str]:
-        started = [
-            subprocess.Popen(
-                [sys.executable, *command.words],
-                env=environment,
-                stdin=subprocess.PIPE,
-                stdout=stdout,
-                stderr=subprocess.PIPE,
-                text=True,
-                preexec_fn=partial(close_all, closed) if closed else None,  # noqa: PLW1509
-            )
-            for environment in environments(folder)
-        ]
-        done = []
-        for process in started:
-            _, errors = process.communicate(command.stdin, timeout=PATIENCE)
-            done.append((process.returncode, errors))
-        assert done[0] == done[1]
-        return done[0]
-
-    return run_in_each
+def run(
+    command: Command, closed: tuple[int, ...] = (), stdout: int = subprocess.DEVNULL
+) -> tuple[int, str]:
+    """Run a command in each environment at once; status and errors, which must be the same."""
+    started = [
+        subprocess.Popen(
+            [sys.executable, *command.words],
+            env=environment,
+            stdin=subprocess.PIPE,
+            stdout=stdout,
+            stderr=subprocess.PIPE,
+            text=True,
+            preexec_fn=partial(close_all, closed) if closed else None,  # noqa: PLW1509
+        )
+        for environment in environments()
+    ]
+    done = []
+    for process in started:
+        _, errors = process.communicate(command.stdin, timeout=PATIENCE)
+        done.append((process.returncode, errors))
+    assert done[0] == done[1]
+    return done[0]
 
 
 def close_all(streams: tuple[int, ...]) -> None:
@@ -116,13 +109,13 @@ def shown(command: Command) -> str:
 
 
 @pytest.mark.parametrize("command", [*COMMANDS, EXAMPLE], ids=shown)
-def test_all_is_well(run: Callable[..., tuple[int, str]], command: Command) -> None:
+def test_all_is_well(command: Command) -> None:
     assert run(command) == (0, command.told)
 
 
 @not_windows
 @pytest.mark.parametrize("command", [*COMMANDS, SIMULATOR], ids=shown)
-def test_the_reader_has_gone(run: Callable[..., tuple[int, str]], command: Command) -> None:
+def test_the_reader_has_gone(command: Command) -> None:
     ours, theirs = os.pipe()
     os.close(ours)
     try:
@@ -133,7 +126,7 @@ def test_the_reader_has_gone(run: Callable[..., tuple[int, str]], command: Comma
 
 @pytest.mark.skipif(not os.path.exists("/dev/full"), reason="needs a device that is always full")  # noqa: PTH110
 @pytest.mark.parametrize("command", [*COMMANDS, SIMULATOR], ids=shown)
-def test_the_disk_is_full(run: Callable[..., tuple[int, str]], command: Command) -> None:
+def test_the_disk_is_full(command: Command) -> None:
     full = os.open("/dev/full", os.O_WRONLY)
     try:
         status, errors = run(command, stdout=full)
@@ -146,20 +139,20 @@ def test_the_disk_is_full(run: Callable[..., tuple[int, str]], command: Command)
 
 @not_windows
 @pytest.mark.parametrize("command", [*COMMANDS, SIMULATOR], ids=shown)
-def test_the_output_is_closed(run: Callable[..., tuple[int, str]], command: Command) -> None:
+def test_the_output_is_closed(command: Command) -> None:
     told = f"{command.program}: error: the output cannot be written: it is closed\n"
     assert run(command, closed=(1,)) == (2, told)
 
 
 @not_windows
 @pytest.mark.parametrize("command", COMMANDS, ids=shown)
-def test_the_error_stream_is_closed(run: Callable[..., tuple[int, str]], command: Command) -> None:
+def test_the_error_stream_is_closed(command: Command) -> None:
     assert run(command, closed=(2,)) == (0, "")
 
 
 @not_windows
 @pytest.mark.parametrize("command", COMMANDS, ids=shown)
-def test_the_input_is_closed(run: Callable[..., tuple[int, str]], command: Command) -> None:
+def test_the_input_is_closed(command: Command) -> None:
     if command.stdin:
         expected = (2, "busservo: error: standard input cannot be read: it is closed\n")
     else:
@@ -175,7 +168,7 @@ def test_no_port_gets_the_number_of_a_stream_that_is_closed() -> None:
     )
     done = subprocess.run(
         [sys.executable, "-c", program],
-        env=environments(ROOT)[1],
+        env=environments()[1],
         preexec_fn=lambda: close_all((0, 1, 2)),
         timeout=PATIENCE,
         check=False,

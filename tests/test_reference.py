@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import importlib
 from contextlib import ExitStack
+from functools import cache
 from itertools import pairwise
 from typing import TYPE_CHECKING, Any, TypeAlias
 
@@ -20,8 +21,8 @@ if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
 
     from framegen.language.values import Direction
+    from framegen.model.layout import MessageLayout
     from framegen.model.model import Model
-    from framegen.model.slots import Placed
 
 # What was found on a line: the name of a message, or the reason why it is none, and its bytes.
 Found: TypeAlias = tuple[str, bytes]
@@ -52,23 +53,26 @@ def lib(name: str) -> Any:
 # --- Lines ---------------------------------------------------------------------------------------
 
 
-def number(draw: st.DrawFn, placed: Placed, header: bytes) -> bytes:
-    """The bytes of a number: often the ends of its range, or what looks like a header."""
-    slot = placed.slot
-    assert isinstance(slot, Number)
-    if draw(st.integers(0, 3)) == 0:
-        return (header * slot.size)[: slot.size]
-    value = draw(st.sampled_from([slot.low, slot.high]) | st.integers(slot.low, slot.high))
-    return slot.write(value)
+# What to draw from is worked out once: in each draw, that would take longer than all else.
+
+
+@cache
+def values(low: int, high: int) -> st.SearchStrategy[int | None]:
+    """A number, often the ends of its range; None for what looks like a header."""
+    return st.one_of(st.none(), st.sampled_from([low, high]), st.integers(low, high))
+
+
+@cache
+def frames(model: Model) -> st.SearchStrategy[bytes]:
+    """A frame of any message, most often with legal values."""
+    messages = [each for way in model.directions for each in model.sent(way).values()]
+    shapes = [(each, count) for each in messages for count in (*each.counts[:4], each.counts[-1])]
+    return st.sampled_from(shapes).flatmap(lambda shape: frame_of(model, *shape))
 
 
 @st.composite
-def frames(draw: st.DrawFn, model: Model) -> bytes:
-    """A frame of any message, most often with legal values."""
-    messages = [each for way in model.directions for each in model.sent(way).values()]
-    message = draw(st.sampled_from(messages))
-    counts = message.counts
-    count = draw(st.sampled_from([*counts[:4], counts[-1]]))
+def frame_of(draw: st.DrawFn, model: Model, message: MessageLayout, count: int) -> bytes:
+    """A frame of a message with so many elements."""
     data = bytearray(message.size_at(count))
     for placed in message.lay_out(count):
         slot = placed.slot
@@ -82,7 +86,10 @@ def frames(draw: st.DrawFn, model: Model) -> bytes:
         elif slot.role == "count":
             written = slot.write(count)
         else:
-            written = number(draw, placed, model.frame.header)
+            assert isinstance(slot, Number)
+            value = draw(values(slot.low, slot.high))
+            alike = (model.frame.header * slot.size)[: slot.size]
+            written = alike if value is None else slot.write(value)
         data[placed.at : placed.end] = written
     return bytes(data)
 
@@ -96,23 +103,28 @@ def damaged(draw: st.DrawFn, model: Model) -> bytes:
     return frame[:start] + draw(st.binary(max_size=3)) + frame[end:]
 
 
-@st.composite
-def heads(draw: st.DrawFn, model: Model) -> bytes:
+@cache
+def heads(model: Model) -> st.SearchStrategy[bytes]:
     """A header, and most often a length and an id, none of which need be legal."""
     frame = model.frame
     largest = model.largest(model.directions)
-    head = bytearray(frame.header.ljust(frame.body_at, b"\0"))
     sizes = st.integers(frame.least - 1, frame.least + 12) | st.just(largest)
-    length = min(max(draw(sizes) - frame.uncounted, 0), frame.length.high)
     known = [each for way in model.directions for each in model.sent(way)]
-    code = draw(st.sampled_from(known) | st.integers(frame.id.low, frame.id.high))
-    for slot, value in ((frame.length, length), (frame.id, code)):
-        head[slot.at : slot.at + slot.size] = slot.write(value)
-    return bytes(head[: draw(st.integers(1, len(head)) | st.just(len(head)))])
+    codes = st.sampled_from(known) | st.integers(frame.id.low, frame.id.high)
+    ends = st.integers(1, frame.body_at) | st.just(frame.body_at)
+
+    def head(size: int, code: int, end: int) -> bytes:
+        data = bytearray(frame.header.ljust(frame.body_at, b"\0"))
+        length = min(max(size - frame.uncounted, 0), frame.length.high)
+        for slot, value in ((frame.length, length), (frame.id, code)):
+            data[slot.at : slot.at + slot.size] = slot.write(value)
+        return bytes(data[:end])
+
+    return st.builds(head, sizes, codes, ends)
 
 
-@st.composite
-def lines(draw: st.DrawFn, model: Model) -> bytes:
+@cache
+def lines(model: Model) -> st.SearchStrategy[bytes]:
     """Frames, frames of unknown id, and what is left of them, one behind the other."""
     header = model.frame.header
     likely = st.sampled_from([*header, *header, 0, 1, 2, 3, 4, 5, 6, 7, 8, 0x63, 0xFF])
@@ -126,9 +138,10 @@ def lines(draw: st.DrawFn, model: Model) -> bytes:
         st.just(header),
         st.binary(max_size=4),
     )
-    return b"".join(draw(st.lists(part, max_size=7)))[:400]
+    return st.lists(part, max_size=7).map(lambda parts: b"".join(parts)[:400])
 
 
+@st.composite
 def pieces(draw: st.DrawFn, line: bytes) -> list[bytes]:
     """The line, cut anywhere, also into single bytes."""
     if draw(st.booleans()):
@@ -192,7 +205,7 @@ def test_a_stream_decoder_tells_what_the_reference_tells(name: str, data: st.Dat
     line = ReferenceDecoder(model, directions, max_frame)
     # From quiet to quiet.
     for stretch in data.draw(st.lists(lines(model), min_size=1, max_size=3)):
-        chunks = data.draw(st.composite(pieces)(stretch))
+        chunks = data.draw(pieces(stretch))
         events = []
         for chunk in chunks:
             events += decoder.feed(chunk)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import cache
 from typing import TYPE_CHECKING
 
 from framegen.cases.sender import LONGEST, Sender
@@ -12,6 +13,7 @@ if TYPE_CHECKING:
     from framegen.model.model import Model
 
 
+@cache
 def lines_of(model: Model, way: Direction) -> st.SearchStrategy[bytes]:
     """What may be heard in one direction."""
     sender = Sender(model, way)

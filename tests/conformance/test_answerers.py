@@ -1,6 +1,7 @@
 """Every codec of this project is held to the published vectors, and seen to be able to fail."""
 
 import json
+from functools import cache
 from pathlib import Path
 from typing import Any
 
@@ -21,10 +22,12 @@ SPECS = [
 ]
 
 
+@cache
 def compiled(spec: Path) -> Compiled:
     return compile_spec(read_source(spec))
 
 
+@cache
 def vectors_of(spec: Path) -> dict[str, Any]:
     """The vectors as they are published."""
     (text,) = vectors.TARGET.render(compiled(spec), {}).values()

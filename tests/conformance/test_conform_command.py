@@ -78,10 +78,13 @@ def test_our_own_library_conforms() -> None:
 
 
 @pytest.mark.parametrize("spec", [BUSSERVO, DEMO], ids=lambda spec: spec.stem)
-def test_the_reference_itself_answers_by_hand(spec: Path) -> None:
-    status, questions, _ = process([str(spec), "--questions", "--more", "20", "--seed", "1"])
+def test_the_reference_itself_answers_by_hand(
+    spec: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    status, questions, _ = told(capsys, str(spec), "--questions", "--more", "20", "--seed", "1")
     assert status == 0
-    status, answers, errors = process([str(spec), "--answers"], questions)
+    monkeypatch.setattr(sys, "stdin", io.TextIOWrapper(io.BytesIO(questions.encode())))
+    status, answers, errors = told(capsys, str(spec), "--answers")
     assert (status, errors) == (0, "")
     assert answers.splitlines().count("end") == questions.count("\n") > 100
     assert not re.search("^error", answers, flags=re.MULTILINE)
