@@ -16,7 +16,6 @@ if TYPE_CHECKING:
     from .table import Entry, Table
     from .verdict import Verdict
 
-_new = object.__new__
 _TOO_SHORT = Reason.TOO_SHORT
 
 # What more bytes may make a header, or a frame, the longest first.
@@ -178,10 +177,9 @@ class NoiseLane:
                     continue
                 # A piece of noise begins, unless it goes on with a run of headers.
                 if reason is not self._reason or at != self._last + 1:
-                    if self.told < at:
-                        self._tell_noise(events, data, base, at)
+                    self._tell_noise(events, data, base, at)
                     self._reason = reason
-                # Of a run, so do those that end in the same run, or as far as what ends is void.
+                # Of a run, those are void as well that end in the same run, or behind what is weighed.
                 if claim and at < last:
                     alike = _run_length(data, end - base - 1) if own else horizon - end + 1
                     at = min(last, at + max(alike, 1) - 1)
