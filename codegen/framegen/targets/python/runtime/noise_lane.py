@@ -179,7 +179,7 @@ class NoiseLane:
                 if reason is not self._reason or at != self._last + 1:
                     self._tell_noise(events, data, base, at)
                     self._reason = reason
-                # Of a run, those are void as well that end in the same run, or behind what is weighed.
+                # Of a run, so are all that end in the same run, or behind what was weighed.
                 if claim and at < last:
                     alike = _run_length(data, end - base - 1) if own else horizon - end + 1
                     at = min(last, at + max(alike, 1) - 1)
