@@ -7,6 +7,7 @@ import importlib
 import importlib.util
 import sys
 import tempfile
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 from benchmarks import captures, messages, peers, processes, report, streams
@@ -18,7 +19,10 @@ if TYPE_CHECKING:
 
     from benchmarks.peers.interface import Peer
 
-ROWS = (*messages.ROWS, *streams.ROWS, *streams.NOISE_ROWS, "import", "generate")
+COMMAND_ROWS = {"command-text": [], "command-json": ["--json"], "command-csv": ["--csv"]}
+"""`busservo decode`, by the form of what it prints."""
+
+ROWS = (*messages.ROWS, *streams.ROWS, *streams.NOISE_ROWS, "import", *COMMAND_ROWS, "generate")
 
 ROUNDS = 10
 SECONDS = 0.01
@@ -30,6 +34,7 @@ QUICK_STREAM_SECONDS = 0.01
 QUICK_STRETCH = captures.PIECE // 8
 
 _GENERATE = [sys.executable, "-m", "framegen", "generate", "--out"]
+_DECODE = [sys.executable, "-m", "busservo", "decode"]
 
 
 def options(arguments: Sequence[str] | None) -> argparse.Namespace:
@@ -55,7 +60,12 @@ def options(arguments: Sequence[str] | None) -> argparse.Namespace:
         "--no-peers", action="store_true", help="only the library itself against the floor"
     )
     parser.add_argument("--quick", action="store_true", help="shorter samples, fewer rounds")
+    parser.add_argument(
+        "--write", action="store_true", help=f"also write the tables into {report.PAGE.name}"
+    )
     chosen = parser.parse_args(arguments)
+    if chosen.write and (chosen.only or chosen.no_peers or chosen.quick):
+        parser.error("--write takes a whole run, without --only, --no-peers and --quick")
     if chosen.rounds is None:
         chosen.rounds = QUICK_ROUNDS if chosen.quick else ROUNDS
     if chosen.rounds < 1:
@@ -106,6 +116,8 @@ def measure(
             streams.measure_noise(row, cases, chosen.rounds, stretch, results)
         elif row == "import":
             measure_imports(ours, present, chosen.rounds, results)
+        elif row in COMMAND_ROWS:
+            measure_decoding(row, chosen.rounds, results)
         else:
             measure_generators(present, chosen.rounds, results)
     return results
@@ -125,14 +137,24 @@ def measure_imports(
         )
 
 
+def measure_decoding(row: str, rounds: int, results: Results) -> None:
+    """Decode a capture with the command that comes with the library."""
+    with tempfile.TemporaryDirectory() as folder:
+        capture = Path(folder, "capture.bin")
+        capture.write_bytes(captures.conversation())
+        command = [*_DECODE, *COMMAND_ROWS[row], str(capture)]
+        processes.measure_command(row, OURS, command, rounds, results)
+
+
 def measure_generators(present: Sequence[Peer], rounds: int, results: Results) -> None:
     """Run every generator that there is."""
     if importlib.util.find_spec("framegen"):
         with tempfile.TemporaryDirectory() as folder:
-            processes.measure_generate(OURS, [*_GENERATE, folder], rounds, results)
+            command = [*_GENERATE, folder]
+            processes.measure_command("generate", OURS, command, rounds, results)
     for peer in present:
         if peer.generate_command:
-            processes.measure_generate(peer.name, peer.generate_command, rounds, results)
+            processes.measure_command("generate", peer.name, peer.generate_command, rounds, results)
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
@@ -141,7 +163,10 @@ def main(arguments: Sequence[str] | None = None) -> int:
     ours = load_ours()
     present, absent = ([], []) if chosen.no_peers else peers.load()
     results = measure(chosen, ours, present)
-    print(report.everything(results, ours is not None, present, absent, chosen.rounds))
+    tables = report.everything(results, ours is not None, present, absent, chosen.rounds)
+    print(tables)
+    if chosen.write:
+        report.write(tables)
     return 1 if results.wrong else 0
 
 

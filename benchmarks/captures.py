@@ -19,6 +19,11 @@ flipped: one byte in five hundred has one of its bits turned over."""
 PIECE = 1 << 20
 """Bytes in a piece: a run walks from piece to piece, so that ten of them are the ten megabytes."""
 
+_QUESTIONS = {
+    floor.POSITIONS: bytes.fromhex("55 55 09 15 06 01 02 03 04 05 06"),
+    floor.BATTERY: bytes.fromhex("55 55 02 0F"),
+}
+
 
 def positions_frame(positions: list[tuple[int, int]]) -> bytes:
     """The position reply that carries these (servo id, position) pairs."""
@@ -77,6 +82,17 @@ def piece(kind: str, number: int) -> bytes:
     if kind == "flipped":
         for offset in rng.sample(range(PIECE), PIECE // 500):
             data[offset] ^= 1 << rng.randrange(8)
+    return bytes(data)
+
+
+def conversation() -> bytes:
+    """A megabyte of what a line carries both ways: questions in front of what answers them."""
+    rng = random.Random(0)
+    frames = _frames(rng)
+    data = bytearray()
+    while len(data) < PIECE:
+        frame = rng.choice(frames)
+        data += _QUESTIONS.get(frame[3], b"") + frame
     return bytes(data)
 
 

@@ -9,9 +9,13 @@ import busservo
 from busservo import Direction, Noise, ServoMove, ServoPositions, StreamDecoder
 
 from benchmarks import floor, messages, streams
-from benchmarks.results import AS_COLUMNS, AT_HAND, BY_CLASS, EVERY_FIELD, IN_USE, OURS
+from benchmarks.results import AS_COLUMNS, AT_HAND, BY_CLASS, CLIENT, EVERY_FIELD, IN_USE, OURS
 
-IMPORTS = {OURS: "import busservo", IN_USE: "from busservo import StreamDecoder, decode"}
+IMPORTS = {
+    OURS: "import busservo",
+    IN_USE: "from busservo import StreamDecoder, decode",
+    CLIENT: "from busservo import Controller",
+}
 """Names are imported when they are asked for, so the import alone tells half of it."""
 
 _NAMES: dict[str, Any] = {

@@ -1,4 +1,4 @@
-"""Rows of whole processes: import a library, generate from a description of the protocol."""
+"""Rows of whole processes: import a library, decode a capture, generate from a description."""
 
 from __future__ import annotations
 
@@ -66,13 +66,15 @@ def measure_import(
     )
 
 
-def measure_generate(contender: str, command: Sequence[str], rounds: int, into: Results) -> None:
-    """CPU seconds of a fresh process that generates everything."""
+def measure_command(
+    row: str, contender: str, command: Sequence[str], rounds: int, into: Results
+) -> None:
+    """CPU seconds of a fresh process that does all there is to do."""
     sample = partial(cpu_seconds, command, folder=_ROOT)
     try:
         sample()
         taken = [sample() for _ in range(rounds)]
     except FailedError as error:
-        into.refuse("generate", contender, error)
+        into.refuse(row, contender, error)
         return
-    into.outcomes["generate", contender] = sampling.spread(taken)
+    into.outcomes[row, contender] = sampling.spread(taken)

@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import platform
 from dataclasses import dataclass
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 from benchmarks import captures, streams
 from benchmarks.peers import NOT_INSTALLED
-from benchmarks.results import AS_COLUMNS, EVERY_FIELD, FLOOR, IN_USE, OURS, Results
+from benchmarks.results import AS_COLUMNS, CLIENT, EVERY_FIELD, FLOOR, IN_USE, OURS, Results
 from benchmarks.targets import TARGETS
 
 if TYPE_CHECKING:
@@ -16,6 +17,12 @@ if TYPE_CHECKING:
 
     from benchmarks.peers import Absent
     from benchmarks.peers.interface import Peer
+
+PAGE = Path(__file__).with_name("README.md")
+"""The page that shows the tables of one run."""
+
+_BEGIN = "<!-- The tables of `python -m benchmarks --write` -->\n"
+_END = "<!-- end of tables -->\n"
 
 _NOTHING = "-"
 
@@ -60,6 +67,11 @@ TABLES = (
         (OURS,),
     ),
     Table("Import, milliseconds over a bare Python", {"import": "ms"}),
+    Table(
+        "`busservo decode`, CPU seconds for a capture of a megabyte, both ways",
+        {"command-text": "text", "command-json": "JSON", "command-csv": "CSV"},
+        (OURS,),
+    ),
     Table("Generate, CPU seconds of a fresh process", {"generate": "s"}, (OURS, "Kaitai Struct")),
 )
 
@@ -73,7 +85,7 @@ def everything(
 ) -> str:
     """The whole report."""
     titles = {FLOOR: "floor (struct by hand)"}
-    titles |= {name: name for name in (OURS, EVERY_FIELD, AS_COLUMNS, IN_USE)}
+    titles |= {name: name for name in (OURS, EVERY_FIELD, AS_COLUMNS, IN_USE, CLIENT)}
     titles |= {peer.name: peer.title for peer in present}
     missing = [*([] if with_ours else [OURS]), *(one.name for one in absent)]
     rounds_text = "1 round" if rounds == 1 else f"{rounds} rounds"
@@ -93,6 +105,13 @@ def everything(
     if ours:
         parts += ["### busservo against bar and goal", ours]
     return "\n\n".join(parts)
+
+
+def write(tables: str) -> None:
+    """Replace the tables of the page."""
+    before, _, rest = PAGE.read_text("utf-8").partition(_BEGIN)
+    _, _, after = rest.partition(_END)
+    PAGE.write_text(f"{before}{_BEGIN}\n{tables}\n\n{_END}{after}", "utf-8", newline="\n")
 
 
 def _comparison(

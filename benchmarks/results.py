@@ -15,6 +15,7 @@ BY_CLASS = "busservo, class known"
 EVERY_FIELD = "busservo, every field read"
 AS_COLUMNS = "busservo, every field read, as columns"
 IN_USE = "busservo, its codec in use"
+CLIENT = "busservo, its client in use"
 """The library in the plainest use of a row, and in other uses."""
 
 

@@ -566,6 +566,24 @@ def test_what_an_unknown_frame_leaves_that_was_none_has_a_piece_for_each_refused
     assert read(CONTROLLER, [b"\x13" + bytes.fromhex(line)]) == [stray, *events]
 
 
+@pytest.mark.parametrize("second", range(30, 45))
+@pytest.mark.parametrize("first", [46, 50, 60])
+def test_an_unknown_frame_that_begins_in_a_run_is_seen_however_the_run_was_cut(
+    first: int, second: int
+) -> None:
+    run, rest = (first + second) * b"\x55", bytes(100)
+    claimed = 2 + 0x55
+
+    # What ends within the run may go on; the first to end behind it stands alone.
+    void = max(0, len(run) + 1 - claimed)
+    line = run + rest
+    assert joined(read(CONTROLLER, [run[:first], run[first:], rest])) == [
+        *([Noise(line[:void], Reason.UNKNOWN_COMMAND)] if void else []),
+        UnknownFrame(line[void : void + claimed], Reason.UNKNOWN_COMMAND),
+        Noise(line[void + claimed :], Reason.BAD_HEADER),
+    ]
+
+
 @each_case
 def test_twenty_frames_are_all_read_after_one_stray_55(case: Case) -> None:
     line = b"\x55" + 20 * case.frame

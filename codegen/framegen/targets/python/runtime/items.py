@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from functools import partial
+from itertools import repeat
 from struct import Struct, calcsize
 
 from .errors import EncodeError
@@ -80,10 +80,10 @@ class Items(Field["tuple[Item, ...]"]):
                 return lambda message: tuple(message._frame[at:])
             return lambda message: self.numbers(message._frame)
         # As good as calling the class, and several times as fast.
-        kind: Any = self.element
-        make = partial(tuple.__new__, kind)
+        make: Any = tuple.__new__
+        kinds = repeat(self.element)
         read = Struct(STRUCT_ORDER + self.layout).iter_unpack
-        return lambda message: tuple(map(make, read(message._frame[at:])))
+        return lambda message: tuple(map(make, kinds, read(message._frame[at:])))
 
     def numbers(self, frame: bytes) -> Any:
         """All numbers of all elements of a legal frame, in order."""

@@ -16,7 +16,6 @@ if TYPE_CHECKING:
     from .table import Entry, Table
     from .verdict import Verdict
 
-_new = object.__new__
 _TOO_SHORT = Reason.TOO_SHORT
 
 # What more bytes may make a header, or a frame, the longest first.
@@ -83,35 +82,37 @@ class NoiseLane:
         `data` begins at the place `base`. Returns what the message is, which begins at `at`; None
         where none came, and `told`, `at` and `wake` say what is held.
         """
-        size, table = len(data), self._table
+        table, refused = self._table, self._refused
         known = table.verdicts
         while True:
             found = data.find(HEADER, at)
             at = found if found >= 0 else _begun_header(data, at)
-            if at == size:
-                self._cut(events, data, base, at, at, _NEVER if quiet else at)
-                self._stop(base + at, BODY_AT if self._refused else 0)
-                return None
             verdict = known.get(data[at : at + BODY_AT])
-            entry = table.whole(data, at) if verdict is None else None
-            if verdict is None and entry is None:
-                verdict = table.weigh(data, at)
-                if verdict.kind is not None:
+            if verdict is None:
+                entry = table.whole(data, at)
+                verdict = table.weigh(data, at) if entry is None else None
+                if verdict is not None and verdict.kind is not None:
                     entry = verdict.size, 0, 0, b"", verdict.kind, None
-            if verdict is None or entry is not None:
-                if self._refused:
-                    self._cut(events, data, base, at, at, _NEVER)
-                self._tell_noise(events, data, base, base + at)
-                self.at = base + at
-                return entry
-            after = at
+                if verdict is None or entry is not None:
+                    if refused:
+                        self._cut(events, data, base, at, at, final=True)
+                    self._tell_noise(events, data, base, base + at)
+                    self.at = base + at
+                    return entry
             if verdict.is_open:
-                after = self._give_up(events, data, base, at, verdict, quiet=quiet)
-                if after < 0:
+                after = self._wait(events, data, base, at, verdict, quiet=quiet)
+                if after is None:
                     return None
-            at = self._refuse(events, data, base, at, verdict) if after == at else after
+                if after != at:
+                    at = after
+                    continue
+            last, claim = at, verdict.claim
+            if claim == _RUN_CLAIM and data.startswith(_RUN, at):
+                last += _run_length(data, at) - BODY_AT
+            refused.append((base + at, base + last, verdict.reason, claim))
+            at = last + 1
 
-    def _give_up(
+    def _wait(
         self,
         events: list[Message | Noise],
         data: bytes,
@@ -120,46 +121,28 @@ class NoiseLane:
         verdict: Verdict,
         *,
         quiet: bool,
-    ) -> int:
-        """Waits for the rest of what may begin at data[at], or gives it up as the line is quiet.
+    ) -> int | None:
+        """Waits for the rest of what may begin at data[at], unless the line is quiet.
 
-        Returns -1 where it waits, and else where to go on: at data[at] itself as long as that is
-        not refused.
+        Returns None where it waits, and else where to go on: at data[at] itself if the header there
+        is to be refused.
         """
         # Of an unknown command, all that is not known yet is how much it claims.
         weighed = at if verdict.reason is _TOO_SHORT else len(data)
-        self._cut(events, data, base, at, weighed, _NEVER if quiet else len(data))
+        self._cut(events, data, base, at, weighed, final=quiet)
         if self.told > base + at:
             return self.told - base
-        if not quiet:
-            self._stop(base + at, verdict.size)
-            return -1
-        return at if data.startswith(HEADER, at) else at + 1
-
-    def _stop(self, at: int, needed: int) -> None:
-        """Notes that the search stops at `at` until so much is there, or a claim is whole."""
-        self.at, self.wake = at, at + needed
+        if quiet and at < len(data):
+            return at if data.startswith(HEADER, at) else at + 1
+        self.at = self.wake = base + at
+        if at < len(data):
+            self.wake += verdict.size
+        elif self._refused:
+            self.wake += BODY_AT
         if self._refused:
             first, _, _, claim = self._refused[0]
             self.wake = min(self.wake, max(first, self.told) + claim)
-
-    def _refuse(
-        self, events: list[Message | Noise], data: bytes, base: int, at: int, verdict: Verdict
-    ) -> int:
-        """Notes that no message begins at data[at]; returns where the next one may."""
-        last, claim = at, verdict.claim
-        if claim:
-            if claim == _RUN_CLAIM and data.startswith(_RUN, at):
-                last += _run_length(data, at) - BODY_AT
-            if at + claim <= len(data) and data.endswith(_BEGUN, at + 1, at + claim):
-                last = min(last, at + _run_length(data, at + claim - 1) - 1) if last > at else at
-                claim = 0
-        if claim or self._refused:
-            self._refused.append((base + at, base + last, verdict.reason, claim))
-        else:
-            self._begin_piece(events, data, base, base + at, verdict.reason)
-            self._last = base + last
-        return last + 1
+        return None
 
     def _cut(
         self,
@@ -168,40 +151,43 @@ class NoiseLane:
         base: int,
         until: int,
         weighed: int,
-        horizon: int,
+        *,
+        final: bool,
     ) -> None:
         """Tells what stands in front of data[until], up to the first claim that is undecided.
 
-        Claims that end up to `weighed` are decided by themselves, those that end up to `horizon`
-        are void, and others are undecided.
+        Claims that end up to data[weighed] are decided by themselves, others that end in `data` are
+        void. What would end behind it is undecided, or void as well where this is `final`.
         """
-        refused, number, at = self._refused, 0, self.told
-        until, weighed, horizon = until + base, weighed + base, horizon + base
-        while number < len(refused):
-            first, last, reason, claim = refused[number]
-            at = max(at, first)
-            end = at + claim
-            if claim and end > horizon and at <= last:
-                until = at
-                break
-            if (
-                at <= last
-                and claim
-                and end <= weighed
-                and self._stands_alone(data, at - base, end - base)
-            ):
-                self._tell_noise(events, data, base, at)
-                self._tell_unknown(events, data, base, end)
-                at = end
-            elif at <= last:
-                self._begin_piece(events, data, base, at, reason)
-                # Of a run, so are all that are void like this one, or that end in the same run.
-                self._last = last
-                if claim and end <= weighed and at < last:
-                    self._last = max(at, min(last, at + _run_length(data, end - base - 1) - 1))
-                at = self._last + 1
-            number += at > last
-        del refused[:number]
+        until, weighed = until + base, weighed + base
+        horizon = _NEVER if final else len(data) + base
+        for number, (first, last, reason, claim) in enumerate(self._refused):
+            at = max(first, self.told)
+            while at <= last:
+                end = at + claim
+                if claim and end > horizon:
+                    del self._refused[:number]
+                    self._tell_noise(events, data, base, at)
+                    return
+                own = claim and end <= weighed
+                if own and self._stands_alone(data, at - base, end - base):
+                    self._tell_noise(events, data, base, at)
+                    self._tell_unknown(events, data, base, end)
+                    at = end
+                    continue
+                # A piece of noise begins, unless it goes on with a run of headers.
+                if reason is not self._reason or at != self._last + 1:
+                    self._tell_noise(events, data, base, at)
+                    self._reason = reason
+                # Of a run, so are all that end in the same run, or behind what was weighed.
+                if claim and at < last:
+                    alike = _run_length(data, end - base - 1) if own else horizon - end + 1
+                    at = min(last, at + max(alike, 1) - 1)
+                else:
+                    at = last
+                self._last = at
+                at += 1
+        self._refused.clear()
         self._tell_noise(events, data, base, until)
 
     def _stands_alone(self, data: bytes, start: int, end: int) -> bool:
@@ -217,14 +203,6 @@ class NoiseLane:
                 return False
             at = data.find(HEADER, at + 1, end)
         return True
-
-    def _begin_piece(
-        self, events: list[Message | Noise], data: bytes, base: int, at: int, reason: Reason
-    ) -> None:
-        """Begins a piece of noise at a refused header, unless that goes on with a run of them."""
-        if reason is not self._reason or at != self._last + 1:
-            self._tell_noise(events, data, base, at)
-            self._reason = reason
 
     def _tell_noise(
         self, events: list[Message | Noise], data: bytes, base: int, until: int
