@@ -45,10 +45,14 @@ def yaml_of(value: object) -> str:
     if isinstance(value, list):
         return "[" + ", ".join(map(yaml_of, value)) + "]"
     if isinstance(value, str):
-        return '"' + "".join(map(_escaped, value)) + '"'
+        return f'"{value if _PLAIN.fullmatch(value) else "".join(map(_escaped, value))}"'
     if value is None:
         return "null"
     return str(value).lower() if isinstance(value, bool) else str(value)
+
+
+# Printable ASCII that means nothing else in double quotes.
+_PLAIN = re.compile(r"[ !#-\[\]-~]*")
 
 
 def _escaped(character: str) -> str:
@@ -80,7 +84,11 @@ def layout_of(data: Data) -> Model:
 
 def files_of(data: Data, name: str = "made_up.yaml") -> dict[str, str]:
     """The library of a spec without findings."""
-    compiled = compiled_of(data, name)
+    return library_files(compiled_of(data, name))
+
+
+def library_files(compiled: Compiled) -> dict[str, str]:
+    """The same, of what is compiled already."""
     assert [finding.message for finding in compiled.findings] == []
     return render_target(python.TARGET, compiled)
 

@@ -38,6 +38,7 @@ from tests.specimens import (
     layout_of,
     leaves,
     library,
+    library_files,
     renamed,
     rules_broken,
     vectors_of,
@@ -594,9 +595,10 @@ ODD_FIELDS = [
 
 def _works(data: Data, folder: Path) -> None:
     """The library loads, its strategies too, and every vector goes through it both ways."""
-    model = layout_of(data)
+    compiled = compiled_of(data)
+    model = compiled.model
     names = names_of(model)
-    with library(files_of(data), folder) as made:
+    with library(library_files(compiled), folder) as made:
         for valid in valid_frames(model):
             frame, written = valid.data, valid.message.name
             message = made.decode(frame, made.Direction(valid.message.direction.key))
