@@ -24,6 +24,7 @@ def unknown_streams(sender: Sender) -> Iterator[StreamCase]:
         *_whole(sender, frame, empty, filled),
         *_holding(sender, frame, empty, filled),
         *_unfinished(sender, frame, empty),
+        *_in_a_run(sender),
     ]
     for title, parts in lines:
         yield StreamCase(title, sender.direction, parts)
@@ -94,3 +95,13 @@ def _unfinished(sender: Sender, frame: bytes, empty: bytes) -> Iterator[tuple[st
     yield f"{title}, with another such and a frame in it", (larger + claim + frame, QUIET)
     claims = single_bytes(larger + claim + empty)
     yield f"{title}, with another such and an unknown frame in it", (*claims, QUIET)
+
+
+def _in_a_run(sender: Sender) -> Iterator[tuple[str, Parts]]:
+    """One that begins in a run of one byte, which says how long it is, and ends behind the run."""
+    first = sender.header[:1]
+    run = first[0] + sender.model.frame.uncounted + 1
+    if set(sender.header) == {*first} and run <= sender.largest:
+        half = run * 2 // 3
+        pieces = half * first, (run - half) * first, bytes(run)
+        yield "an unknown frame that begins in a long run of one byte, in pieces", (*pieces, QUIET)
