@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 import shutil
 from dataclasses import dataclass, field
-from functools import cache
+from functools import cache, cached_property
 from html.parser import HTMLParser
 from pathlib import Path, PurePosixPath
 from typing import TYPE_CHECKING, Any
@@ -112,8 +112,6 @@ class Reference:
     """One reference by path below its root: the files of Markdown that are kept, and the pages."""
 
     compiled: Compiled
-    files: dict[str, str]
-    pages: dict[str, Page]
 
     @property
     def source(self) -> Source:
@@ -125,22 +123,29 @@ class Reference:
         """What follows from it."""
         return self.compiled.model
 
+    @cached_property
+    def files(self) -> dict[str, str]:
+        """The text of each file that is kept."""
+        name = self.compiled.spec.protocol.name
+        return {
+            path.removeprefix(f"docs/reference/{name}/"): text
+            for path, text in render_target(docs.TARGET, self.compiled).items()
+        }
+
+    @cached_property
+    def pages(self) -> dict[str, Page]:
+        """Each page."""
+        root = f"{self.compiled.spec.protocol.name}/"
+        return {
+            (name := path.removeprefix(root)): Page(name, text)
+            for path, text in render_site([self.compiled], snippets()).items()
+            if path.startswith(root)
+        }
+
 
 def reference_of(source: Source) -> Reference:
-    """Render the reference of a spec that has no findings."""
-    compiled = compile_spec(source)
-    name = compiled.spec.protocol.name
-    files = {
-        path.removeprefix(f"docs/reference/{name}/"): text
-        for path, text in render_target(docs.TARGET, compiled).items()
-    }
-    site = {
-        path.removeprefix(f"{name}/"): text
-        for path, text in render_site([compiled], snippets()).items()
-        if path.startswith(f"{name}/")
-    }
-    pages = {path: Page(path, text) for path, text in site.items()}
-    return Reference(compiled, files, pages)
+    """The reference of a spec that has no findings."""
+    return Reference(compile_spec(source))
 
 
 def respelled(data: dict[str, Any]) -> Source:
