@@ -7,8 +7,7 @@ import csv
 
 from ..noise import Noise
 from ..octets import spaced
-from ..recording_file import EITHER
-from .events import in_json, names_of
+from .events import in_json, origin_of
 from .lines import in_line, time_of_day
 from .values import fields_in_json
 
@@ -113,10 +112,9 @@ def _as_json(event: Message | Noise, direction: Direction | None) -> str:
 
 
 def _as_cells(event: Message | Noise, direction: Direction | None) -> list[str]:
+    sender, names = origin_of(event, direction)
     if isinstance(event, Noise):
-        sender = EITHER if direction is None else direction.sender
         return [sender, "", "", "", "", spaced(event.data), event.reason.value]
-    name, *others = names_of(event, direction)
-    sender = EITHER if others else event.DIRECTION.sender
+    name, *others = names
     fields, frame = fields_in_json(event), spaced(event.encode())
     return [sender, event.DIRECTION.value, name, " ".join(others), fields, frame, ""]

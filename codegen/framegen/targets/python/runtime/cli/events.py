@@ -43,7 +43,15 @@ def sender_of(event: Message | Noise, direction: Direction | None) -> str:
     """Who sent it; `either` where nobody can tell; or that it is noise."""
     if isinstance(event, Noise):
         return UNKNOWN if isinstance(event, UnknownFrame) else NOISE
-    return EITHER if direction is None and twins(event) else event.DIRECTION.sender
+    return origin_of(event, direction)[0]
+
+
+def origin_of(event: Message | Noise, direction: Direction | None) -> tuple[str, list[str]]:
+    """Who sent it, noise or no, `either` where nobody can tell; and the messages it may be."""
+    if isinstance(event, Noise):
+        return EITHER if direction is None else direction.sender, []
+    names = names_of(event, direction)
+    return EITHER if len(names) > 1 else event.DIRECTION.sender, names
 
 
 def in_words(event: Message | Noise, direction: Direction | None) -> str:
@@ -58,18 +66,18 @@ def in_words(event: Message | Noise, direction: Direction | None) -> str:
 
 def in_json(event: Message | Noise, direction: Direction | None) -> str:
     """What it says, as the text of a JSON object: who sent it, noise or no, and what it is."""
+    sender, names = origin_of(event, direction)
     if isinstance(event, Noise):
-        record: dict[str, Any] = {"from": EITHER if direction is None else direction.sender}
-        record |= {"noise": spaced(event.data), "reason": event.reason.value}
+        record: dict[str, Any] = {"from": sender, "noise": spaced(event.data)}
+        record["reason"] = event.reason.value
         if isinstance(event, UnknownFrame):
             record |= {"command": event.command, "parameters": spaced(event.parameters)}
         return json.dumps(record)
-    name, *others = names_of(event, direction)
-    way = event.DIRECTION
-    sender = json.dumps(EITHER if others else way.sender)
-    what = f'"direction": "{way.value}", "message": "{name}", "fields": {fields_in_json(event)}'
+    name, *others = names
+    way, fields = event.DIRECTION.value, fields_in_json(event)
+    what = f'"direction": "{way}", "message": "{name}", "fields": {fields}'
     either = f', "or": {json.dumps(others)}' if others else ""
-    return f'{{"from": {sender}, {what}, "hex": "{spaced(event.encode())}"{either}}}'
+    return f'{{"from": {json.dumps(sender)}, {what}, "hex": "{spaced(event.encode())}"{either}}}'
 
 
 def totals(seen: Counters) -> str:
