@@ -4,7 +4,7 @@ import importlib
 import json
 import re
 import sys
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
 from types import ModuleType
@@ -133,12 +133,17 @@ def renamed(value: Any, old: str, new: str) -> Any:
     return value
 
 
-@contextmanager
-def library(files: dict[str, str], folder: Path) -> Iterator[ModuleType]:
-    """The library among `files`, written below `folder`, imported, and forgotten again."""
+def write_files(files: Mapping[str, str], folder: Path) -> None:
+    """Write texts below `folder`, as they are, with the folders that they need."""
     for path, text in files.items():
         (folder / path).parent.mkdir(parents=True, exist_ok=True)
         (folder / path).write_text(text, encoding="utf-8", newline="")
+
+
+@contextmanager
+def library(files: dict[str, str], folder: Path) -> Iterator[ModuleType]:
+    """The library among `files`, written below `folder`, imported, and forgotten again."""
+    write_files(files, folder)
     name = next(path for path in files if path.endswith("/py.typed")).split("/")[1]
     # Another test may have imported a library of the same name.
     before = {key: sys.modules.pop(key) for key in [*sys.modules] if key.split(".")[0] == name}

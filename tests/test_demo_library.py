@@ -38,6 +38,7 @@ from tests.specimens import (
     library_files,
     rules_broken,
     vectors_of,
+    write_files,
 )
 
 SPEC = data_of(DEMO)
@@ -823,9 +824,7 @@ def many(tmp_path_factory: pytest.TempPathFactory) -> Path:
         data = spec_with("Made", {}, 0, **FRAME)
         specs.append({**data, "protocol": {**data["protocol"], "name": name}, "messages": messages})
     for data in specs:
-        for path, text in files_of(data).items():
-            (folder / path).parent.mkdir(parents=True, exist_ok=True)
-            (folder / path).write_text(text, encoding="utf-8", newline="")
+        write_files(files_of(data), folder)
     return folder / "generated"
 
 

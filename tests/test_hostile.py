@@ -42,6 +42,7 @@ from tests.specimens import (
     renamed,
     rules_broken,
     vectors_of,
+    write_files,
 )
 
 SPECS = {"busservo": data_of(BUSSERVO), "greenhouse": data_of(DEMO)}
@@ -350,9 +351,7 @@ def test_hostile_modules_stay_as_the_formatter_has_them(tmp_path: Path) -> None:
         for path, module in python_of(files_of(with_prose(SPECS["greenhouse"], text))).items()
     }
     for (path, module), number in made.items():
-        file = tmp_path / str(number) / path
-        file.parent.mkdir(parents=True, exist_ok=True)
-        file.write_text(module, encoding="utf-8", newline="")
+        write_files({path: module}, tmp_path / str(number))
     done = subprocess.run(
         [command, "format", "--check", "--no-cache", "--config", ROOT / "pyproject.toml", tmp_path],
         capture_output=True,

@@ -42,6 +42,7 @@ from tests.specimens import (
     library,
     renamed,
     vectors_of,
+    write_files,
 )
 
 if TYPE_CHECKING:
@@ -372,9 +373,7 @@ def on_disk(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """The libraries of all of them, side by side."""
     folder = tmp_path_factory.mktemp("crowds")
     for data in CROWDS.values():
-        for path, text in files_of(data()).items():
-            (folder / path).parent.mkdir(parents=True, exist_ok=True)
-            (folder / path).write_text(text, encoding="utf-8", newline="")
+        write_files(files_of(data()), folder)
     return folder / "generated"
 
 
@@ -489,10 +488,9 @@ def test_the_pages_of_odd_names_are_linked_to(tmp_path: Path) -> None:
     crowd.report("Nul", ["level"])
     crowd.command("Con", ["level"], reply="Nul")
     spec = compiled_of(crowd.data)
-    for path, text in {**render(spec).files, **render_site([spec], snippets())}.items():
-        if path.endswith((".md", ".html")):
-            (tmp_path / path).parent.mkdir(parents=True, exist_ok=True)
-            (tmp_path / path).write_text(text, encoding="utf-8")
+    files = {**render(spec).files, **render_site([spec], snippets())}
+    pages = {path: text for path, text in files.items() if path.endswith((".md", ".html"))}
+    write_files(pages, tmp_path)
     links = 0
     for page in tmp_path.rglob("*"):
         text = page.read_text(encoding="utf-8") if page.is_file() else ""

@@ -15,7 +15,16 @@ import pytest
 from framegen.render import render_target
 from framegen.targets.vectors import TARGET as VECTORS
 
-from tests.specimens import BUSSERVO, DEMO, Data, compiled_of, data_of, files_of, leaves
+from tests.specimens import (
+    BUSSERVO,
+    DEMO,
+    Data,
+    compiled_of,
+    data_of,
+    files_of,
+    leaves,
+    write_files,
+)
 
 # One that asks and answers, one with poses, a sensor that only reports, a lamp that only obeys.
 FILES = [DEMO, *(DEMO.with_name(f"{name}.yaml") for name in ("blinds", "weather", "lamp"))]
@@ -105,9 +114,7 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """Where the libraries of the others stand side by side."""
     made = tmp_path_factory.mktemp("others")
     for file in OTHERS.values():
-        for path, text in files_of(data_of(file)).items():
-            (made / path).parent.mkdir(parents=True, exist_ok=True)
-            (made / path).write_text(text, encoding="utf-8", newline="")
+        write_files(files_of(data_of(file)), made)
     return made / "generated"
 
 

@@ -6,11 +6,11 @@ import sys
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from framegen.render import render_target, snippets
-from framegen.targets import python
+from framegen.render import snippets
 from framegen.targets.docs.pages import render_site
 
 from tests.docs.reference import NODE
+from tests.specimens import library_files, write_files
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -22,9 +22,7 @@ ANSWER = Path(__file__).parent / "answer.js"
 
 def python_command(compiled: Compiled, folder: Path) -> list[str]:
     """Write the library to `folder`; the command that answers with it."""
-    for path, text in render_target(python.TARGET, compiled).items():
-        (folder / path).parent.mkdir(parents=True, exist_ok=True)
-        (folder / path).write_text(text, encoding="utf-8", newline="")
+    write_files(library_files(compiled), folder)
     name = compiled.spec.protocol.name
     code = f"import sys; sys.path.insert(0, sys.argv.pop(1)); from {name}.cli import main; "
     return [sys.executable, "-c", f"{code}sys.exit(main())", str(folder / "generated"), "answer"]

@@ -1,6 +1,5 @@
 """Every codec of this project is held to the published vectors, and seen to be able to fail."""
 
-import json
 from functools import cache
 from pathlib import Path
 from typing import Any
@@ -8,12 +7,11 @@ from typing import Any
 import pytest
 from framegen.compile import Compiled, compile_spec
 from framegen.language.load import read_source
-from framegen.targets import vectors
 
 from tests.conformance.answerers import ANSWERERS
 from tests.conformance.harness import asked, differences, joined, run
 from tests.docs.reference import NODE
-from tests.specimens import BUSSERVO, DEMO
+from tests.specimens import BUSSERVO, DEMO, vectors_of
 
 SPECS = [
     BUSSERVO,
@@ -28,11 +26,9 @@ def compiled(spec: Path) -> Compiled:
 
 
 @cache
-def vectors_of(spec: Path) -> dict[str, Any]:
-    """The vectors as they are published."""
-    (text,) = vectors.TARGET.render(compiled(spec), {}).values()
-    document: dict[str, Any] = json.loads(text)
-    return document
+def published(spec: Path) -> dict[str, Any]:
+    """The vectors of a spec."""
+    return vectors_of(compiled(spec))
 
 
 @pytest.mark.parametrize("spec", SPECS, ids=lambda spec: spec.stem)
@@ -40,14 +36,14 @@ def vectors_of(spec: Path) -> dict[str, Any]:
 def test_a_codec_says_what_the_vectors_say(language: str, spec: Path, tmp_path: Path) -> None:
     if language == "page" and NODE is None:
         pytest.skip("node is not installed")
-    questions = [*asked(vectors_of(spec))]
+    questions = [*asked(published(spec))]
     command = ANSWERERS[language](compiled(spec), tmp_path)
     answers = run(command, [each.question for each in questions])
     assert differences(questions, answers) == []
 
 
 def test_every_vector_is_asked() -> None:
-    document = vectors_of(BUSSERVO)
+    document = published(BUSSERVO)
     questions = [each.question.split()[0] for each in asked(document)]
     assert questions.count("encode") == len(document["valid"]) + len(document["unencodable"])
     assert questions.count("decode") == len(document["valid"]) + len(document["invalid"])
@@ -56,7 +52,7 @@ def test_every_vector_is_asked() -> None:
 
 @pytest.mark.parametrize("spoilt", ["", "refused once", "frame 55", "message Nothing 55"])
 def test_a_wrong_answer_to_any_question_is_seen(spoilt: str) -> None:
-    questions = [*asked(vectors_of(DEMO))]
+    questions = [*asked(published(DEMO))]
     right = [each.answer for each in questions]
     assert differences(questions, right) == []
     wrong = [[*answer[:-1], spoilt] for answer in right]

@@ -15,7 +15,7 @@ from tests.docs.peers import joined, noisy_lines, reference_events
 from tests.docs.reference import NODE_MODULES, SPECS, reference
 from tests.docs.test_hostile_pages import PAYLOADS, hostile
 from tests.patience import PATIENCE
-from tests.specimens import vectors_of
+from tests.specimens import vectors_of, write_files
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -480,10 +480,7 @@ def test_a_page_alone_looks_as_in_its_folder(visit: Visit, tmp_path: Path, folde
 
 def test_nothing_of_a_hostile_spec_runs(context: BrowserContext, tmp_path: Path) -> None:
     site = hostile(" ".join(PAYLOADS.values()))
-    for path, page in site.pages.items():
-        file = tmp_path / path
-        file.parent.mkdir(parents=True, exist_ok=True)
-        file.write_text(page.text, encoding="utf-8")
+    write_files({path: page.text for path, page in site.pages.items()}, tmp_path)
     visit = Visit(context, tmp_path)
     visit.tab.on("dialog", lambda dialog: visit.troubles.append(dialog.message))
     for path in [*NAMES, "messages/ServoMove.html"]:

@@ -8,6 +8,7 @@ import pytest
 
 from tests.docs.reference import NODE, NODE_MODULES, SPECS, reference
 from tests.docs.test_hostile_pages import PAYLOADS, hostile
+from tests.specimens import write_files
 
 VALIDATOR = NODE_MODULES / "html-validate" / "bin" / "html-validate.mjs"
 RULES = {"root": True, "extends": ["html-validate:standard"]}
@@ -20,10 +21,7 @@ pytestmark = pytest.mark.skipif(
 
 def complaints(folder: Path, pages: dict[str, str]) -> list[str]:
     """What the validator has against pages, each with its place."""
-    for path, text in pages.items():
-        file = folder / path
-        file.parent.mkdir(parents=True, exist_ok=True)
-        file.write_text(text, encoding="utf-8")
+    write_files(pages, folder)
     (folder / ".htmlvalidate.json").write_text(json.dumps(RULES))
     done = subprocess.run(
         [str(NODE), str(VALIDATOR), "--formatter", "json", str(folder)],
