@@ -29,7 +29,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import busservo
 import serial
-from busservo.protocol import BAUD, BITS_PER_BYTE
+from busservo._frame.protocol import BAUD, BITS_PER_BYTE
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator

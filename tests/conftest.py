@@ -12,7 +12,7 @@ from types import SimpleNamespace
 from typing import TYPE_CHECKING, Any
 
 import pytest
-from busservo.rejects import Rejects
+from busservo._codec.rejects import Rejects
 from busservo_simulator import VirtualController
 from hypothesis import HealthCheck, settings
 from serial.urlhandler import protocol_socket

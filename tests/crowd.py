@@ -10,7 +10,7 @@ from framegen.targets.python.reserved import RESERVED
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from tests.specimens import Data
+    from tests.factories import Data
 
 # More fields than that, and a method has more arguments than linters like.
 _FIELDS = 6

@@ -32,13 +32,13 @@ from typing import TYPE_CHECKING, Any
 from unittest import mock
 
 import busservo
-import busservo.cli
+import busservo._cli
 import framegen.cli
-from busservo.async_opening import open_async_controller
-from busservo.opening import open_controller
+from busservo._client.async_opening import open_async_controller
+from busservo._client.opening import open_controller
 from busservo_simulator import ActionGroup, Step, VirtualController
 
-from tests.patience import PATIENCE, undoubted
+from tests.timeouts import GENEROUS, undoubted
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
@@ -50,16 +50,16 @@ _GUIDES = sorted({*(ROOT / "docs").glob("*.md")} - {_GUIDE})
 PAGES = [ROOT / "README.md", ROOT / "CONTRIBUTING.md", *_GUIDES]
 
 # A page need not say that the machine on which it is tried may be busy.
-PATIENT = {"margin": PATIENCE, "settle": 0}
+PATIENT = {"reply_timeout": GENEROUS, "settle": 0}
 PATIENT_WORDS = {
-    verb: ["--timeout", str(PATIENCE)] for verb in ("bench-line", "conform", "doctor", "send")
+    verb: ["--timeout", str(GENEROUS)] for verb in ("bench-line", "conform", "doctor", "send")
 }
 
 # What a page runs is to take no longer than it must.
 GROUPS = {8: ActionGroup([Step(20, {2: 500})])}
 
 _NEEDED = ("spec", "generated", "codegen", "docs", "tests/captures")
-_COMMANDS = {"busservo": busservo.cli.main, "framegen": framegen.cli.main}
+_COMMANDS = {"busservo": busservo._cli.main, "framegen": framegen.cli.main}
 # What each of them is made of, by the folder at the top.
 _MADE_OF = {"busservo": {"spec", "codegen", "generated"}, "framegen": {"codegen"}}
 _BLOCK = re.compile(r"^```(console|pycon|python|output|diff)\n(.*?)^```$", re.MULTILINE | re.DOTALL)
@@ -114,7 +114,7 @@ class _Player:
                 open_async_controller=lambda _port, **given: open_async_controller(
                     board.port, **PATIENT | given
                 ),
-                Controller=partial(busservo.Controller, margin=PATIENCE),
+                Controller=partial(busservo.Controller, reply_timeout=GENEROUS),
             )
             with opening, undoubted(), _at(self._folder), contextlib.redirect_stdout(output):
                 exec(source, self._names)  # noqa: S102 - our own pages
@@ -151,7 +151,7 @@ class _Player:
             stdout=subprocess.PIPE,
             stderr=subprocess.STDOUT,
             encoding="utf-8",
-            timeout=5 * PATIENCE,
+            timeout=5 * GENEROUS,
             check=False,
         ).stdout
 

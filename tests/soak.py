@@ -32,7 +32,7 @@ from tests.client.conversation import (
     heard_by_async,
 )
 from tests.independent import long_run
-from tests.patience import PATIENCE, await_that
+from tests.timeouts import GENEROUS, await_that
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -40,9 +40,9 @@ if TYPE_CHECKING:
     from busservo import Message
 
 THREADS, TASKS = 8, 100
-MARGIN = 0.25
+REPLY_TIMEOUT = 0.25
 # The other end is a thread of the same busy machine.
-LIVE_MARGIN = 1.0
+LIVE_REPLY_TIMEOUT = 1.0
 # So that rounds end soon although a lost reply costs twice the margin. No frame comes in pieces: a
 # busy machine may hold one up for so long that the frame is lost, and its report with it.
 LIVE = {"noise": 0.1, "coalesced": 0.002, "delays": 0.002, "dropped": 0.0005}
@@ -111,12 +111,18 @@ def in_virtual_time(requests: int, rounds: int, seed: int) -> None:
     with VirtualController(clock=clock, faults=faults) as board:
         ledger = Ledger(board)
         with Controller(
-            board.transport, background=False, clock=clock.now, baud=math.inf, margin=MARGIN
+            board.transport,
+            background=False,
+            clock=clock.now,
+            baud=math.inf,
+            reply_timeout=REPLY_TIMEOUT,
         ) as controller:
             watch = Watch("virtual time", ledger, controller)
             for turn in range(rounds):
                 size = requests // rounds
-                converse(controller, ledger, seed + turn, size, clock.now, 3 * MARGIN + 0.001)
+                converse(
+                    controller, ledger, seed + turn, size, clock.now, 3 * REPLY_TIMEOUT + 0.001
+                )
                 watch.round((turn + 1) * size, list(controller.reports(timeout=1)))
             watch.end(requests)
 
@@ -128,9 +134,9 @@ def with_threads(requests: int, rounds: int, seed: int) -> None:
         ledger = Ledger(board)
         # A pool starts a thread only when none is idle: all are there before the first round.
         begun = threading.Barrier(THREADS)
-        list(pool.map(lambda _: begun.wait(PATIENCE), range(THREADS)))
+        list(pool.map(lambda _: begun.wait(GENEROUS), range(THREADS)))
         transport = open_transport(board.port)
-        with Controller(transport, baud=math.inf, margin=LIVE_MARGIN) as controller:
+        with Controller(transport, baud=math.inf, reply_timeout=LIVE_REPLY_TIMEOUT) as controller:
             watch = Watch(f"{THREADS} threads", ledger, controller)
             size = requests // rounds // THREADS
             for turn in range(rounds):
@@ -146,7 +152,9 @@ async def with_tasks(requests: int, rounds: int, seed: int) -> None:
     with VirtualController("tcp", faults=faults) as board:
         ledger = Ledger(board)
         transport = open_transport(board.port)
-        async with AsyncController(transport, baud=math.inf, margin=LIVE_MARGIN) as controller:
+        async with AsyncController(
+            transport, baud=math.inf, reply_timeout=LIVE_REPLY_TIMEOUT
+        ) as controller:
             watch = Watch(f"{TASKS} tasks", ledger, controller)
             size = requests // rounds // TASKS
             for turn in range(rounds):

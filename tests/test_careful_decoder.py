@@ -16,11 +16,11 @@ from busservo import (
     ServoPositions,
     StreamDecoder,
 )
-from busservo.careful_decoder import CarefulDecoder
+from busservo._codec.careful_decoder import CarefulDecoder
 from hypothesis import given
 from hypothesis import strategies as st
 
-from tests.lines import joined
+from tests.strategies import joined
 
 if TYPE_CHECKING:
     from collections.abc import Iterable

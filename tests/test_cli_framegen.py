@@ -20,8 +20,8 @@ from framegen.reading.yamltree import Unusable
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from tests.patience import PATIENCE
-from tests.specimens import BUSSERVO, DEMO
+from tests.factories import BUSSERVO, DEMO
+from tests.timeouts import GENEROUS
 
 Capture: TypeAlias = "pytest.CaptureFixture[str]"
 
@@ -56,7 +56,7 @@ def run(*words: str) -> tuple[int, str, str]:
         [sys.executable, "-m", "framegen", *words],
         capture_output=True,
         encoding="utf-8",
-        timeout=5 * PATIENCE,
+        timeout=5 * GENEROUS,
         check=False,
     )
     return result.returncode, result.stdout, result.stderr
@@ -391,7 +391,7 @@ def test_a_reader_that_has_seen_enough_is_no_error() -> None:
         [sys.executable, "-m", "framegen", "schema"],
         stdout=write,
         stderr=subprocess.PIPE,
-        timeout=5 * PATIENCE,
+        timeout=5 * GENEROUS,
         check=False,
     )
     os.close(write)
@@ -405,7 +405,7 @@ def test_a_full_disk_is_told() -> None:
             [sys.executable, "-m", "framegen", "schema"],
             stdout=full,
             stderr=subprocess.PIPE,
-            timeout=5 * PATIENCE,
+            timeout=5 * GENEROUS,
             check=False,
         )
     assert result.returncode == 2
@@ -420,7 +420,7 @@ def test_characters_that_the_terminal_lacks_are_escaped() -> None:
         [sys.executable, "-c", script],
         env={**os.environ, "PYTHONIOENCODING": "ascii:strict"},
         capture_output=True,
-        timeout=5 * PATIENCE,
+        timeout=5 * GENEROUS,
         check=False,
     )
     assert result.returncode == 2
@@ -433,7 +433,7 @@ def test_a_missing_package_is_named_with_its_cure() -> None:
         "from framegen.cli import main; sys.exit(main(['check']))"
     )
     result = subprocess.run(
-        [sys.executable, "-c", script], capture_output=True, timeout=5 * PATIENCE, check=False
+        [sys.executable, "-c", script], capture_output=True, timeout=5 * GENEROUS, check=False
     )
     assert result.returncode == 2
     assert result.stderr.decode().splitlines() == [
@@ -452,7 +452,7 @@ def test_what_runs_no_verb_imports_nothing_heavy(words: list[str]) -> None:
         "sys.exit(f'imported {heavy}' if heavy else 0)"
     )
     result = subprocess.run(
-        [sys.executable, "-c", script], capture_output=True, timeout=5 * PATIENCE, check=False
+        [sys.executable, "-c", script], capture_output=True, timeout=5 * GENEROUS, check=False
     )
     assert (result.returncode, result.stderr.decode().partition("imported")[2]) == (0, "")
 
@@ -511,7 +511,7 @@ def test_a_python_without_docstrings_is_refused_before_it_drops_descriptions(
         [sys.executable, "-OO", "-m", "framegen", *words],
         capture_output=True,
         encoding="utf-8",
-        timeout=5 * PATIENCE,
+        timeout=5 * GENEROUS,
         check=False,
     )
     assert (result.returncode, result.stdout) == (2, "")

@@ -10,12 +10,12 @@ import json
 from typing import TYPE_CHECKING, Any, TypeAlias
 
 import pytest
-from busservo.exchanges import EXCHANGES
+from busservo._client.exchanges import EXCHANGES
 from framegen.compile import compile_spec
 from framegen.model.exchanges import STEPS_PER_SECOND
 from framegen.reading.source import Source
 
-from tests.specimens import BUSSERVO, Data, data_of, layout_of
+from tests.factories import BUSSERVO, Data, data_of, layout_of
 
 if TYPE_CHECKING:
     from collections.abc import Iterator

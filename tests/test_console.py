@@ -12,11 +12,11 @@ import unicodedata
 from functools import partial
 from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 
-import busservo.cli
+import busservo._cli
 import busservo_simulator.cli
 import framegen.cli
 import pytest
-from busservo.cli import console as library_console
+from busservo._cli import console as library_console
 from framegen import console
 from framegen.console import Screen, visible
 from framegen.reading.text import first_invisible
@@ -25,7 +25,7 @@ from hypothesis import strategies as st
 from serial.tools.list_ports_common import ListPortInfo
 
 from tests.documents import ROOT
-from tests.patience import PATIENCE
+from tests.timeouts import GENEROUS
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -93,7 +93,7 @@ def run(
     ]
     done = []
     for process in started:
-        _, errors = process.communicate(command.stdin, timeout=PATIENCE)
+        _, errors = process.communicate(command.stdin, timeout=GENEROUS)
         done.append((process.returncode, errors))
     assert done[0] == done[1]
     return done[0]
@@ -170,7 +170,7 @@ def test_no_port_gets_the_number_of_a_stream_that_is_closed() -> None:
         [sys.executable, "-c", program],
         env=environments()[1],
         preexec_fn=lambda: close_all((0, 1, 2)),
-        timeout=PATIENCE,
+        timeout=GENEROUS,
         check=False,
     )
     assert done.returncode == 3
@@ -258,7 +258,7 @@ FRAMEGEN = [
     ["schema", HOSTILE],
 ]
 MAINS = {
-    "busservo": busservo.cli.main,
+    "busservo": busservo._cli.main,
     "framegen": framegen.cli.main,
     "busservo-simulator": busservo_simulator.cli.main,
 }
@@ -315,7 +315,7 @@ def test_a_device_cannot_command_the_terminal(
     port = ListPortInfo("/dev/ttyUSB0")
     port.description = HOSTILE
     monkeypatch.setattr("serial.tools.list_ports.comports", lambda: [port])
-    assert busservo.cli.main(["ports", *form]) == 0
+    assert busservo._cli.main(["ports", *form]) == 0
     output, _ = capsys.readouterr()
     assert hidden_in(output) == ""
     assert output.count("\n") == 1

@@ -20,7 +20,7 @@ from tests.cases import (
     each_bad_frame,
     each_case,
 )
-from tests.lines import HEADS, damaged_frames, directions
+from tests.strategies import HEADS, damaged_frames, directions
 
 each_message = pytest.mark.parametrize("kind", MESSAGES, ids=lambda kind: kind.__name__)
 

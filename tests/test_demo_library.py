@@ -25,7 +25,7 @@ from framegen.model.slots import Items, Number
 from hypothesis import given
 from hypothesis import strategies as st
 
-from tests.specimens import (
+from tests.factories import (
     DEMO,
     ROOT,
     Data,
@@ -716,7 +716,7 @@ def test_what_follows_from_a_number_is_told_of_messages_and_elements(tmp_path: P
 def test_limits_hold_for_a_number_and_for_numbers_in_a_list(tmp_path: Path) -> None:
     message, length = SHAPES["limits of a number and of numbers in a list"]
     with library(files_of(spec_with("Made", message, length, **FRAME)), tmp_path) as made:
-        limits = importlib.import_module(f"{made.__name__}.exchanges").LIMITS
+        limits = importlib.import_module(f"{made.__name__}._client.exchanges").LIMITS
         limits.check(made.Made(9, [1, 9]), limits.usual)
         for level, numbers, place in [(10, [1], "level: 10"), (1, [1, 0], "numbers[1]: 0")]:
             with pytest.raises(made.LimitError) as refused:

@@ -11,7 +11,7 @@ from framegen.cli import main
 from framegen.comparison import KINDS, differences
 from framegen.model.model import Model, derive
 
-from tests.specimens import BUSSERVO, DEMO, Data, Steps, compiled_of, data_of, renamed, yaml_of
+from tests.factories import BUSSERVO, DEMO, Data, Steps, compiled_of, data_of, renamed, yaml_of
 
 SPECS = {"busservo": data_of(BUSSERVO), "greenhouse": data_of(DEMO)}
 GONE = "(gone)"

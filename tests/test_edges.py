@@ -17,7 +17,7 @@ from framegen.model.model import derive
 from framegen.wording import describe_range
 
 from tests.cases import CASES
-from tests.specimens import BUSSERVO, DEMO, compiled_of, data_of, layout_of
+from tests.factories import BUSSERVO, DEMO, compiled_of, data_of, layout_of
 
 
 @pytest.mark.parametrize(

@@ -14,7 +14,7 @@ from framegen.language.load import read_source
 from framegen.reading.source import Source
 from framegen.reading.yamltree import read_tree
 
-from tests.specimens import BUSSERVO, DEMO, data_of
+from tests.factories import BUSSERVO, DEMO, data_of
 
 FOLDER = Path(__file__).parent / "specs" / "editions"
 OLD = sorted(FOLDER.glob("*/*.yaml"))

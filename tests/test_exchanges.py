@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 import pytest
 
 from tests.device_line import DeviceLine
-from tests.specimens import Data, files_of, kiln, layout_of, library
+from tests.factories import Data, files_of, kiln, layout_of, library
 
 if TYPE_CHECKING:
     from pathlib import Path

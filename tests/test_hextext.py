@@ -5,15 +5,15 @@ from itertools import pairwise
 
 import framegen.hextext
 import pytest
-from busservo import hextext
-from busservo.cli import main
-from busservo.hextext import HexError, HexReader, is_hex, read_hex
+from busservo._cli import main
+from busservo._codec import hextext
+from busservo._codec.hextext import HexError, HexReader, is_hex, read_hex
 from framegen.cli import main as framegen_main
 from hypothesis import given
 from hypothesis import strategies as st
 
+from tests.factories import BUSSERVO
 from tests.hex_cases import HEX, NO_HEX, random_texts
-from tests.specimens import BUSSERVO
 
 # What has no place among the words of a command line.
 WORDS = [text for text in NO_HEX if "\0" not in text]

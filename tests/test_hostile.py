@@ -25,7 +25,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from tests.crowd import Crowd
-from tests.specimens import (
+from tests.factories import (
     BUSSERVO,
     DEMO,
     ROOT,

@@ -42,7 +42,7 @@ def imported(statement: str) -> set[str]:
     ("statement", "allowed"),
     [
         ("import busservo", set()),
-        ("import busservo.codec", CODEC),
+        ("import busservo._codec.codec", CODEC),
         ("from busservo import StreamDecoder, decode", CODEC),
         ("from busservo import Controller", CLIENT),
         ("from busservo import Controller, Device, ServoMove, UnknownFrame", CLIENT),

@@ -14,7 +14,7 @@ from framegen.wording import describe_range
 from hypothesis import given
 from hypothesis import strategies as st
 
-from tests.specimens import BUSSERVO, DEMO, Data, data_of, layout_of
+from tests.factories import BUSSERVO, DEMO, Data, data_of, layout_of
 
 SPECS = {"busservo": data_of(BUSSERVO), "greenhouse": data_of(DEMO)}
 LAYOUTS = {name: layout_of(data) for name, data in SPECS.items()}

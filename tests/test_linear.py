@@ -12,7 +12,7 @@ from framegen.compile import compile_spec
 from framegen.reading.source import Source
 from framegen.render import render
 
-from tests.specimens import yaml_of
+from tests.factories import yaml_of
 
 FEW = 32
 

@@ -3,14 +3,15 @@
 from pathlib import Path
 
 import pytest
-from busservo import Message, lookalikes, strategies
+from busservo import Message, strategies
+from busservo._codec import lookalikes
 from framegen.model.lookalikes import recognise
 from framegen.model.model import Model
 from framegen.targets.python.library_view import LibraryView
 from hypothesis import given
 from hypothesis import strategies as st
 
-from tests.specimens import BUSSERVO, DEMO, data_of, files_of, layout_of, library
+from tests.factories import BUSSERVO, DEMO, data_of, files_of, layout_of, library
 
 LAYOUT = layout_of(data_of(BUSSERVO))
 SERVO_BUS = "LX-16A bus servo protocol"

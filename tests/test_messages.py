@@ -40,8 +40,8 @@ from busservo import (
     ServoUnload,
     UnknownFrame,
 )
-from busservo.element import Element
-from busservo.number import U8
+from busservo._frame.element import Element
+from busservo._frame.number import U8
 from framegen.model import verdict
 from hypothesis import given
 from hypothesis import strategies as st
@@ -745,7 +745,7 @@ def test_the_package_alone_imports_no_module_of_its_own() -> None:
 
 def test_a_port_has_to_be_opened_before_pyserial_is_imported() -> None:
     modules = modules_after("from busservo import *")
-    assert "busservo.serial_port" in modules
+    assert "busservo._serial.serial_port" in modules
     assert "serial" not in modules
 
 

@@ -15,8 +15,9 @@ from typing import TYPE_CHECKING, Any
 
 import busservo
 import pytest
-from busservo.async_client import AsyncClient
-from busservo.client import Client
+from busservo._client.async_client import AsyncClient
+from busservo._client.client import Client
+from busservo._frame.element import Element
 from framegen.cli import main
 from framegen.model.exchanges import snake_case
 from framegen.render import render, render_target, snippets
@@ -31,7 +32,7 @@ from hypothesis import strategies as st
 
 from tests.crowd import Crowd, taken, taken_elements, taken_names, taken_pose
 from tests.device_line import DeviceLine
-from tests.specimens import (
+from tests.factories import (
     BUSSERVO,
     DEMO,
     ROOT,
@@ -57,9 +58,10 @@ if TYPE_CHECKING:
 PACKAGE = Path(busservo.__file__).parent
 # Those that import the messages by name.
 MODULES = sorted(
-    path.name
-    for path in PACKAGE.glob("*.py")
-    if "from .messages import" in path.read_text(encoding="utf-8") or path.name == "messages.py"
+    path.relative_to(PACKAGE).as_posix()
+    for path in PACKAGE.rglob("*.py")
+    if "_cli" not in path.parts
+    and (".messages import" in path.read_text(encoding="utf-8") or path.name == "messages.py")
 )
 MINE = {kind.__name__ for kind in busservo.MESSAGES} | {"ServoTarget", "ServoPosition"}
 CROWDS = {"names": taken_names, "elements": taken_elements, "pose": taken_pose}
@@ -117,7 +119,9 @@ def public(kind: type) -> set[str]:
 
 
 def test_the_modules_that_know_messages_are_known() -> None:
-    assert {"device.py", "exchanges.py", "controller.py", "messages.py"} <= set(MODULES)
+    assert {"device.py", "_client/exchanges.py", "_client/controller.py", "messages.py"} <= set(
+        MODULES
+    )
 
 
 @pytest.mark.parametrize("module", MODULES)
@@ -127,7 +131,7 @@ def test_what_a_module_needs_is_reserved(module: str) -> None:
     assert needed - {*taken("message")} == needed - {*taken("element")} == set()
 
 
-@pytest.mark.parametrize("module", ["controller.py", "async_controller.py"])
+@pytest.mark.parametrize("module", ["_client/controller.py", "_client/async_controller.py"])
 def test_what_a_method_needs_is_reserved(module: str) -> None:
     # Comprehensions have a scope of their own; busservo's `targets` and `servo_ids` are fields.
     needed = variables_in(module) - {"_", "each", "targets", "servo_ids"}
@@ -136,7 +140,7 @@ def test_what_a_method_needs_is_reserved(module: str) -> None:
 
 
 def test_what_a_class_of_the_library_has_is_reserved() -> None:
-    element = type("Made", (busservo.element.Element, tuple), {"__slots__": ()})
+    element = type("Made", (Element, tuple), {"__slots__": ()})
     # No field is in capitals.
     assert public(Client) | public(AsyncClient) <= {*taken("method")}
     assert public(busservo.Message) <= {*taken("field"), "VENDOR_NAME"}

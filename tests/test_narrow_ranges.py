@@ -6,14 +6,14 @@ from typing import TYPE_CHECKING
 
 import pytest
 from busservo import DecodeError, Direction, EncodeError, Message, Noise, Reason, StreamDecoder
-from busservo.element import Element
-from busservo.items import Items
-from busservo.noise_lane import NoiseLane
-from busservo.number import U8, U16
-from busservo.protocol import HEADER
-from busservo.table import Table, largest_of
+from busservo._codec.noise_lane import NoiseLane
+from busservo._frame.element import Element
+from busservo._frame.items import Items
+from busservo._frame.number import U8, U16
+from busservo._frame.protocol import HEADER
+from busservo._frame.table import Table, largest_of
 
-from tests.lines import bytes_of, joined, noise, single_bytes
+from tests.strategies import bytes_of, joined, noise, single_bytes
 
 if TYPE_CHECKING:
     from typing_extensions import Self

@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 
-from tests.patience import PATIENCE
+from tests.timeouts import GENEROUS
 
 ROOT = Path(__file__).parent.parent
 
@@ -142,7 +142,7 @@ port = f"socket://127.0.0.1:{listener.getsockname()[1]}"
 """
 
 METHODS = """
-with busservo.open_controller(port, margin=60) as controller:
+with busservo.open_controller(port, reply_timeout=60) as controller:
     set_ = controller.lamp_set([(7, 9), (1, 3)], 0)
     print(set_.lasts, set_.wait())
     print(controller.lamp_set([(7, 9)], fade_s=2, latest=True).lasts)
@@ -156,7 +156,7 @@ with busservo.open_controller(port, margin=60) as controller:
         print(error)
 
 async def work():
-    async with busservo.open_async_controller(port, margin=60) as controller:
+    async with busservo.open_async_controller(port, reply_timeout=60) as controller:
         await (await controller.lamp_set([(2, 200)], 0)).wait()
         print(await controller.read_lamps([2]))
 
@@ -165,7 +165,7 @@ print(board.rejects)
 """
 
 VERB = """
-from busservo.cli import main
+from busservo._cli import main
 assert main(["send", "--port", port, "LampSet", "fade_s=0", "lamps=7:9"]) == 0
 assert main(["send", "--port", port, "LampsRead", "lamp_ids=7"]) == 0
 assert main(["encode", "LampSet", "fade_s=0", "lamps=7:9"]) == 0
@@ -191,7 +191,7 @@ def run(command: list[str], search: list[str]) -> str:
         env=environment,
         capture_output=True,
         encoding="utf-8",
-        timeout=5 * PATIENCE,
+        timeout=5 * GENEROUS,
         check=False,
     )
     assert done.returncode == 0, done.stdout + done.stderr

@@ -13,8 +13,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from tests.device_line import DeviceLine, client_of
-from tests.patience import PATIENCE
-from tests.specimens import DEMO, data_of, files_of, layout_of, library
+from tests.factories import DEMO, data_of, files_of, layout_of, library
+from tests.timeouts import GENEROUS
 
 WEATHER, LAMP = (data_of(DEMO.with_name(f"{name}.yaml")) for name in ("weather", "lamp"))
 MODELS = {"weather": layout_of(WEATHER), "stage_lamp": layout_of(LAMP)}
@@ -83,7 +83,7 @@ def test_what_a_sensor_sends_is_received_with_asyncio() -> None:
     async def listen() -> Any:
         async with lib("weather").AsyncController(RealLine(mast)) as logger:
             mast.send(gusts)
-            return await logger.wait_for(weather.GustsMeasured, timeout=PATIENCE)
+            return await logger.wait_for(weather.GustsMeasured, timeout=GENEROUS)
 
     assert asyncio.run(listen()) == gusts
 

@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 from tests import oracle
 from tests.captures import make_noisy_line
 from tests.cases import BAD_FRAMES, CASES, BadFrame, Case, each_bad_frame, each_case
-from tests.lines import (
+from tests.strategies import (
     DIRECTIONS,
     HEADS,
     damaged_frames,

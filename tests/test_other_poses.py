@@ -8,7 +8,7 @@ from typing import Any
 import pytest
 
 from tests.device_line import client_of
-from tests.specimens import DEMO, data_of, files_of, library
+from tests.factories import DEMO, data_of, files_of, library
 
 
 @pytest.fixture(scope="module")
@@ -51,7 +51,7 @@ def test_who_is_there_is_found_held_and_let_go_of(blinds: Any) -> None:
 
 
 def test_what_verbs_say_of_them_is_said_in_their_words(blinds: ModuleType) -> None:
-    positions = importlib.import_module(f"{blinds.__name__}.cli.positions")
+    positions = importlib.import_module(f"{blinds.__name__}._cli.positions")
     pose = positions.the_pose()
     assert positions.listed(pose, [4]) == "blind 4"
     assert positions.listed(pose, [4, 9]) == "blinds 4, 9"

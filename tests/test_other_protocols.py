@@ -15,7 +15,7 @@ import pytest
 from framegen.render import render_target
 from framegen.targets.vectors import TARGET as VECTORS
 
-from tests.specimens import (
+from tests.factories import (
     BUSSERVO,
     DEMO,
     Data,

@@ -16,7 +16,7 @@ from framegen.reading.source import Source
 from framegen.render import render, snippets
 from framegen.targets.docs.pages import render_site
 
-from tests.specimens import BUSSERVO, DEMO, Data, Steps, data_of
+from tests.factories import BUSSERVO, DEMO, Data, Steps, data_of
 
 SPECS = {"busservo": BUSSERVO, "greenhouse": DEMO}
 PATH = "spec/some.yaml"
@@ -33,7 +33,7 @@ OF_ONE_THING = PROSE - {"title"}
 MOST = 8
 
 # Modules that hold the words which the command prints; all else has words in docstrings alone.
-FOR_READERS = {"cli/examples.py", "lookalikes.py"}
+FOR_READERS = {"_cli/examples.py", "_codec/lookalikes.py"}
 
 MESSAGE = """\
   BuzzerBeep:
@@ -240,7 +240,7 @@ def test_other_words_leave_the_code_as_it_is(name: str) -> None:
     before, after = files(as_text(data)), files(as_text(reworded(data)))
     assert before.keys() == after.keys()
     touched = {path for path in changed(before, after) if path.endswith(".py")}
-    assert {f"generated/{name}/messages.py", f"generated/{name}/cli/examples.py"} <= touched
+    assert {f"generated/{name}/messages.py", f"generated/{name}/_cli/examples.py"} <= touched
     for path in touched:
         assert bare(path, before[path]) == bare(path, after[path]), path
 

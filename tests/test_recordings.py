@@ -23,15 +23,15 @@ from busservo import (
     UnknownFrame,
     strategies,
 )
-from busservo.recording_form import LONGEST_LINE, is_text
+from busservo._recording.form import LONGEST_LINE, is_text
 from busservo.recordings import Entry, RecordingError, read
 from hypothesis import example, given
 from hypothesis import strategies as st
 
 from tests.client.virtual_line import VirtualLine
 from tests.hex_cases import HEX, NO_HEX
-from tests.lines import joined, lines
-from tests.lines import read as decoded
+from tests.strategies import joined, lines
+from tests.strategies import read as decoded
 
 ASK, VOLTAGE = BatteryVoltageRead(), BatteryVoltage(7500)
 HOST, BOARD = Direction.HOST_TO_CONTROLLER, Direction.CONTROLLER_TO_HOST
@@ -182,7 +182,7 @@ def test_there_is_no_other_form() -> None:
 def test_a_client_s_trace_is_read_back(tmp_path: Path) -> None:
     line, path = VirtualLine(), tmp_path / "line.hex"
     with Controller(
-        line, margin=0.25, trace=path, background=False, clock=line.clock, settle=0
+        line, reply_timeout=0.25, trace=path, background=False, clock=line.clock, settle=0
     ) as controller:
         line.say(b"\x55\x00" + ActionGroupStopped().encode() + b"\x55\x55\x05\x08")
         with pytest.raises(NoReplyError):

@@ -15,7 +15,7 @@ from framegen.model.stream import ReferenceDecoder
 from hypothesis import given
 from hypothesis import strategies as st
 
-from tests.specimens import BUSSERVO, DEMO, data_of, files_of, layout_of, library
+from tests.factories import BUSSERVO, DEMO, data_of, files_of, layout_of, library
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence

@@ -6,7 +6,7 @@ from framegen.model.stream import ReferenceDecoder
 from hypothesis import given
 from hypothesis import strategies as st
 
-from tests.specimens import BUSSERVO, DEMO, data_of, layout_of
+from tests.factories import BUSSERVO, DEMO, data_of, layout_of
 
 SERVO = layout_of(data_of(BUSSERVO))
 HOST = ReferenceDecoder(SERVO, [Direction("host", "controller")])

@@ -4,7 +4,7 @@ from typing import Any
 
 import pytest
 
-from tests.specimens import BUSSERVO, DEMO, Data, compiled_of, data_of, files_of, layout_of
+from tests.factories import BUSSERVO, DEMO, Data, compiled_of, data_of, files_of, layout_of
 
 SERVO, HOUSE = data_of(BUSSERVO), data_of(DEMO)
 

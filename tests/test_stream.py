@@ -34,7 +34,7 @@ from hypothesis import strategies as st
 
 from tests import oracle
 from tests.cases import CASES, CONTROLLER, EITHER, HOST, BadFrame, Case, each_bad_frame, each_case
-from tests.lines import (
+from tests.strategies import (
     DIRECTIONS,
     HEADS,
     bytes_of,

@@ -12,7 +12,7 @@ from framegen.compile import compile_spec
 from framegen.model import verdict
 from framegen.model.stream import ReferenceDecoder
 
-from tests.specimens import BUSSERVO, DEMO, compiled_of, data_of, layout_of
+from tests.factories import BUSSERVO, DEMO, compiled_of, data_of, layout_of
 from tests.test_linear import many
 
 if TYPE_CHECKING:

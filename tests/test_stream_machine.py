@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 from hypothesis.stateful import RuleBasedStateMachine, initialize, invariant, rule
 
 from tests import oracle
-from tests.lines import HEADS, bytes_of, directions, messages_in, oracles, said, unknown_frames
+from tests.strategies import HEADS, bytes_of, directions, messages_in, oracles, said, unknown_frames
 
 frames = strategies.messages().map(Message.encode)
 

@@ -12,7 +12,7 @@ from framegen.targets.python.library_view import LibraryView
 from framegen.targets.templates import environment
 from jinja2 import StrictUndefined, UndefinedError, nodes
 
-from tests.specimens import BUSSERVO, DEMO, ROOT, data_of, files_of, layout_of
+from tests.factories import BUSSERVO, DEMO, ROOT, data_of, files_of, layout_of
 
 CODEGEN = ROOT / "codegen" / "framegen"
 TARGET = CODEGEN / "targets" / "python"

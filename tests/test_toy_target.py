@@ -12,7 +12,7 @@ from framegen.render import render, snippets
 from framegen.targets import table
 
 from tests import toy_target
-from tests.specimens import DEMO
+from tests.factories import DEMO
 
 Capture: TypeAlias = "pytest.CaptureFixture[str]"
 

@@ -22,8 +22,8 @@ from framegen.cases.valid import range_ends
 
 from tests import oracle
 from tests.cases import CASES
-from tests.lines import joined, said
-from tests.specimens import DEMO, compiled_of, data_of
+from tests.factories import DEMO, compiled_of, data_of
+from tests.strategies import joined, said
 
 VECTORS: dict[str, Any] = json.loads(
     files("busservo").joinpath("vectors.json").read_text(encoding="utf-8")

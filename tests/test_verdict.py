@@ -10,7 +10,7 @@ from framegen.model.verdict import weigh
 from hypothesis import given
 from hypothesis import strategies as st
 
-from tests.specimens import BUSSERVO, DEMO, data_of, layout_of
+from tests.factories import BUSSERVO, DEMO, data_of, layout_of
 
 SERVO = layout_of(data_of(BUSSERVO))
 HOUSE = layout_of(data_of(DEMO))

@@ -16,16 +16,20 @@ from __future__ import annotations
 
 TYPE_CHECKING = False  # typing alone would double the time that an import takes
 if TYPE_CHECKING:
-    from .async_controller import AsyncController
-    from .async_opening import open_async_controller
-    from .codec import decode
-    from .controller import Controller
-    from .counters import Counters, LineCounters
-    from .decoder import StreamDecoder
-    from .device import Device
-    from .direction import Direction
-    from .errors import DecodeError, EncodeError, LimitError, ProtocolError, Reason
-    from .link_errors import (
+    from ._client.async_controller import AsyncController
+    from ._client.async_opening import open_async_controller
+    from ._client.controller import Controller
+    from ._client.motion import AsyncMotion, Motion
+    from ._client.opening import open_controller
+    from ._client.request import Run, Sent
+    from ._codec.codec import decode
+    from ._codec.counters import Counters, LineCounters
+    from ._codec.decoder import StreamDecoder
+    from ._codec.noise import Noise, UnknownFrame
+    from ._frame.direction import Direction
+    from ._frame.errors import DecodeError, EncodeError, LimitError, ProtocolError, Reason
+    from ._frame.message import Message
+    from ._serial.link_errors import (
         AbsentError,
         ClosedError,
         DisconnectedError,
@@ -40,7 +44,10 @@ if TYPE_CHECKING:
         TransportError,
         WriteStuckError,
     )
-    from .message import Message
+    from ._serial.serial_port import open_transport
+    from ._serial.transport import Transport
+    from ._version import __version__
+    from .device import Device
     from .messages import (
         MESSAGES,
         ActionGroupCompleted,
@@ -58,70 +65,62 @@ if TYPE_CHECKING:
         ServoTarget,
         ServoUnload,
     )
-    from .motion import AsyncMotion, Motion
-    from .noise import Noise, UnknownFrame
-    from .opening import open_controller
-    from .request import Sent
-    from .run import Run
-    from .serial_port import open_transport
-    from .transport import Transport
-    from .version import __version__
 else:
     # Each is imported when it is first asked for: nobody waits for what is not used.
     _HOMES = {
         "MESSAGES": "messages",
-        "AbsentError": "link_errors",
+        "AbsentError": "_serial.link_errors",
         "ActionGroupCompleted": "messages",
         "ActionGroupRun": "messages",
         "ActionGroupSpeed": "messages",
         "ActionGroupStarted": "messages",
         "ActionGroupStop": "messages",
         "ActionGroupStopped": "messages",
-        "AsyncController": "async_controller",
-        "AsyncMotion": "motion",
+        "AsyncController": "_client.async_controller",
+        "AsyncMotion": "_client.motion",
         "BatteryVoltage": "messages",
         "BatteryVoltageRead": "messages",
-        "ClosedError": "link_errors",
-        "Controller": "controller",
-        "Counters": "counters",
-        "DecodeError": "errors",
+        "ClosedError": "_serial.link_errors",
+        "Controller": "_client.controller",
+        "Counters": "_codec.counters",
+        "DecodeError": "_frame.errors",
         "Device": "device",
-        "Direction": "direction",
-        "DisconnectedError": "link_errors",
-        "EchoError": "link_errors",
-        "EncodeError": "errors",
-        "IncompleteReplyError": "link_errors",
-        "LimitError": "errors",
-        "LineCounters": "counters",
-        "Message": "message",
-        "Motion": "motion",
-        "NoReplyError": "link_errors",
-        "NoReportError": "link_errors",
-        "Noise": "noise",
-        "PortAddressError": "link_errors",
-        "PortBusyError": "link_errors",
-        "PortNotFoundError": "link_errors",
-        "PortPermissionError": "link_errors",
-        "ProtocolError": "errors",
-        "Reason": "errors",
-        "Run": "run",
-        "Sent": "request",
+        "Direction": "_frame.direction",
+        "DisconnectedError": "_serial.link_errors",
+        "EchoError": "_serial.link_errors",
+        "EncodeError": "_frame.errors",
+        "IncompleteReplyError": "_serial.link_errors",
+        "LimitError": "_frame.errors",
+        "LineCounters": "_codec.counters",
+        "Message": "_frame.message",
+        "Motion": "_client.motion",
+        "NoReplyError": "_serial.link_errors",
+        "NoReportError": "_serial.link_errors",
+        "Noise": "_codec.noise",
+        "PortAddressError": "_serial.link_errors",
+        "PortBusyError": "_serial.link_errors",
+        "PortNotFoundError": "_serial.link_errors",
+        "PortPermissionError": "_serial.link_errors",
+        "ProtocolError": "_frame.errors",
+        "Reason": "_frame.errors",
+        "Run": "_client.request",
+        "Sent": "_client.request",
         "ServoMove": "messages",
         "ServoPosition": "messages",
         "ServoPositions": "messages",
         "ServoPositionsRead": "messages",
         "ServoTarget": "messages",
         "ServoUnload": "messages",
-        "StreamDecoder": "decoder",
-        "Transport": "transport",
-        "TransportError": "link_errors",
-        "UnknownFrame": "noise",
-        "WriteStuckError": "link_errors",
-        "__version__": "version",
-        "decode": "codec",
-        "open_async_controller": "async_opening",
-        "open_controller": "opening",
-        "open_transport": "serial_port",
+        "StreamDecoder": "_codec.decoder",
+        "Transport": "_serial.transport",
+        "TransportError": "_serial.link_errors",
+        "UnknownFrame": "_codec.noise",
+        "WriteStuckError": "_serial.link_errors",
+        "__version__": "_version",
+        "decode": "_codec.codec",
+        "open_async_controller": "_client.async_opening",
+        "open_controller": "_client.opening",
+        "open_transport": "_serial.serial_port",
     }
 
     def __getattr__(name: str) -> object:

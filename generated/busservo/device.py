@@ -3,8 +3,10 @@
 
 from __future__ import annotations
 
-from .decoder import StreamDecoder
-from .direction import Direction
+from ._codec.decoder import StreamDecoder
+from ._codec.noise import Noise
+from ._codec.rejects import Rejects
+from ._frame.direction import Direction
 from .messages import (
     ActionGroupRun,
     ActionGroupSpeed,
@@ -14,14 +16,12 @@ from .messages import (
     ServoPositionsRead,
     ServoUnload,
 )
-from .noise import Noise
-from .rejects import Rejects
 
 TYPE_CHECKING = False  # typing alone would double the time that the import takes
 if TYPE_CHECKING:
     from typing import TypeAlias
 
-    from .message import Message
+    from ._frame.message import Message
     from .messages import (
         ActionGroupCompleted,
         ActionGroupStarted,

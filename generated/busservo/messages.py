@@ -3,12 +3,12 @@
 
 from __future__ import annotations
 
-from .direction import Direction
-from .element import Element
-from .items import Items
-from .message import Message
-from .number import U8, U16
-from .protocol import HEADER
+from ._frame.direction import Direction
+from ._frame.element import Element
+from ._frame.items import Items
+from ._frame.message import Message
+from ._frame.number import U8, U16
+from ._frame.protocol import HEADER
 
 TYPE_CHECKING = False  # typing alone would double the time that the import takes
 if TYPE_CHECKING:

@@ -15,22 +15,22 @@ import re
 from itertools import chain
 from pathlib import Path
 
-from .decoder import StreamDecoder
-from .hextext import HexError, HexReader
-from .noise import Noise
-from .recorded_lines import recorded
-from .recording_entry import Entry, RecordingError
-from .recording_file import QUIET
-from .recording_form import TIMED_LINE, blocks, is_text
-from .twins import twins
+from ._codec.codec import twins
+from ._codec.decoder import StreamDecoder
+from ._codec.hextext import HexError, HexReader
+from ._codec.noise import Noise
+from ._recording.entry import Entry, RecordingError
+from ._recording.file import QUIET
+from ._recording.form import TIMED_LINE, blocks, is_text
+from ._recording.lines import recorded
 
 TYPE_CHECKING = False  # typing alone would double the time that the import takes
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator
     from typing import Protocol
 
-    from .direction import Direction
-    from .message import Message
+    from ._frame.direction import Direction
+    from ._frame.message import Message
 
     class Readable(Protocol):
         """A stream of bytes."""

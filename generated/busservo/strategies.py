@@ -11,6 +11,8 @@ from typing import TYPE_CHECKING
 
 from hypothesis import strategies as st
 
+from ._frame.number import Number
+from ._frame.protocol import HEADER
 from .messages import (
     MESSAGES,
     ActionGroupCompleted,
@@ -26,17 +28,15 @@ from .messages import (
     ServoPositionsRead,
     ServoUnload,
 )
-from .number import Number
-from .protocol import HEADER
 
 if TYPE_CHECKING:
     from typing import Any, TypeVar
 
     from hypothesis.strategies import SearchStrategy
 
-    from .direction import Direction
-    from .items import Items
-    from .message import Message
+    from ._frame.direction import Direction
+    from ._frame.items import Items
+    from ._frame.message import Message
 
     Kind = TypeVar("Kind", bound=Message)
 

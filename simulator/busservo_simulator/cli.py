@@ -9,8 +9,8 @@ import threading
 from contextlib import ExitStack, contextmanager
 from typing import TYPE_CHECKING
 
-from busservo.cli import console
-from busservo.wording import counted
+from busservo._cli import console
+from busservo._frame.wording import counted
 
 from busservo_simulator.options import PROGRAM, faults_of, parser_of
 from busservo_simulator.tcp_end import LOOPBACK

@@ -8,12 +8,12 @@ from operator import itemgetter
 from random import Random
 from typing import TYPE_CHECKING
 
-from busservo.protocol import BAUD, BITS_PER_BYTE
+from busservo._frame.protocol import BAUD, BITS_PER_BYTE
 
+from busservo_simulator.channel import Channel
 from busservo_simulator.fault_injector import FaultInjector
 from busservo_simulator.faults import Faults
 from busservo_simulator.uart import sampled
-from busservo_simulator.wire import Wire
 
 if TYPE_CHECKING:
     from busservo.device import Report
@@ -47,8 +47,8 @@ class Line:
         self.baud = BAUD if baud is None or math.isinf(baud) else baud
         self._host_baud = self.baud
         seconds_per_byte = 0.0 if baud is None else BITS_PER_BYTE / baud
-        self._to_board = Wire(seconds_per_byte)
-        self._to_host = Wire(seconds_per_byte)
+        self._to_board = Channel(seconds_per_byte)
+        self._to_host = Channel(seconds_per_byte)
         self.faults = faults or Faults()
         # Replies that the board keeps back, and when they go out.
         self._late: list[tuple[float, Report]] = []

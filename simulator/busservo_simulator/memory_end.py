@@ -5,7 +5,7 @@ from __future__ import annotations
 import time
 from typing import TYPE_CHECKING
 
-from busservo.link_errors import ClosedError, DisconnectedError, PortNotFoundError
+from busservo._serial.link_errors import ClosedError, DisconnectedError, PortNotFoundError
 
 from busservo_simulator.clock import RealClock, VirtualClock
 

@@ -7,8 +7,8 @@ import re
 from typing import TYPE_CHECKING
 
 from busservo import __version__
-from busservo.cli import console
-from busservo.protocol import BAUD
+from busservo._cli import console
+from busservo._frame.protocol import BAUD
 
 from busservo_simulator.faults import CHANCES, DURATIONS, Faults
 from busservo_simulator.servo_list import parse_servos

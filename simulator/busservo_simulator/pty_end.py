@@ -8,7 +8,7 @@ import select
 import sys
 from pathlib import Path
 
-from busservo.protocol import BAUD
+from busservo._frame.protocol import BAUD
 
 from busservo_simulator.backlog import Backlog
 from busservo_simulator.waker import Waker

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from busservo.protocol import BITS_PER_BYTE
+from busservo._frame.protocol import BITS_PER_BYTE
 
 if TYPE_CHECKING:
     from random import Random

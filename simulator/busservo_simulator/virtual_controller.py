@@ -17,8 +17,8 @@ if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping
     from types import TracebackType
 
+    from busservo._codec.rejects import Rejects
     from busservo.device import Report
-    from busservo.rejects import Rejects
     from typing_extensions import Self
 
     from busservo_simulator.action_group import ActionGroup

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import pytest
 
-from tests.patience import undoubted
+from tests.timeouts import undoubted
 
 if TYPE_CHECKING:
     from collections.abc import Iterator

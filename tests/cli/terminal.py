@@ -12,7 +12,7 @@ import termios
 import time
 from typing import TYPE_CHECKING, Any
 
-from tests.patience import PATIENCE
+from tests.timeouts import GENEROUS
 
 if TYPE_CHECKING:
     from types import TracebackType
@@ -30,7 +30,7 @@ _PROGRAM = """
 import fcntl, signal, sys, termios
 fcntl.ioctl(0, termios.TIOCSCTTY, 0)
 signal.signal(signal.SIGINT, signal.default_int_handler)
-from busservo.cli import main
+from busservo._cli import main
 sys.exit(main())
 """
 
@@ -69,7 +69,7 @@ class OnTerminal:
 
     def wait_for(self, pattern: str) -> None:
         """Reads on until the screen has shown it."""
-        until = time.monotonic() + PATIENCE
+        until = time.monotonic() + GENEROUS
         while not re.search(pattern, self.shown):
             assert time.monotonic() < until, f"{pattern!r} was not shown: {self.shown!r}"
             self._read(0.1)
@@ -79,7 +79,7 @@ class OnTerminal:
 
     def end(self) -> int:
         """Waits until it has ended, and gives its exit status; the terminal must be as it was."""
-        status = self._process.wait(PATIENCE)
+        status = self._process.wait(GENEROUS)
         while self._read(0.0):
             pass
         assert termios.tcgetattr(self._terminal) == self._before
@@ -107,7 +107,7 @@ def _overwritten(line: str) -> str:
 def run(*words: str, **options: Any) -> subprocess.CompletedProcess[str]:
     """A verb in a process of its own, without a terminal."""
     command = [sys.executable, "-m", "busservo", *words]
-    options = {"capture_output": True, "text": True, "timeout": PATIENCE, "check": False} | options
+    options = {"capture_output": True, "text": True, "timeout": GENEROUS, "check": False} | options
     return subprocess.run(command, env=ENVIRONMENT, **options)  # noqa: PLW1510 - among the options
 
 

@@ -9,9 +9,9 @@ import sys
 from typing import TYPE_CHECKING
 
 import pytest
-from busservo.cli import main
-from busservo.cli.answer import answer
-from busservo.cli.unusable import UnusableError
+from busservo._cli import main
+from busservo._cli.answer import answer
+from busservo._cli.usage_error import UsageError
 
 from tests.documents import ROOT
 
@@ -62,7 +62,7 @@ HOST = "host_to_controller"
     ],
 )
 def test_a_question_that_makes_no_sense_is_told_so(question: str, told: str) -> None:
-    with pytest.raises(UnusableError, match=re.escape(told)):
+    with pytest.raises(UsageError, match=re.escape(told)):
         answer(question)
 
 

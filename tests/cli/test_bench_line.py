@@ -8,15 +8,15 @@ from types import SimpleNamespace
 
 import pytest
 from busservo import BatteryVoltage, Message, ServoPositions
-from busservo.cli import bench_line, main
-from busservo.client import Client
+from busservo._cli import bench_line, main
+from busservo._client.client import Client
 from busservo_simulator import Faults, VirtualController
 
 from tests.client.virtual_line import VirtualLine
-from tests.patience import PATIENCE
+from tests.timeouts import GENEROUS
 
 WORDS = ("ServoPositionsRead", "servo_ids=1,2,3,4,5,6")
-PATIENT = ("--timeout", str(PATIENCE))
+PATIENT = ("--timeout", str(GENEROUS))
 
 
 def test_it_tells_round_trips_and_the_share_of_what_the_line_allows(

@@ -8,8 +8,8 @@ import sys
 from typing import TYPE_CHECKING
 
 import pytest
-from busservo.cli import main
-from busservo.cli.examples import VERBS
+from busservo._cli import main
+from busservo._cli.examples import VERBS
 
 if TYPE_CHECKING:
     from pathlib import Path

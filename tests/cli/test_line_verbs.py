@@ -13,20 +13,20 @@ from importlib import import_module
 
 import pytest
 from busservo import ServoPositions, ServoPositionsRead
-from busservo.cli import link, main, send, simulate
-from busservo.cli.examples import EXAMPLES, VERBS
-from busservo.cli.questions import in_parts
-from busservo.client import Client
-from busservo.hid_devices import HidDevice
-from busservo.link_errors import PortNotFoundError
+from busservo._cli import link, main, send, simulate
+from busservo._cli.examples import EXAMPLES, VERBS
+from busservo._cli.questions import in_parts
+from busservo._client.client import Client
+from busservo._serial.hid_devices import HidDevice
+from busservo._serial.link_errors import PortNotFoundError
 from busservo_simulator import Faults, VirtualController
 from serial.tools.list_ports_common import ListPortInfo
 
 from tests.client.virtual_line import VirtualLine
 from tests.documents import ROOT
-from tests.patience import PATIENCE
+from tests.timeouts import GENEROUS
 
-PATIENT = ("--timeout", str(PATIENCE))
+PATIENT = ("--timeout", str(GENEROUS))
 
 
 def test_a_reply_is_printed_as_decode_prints_it(capsys: pytest.CaptureFixture[str]) -> None:
@@ -104,7 +104,7 @@ def test_retries_ask_again(capsys: pytest.CaptureFixture[str]) -> None:
 
 @pytest.mark.parametrize("name", VERBS)
 def test_a_verb_that_takes_a_port_takes_its_rate(name: str) -> None:
-    verb = import_module(f"busservo.cli.{name.replace('-', '_')}")
+    verb = import_module(f"busservo._cli.{name.replace('-', '_')}")
     parser = argparse.ArgumentParser()
     if hasattr(verb, "add_arguments"):
         verb.add_arguments(parser)
@@ -224,7 +224,7 @@ def test_boards_without_a_serial_port_are_listed(
 ) -> None:
     monkeypatch.setattr("serial.tools.list_ports.comports", list)
     one = HidDevice(0x0483, 0x5750, "/dev/hidraw1", "LOBOT")
-    monkeypatch.setattr("busservo.cli.ports.hid_devices_at_hand", lambda: [one])
+    monkeypatch.setattr("busservo._cli.ports.hid_devices_at_hand", lambda: [one])
     assert main(["ports"]) == 0
     output, errors = capsys.readouterr()
     about = "USB HID, no serial port (not seen on hardware yet)"
@@ -232,7 +232,7 @@ def test_boards_without_a_serial_port_are_listed(
     assert errors == "no serial port is plugged in\n"
     # Of two of a kind, each has an address of its own.
     other = one._replace(path="/dev/hidraw2", product="")
-    monkeypatch.setattr("busservo.cli.ports.hid_devices_at_hand", lambda: [one, other])
+    monkeypatch.setattr("busservo._cli.ports.hid_devices_at_hand", lambda: [one, other])
     assert main(["ports", "--json"]) == 0
     assert [json.loads(line) for line in capsys.readouterr().out.splitlines()] == [
         {"port": "hid:///dev/hidraw1", "usb": "0483:5750", "description": f"LOBOT, {about}"},
@@ -244,7 +244,7 @@ def test_where_nobody_can_list_such_boards_it_says_so(
     capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr("serial.tools.list_ports.comports", list)
-    monkeypatch.setattr("busservo.cli.ports.hid_devices_at_hand", lambda: None)
+    monkeypatch.setattr("busservo._cli.ports.hid_devices_at_hand", lambda: None)
     assert main(["ports"]) == 0
     assert capsys.readouterr().err.splitlines() == [
         "no serial port is plugged in",
@@ -343,7 +343,7 @@ def test_pyserial_is_imported_only_to_open_a_port(words: list[str]) -> None:
 def imported(words: list[str], *names: str) -> list[str]:
     """Which of these modules running the command imports."""
     program = (
-        "import sys; from busservo.cli import main; "
+        "import sys; from busservo._cli import main; "
         f"main({words!r}); print(sorted(set({names!r}) & set(sys.modules)))"
     )
     done = subprocess.run(
@@ -375,7 +375,7 @@ def test_help_teaches_by_examples_that_work_and_names_every_exit_status(
 )
 def test_an_example_is_a_command_line(line: str) -> None:
     _, name, *words = shlex.split(line)
-    verb = import_module(f"busservo.cli.{name.replace('-', '_')}")
+    verb = import_module(f"busservo._cli.{name.replace('-', '_')}")
     if name == "simulate":
         assert words == []
         return
@@ -390,7 +390,7 @@ def test_no_port_is_said_where_nothing_is_plugged_in(
     capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr("serial.tools.list_ports.comports", list)
-    monkeypatch.setattr("busservo.cli.ports.hid_devices_at_hand", list)
+    monkeypatch.setattr("busservo._cli.ports.hid_devices_at_hand", list)
     assert main(["ports"]) == 0
     assert capsys.readouterr() == ("", "no serial port is plugged in\n")
 
@@ -421,7 +421,7 @@ def test_a_verb_can_be_run_from_any_thread() -> None:
     before = signal.getsignal(signal.SIGTERM)
     with VirtualController("tcp") as board, ThreadPoolExecutor(1) as pool:
         done = pool.submit(main, ["send", "--port", board.port, "BatteryVoltageRead", *PATIENT])
-        assert done.result(PATIENCE) == 0
+        assert done.result(GENEROUS) == 0
         assert board.accepted == 1
     assert signal.getsignal(signal.SIGTERM) is before
 

@@ -22,10 +22,10 @@ from busservo import (
     ServoPositionsRead,
     ServoUnload,
 )
-from busservo.cli import main, monitor
-from busservo.cli.recorder import Recorder
-from busservo.cli.unusable import UnusableError
-from busservo.cli.waiting import Waiting
+from busservo._cli import main, monitor
+from busservo._cli.progress import Progress
+from busservo._cli.recorder import Recorder
+from busservo._cli.usage_error import UsageError
 
 if TYPE_CHECKING:
     from io import TextIOWrapper
@@ -350,7 +350,7 @@ def test_a_recording_whose_end_does_not_fit_is_told(tmp_path: Path) -> None:
     assert recorder._file is not None
     recorder._file._file.close()
     recorder._file._file = cast("TextIOWrapper[Any]", FullDisk())
-    with pytest.raises(UnusableError, match=r"line\.hex.*No space left"), recorder:
+    with pytest.raises(UsageError, match=r"line\.hex.*No space left"), recorder:
         pass
     # What went wrong before it is what is told.
     with pytest.raises(DisconnectedError), recorder:
@@ -363,7 +363,7 @@ def test_the_same_sign_of_life_is_written_once() -> None:
             return True
 
     screen = Terminal()
-    waiting = Waiting(screen)
+    waiting = Progress(screen)
     for text in ("opening COM7, 1 s", "opening COM7, 1 s", "opening COM7, 2 s"):
         waiting.show(text)
     assert screen.getvalue() == "\ropening COM7, 1 s\ropening COM7, 2 s"

@@ -13,9 +13,9 @@ from typing import TYPE_CHECKING
 
 import pytest
 from busservo import BatteryVoltage, BatteryVoltageRead
-from busservo.cli import main, recording
+from busservo._cli import main, recording
 
-from tests.patience import PATIENCE
+from tests.timeouts import GENEROUS
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -195,7 +195,7 @@ def test_a_pipe_that_pauses_within_a_byte_holds_hex_all_the_same() -> None:
         os.write(decode.stdin.fileno(), b"55 55 02 07\n5")
         # It has read that far, and has not waited for more to say so.
         assert decode.stdout.readline() == b"     0  host        ActionGroupStop | 55 55 02 07\n"
-        rest, told = decode.communicate(b"5 55 02 07", timeout=PATIENCE)
+        rest, told = decode.communicate(b"5 55 02 07", timeout=GENEROUS)
     assert rest.splitlines() == [b"     4  host        ActionGroupStop | 55 55 02 07"]
     assert told.splitlines() == [b"8 bytes: 2 messages, 0 bytes of noise"]
 
@@ -237,7 +237,7 @@ def test_a_long_file_says_how_far_it_has_been_read(
 ) -> None:
     terminal = Terminal()
     monkeypatch.setattr(sys, "stderr", terminal)
-    monkeypatch.setattr(recording, "PATIENCE", 0.0)
+    monkeypatch.setattr(recording, "GENEROUS", 0.0)
     monkeypatch.chdir(log.parent)
     log.write_text(CUT_OFF + 300_000 * "#\n")
     assert main(["decode", log.name]) == 0

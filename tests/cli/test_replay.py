@@ -20,10 +20,10 @@ from busservo import (
     ServoUnload,
     open_controller,
 )
-from busservo.cli import main, playback
+from busservo._cli import main, playback
 from busservo_simulator import Faults, VirtualController
 
-from tests.patience import PATIENCE, await_that
+from tests.timeouts import GENEROUS, await_that
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -65,7 +65,7 @@ def replayed(log: Path, *words: str) -> tuple[int, list[Message | Noise]]:
         status = main(["replay", str(log), "--port", board.port, *words])
         # Whoever calls next is let in once all has been heard that was sent before.
         address = ("127.0.0.1", int(board.port.rpartition(":")[2]))
-        with socket.create_connection(address, PATIENCE) as caller:
+        with socket.create_connection(address, GENEROUS) as caller:
             caller.sendall(LAST.encode())
             await_that(lambda: LAST in heard)
     assert heard.pop() == LAST
@@ -79,7 +79,7 @@ def test_a_trace_of_a_client_is_played_without_what_came_back(
     monkeypatch.setattr(playback, "_QUIET", 2.0)
     with (
         VirtualController("tcp") as board,
-        open_controller(board.port, margin=PATIENCE, trace=log) as controller,
+        open_controller(board.port, reply_timeout=GENEROUS, trace=log) as controller,
     ):
         controller.move_servos([(1, 600)], time_ms=100)
         board.send_bytes(b"\x13")
@@ -182,7 +182,7 @@ def test_the_pace_is_kept_on_a_port(log: Path, capsys: pytest.CaptureFixture[str
     assert replayed(log, "--speed", "2") == (0, [ASK, ASK])
     sent = [line for line in capsys.readouterr().out.splitlines() if " host " in line]
     first, second = (float(line.split()[0]) for line in sent)
-    assert 0 <= first < first + 0.19 <= second < PATIENCE
+    assert 0 <= first < first + 0.19 <= second < GENEROUS
 
 
 EITHER = f"{hexed(RUN)}  # 0.1 s, either: ActionGroupRun(...) or ActionGroupStarted\n"

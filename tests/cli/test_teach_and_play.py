@@ -13,21 +13,21 @@ from typing import TYPE_CHECKING, Any
 
 import pytest
 from busservo import ServoMove, ServoPositionsRead, ServoUnload
-from busservo.cli import main
-from busservo.cli.posefile import Recorded, read_poses, write_poses
-from busservo.exchanges import POSE
+from busservo._cli import main
+from busservo._cli.posefile import Recorded, read_poses, write_poses
+from busservo._client.exchanges import POSE
 from busservo_simulator import VirtualController
 from hypothesis import given
 from hypothesis import strategies as st
 
-from tests.patience import PATIENCE, await_that
+from tests.timeouts import GENEROUS, await_that
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from busservo import Message
 
-PATIENT = ("--timeout", str(PATIENCE))
+PATIENT = ("--timeout", str(GENEROUS))
 
 
 @pytest.fixture

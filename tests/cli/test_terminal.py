@@ -15,7 +15,7 @@ if sys.platform != "linux":
     pytest.skip("terminals differ by system, and only Linux's are tried", allow_module_level=True)
 
 from tests.cli.terminal import OnTerminal, run, start
-from tests.patience import PATIENCE, await_that
+from tests.timeouts import GENEROUS, await_that
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -45,7 +45,7 @@ def test_ctrl_c_ends_a_monitor_with_its_totals(board: VirtualController) -> None
         assert totals == "6 bytes: 1 message, 0 bytes of noise"
         assert rest == [""]
     # The port has been given back: the next one has it, exclusively.
-    words = ("send", "--port", board.port, "BatteryVoltageRead", "--timeout", str(PATIENCE))
+    words = ("send", "--port", board.port, "BatteryVoltageRead", "--timeout", str(GENEROUS))
     assert run(*words).returncode == 0
 
 
@@ -55,7 +55,7 @@ def test_sigterm_ends_a_monitor_as_cleanly(board: VirtualController) -> None:
     board.babble(BatteryVoltage(7500).encode())
     monitor.stdout.readline()
     monitor.terminate()
-    _, told = monitor.communicate(timeout=PATIENCE)
+    _, told = monitor.communicate(timeout=GENEROUS)
     assert monitor.returncode == 143
     assert re.fullmatch("[0-9]+ bytes: [0-9]+ messages?, [0-9]+ bytes? of noise\n", told)
 
@@ -85,7 +85,7 @@ def test_a_pipe_that_is_closed_ends_a_monitor(board: VirtualController, tmp_path
     )
     assert monitor.stdout is not None
     monitor.stdout.close()
-    assert monitor.wait(PATIENCE) == 141
+    assert monitor.wait(GENEROUS) == 141
     assert monitor.stderr is not None
     told = monitor.stderr.read()
     monitor.stderr.close()
@@ -119,7 +119,7 @@ def test_a_line_that_is_lost_is_told_and_what_was_seen_is_kept(tmp_path: Path, v
         board.send_bytes(frame + frame[:3])
         first = monitor.stdout.readline()
         board.unplug()
-        rest, told = monitor.communicate(timeout=PATIENCE)
+        rest, told = monitor.communicate(timeout=GENEROUS)
     assert monitor.returncode == 3
     assert "7500" in first
     assert '"noise": "55 55 04"' in rest
@@ -180,7 +180,7 @@ def test_a_replay_tells_of_a_line_that_is_lost(board: VirtualController, tmp_pat
     assert replay.stdout.readline().endswith("  BatteryVoltageRead | 55 55 02 0F\n")
     assert replay.stdout.readline().endswith(f"  controller  {BATTERY}\n")
     board.unplug()
-    _, told = replay.communicate(timeout=PATIENCE)
+    _, told = replay.communicate(timeout=GENEROUS)
     assert replay.returncode == 3
     totals, error = told.splitlines()
     assert totals.startswith("1 of 2 frames sent, 4 bytes; came back: 6 bytes: 1 message")
@@ -188,7 +188,7 @@ def test_a_replay_tells_of_a_line_that_is_lost(board: VirtualController, tmp_pat
 
 
 def test_ctrl_c_ends_a_measurement_with_what_was_measured(board: VirtualController) -> None:
-    words = ("bench-line", "--port", board.port, "-n", "1000000", "--timeout", str(PATIENCE))
+    words = ("bench-line", "--port", board.port, "-n", "1000000", "--timeout", str(GENEROUS))
     with OnTerminal(*words) as bench:
         bench.wait_for(r"[0-9]+ of 1000000 asked")
         bench.type(CTRL_C)
@@ -206,11 +206,11 @@ def test_ctrl_c_ends_a_measurement_with_what_was_measured(board: VirtualControll
 def test_a_measurement_ends_with_the_line_and_keeps_what_was_measured(
     board: VirtualController,
 ) -> None:
-    words = ("bench-line", "--port", board.port, "-n", "1000000", "--timeout", str(PATIENCE))
+    words = ("bench-line", "--port", board.port, "-n", "1000000", "--timeout", str(GENEROUS))
     bench = start(*words, "--json")
     await_that(lambda: board.accepted >= 3)
     board.unplug()
-    shown, told = bench.communicate(timeout=PATIENCE)
+    shown, told = bench.communicate(timeout=GENEROUS)
     assert bench.returncode == 3
     assert '"question": "BatteryVoltageRead"' in shown
     assert "the line was lost" in told

@@ -24,7 +24,7 @@ from busservo import (
 )
 from busservo_simulator.fault_injector import REPLIES
 
-from tests.patience import PATIENCE, await_that
+from tests.timeouts import GENEROUS, await_that
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
@@ -41,7 +41,7 @@ if TYPE_CHECKING:
 
 ABSENT = ServoPosition.POSITION_ABSENT
 # No call may take longer, on however slow a machine.
-BOUND = PATIENCE
+BOUND = GENEROUS
 
 
 class Ledger:
@@ -112,7 +112,7 @@ def heard_by(controller: Controller, ledger: Ledger) -> list[Message]:
     """The reports, once all have come that there are; and any that there should not be."""
     await_that(lambda: ledger.over(controller))
     heard: list[Message] = []
-    for report in controller.reports(timeout=PATIENCE if ledger.reported else 0.1):
+    for report in controller.reports(timeout=GENEROUS if ledger.reported else 0.1):
         heard.append(report)
         if len(heard) == len(ledger.reported):
             break
@@ -121,12 +121,12 @@ def heard_by(controller: Controller, ledger: Ledger) -> list[Message]:
 
 async def heard_by_async(controller: AsyncController, ledger: Ledger) -> list[Message]:
     """The same, for asyncio."""
-    end = time.monotonic() + PATIENCE
+    end = time.monotonic() + GENEROUS
     while not ledger.over(controller):
         assert time.monotonic() < end
         await asyncio.sleep(0.001)
     heard: list[Message] = []
-    async for report in controller.reports(timeout=PATIENCE if ledger.reported else 0.1):
+    async for report in controller.reports(timeout=GENEROUS if ledger.reported else 0.1):
         heard.append(report)
         if len(heard) == len(ledger.reported):
             break

@@ -17,7 +17,7 @@ from busservo import (
     ServoPositionsRead,
     StreamDecoder,
 )
-from busservo.rejects import Rejects
+from busservo._codec.rejects import Rejects
 
 if TYPE_CHECKING:
     from collections.abc import Callable

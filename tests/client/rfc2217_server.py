@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import serial
 from serial.rfc2217 import PortManager
 
-from tests.patience import PATIENCE
+from tests.timeouts import GENEROUS
 
 if TYPE_CHECKING:
     from typing_extensions import Self
@@ -40,7 +40,7 @@ class Rfc2217Server:
         self._listener.settimeout(0.05)
         # Where pyserial's client is told nothing, it gives up after 3 s.
         number = self._listener.getsockname()[1]
-        self.url = f"rfc2217://127.0.0.1:{number}?timeout={PATIENCE:.0f}"
+        self.url = f"rfc2217://127.0.0.1:{number}?timeout={GENEROUS:.0f}"
         self._guest: socket.socket | None = None
         self._left = False
         self._thread = threading.Thread(target=self._serve, daemon=True)
@@ -51,7 +51,7 @@ class Rfc2217Server:
 
     def __exit__(self, *_error: object) -> None:
         self._left = True
-        self._thread.join(PATIENCE)
+        self._thread.join(GENEROUS)
         self._listener.close()
         self._serial.close()
 

@@ -26,27 +26,27 @@ from busservo import (
     ServoPositions,
     ServoPositionsRead,
 )
-from busservo.session import Session
+from busservo._client.session import Session
 from hypothesis import given
 from hypothesis import strategies as st
 
 from tests.client.live_line import LiveLine
 from tests.client.virtual_line import VirtualLine
-from tests.patience import PATIENCE
+from tests.timeouts import GENEROUS
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
-    from busservo.request import Request
+    from busservo._client.request import Request
 
-MARGIN = 0.25
+REPLY_TIMEOUT = 0.25
 FRAME = 7 / 960  # of a run, and of its report
 # When a run that is sent at 0 is taken to have been ignored.
-OVER = 2 * FRAME + MARGIN
+OVER = 2 * FRAME + REPLY_TIMEOUT
 
 
 def session() -> Session:
-    return Session(baud=9600, margin=MARGIN, report_limit=16)
+    return Session(baud=9600, reply_timeout=REPLY_TIMEOUT, report_limit=16)
 
 
 def seen_one() -> Session:
@@ -182,7 +182,7 @@ def test_on_another_line_nothing_is_known_of_what_the_old_one_carried() -> None:
 
 
 def test_more_runs_than_are_followed_do_no_harm() -> None:
-    line = Session(baud=math.inf, margin=MARGIN, report_limit=16)
+    line = Session(baud=math.inf, reply_timeout=REPLY_TIMEOUT, report_limit=16)
     runs = [ran(line, group) for group in range(100)]
     for group in range(100):
         line.receive(ActionGroupStarted(group, 1).encode(), 0.1)
@@ -247,7 +247,7 @@ def test_what_is_said_of_runs_is_what_the_board_has_done(
             if servos:
                 line.submit(ServoPositionsRead(range(servos)))
         for frame in line.outgoing(now):
-            board.hear(frame, line.wire.free_at)
+            board.hear(frame, line.wire_time.free_at)
         line.acknowledgements.written(now)
         if line.unwritten is not None:
             line.written(line.unwritten, now)
@@ -301,11 +301,11 @@ def test_a_run_that_the_board_ignores_is_seen_by_the_client_for_asyncio() -> Non
             while run.started is None:
                 await asyncio.sleep(0.001)
 
-        await asyncio.wait_for(known(), PATIENCE)
+        await asyncio.wait_for(known(), GENEROUS)
         return run.started
 
     async def work() -> None:
-        async with AsyncController(LiveLine(board), margin=0.05) as controller:
+        async with AsyncController(LiveLine(board), reply_timeout=0.05) as controller:
             # Nobody asks anything: the client listens, and time passes, all the same.
             assert await until_known(await controller.run_action_group(8, times=1))
             assert not await until_known(await controller.run_action_group(7, times=1))

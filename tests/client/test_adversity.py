@@ -42,7 +42,7 @@ from serial.tools import list_ports
 from serial.tools.list_ports_common import ListPortInfo
 
 from tests.client.rfc2217_server import Rfc2217Server
-from tests.patience import LIVE, PATIENCE, await_that
+from tests.timeouts import GENEROUS, LIVE, await_that
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -51,7 +51,7 @@ if TYPE_CHECKING:
 WAYS = ["tcp"] if sys.platform == "win32" else ["tcp", "pty"]
 needs_pty = pytest.mark.skipif(sys.platform == "win32", reason="Windows has no pty")
 # No call may take longer, on however slow a machine. An answer that is to come may take as long.
-BOUND = PATIENCE
+BOUND = GENEROUS
 # Until an answer that is not to come is given up, and how often to ask for one that is.
 SHORT, OFTEN = 0.1, 200
 
@@ -187,7 +187,7 @@ def test_a_thief_who_reads_along_takes_replies_and_never_makes_a_wrong_one() -> 
         outcomes = set()
         try:
             assert begun.wait(BOUND)
-            with open_controller(board.port, exclusive=False, margin=0.02) as controller:
+            with open_controller(board.port, exclusive=False, reply_timeout=0.02) as controller:
                 asked, end = 0, time.monotonic() + BOUND
                 while asked < 60 or (not stolen and time.monotonic() < end):
                     asked += 1
@@ -209,7 +209,7 @@ def test_a_thief_who_reads_along_takes_replies_and_never_makes_a_wrong_one() -> 
 
 def test_a_board_that_reboots_is_silent_and_then_back_by_itself(board: VirtualController) -> None:
     answer = BatteryVoltage(7500)
-    with open_controller(board.port, margin=SHORT) as controller:
+    with open_controller(board.port, reply_timeout=SHORT) as controller:
         assert controller.request(BatteryVoltageRead(), retries=OFTEN) == answer
         # It is silent for longer than anybody waits here, until it is told otherwise.
         board.reboot(2 * BOUND)
@@ -306,7 +306,7 @@ def test_a_flood_of_reports_hides_no_reply_with_asyncio(board: VirtualController
 def test_a_board_that_sends_nonsense_alone_ends_in_an_error(
     board: VirtualController, nonsense: bytes
 ) -> None:
-    with open_controller(board.port, margin=SHORT) as controller:
+    with open_controller(board.port, reply_timeout=SHORT) as controller:
         board.babble(nonsense, per_second=500)
         for _ in range(2):
             with bounded(), pytest.raises(NoReplyError):
@@ -320,7 +320,7 @@ def test_a_board_that_sends_nonsense_alone_ends_in_an_error_with_asyncio(
     board: VirtualController,
 ) -> None:
     async def work() -> None:
-        async with open_async_controller(board.port, margin=SHORT) as controller:
+        async with open_async_controller(board.port, reply_timeout=SHORT) as controller:
             board.babble(b"\x55", per_second=500)
             with bounded(), pytest.raises(NoReplyError):
                 await controller.read_battery_voltage()

@@ -34,7 +34,7 @@ from busservo import (
 )
 
 from tests.client.live_line import LiveLine, answered
-from tests.patience import LIVE, PATIENCE
+from tests.timeouts import GENEROUS, LIVE
 
 if TYPE_CHECKING:
     from collections.abc import Coroutine
@@ -47,7 +47,7 @@ def run(work: Coroutine[object, object, _T]) -> _T:
     """Runs a coroutine; no test may wait for ever."""
 
     async def bounded() -> _T:
-        return await asyncio.wait_for(work, 2 * PATIENCE)
+        return await asyncio.wait_for(work, 2 * GENEROUS)
 
     return asyncio.run(bounded())
 
@@ -90,7 +90,7 @@ def test_a_hundred_tasks_share_a_controller() -> None:
     line = LiveLine()
 
     async def work() -> None:
-        async with AsyncController(line, baud=math.inf, margin=PATIENCE) as controller:
+        async with AsyncController(line, baud=math.inf, reply_timeout=GENEROUS) as controller:
 
             async def ask(number: int) -> None:
                 for _ in range(3):
@@ -143,10 +143,10 @@ def test_no_reply_and_too_little_of_one() -> None:
         return [ServoPositions([(1, 5)])] if isinstance(message, ServoPositionsRead) else []
 
     async def work() -> None:
-        async with AsyncController(LiveLine(partly), margin=0.05) as controller:
+        async with AsyncController(LiveLine(partly), reply_timeout=0.05) as controller:
             with pytest.raises(NoReplyError) as late:
                 await controller.read_battery_voltage()
-            assert 0.05 <= late.value.waited < PATIENCE
+            assert 0.05 <= late.value.waited < GENEROUS
         async with AsyncController(LiveLine(partly), **LIVE) as controller:
             with pytest.raises(IncompleteReplyError) as caught:
                 await controller.read_servo_positions([1, 2])
@@ -173,13 +173,13 @@ def test_waiting_for_a_group_to_end() -> None:
             # It has ended before anybody waits for it, and counts all the same.
             assert await controller.read_battery_voltage() == 7500
             assert (
-                await controller.wait_for(ActionGroupCompleted, group=8, timeout=PATIENCE)
+                await controller.wait_for(ActionGroupCompleted, group=8, timeout=GENEROUS)
             ).times == 1
             with pytest.raises(NoReportError, match=r"instead: ActionGroupStarted\(group=8"):
                 await controller.wait_for(ActionGroupCompleted, group=8, timeout=0.02)
             await controller.run_action_group(8, times=1)
             ended = await controller.wait_for(
-                (ActionGroupStopped, ActionGroupCompleted), group=8, timeout=PATIENCE
+                (ActionGroupStopped, ActionGroupCompleted), group=8, timeout=GENEROUS
             )
             assert ended == ActionGroupCompleted(8, 1)
             assert heard == 2 * [ActionGroupStarted(8, 1), ActionGroupCompleted(8, 1)]
@@ -212,7 +212,7 @@ def test_unplugged_while_questions_are_under_way() -> None:
         async with AsyncController(line, **LIVE) as controller:
             tasks = [asyncio.ensure_future(controller.read_battery_voltage()) for _ in range(5)]
             waiting = asyncio.ensure_future(
-                controller.wait_for(ActionGroupStopped, timeout=PATIENCE)
+                controller.wait_for(ActionGroupStopped, timeout=GENEROUS)
             )
             await asyncio.sleep(0.02)
             line.unplug()
@@ -355,13 +355,13 @@ def test_a_callback_that_fails_hurts_nobody_else_and_ends_when_told(
             controller.on_report(lambda _: 1 / 0)
             stop = controller.on_report(heard.append)
             line.say(ActionGroupStopped())
-            told = await controller.wait_for(ActionGroupStopped, timeout=PATIENCE)
+            told = await controller.wait_for(ActionGroupStopped, timeout=GENEROUS)
             assert told == ActionGroupStopped()
             assert heard == [ActionGroupStopped()]
             stop()
             stop()  # what has been ended may be ended again
             line.say(ActionGroupCompleted(8, 1))
-            await controller.wait_for(ActionGroupCompleted, timeout=PATIENCE)
+            await controller.wait_for(ActionGroupCompleted, timeout=GENEROUS)
             assert heard == [ActionGroupStopped()]
 
     run(work())
@@ -412,7 +412,7 @@ def test_a_reply_that_comes_as_its_question_is_cancelled_hurts_nobody() -> None:
     line = Counting(silent)
 
     async def work() -> None:
-        async with AsyncController(line, margin=PATIENCE, baud=math.inf) as controller:
+        async with AsyncController(line, reply_timeout=GENEROUS, baud=math.inf) as controller:
             task = asyncio.ensure_future(controller.read_battery_voltage())
             while not line.received:
                 await asyncio.sleep(0)

@@ -39,13 +39,13 @@ from busservo import (
 
 from tests.client.live_line import LiveLine, answered
 from tests.client.virtual_line import VirtualLine
-from tests.patience import LIVE, PATIENCE, await_that
+from tests.timeouts import GENEROUS, LIVE, await_that
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
     from typing import Any
 
-    from busservo.wanted import Kinds
+    from busservo._client.report_filter import Kinds
 
 HEAVY = {"typing", "logging", "threading", "serial", "asyncio"}
 
@@ -304,7 +304,7 @@ def test_callbacks_may_use_the_client_and_fail_alone(caplog: pytest.LogCaptureFi
 def test_eight_threads_share_a_controller() -> None:
     line = LiveLine()
     with (
-        Controller(line, baud=math.inf, margin=PATIENCE) as controller,
+        Controller(line, baud=math.inf, reply_timeout=GENEROUS) as controller,
         ThreadPoolExecutor(8) as pool,
     ):
 
@@ -332,12 +332,12 @@ def test_a_report_reaches_a_callback_while_somebody_waits_for_another() -> None:
     heard: list[Message] = []
     with Controller(line, **LIVE) as controller, ThreadPoolExecutor(1) as pool:
         controller.on_report(heard.append)
-        waiting = pool.submit(controller.wait_for, ActionGroupCompleted, timeout=PATIENCE)
+        waiting = pool.submit(controller.wait_for, ActionGroupCompleted, timeout=GENEROUS)
         line.say(ActionGroupStarted(8, 1))
         await_that(lambda: heard == [ActionGroupStarted(8, 1)])
         assert not waiting.done()
         line.say(ActionGroupCompleted(8, 1))
-        assert waiting.result(PATIENCE) == ActionGroupCompleted(8, 1)
+        assert waiting.result(GENEROUS) == ActionGroupCompleted(8, 1)
 
 
 def test_a_report_reaches_a_callback_while_nobody_asks() -> None:
@@ -346,7 +346,7 @@ def test_a_report_reaches_a_callback_while_nobody_asks() -> None:
         heard = threading.Event()
         controller.on_report(lambda _: heard.set())
         line.say(ActionGroupStopped())
-        assert heard.wait(PATIENCE)
+        assert heard.wait(GENEROUS)
 
 
 def test_unplugged_while_a_question_is_under_way() -> None:
@@ -368,7 +368,7 @@ def test_reconnecting_is_explicit() -> None:
     with Controller(line, **LIVE) as controller:
         line.unplug()
         with pytest.raises(DisconnectedError):
-            controller.wait_for(ActionGroupStopped, timeout=PATIENCE)
+            controller.wait_for(ActionGroupStopped, timeout=GENEROUS)
         controller.reconnect()
         assert controller.read_battery_voltage() == 7500
     with pytest.raises(ClosedError):
@@ -383,15 +383,15 @@ def test_close_ends_the_waits_of_other_threads() -> None:
     with ThreadPoolExecutor(3) as pool:
         asking = pool.submit(controller.read_battery_voltage)
         listening = pool.submit(lambda: list(controller.reports()))
-        waiting = pool.submit(controller.wait_for, ActionGroupStopped, timeout=PATIENCE)
+        waiting = pool.submit(controller.wait_for, ActionGroupStopped, timeout=GENEROUS)
         while not line.received:
             threading.Event().wait(0.005)
         controller.close()
         with pytest.raises(ClosedError):
-            asking.result(PATIENCE)
-        assert listening.result(PATIENCE) == []
+            asking.result(GENEROUS)
+        assert listening.result(GENEROUS) == []
         with pytest.raises(ClosedError):
-            waiting.result(PATIENCE)
+            waiting.result(GENEROUS)
 
 
 def test_an_error_of_the_system_from_a_transport_is_one_of_ours() -> None:

@@ -23,12 +23,12 @@ from busservo import (
     open_async_controller,
     open_transport,
 )
-from busservo.async_opening import Opening
+from busservo._client.async_opening import Opening
 from busservo_simulator import VirtualController
 
 from tests.client.live_line import LiveLine, answered
 from tests.client.virtual_line import VirtualLine
-from tests.patience import LIVE, PATIENCE, await_that
+from tests.timeouts import GENEROUS, LIVE, await_that
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
@@ -82,7 +82,7 @@ class SlowToClose(LiveLine):
     def drain(self, _timeout: float) -> None:
         self.meanwhile()
         self.draining.set()
-        assert self.go_on.wait(PATIENCE)
+        assert self.go_on.wait(GENEROUS)
 
 
 def test_whoever_closes_second_waits_for_whoever_closes_first() -> None:
@@ -90,7 +90,7 @@ def test_whoever_closes_second_waits_for_whoever_closes_first() -> None:
     with ThreadPoolExecutor() as pool:
         controller = Controller(line)
         first = pool.submit(controller.close)
-        assert line.draining.wait(PATIENCE)
+        assert line.draining.wait(GENEROUS)
 
         def close_too() -> bool:
             controller.close()
@@ -100,8 +100,8 @@ def test_whoever_closes_second_waits_for_whoever_closes_first() -> None:
         done, _ = wait(others, timeout=0.05)
         assert not done, "the line is not closed yet"
         line.go_on.set()
-        assert [each.result(PATIENCE) for each in others] == [True] * 3
-        first.result(PATIENCE)
+        assert [each.result(GENEROUS) for each in others] == [True] * 3
+        first.result(GENEROUS)
 
 
 def test_closing_while_closing_does_not_wait_for_itself() -> None:
@@ -127,7 +127,7 @@ class Interrupted(LiveLine):
 def test_closing_in_the_middle_of_a_write_does_not_wait_for_itself(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    monkeypatch.setattr("busservo.client.DRAIN_TIMEOUT", 0.02)
+    monkeypatch.setattr("busservo._client.client.DRAIN_TIMEOUT", 0.02)
     line = Interrupted()
     controller = Controller(line)
     line.meanwhile = controller.close
@@ -139,7 +139,7 @@ def test_closing_in_the_middle_of_a_write_does_not_wait_for_itself(
     # Not in a pool, which would wait for a thread that never ends.
     sending = threading.Thread(target=send, daemon=True)
     sending.start()
-    sending.join(PATIENCE)
+    sending.join(GENEROUS)
     assert not sending.is_alive()
     assert line.closed
 
@@ -150,7 +150,7 @@ def test_a_callback_may_close_while_another_thread_does() -> None:
 
     def close_too(_report: Message) -> None:
         told.set()
-        assert line.draining.wait(PATIENCE)
+        assert line.draining.wait(GENEROUS)
         controller.close()
         closed.set()
 
@@ -158,12 +158,12 @@ def test_a_callback_may_close_while_another_thread_does() -> None:
         controller = Controller(line)
         controller.on_report(close_too)
         line.say(ActionGroupStopped())
-        assert told.wait(PATIENCE)
+        assert told.wait(GENEROUS)
         closing = pool.submit(controller.close)
-        assert line.draining.wait(PATIENCE)
-        assert closed.wait(PATIENCE), "it waits for nobody who may be waiting for it"
+        assert line.draining.wait(GENEROUS)
+        assert closed.wait(GENEROUS), "it waits for nobody who may be waiting for it"
         line.go_on.set()
-        closing.result(PATIENCE)
+        closing.result(GENEROUS)
 
 
 def test_a_controller_that_is_not_open_yet_says_how_to_open_it() -> None:
@@ -217,7 +217,7 @@ def test_a_client_for_asyncio_that_is_forgotten_says_so_and_gives_everything_bac
             super().__del__(lambda text, *_, **__: warned.append(text))
 
     async def work() -> None:
-        controller = Watched(line, margin=PATIENCE)
+        controller = Watched(line, reply_timeout=GENEROUS)
         assert await controller.read_battery_voltage() == 7500
         assert len(own_threads()) == 2
 
@@ -239,8 +239,8 @@ def test_the_warning_is_a_resource_warning() -> None:
 
 def test_what_could_not_be_made_has_nothing_to_give_back() -> None:
     for kind in (Controller, AsyncController):
-        with pytest.raises(ValueError, match="margin"):
-            kind(VirtualLine(), margin=0)
+        with pytest.raises(ValueError, match="reply_timeout"):
+            kind(VirtualLine(), reply_timeout=0)
     gc.collect()
 
 
@@ -266,7 +266,7 @@ def test_a_command_that_the_port_does_not_take_fails_at_once_with_asyncio() -> N
     async def work() -> None:
         async with AsyncController(Refusing()) as controller:
             with pytest.raises(DisconnectedError, match="takes no bytes"):
-                await asyncio.wait_for(controller.stop_action_group(), PATIENCE)
+                await asyncio.wait_for(controller.stop_action_group(), GENEROUS)
 
     asyncio.run(work())
 
@@ -277,7 +277,7 @@ def test_a_question_that_the_port_does_not_take_fails_at_once_with_asyncio() -> 
             began = time.monotonic()
             with pytest.raises(DisconnectedError, match="takes no bytes"):
                 await controller.read_battery_voltage()
-            assert time.monotonic() - began < PATIENCE / 2
+            assert time.monotonic() - began < GENEROUS / 2
 
     asyncio.run(work())
 
@@ -487,7 +487,7 @@ class Held(Counted):
 
     def reopen(self) -> LiveLine:
         self.begun.set()
-        assert self.go_on.wait(PATIENCE)
+        assert self.go_on.wait(GENEROUS)
         return super().reopen()
 
 
@@ -525,33 +525,33 @@ def test_what_is_closed_while_it_is_opened_again_is_given_back_by_then() -> None
     controller = Controller(line)
     with ThreadPoolExecutor(2) as pool:
         again = pool.submit(controller.reconnect)
-        assert line.begun.wait(PATIENCE)
+        assert line.begun.wait(GENEROUS)
         closing = pool.submit(controller.close)
         done, _ = wait([closing], timeout=0.05)
         line.go_on.set()
         assert not done, "the port may be open"
-        closing.result(PATIENCE)
+        closing.result(GENEROUS)
         assert Counted.open == 0
         with pytest.raises(ClosedError):
-            again.result(PATIENCE)
+            again.result(GENEROUS)
     assert Counted.open == 0
 
 
 def test_closing_waits_only_for_a_while_for_a_port_that_does_not_open(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    monkeypatch.setattr("busservo.client.DRAIN_TIMEOUT", 0.02)
+    monkeypatch.setattr("busservo._client.client.DRAIN_TIMEOUT", 0.02)
     Counted.open = 0
     line = Held()
     controller = Controller(line)
     with ThreadPoolExecutor(1) as pool:
         again = pool.submit(controller.reconnect)
-        assert line.begun.wait(PATIENCE)
+        assert line.begun.wait(GENEROUS)
         controller.close()
         assert not again.done()
         line.go_on.set()
         with pytest.raises(ClosedError):
-            again.result(PATIENCE)
+            again.result(GENEROUS)
     assert Counted.open == 0
 
 
@@ -588,7 +588,7 @@ def test_reconnecting_from_within_a_callback() -> None:
 
         controller.on_report(again)
         line.say(ActionGroupStopped())
-        assert done.wait(PATIENCE)
+        assert done.wait(GENEROUS)
         assert controller.read_battery_voltage() == 7500
         await_that(lambda: len(own_threads()) == 1)
 
@@ -621,7 +621,7 @@ def test_what_is_closed_while_it_is_opened_again_is_given_back_by_then_with_asyn
 def test_closing_waits_only_for_a_while_for_a_port_that_does_not_open_with_asyncio(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    monkeypatch.setattr("busservo.async_client.DRAIN_TIMEOUT", 0.02)
+    monkeypatch.setattr("busservo._client.async_client.DRAIN_TIMEOUT", 0.02)
     Counted.open = 0
     line = Held()
 
@@ -647,7 +647,7 @@ def test_opening_again_that_fails_after_it_was_cancelled_is_nobodys_error() -> N
     class Gone(LiveLine):
         def reopen(self) -> LiveLine:
             begun.set()
-            assert go_on.wait(PATIENCE)
+            assert go_on.wait(GENEROUS)
             raise PortNotFoundError(self.name, "there is no such port", "plug it in")
 
     async def work() -> None:
@@ -676,7 +676,7 @@ class Stuck(LiveLine):
         self.ended = threading.Event()
 
     def read(self, _timeout: float) -> bytes:
-        assert self.let_go.wait(PATIENCE)
+        assert self.let_go.wait(GENEROUS)
         self.ended.set()
         raise DisconnectedError(self.name, "the line was lost", "plug it in again")
 
@@ -687,7 +687,7 @@ class Stuck(LiveLine):
 def test_the_end_of_a_read_of_the_line_before_does_not_end_the_new_one(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    monkeypatch.setattr("busservo.client.DRAIN_TIMEOUT", 0.02)
+    monkeypatch.setattr("busservo._client.client.DRAIN_TIMEOUT", 0.02)
     line = Stuck()
     with Controller(line, **LIVE) as controller:
         controller.reconnect()
@@ -699,7 +699,7 @@ def test_the_end_of_a_read_of_the_line_before_does_not_end_the_new_one(
 def test_the_end_of_a_read_of_the_line_before_does_not_end_the_new_one_with_asyncio(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    monkeypatch.setattr("busservo.async_client.DRAIN_TIMEOUT", 0.02)
+    monkeypatch.setattr("busservo._client.async_client.DRAIN_TIMEOUT", 0.02)
     line = Stuck()
 
     async def work() -> None:
@@ -755,7 +755,7 @@ def test_what_is_still_to_be_sent_when_the_line_is_lost_does_not_hold_up_closing
         closing = asyncio.ensure_future(controller.close())
         await asyncio.sleep(0)
         line.unplug()
-        await asyncio.wait_for(closing, PATIENCE)
+        await asyncio.wait_for(closing, GENEROUS)
         assert repr(controller) == "<AsyncController on live line, closed>"
 
     asyncio.run(work())
@@ -768,7 +768,9 @@ def test_a_command_whose_turn_comes_as_the_line_is_lost_is_not_told_to_be_sent(
 ) -> None:
     line = LiveLine()
     now = time.monotonic()
-    monkeypatch.setattr("busservo.async_client.time", SimpleNamespace(monotonic=lambda: now))
+    monkeypatch.setattr(
+        "busservo._client.async_client.time", SimpleNamespace(monotonic=lambda: now)
+    )
 
     async def work() -> None:
         nonlocal now
@@ -814,7 +816,7 @@ def test_what_arrives_after_a_line_was_given_up_is_not_told() -> None:
             before = line.reads
             await_that(lambda: line.reads >= before + 2)
             with pytest.raises(DisconnectedError, match="takes no bytes"):
-                await controller.wait_for(ActionGroupStopped, timeout=PATIENCE)
+                await controller.wait_for(ActionGroupStopped, timeout=GENEROUS)
             await asyncio.sleep(0)
             assert heard == []
             assert controller.counters.reports == 0
@@ -857,14 +859,14 @@ def test_a_client_that_is_forgotten_while_the_port_takes_its_question() -> None:
     class Slow(LiveLine):
         def write(self, _data: bytes) -> None:
             begun.set()
-            assert go_on.wait(PATIENCE)
+            assert go_on.wait(GENEROUS)
 
     line = Slow()
 
     async def work() -> None:
         controller = Unheard(line)
         asking = asyncio.ensure_future(controller.read_battery_voltage())
-        assert await asyncio.get_running_loop().run_in_executor(None, begun.wait, PATIENCE)
+        assert await asyncio.get_running_loop().run_in_executor(None, begun.wait, GENEROUS)
         asking.cancel()
         with pytest.raises(asyncio.CancelledError):
             await asking
@@ -910,7 +912,7 @@ def test_a_loop_that_has_ended_with_a_question_under_way_hinders_no_closing() ->
     loop.set_exception_handler(lambda *_: None)
 
     async def ask() -> tuple[AsyncController, asyncio.Task[int]]:
-        controller = AsyncController(line, margin=PATIENCE)
+        controller = AsyncController(line, reply_timeout=GENEROUS)
         asking = asyncio.ensure_future(controller.read_battery_voltage())
         while not line.received:
             await asyncio.sleep(0.001)
@@ -930,7 +932,7 @@ def test_what_was_closed_by_a_loop_that_ended_meanwhile_may_be_closed_again() ->
         controller = AsyncController(line)
         await controller.stop_action_group()
         asyncio.ensure_future(controller.close())  # noqa: RUF006 - the client keeps it
-        assert await asyncio.get_running_loop().run_in_executor(None, line.draining.wait, PATIENCE)
+        assert await asyncio.get_running_loop().run_in_executor(None, line.draining.wait, GENEROUS)
         asyncio.get_running_loop().call_soon(line.go_on.set)
         return controller
 
@@ -951,7 +953,7 @@ def test_opening_that_is_cancelled_leaves_no_port_open() -> None:
 
     def open_late() -> Any:
         begun.set()
-        assert go_on.wait(PATIENCE)
+        assert go_on.wait(GENEROUS)
         return line
 
     async def open_it() -> None:
@@ -968,4 +970,4 @@ def test_opening_that_is_cancelled_leaves_no_port_open() -> None:
         while not line.closed:
             await asyncio.sleep(0.001)
 
-    asyncio.run(asyncio.wait_for(work(), PATIENCE))
+    asyncio.run(asyncio.wait_for(work(), GENEROUS))

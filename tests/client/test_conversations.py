@@ -37,16 +37,16 @@ if TYPE_CHECKING:
 
     from busservo import Message
 
-    from tests.patience import Line
+    from tests.timeouts import Line
 
 WAYS = ["memory", "tcp"] if sys.platform == "win32" else ["memory", "tcp", "pty"]
-MARGIN = 0.25
+REPLY_TIMEOUT = 0.25
 # A reply may come long after its request has timed out, but not so late that nobody could tell it
 # from the next: that is after as long again. In pieces, it takes a little longer.
-LATE = 1.7 * MARGIN
+LATE = 1.7 * REPLY_TIMEOUT
 # A question waits for the late reply of the one before, for twice as long as that was given, and
 # then for its own; the clock counts in floats.
-MOST = 3 * MARGIN + 1e-6
+MOST = 3 * REPLY_TIMEOUT + 1e-6
 
 chance = st.sampled_from([0.0, 0.0, 0.1, 0.3, 0.7])
 
@@ -83,11 +83,11 @@ def test_whatever_the_schedule_of_faults(faults: Faults, seed: int, retries: int
             background=False,
             clock=clock.now,
             baud=math.inf,
-            margin=MARGIN,
+            reply_timeout=REPLY_TIMEOUT,
             retries=retries,
         ) as controller,
     ):
-        converse(controller, ledger, seed, 15, clock.now, bound=MOST + retries * MARGIN)
+        converse(controller, ledger, seed, 15, clock.now, bound=MOST + retries * REPLY_TIMEOUT)
         assert list(controller.reports(timeout=1)) == ledger.reported
         assert controller.counters.lost_reports == 0
 
@@ -98,13 +98,17 @@ def test_a_line_that_is_cut_in_mid_frame_comes_back(faults: Faults, seed: int, c
     with (
         board,
         Controller(
-            board.transport, background=False, clock=clock.now, baud=math.inf, margin=MARGIN
+            board.transport,
+            background=False,
+            clock=clock.now,
+            baud=math.inf,
+            reply_timeout=REPLY_TIMEOUT,
         ) as controller,
     ):
         converse(controller, ledger, seed, 15, clock.now, bound=MOST)
         # A cut may be due yet, behind a frame that is late.
         board.faults = replace(faults, hang_up=0)
-        board.advance(2 * MARGIN)
+        board.advance(2 * REPLY_TIMEOUT)
         board.plug_in()
         controller.reconnect()
         heard = list(controller.reports(timeout=1))
@@ -120,7 +124,11 @@ def test_requests_that_arrive_damaged_give_no_wrong_value(seed: int, flips: floa
     with (
         board,
         Controller(
-            board.transport, background=False, clock=clock.now, baud=math.inf, margin=MARGIN
+            board.transport,
+            background=False,
+            clock=clock.now,
+            baud=math.inf,
+            reply_timeout=REPLY_TIMEOUT,
         ) as controller,
     ):
         converse(controller, ledger, seed, 15, clock.now, bound=MOST)
@@ -146,7 +154,7 @@ FAULTS = {
     "cut": Faults(noise=0.2, unasked=0.3, hang_up=0.08),
 }
 # As if on a slow machine, where an answer takes its time; each lost one costs twice as much.
-LIVE_MARGIN = 0.5
+LIVE_REPLY_TIMEOUT = 0.5
 
 
 @contextmanager
@@ -160,7 +168,7 @@ def board_at(way: str, folder: Path, faults: Faults) -> Iterator[tuple[VirtualCo
 def line_at(way: str) -> Line:
     """What is said of the line: the truth, that it takes no time; or over TCP, that it is slow."""
     baud = 9600 if way == "tcp" else math.inf
-    return {"margin": LIVE_MARGIN, "baud": baud, "settle": 0}
+    return {"reply_timeout": LIVE_REPLY_TIMEOUT, "baud": baud, "settle": 0}
 
 
 def opened(board: VirtualController, way: str) -> Controller:

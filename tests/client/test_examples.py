@@ -10,13 +10,13 @@ from typing import TYPE_CHECKING, Any
 
 import pytest
 from busservo import AsyncController, Controller
-from busservo.exchanges import EXCHANGES
+from busservo._client.exchanges import EXCHANGES
 
 from tests.client.live_line import LiveLine
-from tests.patience import LIVE
+from tests.timeouts import LIVE
 
 if TYPE_CHECKING:
-    from busservo.exchange import Exchange
+    from busservo._client.exchange import Exchange
 
 METHODS = [pytest.param(each, id=each.method) for each in EXCHANGES.values()]
 

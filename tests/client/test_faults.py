@@ -34,7 +34,7 @@ from tests.client.virtual_line import VirtualLine
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-MARGIN = 0.25
+REPLY_TIMEOUT = 0.25
 REPORTS = [ActionGroupStarted(8, 1), ActionGroupStopped(), ActionGroupCompleted(8, 1)]
 
 
@@ -95,7 +95,7 @@ class FaultyBoard:
             size = 5 + 3 * len(message.servo_ids)
         else:
             return
-        allowed = MARGIN + size / 960
+        allowed = REPLY_TIMEOUT + size / 960
         for report in fault.reports:
             self.reported.append(report)
             yield 0.0, report.encode()
@@ -118,7 +118,12 @@ def test_right_or_declared_and_in_bounded_time(
     board = FaultyBoard(plan)
     line = VirtualLine(board.answer)
     client = Controller(
-        line, margin=MARGIN, retries=retries, background=False, clock=line.clock, baud=9600
+        line,
+        reply_timeout=REPLY_TIMEOUT,
+        retries=retries,
+        background=False,
+        clock=line.clock,
+        baud=9600,
     )
     for question in questions:
         before, began = board.asked, line.now
@@ -139,7 +144,7 @@ def test_right_or_declared_and_in_bounded_time(
             )
         # Every value was told to this very call, be it to an earlier attempt of it.
         assert values <= set(range(before + 1, board.asked + 1))
-        most = MARGIN + 40 / 960
+        most = REPLY_TIMEOUT + 40 / 960
         assert line.now - began <= most * (retries + 1) + 2 * most
     # Nothing that was reported is lost, whatever became of the replies.
     assert list(client.reports(timeout=3)) == board.reported
@@ -158,7 +163,7 @@ def test_a_board_that_sends_nothing_but_headers_ends_in_an_error(
     line = VirtualLine()
     for at, data in enumerate(babble):
         line.say(data * (40 if flood else 1), 0.02 * at)
-    client = Controller(line, margin=MARGIN, background=False, clock=line.clock)
+    client = Controller(line, reply_timeout=REPLY_TIMEOUT, background=False, clock=line.clock)
     with pytest.raises(NoReplyError) as caught:
         client.read_battery_voltage()
     assert caught.value.waited <= 1

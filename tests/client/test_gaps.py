@@ -11,7 +11,7 @@ from busservo import (
     NoReplyError,
     ServoPositionsRead,
 )
-from busservo.careful_decoder import GAP
+from busservo._codec.careful_decoder import GAP
 
 from tests.client.test_possible_replies import ask, session
 from tests.client.virtual_line import VirtualLine

@@ -28,12 +28,12 @@ from busservo import (
     open_async_controller,
     open_controller,
 )
-from busservo.hid_devices import HidDevice, hid_devices_at_hand, hid_library
-from busservo.hid_port import HidPort, open_hid
-from busservo.noise import Noise
+from busservo._codec.noise import Noise
+from busservo._serial.hid_devices import HidDevice, hid_devices_at_hand, hid_library
+from busservo._serial.hid_port import HidPort, open_hid
 
 from tests.client.live_line import answered
-from tests.patience import LIVE, PATIENCE
+from tests.timeouts import GENEROUS, LIVE
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -119,7 +119,7 @@ def plugged(**more: object) -> dict[str, object]:
 @pytest.fixture
 def library(monkeypatch: pytest.MonkeyPatch) -> Iterator[Library]:
     made = Library(OTHER | {"path": b"/dev/hidraw0"}, plugged())
-    monkeypatch.setattr("busservo.hid_port.hid_library", lambda _port: made)
+    monkeypatch.setattr("busservo._serial.hid_port.hid_library", lambda _port: made)
     yield made
     assert all(each.closed for each in made.devices)
 
@@ -245,13 +245,13 @@ def test_closing_ends_a_read_in_another_thread() -> None:
 
     def read() -> None:
         with pytest.raises(ClosedError):
-            port.read(2 * PATIENCE)
+            port.read(2 * GENEROUS)
         ended.set()
 
     thread = threading.Thread(target=read)
     thread.start()
     port.close()
-    assert ended.wait(PATIENCE)
+    assert ended.wait(GENEROUS)
     thread.join()
 
 
@@ -268,7 +268,7 @@ def test_the_same_board_is_opened_again(library: Library) -> None:
 def test_silence_is_no_reply(library: Library) -> None:
     device = Device()
     device.write = len  # type: ignore[assignment, method-assign]
-    controller = Controller(port_on(device), margin=0.01)
+    controller = Controller(port_on(device), reply_timeout=0.01)
     with controller, pytest.raises(NoReplyError):
         controller.read_battery_voltage()
 

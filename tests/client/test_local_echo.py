@@ -22,15 +22,15 @@ from busservo import (
     ServoMove,
     TransportError,
 )
-from busservo.exchanges import EXCHANGES
-from busservo.local_echo import LocalEcho
-from busservo.request import Request
+from busservo._client.exchanges import EXCHANGES
+from busservo._client.local_echo import LocalEcho
+from busservo._client.request import Request
 from hypothesis import given
 from hypothesis import strategies as st
 
 from tests.client.live_line import LiveLine, answered
 from tests.client.virtual_line import VirtualLine
-from tests.patience import PATIENCE
+from tests.timeouts import GENEROUS
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable
@@ -153,7 +153,9 @@ class Echoing(LiveLine):
 @pytest.mark.parametrize("answer", [answered, lambda _: []])
 def test_the_same_in_real_time_for_threads(answer: Callable[[Message], list[Message]]) -> None:
     line = Echoing(answer)
-    with Controller(line, local_echo=True, baud=math.inf, margin=PATIENCE, settle=0) as controller:
+    with Controller(
+        line, local_echo=True, baud=math.inf, reply_timeout=GENEROUS, settle=0
+    ) as controller:
         controller.stop_action_group()
         if answer is answered:
             assert controller.read_battery_voltage() == 7500
@@ -163,7 +165,7 @@ def test_the_same_in_real_time_for_threads(answer: Callable[[Message], list[Mess
 def test_the_same_in_real_time_for_asyncio() -> None:
     async def work() -> None:
         async with AsyncController(
-            Echoing(), local_echo=True, baud=math.inf, margin=PATIENCE, settle=0
+            Echoing(), local_echo=True, baud=math.inf, reply_timeout=GENEROUS, settle=0
         ) as controller:
             await controller.stop_action_group()
             assert await controller.read_battery_voltage() == 7500

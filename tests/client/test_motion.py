@@ -22,7 +22,7 @@ from busservo_simulator import VirtualClock, VirtualController
 
 from tests.client.live_line import LiveLine
 from tests.client.virtual_line import VirtualLine
-from tests.patience import LIVE, PATIENCE
+from tests.timeouts import GENEROUS, LIVE
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -145,7 +145,7 @@ def test_closing_in_another_thread_ends_the_wait() -> None:
         assert not waiting.done()
         controller.close()
         with pytest.raises(ClosedError):
-            waiting.result(PATIENCE)
+            waiting.result(GENEROUS)
 
 
 def test_a_motion_is_waited_for_while_others_talk() -> None:
@@ -153,7 +153,7 @@ def test_a_motion_is_waited_for_while_others_talk() -> None:
         motions = [controller.move_servos([(servo, 800)], 50) for servo in range(1, 5)]
         waiting = [pool.submit(motion.wait) for motion in motions]
         assert controller.read_battery_voltage() == 7500
-        assert [each.result(PATIENCE) for each in waiting] == [True] * 4
+        assert [each.result(GENEROUS) for each in waiting] == [True] * 4
         assert all(motion.remaining == 0.0 for motion in motions)
 
 
@@ -205,7 +205,7 @@ def test_a_motion_is_waited_for_in_a_task() -> None:
             assert isinstance(await controller.send(ServoMove(0, SIX)), AsyncMotion)
             assert motion.lasts == 0.05
             line.say(ActionGroupStopped())
-            assert await asyncio.wait_for(motion.wait(), PATIENCE)
+            assert await asyncio.wait_for(motion.wait(), GENEROUS)
             assert motion.remaining == 0.0
             assert asyncio.get_running_loop().time() >= began + 0.05
             assert await motion.wait(), "it may be waited for again"
@@ -224,7 +224,7 @@ def test_in_a_task_the_latest_move_takes_the_place_of_what_waits() -> None:
                 for position in range(50)
             ]
             waiting = asyncio.gather(*(motion.wait() for motion in motions))
-            ended = await asyncio.wait_for(waiting, PATIENCE)
+            ended = await asyncio.wait_for(waiting, GENEROUS)
             assert ended == [not motion.replaced for motion in motions]
             assert (ended[0], ended[-1]) == (True, True)
             # Where the machine pauses for as long as a frame takes, one in between is sent as well.
@@ -252,7 +252,7 @@ def test_in_a_task_a_line_that_is_lost_or_closed_ends_the_wait(latest: bool) -> 
                 else:
                     line.unplug()
                 with pytest.raises(error):
-                    await asyncio.wait_for(waiting, PATIENCE)
+                    await asyncio.wait_for(waiting, GENEROUS)
 
     asyncio.run(work())
 

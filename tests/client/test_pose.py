@@ -22,12 +22,12 @@ from busservo import (
     ServoPositionsRead,
     ServoUnload,
 )
-from busservo.exchanges import LIMITS, POSE
-from busservo.limits import Limits
+from busservo._client.exchanges import LIMITS, POSE
+from busservo._client.limits import Limits
 from busservo_simulator import Faults, VirtualClock, VirtualController
 
 from tests.client.virtual_line import VirtualLine
-from tests.patience import LIVE
+from tests.timeouts import LIVE
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable

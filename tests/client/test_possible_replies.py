@@ -16,13 +16,13 @@ from busservo import (
     ServoPositions,
     ServoPositionsRead,
 )
-from busservo.session import Session
+from busservo._client.session import Session
 
 if TYPE_CHECKING:
     from busservo import Message
-    from busservo.request import Request
+    from busservo._client.request import Request
 
-MARGIN = 0.25
+REPLY_TIMEOUT = 0.25
 # Question and reply of a battery on the wire: 4 bytes and 6, at 960 a second.
 TRIP = 10 / 960
 # Just before the wire can have carried them, and just after.
@@ -30,7 +30,7 @@ TOO_SOON, IN_TIME = 0.94 * TRIP, 0.96 * TRIP
 
 
 def session(baud: float = 9600, **settings: float) -> Session:
-    return Session(baud=baud, margin=MARGIN, report_limit=16, **settings)  # type: ignore[arg-type]
+    return Session(baud=baud, reply_timeout=REPLY_TIMEOUT, report_limit=16, **settings)  # type: ignore[arg-type]
 
 
 def ask(line: Session, now: float, message: Message | None = None, retries: int = 0) -> Request:
@@ -83,18 +83,18 @@ def test_an_impossible_reply_alone_is_the_answer_once_the_line_has_been_quiet() 
     line = session()
     request = ask(line, 0.0)
     say(line, TOO_SOON, BatteryVoltage(7500))
-    line.tick(TRIP + MARGIN - 1e-6)
+    line.tick(TRIP + REPLY_TIMEOUT - 1e-6)
     assert not request.done
-    line.tick(TRIP + MARGIN)
+    line.tick(TRIP + REPLY_TIMEOUT)
     assert request.reply == BatteryVoltage(7500)
     assert (line.counters.impossible, line.counters.unsolicited) == (1, 0)
 
 
 def test_a_longer_margin_is_no_reason_to_hold_a_reply_for_longer() -> None:
-    line = Session(baud=9600, margin=60, report_limit=16)
+    line = Session(baud=9600, reply_timeout=60, report_limit=16)
     request = ask(line, 0.0)
     say(line, TOO_SOON, BatteryVoltage(7500))
-    line.tick(TRIP + MARGIN)
+    line.tick(TRIP + REPLY_TIMEOUT)
     assert request.reply == BatteryVoltage(7500)
 
 
@@ -152,9 +152,9 @@ def test_the_frames_before_a_question_take_their_time_as_well() -> None:
 def test_a_further_attempt_takes_the_late_reply_to_the_first() -> None:
     line = session()
     request = ask(line, 0.0, retries=1)
-    line.tick(TRIP + MARGIN)
-    line.outgoing(TRIP + MARGIN)
-    say(line, TRIP + MARGIN + 0.001, BatteryVoltage(7500))
+    line.tick(TRIP + REPLY_TIMEOUT)
+    line.outgoing(TRIP + REPLY_TIMEOUT)
+    say(line, TRIP + REPLY_TIMEOUT + 0.001, BatteryVoltage(7500))
     assert request.reply == BatteryVoltage(7500)
 
 
@@ -355,7 +355,7 @@ def test_a_first_question_waits_until_replies_to_others_have_come() -> None:
     assert line.outgoing(10.0) == []
     say(line, 10.01, BatteryVoltage(5000))  # asked for by a program that was killed
     at = line.send_at(10.01)
-    assert at == pytest.approx(10 + TRIP + MARGIN)
+    assert at == pytest.approx(10 + TRIP + REPLY_TIMEOUT)
     assert at is not None
     assert line.outgoing(at) == [BatteryVoltageRead().encode()]
     line.written(request, at)
@@ -366,7 +366,7 @@ def test_a_first_question_waits_until_replies_to_others_have_come() -> None:
 
 def test_a_question_that_comes_later_does_not_wait() -> None:
     line = session(now=10.0)
-    ask(line, 10.0 + TRIP + MARGIN)
+    ask(line, 10.0 + TRIP + REPLY_TIMEOUT)
 
 
 def test_a_question_behind_a_command_does_not_wait_on_a_quiet_line() -> None:
@@ -384,7 +384,7 @@ def test_a_question_behind_a_command_waits_where_something_was_heard() -> None:
     line.submit(BatteryVoltageRead())
     assert len(line.outgoing(10.0)) == 1
     assert line.outgoing(10.02) == []
-    assert len(line.outgoing(10.0 + TRIP + MARGIN)) == 1
+    assert len(line.outgoing(10.0 + TRIP + REPLY_TIMEOUT)) == 1
 
 
 @pytest.mark.parametrize(("given", "waits"), [(0.0, 0.0), (1.5, 1.5)])
@@ -402,7 +402,7 @@ def test_a_line_that_was_opened_again_settles_again() -> None:
     line.restart(5.0)
     line.submit(BatteryVoltageRead())
     assert line.outgoing(5.1) == []
-    assert len(line.outgoing(5.0 + TRIP + MARGIN)) == 1
+    assert len(line.outgoing(5.0 + TRIP + REPLY_TIMEOUT)) == 1
 
 
 @pytest.mark.parametrize("settle", [-1, math.nan])

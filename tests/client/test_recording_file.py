@@ -10,9 +10,9 @@ from pathlib import Path
 
 import pytest
 from busservo import ActionGroupStopped, Controller, NoReplyError, open_controller
-from busservo.cli import main
-from busservo.cli.recorder import Recorder
-from busservo.recording_file import RecordingFile
+from busservo._cli import main
+from busservo._cli.recorder import Recorder
+from busservo._recording.file import RecordingFile
 
 from tests.client.virtual_line import VirtualLine
 
@@ -89,7 +89,7 @@ def test_what_is_no_file_will_do(tmp_path: Path) -> None:
 def test_a_recording_says_when_it_began_and_when_the_line_fell_silent(tmp_path: Path) -> None:
     line, path = VirtualLine(lambda _: []), tmp_path / "line.hex"
     with Controller(
-        line, margin=0.25, trace=path, background=False, clock=line.clock, settle=0
+        line, reply_timeout=0.25, trace=path, background=False, clock=line.clock, settle=0
     ) as controller:
         line.say(bytes.fromhex("55 55 05 08"))
         with pytest.raises(NoReplyError):

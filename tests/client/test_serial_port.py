@@ -33,13 +33,13 @@ from busservo import (
     open_controller,
     open_transport,
 )
-from busservo.hid_port import HidPort
-from busservo.port_errors import not_opened
-from busservo.rejects import Rejects
-from busservo.serial_port import SerialPort
+from busservo._codec.rejects import Rejects
+from busservo._serial.hid_port import HidPort
+from busservo._serial.port_errors import not_opened
+from busservo._serial.serial_port import SerialPort
 
 from tests.client.live_line import answered
-from tests.patience import LIVE, PATIENCE
+from tests.timeouts import GENEROUS, LIVE
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
@@ -82,7 +82,7 @@ class Board:
                         return
 
     def join(self) -> None:
-        self._thread.join(PATIENCE)
+        self._thread.join(GENEROUS)
 
 
 class PtyBoard(Board):
@@ -135,7 +135,7 @@ def tcp() -> Iterator[tuple[str, list[socket.socket]]]:
     thread.start()
     yield f"socket://127.0.0.1:{listener.getsockname()[1]}", accepted
     # Whoever has called is let in first, so that both ends of the call are closed.
-    thread.join(PATIENCE)
+    thread.join(GENEROUS)
     listener.close()
     for each in accepted:
         each.close()
@@ -146,7 +146,7 @@ def test_a_session_over_a_pseudo_terminal(board: PtyBoard) -> None:
         assert controller.read_battery_voltage() == 7500
         assert controller.read_servo_positions([1, 2]) == ((1, 10), (2, 20))
         board.write(ActionGroupStopped().encode())
-        assert next(controller.reports(timeout=PATIENCE)) == ActionGroupStopped()
+        assert next(controller.reports(timeout=GENEROUS)) == ActionGroupStopped()
     assert controller.closed
 
 
@@ -204,7 +204,7 @@ def test_a_session_with_asyncio(board: PtyBoard) -> None:
 
 def test_a_port_of_pyserial_that_answers_itself() -> None:
     # What is sent comes back: it is the host's own, and no reply.
-    with open_controller("loop://", margin=0.01) as controller, pytest.raises(TimeoutError):
+    with open_controller("loop://", reply_timeout=0.01) as controller, pytest.raises(TimeoutError):
         controller.read_battery_voltage()
 
 
@@ -349,7 +349,7 @@ def test_unplugged_in_the_middle_of_a_reply(board: PtyBoard) -> None:
     with open_controller(board.port, **LIVE) as controller:
 
         def half() -> None:
-            board.heard.wait(PATIENCE)
+            board.heard.wait(GENEROUS)
             board.write(BatteryVoltage(7500).encode()[:4])
             board.unplug()
 
@@ -370,7 +370,7 @@ def test_hung_up_by_the_other_end(tcp: tuple[str, list[socket.socket]]) -> None:
         assert controller.read_battery_voltage() == 7500
         accepted[0].shutdown(socket.SHUT_RDWR)
         with pytest.raises(DisconnectedError):
-            controller.wait_for(ActionGroupStopped, timeout=PATIENCE)
+            controller.wait_for(ActionGroupStopped, timeout=GENEROUS)
 
 
 def test_reconnecting_to_the_same_port(board: PtyBoard) -> None:
@@ -383,7 +383,7 @@ def test_nothing_of_the_last_frame_is_cut_off(board: PtyBoard) -> None:
     board.mute = True
     with open_controller(board.port) as controller:
         controller.unload_servos(range(1, 253))
-    assert board.heard.wait(PATIENCE)
+    assert board.heard.wait(GENEROUS)
 
 
 def test_a_transport_on_its_own(board: PtyBoard) -> None:
@@ -394,7 +394,7 @@ def test_a_transport_on_its_own(board: PtyBoard) -> None:
     transport.drain(1)
     data = b""
     while len(data) < 6:
-        data += transport.read(PATIENCE)
+        data += transport.read(GENEROUS)
     assert data == BatteryVoltage(7500).encode()
     transport.close()
     transport.close()
@@ -409,11 +409,11 @@ def test_a_transport_on_its_own(board: PtyBoard) -> None:
 def test_a_read_waits_as_long_as_it_is_told(board: PtyBoard, port: str, timeout: float) -> None:
     transport = open_transport(port if "://" in port else board.port)
     first = time.monotonic()
-    taken = PATIENCE
+    taken = GENEROUS
     # A busy machine may be late at any time, but not each time.
     while taken >= timeout + 0.03 + timeout / 2:
         began = time.monotonic()
-        assert began - first < PATIENCE, f"the shortest read took {taken} s"
+        assert began - first < GENEROUS, f"the shortest read took {taken} s"
         assert transport.read(timeout) == b""
         took = time.monotonic() - began
         assert took >= timeout
@@ -428,23 +428,23 @@ def test_closing_ends_a_read_in_another_thread(board: PtyBoard) -> None:
 
     def read() -> None:
         with pytest.raises(ClosedError):
-            transport.read(2 * PATIENCE)
+            transport.read(2 * GENEROUS)
         ended.set()
 
     thread = threading.Thread(target=read)
     thread.start()
     transport.close()
-    assert ended.wait(PATIENCE)
+    assert ended.wait(GENEROUS)
     thread.join()
 
 
 def test_a_port_is_given_back_where_no_controller_can_be_made_of_it(board: PtyBoard) -> None:
-    with pytest.raises(ValueError, match="margin"):
-        open_controller(board.port, margin=0)
+    with pytest.raises(ValueError, match="reply_timeout"):
+        open_controller(board.port, reply_timeout=0)
 
     async def work() -> None:
-        with pytest.raises(ValueError, match="margin"):
-            await open_async_controller(board.port, margin=0)
+        with pytest.raises(ValueError, match="reply_timeout"):
+            await open_async_controller(board.port, reply_timeout=0)
 
     asyncio.run(work())
     # Nobody has it: it can be had exclusively.
@@ -544,7 +544,7 @@ def test_a_pause_in_front_of_an_adapter_that_takes_no_bytes_hides_nothing(
         with contextlib.suppress(BlockingIOError):
             while True:
                 one.send(bytes(65536))
-        monkeypatch.setattr("busservo.serial_port._WRITE_TIMEOUT", 0.01)
+        monkeypatch.setattr("busservo._serial.serial_port._WRITE_TIMEOUT", 0.01)
         port = driven_by(Paused(one.fileno(), 100, [0.0]))
         with pytest.raises(WriteStuckError, match="has taken no bytes"):
             port.write(b"UU\x02\x0f")
@@ -569,12 +569,12 @@ def test_draining_waits_until_the_driver_has_sent_all_and_no_longer_than_told() 
     driver = Driver()
     port = driven_by(driver)
     driver.left = 5
-    port.drain(PATIENCE)
+    port.drain(GENEROUS)
     assert driver.left == 0
     driver.left = 1_000_000
     began = time.monotonic()
     port.drain(0.02)
-    assert 0.02 <= time.monotonic() - began < PATIENCE
+    assert 0.02 <= time.monotonic() - began < GENEROUS
     assert driver.left > 0
     port.close()
 
@@ -588,7 +588,7 @@ def test_a_port_is_closed_even_under_a_read_that_does_not_end(
         @property
         def in_waiting(self) -> int:  # type: ignore[override]
             reading.set()
-            assert go_on.wait(PATIENCE)
+            assert go_on.wait(GENEROUS)
             raise OSError("gone")
 
     driver = Stuck()
@@ -600,7 +600,7 @@ def test_a_port_is_closed_even_under_a_read_that_does_not_end(
 
     thread = threading.Thread(target=read)
     thread.start()
-    assert reading.wait(PATIENCE)
+    assert reading.wait(GENEROUS)
     acquire = port._reading.acquire
 
     class Impatient:
@@ -616,7 +616,7 @@ def test_a_port_is_closed_even_under_a_read_that_does_not_end(
     port.close()
     assert driver.closed
     go_on.set()
-    thread.join(PATIENCE)
+    thread.join(GENEROUS)
     assert not thread.is_alive()
 
 
@@ -631,7 +631,7 @@ class SlowToClose(Driver):
     def close(self) -> None:
         self.meanwhile()
         self.closing.set()
-        assert self.go_on.wait(PATIENCE)
+        assert self.go_on.wait(GENEROUS)
         super().close()
 
 
@@ -657,13 +657,13 @@ def test_whoever_closes_a_port_second_waits_for_whoever_closes_it_first(
 
     with ThreadPoolExecutor() as pool:
         first = pool.submit(port.close)
-        assert driver.closing.wait(PATIENCE)
+        assert driver.closing.wait(GENEROUS)
         second = pool.submit(close_too)
         done, _ = wait([second], timeout=0.05)
         driver.go_on.set()
         assert not done, "the port is not closed yet"
-        assert second.result(PATIENCE)
-        first.result(PATIENCE)
+        assert second.result(GENEROUS)
+        first.result(GENEROUS)
 
 
 @pytest.mark.parametrize("made", [slow_serial_port, slow_hid_port])

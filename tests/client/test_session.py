@@ -19,15 +19,15 @@ from busservo import (
     ServoPositionsRead,
     TransportError,
 )
-from busservo.exchange import Exchange
-from busservo.session import Session
+from busservo._client.exchange import Exchange
+from busservo._client.session import Session
 
 if TYPE_CHECKING:
-    from busservo.request import Request
+    from busservo._client.request import Request
 
 
 def session(**changed: float) -> Session:
-    return Session(baud=changed.get("baud", 9600), margin=0.25, report_limit=16)
+    return Session(baud=changed.get("baud", 9600), reply_timeout=0.25, report_limit=16)
 
 
 def asked(at: Session, message: Message, now: float = 0.0, retries: int = 0) -> Request:
@@ -108,7 +108,7 @@ def test_the_time_for_an_answer_begins_when_the_port_has_the_question() -> None:
     assert line.unwritten is request
     line.written(request, 5.0)
     assert line.unwritten is None
-    assert line.wire.free_at == pytest.approx(5 + 4 / 960)
+    assert line.wire_time.free_at == pytest.approx(5 + 4 / 960)
     line.tick(5.25)
     assert not request.done
     line.written(request, 9.0)  # said once, it holds
@@ -254,7 +254,7 @@ def test_frames_are_handed_over_no_faster_than_the_line_takes_them() -> None:
         at = line.send_at(now)
         now = now if at is None else max(at, now)
     # And the line is never idle meanwhile.
-    assert line.wire.free_at == pytest.approx(40 * 25 / 960)
+    assert line.wire_time.free_at == pytest.approx(40 * 25 / 960)
 
 
 def test_the_latest_takes_the_place_of_what_it_covers() -> None:
@@ -355,10 +355,10 @@ def test_a_board_may_answer_on_the_next_line_what_it_was_asked_on_the_one_before
 
 @pytest.mark.parametrize(
     "wrong",
-    [{"baud": 0}, {"baud": -1}, {"baud": math.nan}, {"margin": 0}, {"report_limit": 0}],
+    [{"baud": 0}, {"baud": -1}, {"baud": math.nan}, {"reply_timeout": 0}, {"report_limit": 0}],
 )
 def test_settings_of_no_sense_are_refused(wrong: dict[str, float]) -> None:
-    good: dict[str, float] = {"baud": 9600, "margin": 0.25, "report_limit": 16}
+    good: dict[str, float] = {"baud": 9600, "reply_timeout": 0.25, "report_limit": 16}
     with pytest.raises(ValueError, match="must be"):
         Session(**(good | wrong))  # type: ignore[arg-type]
 

@@ -15,7 +15,7 @@ from busservo import (
     Message,
     NoReplyError,
 )
-from busservo.exchanges import EXCHANGES
+from busservo._client.exchanges import EXCHANGES
 from busservo.strategies import messages
 from busservo_simulator import VirtualClock, VirtualController
 from hypothesis import given
@@ -75,7 +75,7 @@ def test_any_message_is_sent_whole_or_refused(asked: list[Message]) -> None:
     with (
         VirtualController(clock=clock) as board,
         Controller(
-            board.transport, background=False, clock=clock.now, baud=math.inf, margin=0.01
+            board.transport, background=False, clock=clock.now, baud=math.inf, reply_timeout=0.01
         ) as controller,
     ):
         sent = 0

@@ -6,7 +6,7 @@ import heapq
 from typing import TYPE_CHECKING
 
 from busservo import Direction, Message, Noise, StreamDecoder
-from busservo.rejects import Rejects
+from busservo._codec.rejects import Rejects
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable

@@ -10,7 +10,7 @@ from framegen.render import snippets
 from framegen.targets.docs.pages import render_site
 
 from tests.docs.reference import NODE
-from tests.specimens import library_files, write_files
+from tests.factories import library_files, write_files
 
 if TYPE_CHECKING:
     from collections.abc import Callable

@@ -11,7 +11,7 @@ from framegen.language.load import read_source
 from tests.conformance.answerers import ANSWERERS
 from tests.conformance.harness import asked, differences, joined, run
 from tests.docs.reference import NODE
-from tests.specimens import BUSSERVO, DEMO, vectors_of
+from tests.factories import BUSSERVO, DEMO, vectors_of
 
 SPECS = [
     BUSSERVO,

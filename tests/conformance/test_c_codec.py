@@ -15,7 +15,7 @@ from framegen.conformance.trial import Trial, hold
 from framegen.model.model import Model
 
 from tests.conformance.c_codecs import SOURCE, WRONG, Wrong, compile_codec, needs_compiler
-from tests.specimens import BUSSERVO, data_of, layout_of
+from tests.factories import BUSSERVO, data_of, layout_of
 
 MODEL = layout_of(data_of(BUSSERVO))
 FURTHER = 100

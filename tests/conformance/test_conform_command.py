@@ -14,8 +14,8 @@ import pytest
 from framegen.cli import main
 
 from tests.conformance.c_codecs import WRONG, compile_codec, needs_compiler
-from tests.patience import PATIENCE
-from tests.specimens import BUSSERVO, DEMO, ROOT
+from tests.factories import BUSSERVO, DEMO, ROOT
+from tests.timeouts import GENEROUS
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -33,7 +33,7 @@ for line in sys.stdin:
 # Cannot decode lines, and encodes nothing; for all else it asks the library.
 LIMITED = """
 import sys
-from busservo.cli.answer import answer
+from busservo._cli.answer import answer
 for line in sys.stdin:
     said = ["unsupported"] if line.startswith("stream") else answer(line)
     print(*said, "end", sep="\\n", flush=True)
@@ -58,7 +58,7 @@ def process(words: Sequence[str], given: str = "") -> tuple[int, str, str]:
         input=given,
         capture_output=True,
         encoding="utf-8",
-        timeout=5 * PATIENCE,
+        timeout=5 * GENEROUS,
         cwd=ROOT,
         check=False,
     )
@@ -220,7 +220,7 @@ SVG = "{http://www.w3.org/2000/svg}"
 @pytest.mark.parametrize(
     ("source", "status", "text"),
     [
-        ("import sys; from busservo.cli import main; sys.exit(main(['answer']))", 0, "conforms"),
+        ("import sys; from busservo._cli import main; sys.exit(main(['answer']))", 0, "conforms"),
         (LIMITED, 0, r"conforms, \d+ stream not supported"),
         (STUBBORN, 1, r"\d+ of \d+"),
         ("raise SystemExit(1)", 1, "0 of 1"),

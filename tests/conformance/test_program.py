@@ -13,7 +13,7 @@ import pytest
 from framegen.conformance.program import Program, Reply
 from framegen.reading.yamltree import Unusable
 
-from tests.patience import PATIENCE, await_that
+from tests.timeouts import GENEROUS, await_that
 
 SOON = 0.3
 SILENT = (
@@ -22,12 +22,12 @@ SILENT = (
 )
 
 
-def python(source: str, timeout: float = PATIENCE) -> Program:
+def python(source: str, timeout: float = GENEROUS) -> Program:
     """A program in Python."""
     return Program([sys.executable, "-c", textwrap.dedent(source)], timeout)
 
 
-def asked(source: str, *questions: str, timeout: float = PATIENCE) -> list[Reply]:
+def asked(source: str, *questions: str, timeout: float = GENEROUS) -> list[Reply]:
     with closing(python(source, timeout)) as program:
         return [program.ask(question) for question in questions]
 
@@ -179,7 +179,7 @@ def test_what_it_started_ends_with_it() -> None:
     """
     with closing(python(source)) as program:
         child = ""
-        for seconds in (1, PATIENCE):
+        for seconds in (1, GENEROUS):
             reply = program.ask("encode A", timeout=seconds)
             if reply.lines:
                 (child,) = reply.lines
@@ -218,7 +218,7 @@ def test_a_program_that_does_not_want_to_end_is_ended() -> None:
     """
     before = time.monotonic()
     assert asked(source, "encode A") == [Reply(())]
-    assert time.monotonic() - before < PATIENCE
+    assert time.monotonic() - before < GENEROUS
 
 
 @pytest.mark.parametrize("command", ["no-such-program", "", "a\0b", "."])

@@ -19,8 +19,8 @@ from hypothesis import strategies as st
 
 from tests import oracle
 from tests.conformance.strategies import lines_of, parts_of
-from tests.lines import directions, lines, oracles
-from tests.specimens import BUSSERVO, DEMO, data_of, files_of, layout_of, library
+from tests.factories import BUSSERVO, DEMO, data_of, files_of, layout_of, library
+from tests.strategies import directions, lines, oracles
 
 SERVO = layout_of(data_of(BUSSERVO))
 
@@ -75,12 +75,12 @@ OTHERS = ["demo", "blinds", "lamp", "weather"]
 def answers(
     tmp_path_factory: pytest.TempPathFactory,
 ) -> Iterator[Answers]:
-    found: Answers = {"busservo": import_module("busservo.cli.answer").answer}
+    found: Answers = {"busservo": import_module("busservo._cli.answer").answer}
     with ExitStack() as libraries:
         for name in OTHERS:
             files = files_of(data_of(DEMO.with_name(f"{name}.yaml")))
             module = libraries.enter_context(library(files, tmp_path_factory.mktemp(name)))
-            found[name] = import_module(f"{module.__name__}.cli.answer").answer
+            found[name] = import_module(f"{module.__name__}._cli.answer").answer
         yield found
 
 

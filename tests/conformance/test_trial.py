@@ -20,7 +20,7 @@ from framegen.language.values import Direction
 from hypothesis import given
 from hypothesis import strategies as st
 
-from tests.specimens import BUSSERVO, ROOT, data_of, layout_of
+from tests.factories import BUSSERVO, ROOT, data_of, layout_of
 
 if TYPE_CHECKING:
     from collections.abc import Callable

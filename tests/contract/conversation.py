@@ -61,7 +61,7 @@ def converse(made: ModuleType, model: Model) -> None:
     spent = made.protocol.BITS_PER_BYTE / made.protocol.BAUD
     line = Line(device, spent)
     # However slow the line is, and whatever is sent in front of a reply: it will come.
-    patience = {"margin": 9e9, "clock": line.clock, "background": False}
+    patience = {"reply_timeout": 9e9, "clock": line.clock, "background": False}
     with made.Controller(line, limits=None, **patience) as client:
         for exchange in model.exchanges:
             for example in exchange.request.message.examples[:4]:

@@ -10,7 +10,7 @@ from framegen.model.codec import Unencodable, encode
 from framegen.model.slots import Number
 from framegen.reading.yamltree import Unusable
 
-from tests.specimens import Data, compiled_of
+from tests.factories import Data, compiled_of
 
 if TYPE_CHECKING:
     from framegen.model.layout import MessageLayout

@@ -18,7 +18,7 @@ from typing import TYPE_CHECKING
 
 import pytest
 
-from tests.specimens import ROOT
+from tests.factories import ROOT
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator
@@ -26,6 +26,7 @@ if TYPE_CHECKING:
 
 LIBRARY = ROOT / "generated" / "busservo"
 TEMPLATES = ROOT / "codegen" / "framegen" / "targets" / "python" / "templates"
+COMMAND = "_cli"
 # What differs from library to library. All else is copied, and the same for every spec.
 MADE = sorted(
     path.relative_to(TEMPLATES).as_posix().removesuffix(".jinja")
@@ -46,18 +47,20 @@ class Library:
             file = folder / self.name / path
             file.parent.mkdir(parents=True, exist_ok=True)
             file.write_text(text, encoding="utf-8", newline="")
-            if file.parent.name == "cli":
-                (file.parent / "__init__.py").write_text('"""The command."""\n', encoding="utf-8")
+            if "/" in path:
+                (file.parent / "__init__.py").write_text('"""A part."""\n', encoding="utf-8")
 
     def write_whole(self, folder: Path) -> None:
         """Write all that type checkers need: the command and the doctor do without the messages."""
-        for file in LIBRARY.glob("*.py"):
-            if file.name not in self.modules and file.name != "__main__.py":
-                (folder / self.name).mkdir(parents=True, exist_ok=True)
-                shutil.copy(file, folder / self.name)
-        for path, text in self.modules.items():
-            if "/" not in path:
-                (folder / self.name / path).write_text(text, encoding="utf-8", newline="")
+        for file in LIBRARY.rglob("*.py"):
+            path = file.relative_to(LIBRARY)
+            if path.parts[0] not in {COMMAND, "__main__.py"}:
+                copy = folder / self.name / path
+                copy.parent.mkdir(parents=True, exist_ok=True)
+                if path.as_posix() in self.modules:
+                    copy.write_text(self.modules[path.as_posix()], encoding="utf-8", newline="")
+                else:
+                    shutil.copy(file, copy)
 
     @cached_property
     def code(self) -> str:
@@ -100,9 +103,13 @@ def imported(library: Library, folder: Path) -> Iterator[ModuleType]:
     made = sys.modules[library.name] = importlib.util.module_from_spec(spec)
     try:
         spec.loader.exec_module(made)
+        for part in LIBRARY.glob("_*/"):
+            if (home / part.name / "__init__.py").exists() and part.name != COMMAND:
+                importlib.import_module(f"{library.name}.{part.name}").__path__.append(str(part))
         for path in library.modules:
-            if "/" not in path and path != "__init__.py":
-                importlib.import_module(f"{library.name}.{path.removesuffix('.py')}")
+            if not path.startswith(COMMAND) and path != "__init__.py":
+                name = path.removesuffix(".py").replace("/", ".")
+                importlib.import_module(f"{library.name}.{name}")
         yield made
     finally:
         for name in [name for name in sys.modules if name.split(".")[0] == library.name]:
@@ -159,7 +166,7 @@ def type_checked(folder: Path, cache: Path) -> dict[str, list[str]]:
     )
     assert done.returncode in (0, 1), done.stdout + done.stderr
     found = [(line.split(":")[0], line) for line in done.stdout.splitlines() if ": error:" in line]
-    files = [str(folder / name / path) for name in names for path in MADE if "/" not in path]
+    files = [str(folder / name / path) for name in names for path in MADE if COMMAND not in path]
     looked = _run(["pyright", "--outputjson", "--pythonpath", sys.executable, *files], folder)
     assert looked.returncode in (0, 1), looked.stdout + looked.stderr
     found += [

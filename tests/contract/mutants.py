@@ -9,7 +9,7 @@ from functools import cache, partial
 from typing import TYPE_CHECKING, Any
 
 from tests.contract.odd_text import TEXTS
-from tests.specimens import BUSSERVO, DEMO, Data, Steps, data_of, kiln, leaves, renamed
+from tests.factories import BUSSERVO, DEMO, Data, Steps, data_of, kiln, leaves, renamed
 from tests.test_hostile import HARMLESS, with_prose
 
 if TYPE_CHECKING:

@@ -38,7 +38,7 @@ TEXTS: dict[str, str] = {
     "a long word": "x" * 300,
     "a long word with others": f"see {'x' * 95} and {'y' * 99}: so",
     "an address": "https://example.com/" + "a/" * 60 + "b?c=d#e and www.example.com",
-    "a long name": "LSC_CMD_" + "VERY_" * 28 + "LONG",
+    "a long name": "LSC_CMD_" + "VERY_" * 28 + "GENEROUS",
     "5 000 characters": "word " * 1000,
     "5 000 letters": "w" * 5000,
     "noqa": "# noqa: D400  # fmt: off",

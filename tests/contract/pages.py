@@ -8,13 +8,13 @@ from typing import TYPE_CHECKING
 from framegen.reading.source import Source
 
 from tests.docs.reference import Reference, reference_of
-from tests.specimens import yaml_of
+from tests.factories import yaml_of
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from tests.docs.reference import Page
-    from tests.specimens import Data
+    from tests.factories import Data
 
 _LINK = re.compile(r"(?<!\\)\]\(([^)]*)\)")
 

@@ -24,7 +24,7 @@ from tests.contract.healing import healed
 from tests.contract.libraries import Library, imported, library_of, linted, type_checked
 from tests.contract.mutants import rotations, singly, specs, stretched, structures, telling, told
 from tests.contract.pages import not_inert, pages_of
-from tests.specimens import compiled_of
+from tests.factories import compiled_of
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -34,7 +34,7 @@ if TYPE_CHECKING:
 
     from tests.contract.mutants import Mutant
     from tests.docs.reference import Reference
-    from tests.specimens import Data
+    from tests.factories import Data
 
 SEED = int(os.environ.get("CONTRACT_SEED", "8"))
 ONLY = os.environ.get("CONTRACT_ONLY", "")

@@ -14,8 +14,8 @@ from framegen.language.values import Scale
 from tests.docs.peers import joined, noisy_lines, reference_events
 from tests.docs.reference import NODE_MODULES, SPECS, reference
 from tests.docs.test_hostile_pages import PAYLOADS, hostile
-from tests.patience import PATIENCE
-from tests.specimens import vectors_of, write_files
+from tests.factories import vectors_of, write_files
+from tests.timeouts import GENEROUS
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -37,7 +37,7 @@ ARGUMENTS = [
     "--no-first-run",
 ]
 # How long a browser may take for anything.
-MILLISECONDS = 1000 * PATIENCE
+MILLISECONDS = 1000 * GENEROUS
 SITE = reference("busservo")
 VECTORS = vectors_of(SITE.compiled)
 NAMES = [path for path in SITE.pages if "/" not in path]

@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from busservo.hextext import HexError, read_hex
+from busservo._codec.hextext import HexError, read_hex
 from framegen.compile import Compiled, compile_spec
 from framegen.conformance.language import (
     Decode,
@@ -29,8 +29,8 @@ from tests.conformance.harness import run
 from tests.docs import peers
 from tests.docs.peers import noisy_lines, reference_events
 from tests.docs.reference import NODE, ROOT, reference
+from tests.factories import BUSSERVO, data_of
 from tests.hex_cases import HEX, NO_HEX, random_texts
-from tests.specimens import BUSSERVO, data_of
 
 pytestmark = pytest.mark.skipif(NODE is None, reason="node is not installed")
 

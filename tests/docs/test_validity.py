@@ -8,7 +8,7 @@ import pytest
 
 from tests.docs.reference import NODE, NODE_MODULES, SPECS, reference
 from tests.docs.test_hostile_pages import PAYLOADS, hostile
-from tests.specimens import write_files
+from tests.factories import write_files
 
 VALIDATOR = NODE_MODULES / "html-validate" / "bin" / "html-validate.mjs"
 RULES = {"root": True, "extends": ["html-validate:standard"]}

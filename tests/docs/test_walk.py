@@ -9,7 +9,7 @@ from framegen.targets.docs.walk import Walk, walk
 
 from tests.docs.peers import Event, joined, noisy_lines, reference_events
 from tests.docs.reference import SPECS, reference
-from tests.specimens import DEMO, compiled_of, data_of, layout_of
+from tests.factories import DEMO, compiled_of, data_of, layout_of
 
 BUSSERVO = reference("busservo").model
 

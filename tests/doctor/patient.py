@@ -5,15 +5,15 @@ from __future__ import annotations
 from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any
 
-from busservo.doctor.checks import CHECKS, examine
-from busservo.doctor.diagnosis import Diagnosis
-from busservo.serial_port import SerialPortSeen
+from busservo._cli.checks.checks import CHECKS, examine
+from busservo._cli.checks.diagnosis import Diagnosis
+from busservo._serial.serial_port import SerialPortSeen
 from busservo_simulator import VirtualClock, VirtualController
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from busservo.doctor.result import Result
+    from busservo._cli.checks.result import Result
     from busservo_simulator import Faults
 
 PORT = "virtual board"

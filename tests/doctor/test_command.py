@@ -10,22 +10,22 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 import pytest
-from busservo.cli import doctor, main
-from busservo.doctor.check import Check
-from busservo.doctor.checks import CHECKS, examine
-from busservo.doctor.report import Report
-from busservo.doctor.result import passed
-from busservo.link_errors import DisconnectedError
+from busservo._cli import doctor, main
+from busservo._cli.checks.check import Check
+from busservo._cli.checks.checks import CHECKS, examine
+from busservo._cli.checks.report import Report
+from busservo._cli.checks.result import passed
+from busservo._serial.link_errors import DisconnectedError
 from busservo_simulator import Faults, VirtualController
 
 from tests.doctor.patient import ADAPTER, PORT, board_with, diagnosis_of
-from tests.patience import PATIENCE
+from tests.timeouts import GENEROUS
 
 if TYPE_CHECKING:
-    from busservo.doctor.diagnosis import Diagnosis
-    from busservo.doctor.result import Result
+    from busservo._cli.checks.diagnosis import Diagnosis
+    from busservo._cli.checks.result import Result
 
-PATIENT = ("--timeout", str(PATIENCE))
+PATIENT = ("--timeout", str(GENEROUS))
 
 
 def test_each_check_is_a_line_with_its_bytes_below_it(capsys: pytest.CaptureFixture[str]) -> None:
@@ -159,7 +159,7 @@ def test_a_report_of_no_port_at_all_is_one_too(tmp_path: Path) -> None:
 
 
 def test_a_report_of_a_board_by_usb_hid_names_it(tmp_path: Path) -> None:
-    from busservo.hid_devices import HidDevice  # noqa: PLC0415 - where it is used
+    from busservo._serial.hid_devices import HidDevice  # noqa: PLC0415 - where it is used
 
     found = [HidDevice(0x0483, 0x5750, "/dev/hidraw0", "LOBOT")]
     with board_with() as board:
@@ -207,7 +207,7 @@ def test_whatever_ends_it_the_port_is_given_back() -> None:
 def test_help_and_errors_need_no_pyserial() -> None:
     words = ["doctor", "--port", "COM7", "--baud", "x"]
     told = "print('serial' in sys.modules)"
-    program = f"import sys; from busservo.cli import main; main({words!r}); {told}"
+    program = f"import sys; from busservo._cli import main; main({words!r}); {told}"
     done = subprocess.run(
         [sys.executable, "-c", program], capture_output=True, text=True, check=True
     )

@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING, Any
 
 import pytest
 from busservo import ActionGroupStarted
-from busservo.doctor.checks import CHECKS
-from busservo.doctor.result import FAILED, PASSED, UNKNOWN
+from busservo._cli.checks.checks import CHECKS
+from busservo._cli.checks.result import FAILED, PASSED, UNKNOWN
 from busservo_simulator import Faults
 from hypothesis import given
 from hypothesis import strategies as st

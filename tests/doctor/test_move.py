@@ -5,20 +5,20 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 import pytest
-from busservo.cli import doctor, main
-from busservo.doctor import move
-from busservo.doctor.checks import CHECKS, examine
-from busservo.doctor.move import move_check
-from busservo.doctor.result import FAILED, PASSED, UNKNOWN
-from busservo.exchanges import POSE
-from busservo.limits import Limits
+from busservo._cli import doctor, main
+from busservo._cli.checks import move
+from busservo._cli.checks.checks import CHECKS, examine
+from busservo._cli.checks.move import move_check
+from busservo._cli.checks.result import FAILED, PASSED, UNKNOWN
+from busservo._client.exchanges import POSE
+from busservo._client.limits import Limits
 from busservo_simulator import Faults, VirtualController
 
 from tests.doctor.patient import board_with, diagnosis_of
-from tests.patience import PATIENCE
+from tests.timeouts import GENEROUS
 
 if TYPE_CHECKING:
-    from busservo.doctor.result import Result
+    from busservo._cli.checks.result import Result
 
 OPENING = [check for check in CHECKS if check.id in {"port", "permission", "busy", "opening"}]
 
@@ -89,7 +89,7 @@ def test_it_asks_before_it_moves(
     monkeypatch.setattr("sys.stdin", Terminal())
     monkeypatch.setattr(doctor, "CHECKS", OPENING)
     monkeypatch.setattr(move, "_MILLISECONDS", 10)
-    words = ["--move", "1", "--timeout", str(PATIENCE)]
+    words = ["--move", "1", "--timeout", str(GENEROUS)]
     with VirtualController("tcp") as board:
         assert main(["doctor", "--port", board.port, *words]) == status
         assert board.servos[1].position == 500

@@ -15,16 +15,16 @@ from busservo import (
     PortNotFoundError,
     PortPermissionError,
 )
-from busservo.doctor import rate
-from busservo.doctor.checks import CHECKS, examine
-from busservo.doctor.diagnosis import Diagnosis
-from busservo.doctor.result import FAILED, PASSED, UNKNOWN
-from busservo.hid_devices import HidDevice
-from busservo.serial_port import SerialPortSeen
+from busservo._cli.checks import rate
+from busservo._cli.checks.checks import CHECKS, examine
+from busservo._cli.checks.diagnosis import Diagnosis
+from busservo._cli.checks.result import FAILED, PASSED, UNKNOWN
+from busservo._serial.hid_devices import HidDevice
+from busservo._serial.serial_port import SerialPortSeen
 from busservo_simulator import VirtualController
 
 from tests.doctor.patient import board_with, diagnosis_of, examined
-from tests.patience import PATIENCE
+from tests.timeouts import GENEROUS
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
@@ -134,7 +134,7 @@ def test_a_line_that_is_lost_while_it_is_looked_at_is_told_as_lost() -> None:
 @pytest.fixture
 def quick(monkeypatch: pytest.MonkeyPatch) -> None:
     """Nothing here is late, so nothing is waited for."""
-    monkeypatch.setattr(rate, "PATIENCE", 0.0)
+    monkeypatch.setattr(rate, "GENEROUS", 0.0)
 
 
 def rate_of(port: str, **more: Any) -> Any:
@@ -159,13 +159,13 @@ def test_the_rate_at_which_a_board_answers_is_found() -> None:
 def test_a_board_at_the_rate_of_the_protocol_is_at_no_other() -> None:
     pytest.importorskip("pty", reason="there are pseudo-terminals only where there is a tty")
     with VirtualController("pty") as board:
-        found = rate_of(board.port, margin=PATIENCE / 100)
+        found = rate_of(board.port, reply_timeout=GENEROUS / 100)
     assert (found.state, found.seen) == (PASSED, "it answers at 9600 baud")
 
 
 def test_a_connection_has_no_rate() -> None:
     with VirtualController("tcp") as board:
-        found = rate_of(board.port, margin=PATIENCE)
+        found = rate_of(board.port, reply_timeout=GENEROUS)
     assert found.state == UNKNOWN
     assert found.seen.startswith("it answers, over a line that has no rate of its own (socket://")
 
@@ -188,14 +188,14 @@ def deaf_to_rates() -> Iterator[str]:
     def wait() -> bytes:
         import select  # noqa: PLC0415 - not for Windows
 
-        ready, _, _ = select.select([far, ended], [], [], PATIENCE)
+        ready, _, _ = select.select([far, ended], [], [], GENEROUS)
         return os.read(far, 256) if far in ready else b""
 
     thread = threading.Thread(target=serve, args=(wait,))
     thread.start()
     yield os.ttyname(near)
     end.close()
-    thread.join(PATIENCE)
+    thread.join(GENEROUS)
     ended.close()
     for each in (far, near):
         os.close(each)
@@ -203,6 +203,6 @@ def deaf_to_rates() -> Iterator[str]:
 
 @pytest.mark.usefixtures("quick")
 def test_a_pseudo_terminal_may_have_no_rate_either(deaf_to_rates: str) -> None:
-    found = rate_of(deaf_to_rates, margin=PATIENCE / 100)
+    found = rate_of(deaf_to_rates, reply_timeout=GENEROUS / 100)
     assert found.state == UNKNOWN
     assert "it answers at 9600 baud and at 115200 baud alike" in found.seen

@@ -12,8 +12,8 @@ from framegen.conformance import firmware
 from framegen.language.load import read_source
 from framegen.model.model import Model
 
+from tests.factories import BUSSERVO
 from tests.firmware.devices import Observed
-from tests.specimens import BUSSERVO
 
 
 class Run(NamedTuple):

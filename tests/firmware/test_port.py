@@ -16,8 +16,8 @@ from framegen.conformance import firmware
 from framegen.conformance.device.port import open_port
 from framegen.reading.yamltree import Unusable
 
+from tests.factories import BUSSERVO
 from tests.firmware.runs import model_of
-from tests.specimens import BUSSERVO
 
 MODEL = model_of()
 LINK = MODEL.spec.link

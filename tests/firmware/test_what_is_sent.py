@@ -13,10 +13,10 @@ from framegen.reading.yamltree import Unusable
 from hypothesis import given
 from hypothesis import strategies as st
 
+from tests.factories import BUSSERVO, DEMO, Data, data_of, layout_of
 from tests.firmware.devices import Answer, VirtualLine, by_the_reference
 from tests.firmware.runs import model_of, run
 from tests.independent.firmware import Reader, well_formed
-from tests.specimens import BUSSERVO, DEMO, Data, data_of, layout_of
 
 MODEL = model_of()
 COMMANDS = ["ServoMove", "ActionGroupRun", "ActionGroupStop", "ActionGroupSpeed", "ServoUnload"]

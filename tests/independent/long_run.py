@@ -20,7 +20,7 @@ from tests.independent import faults, firmware
 from tests.independent.board import Board
 from tests.independent.conversation import SIX, Conversation, wire_time
 from tests.independent.ports import TcpPort, VirtualPort
-from tests.patience import PATIENCE, await_that
+from tests.timeouts import GENEROUS, await_that
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
@@ -29,9 +29,9 @@ if TYPE_CHECKING:
     from tests.independent.faults import Script
 
 BAUD = 9600
-MARGIN = 0.25
+REPLY_TIMEOUT = 0.25
 # The other end is a thread of the same busy machine.
-LIVE_MARGIN = 5.0
+LIVE_REPLY_TIMEOUT = 5.0
 THREADS = 8
 KINDS: list[Asked] = [None, None, SIX, (1, 2)]
 # What a run may leave behind: caches that grow by a little, and never by a message each.
@@ -129,14 +129,14 @@ def at_a_paced_line(requests: int, rounds: int, seed: int) -> None:
     board = Board(baud=BAUD, thinks=0.001, faults=scheduled(random, any_fault))
     port = VirtualPort(board)
     with Controller(
-        port, background=False, clock=port.clock, margin=MARGIN, settle=0
+        port, background=False, clock=port.clock, reply_timeout=REPLY_TIMEOUT, settle=0
     ) as controller:
         watch = Rounds("independent board, paced", board, controller)
         talk = Conversation(board, port.clock)
         for _ in range(rounds):
             for _ in range(requests // rounds):
                 talk.ask(controller, random.choice(KINDS))
-            watch.end([talk], BAUD, 3 * (MARGIN + wire_time(SIX, BAUD)), quiet=2)
+            watch.end([talk], BAUD, 3 * (REPLY_TIMEOUT + wire_time(SIX, BAUD)), quiet=2)
         watch.tell()
 
 
@@ -146,7 +146,7 @@ def with_threads(requests: int, rounds: int, seed: int) -> None:
     board = Board(faults=scheduled(random, lambda each: each.choice(harmless_faults(each))))
     with (
         TcpPort(board) as port,
-        open_controller(port.name, baud=math.inf, margin=LIVE_MARGIN) as controller,
+        open_controller(port.name, baud=math.inf, reply_timeout=LIVE_REPLY_TIMEOUT) as controller,
         ThreadPoolExecutor(THREADS) as pool,
     ):
         watch = Rounds(f"independent board, {THREADS} threads", board, controller)
@@ -162,5 +162,5 @@ def with_threads(requests: int, rounds: int, seed: int) -> None:
             await_that(lambda: controller.counters.reports >= len(board.reported))
             wrong = [each for talk in talks for each in talk.failed + talk.stale]
             assert wrong == [], f"{wrong}, {controller.counters}"
-            watch.end(talks, math.inf, PATIENCE, quiet=0.02)
+            watch.end(talks, math.inf, GENEROUS, quiet=0.02)
         watch.tell()

@@ -20,7 +20,7 @@ from tests.independent.conversation import SIX, Conversation, wire_time
 from tests.independent.ports import VirtualPort
 
 BAUD = 9600
-MARGIN = 0.25
+REPLY_TIMEOUT = 0.25
 
 
 def conversation(
@@ -30,7 +30,7 @@ def conversation(
     port = VirtualPort(board)
     talk = Conversation(board, port.clock)
     with Controller(
-        port, background=False, clock=port.clock, margin=MARGIN, baud=baud, settle=0
+        port, background=False, clock=port.clock, reply_timeout=REPLY_TIMEOUT, baud=baud, settle=0
     ) as controller:
         for _ in range(reads):
             talk.ask(controller, None)
@@ -51,7 +51,7 @@ def test_a_line_is_learnt_to_be_faster_from_three_replies_that_were_impossible()
     assert (talk.stale, talk.failed) == ([], [])
     assert controller.counters.impossible == 3
     assert max(times(talk)[3:]) < 0.001
-    assert max(times(talk)) < MARGIN + 2 * wire_time(None, BAUD)
+    assert max(times(talk)) < REPLY_TIMEOUT + 2 * wire_time(None, BAUD)
 
 
 def test_a_line_that_is_said_to_be_faster_is_believed() -> None:
@@ -79,7 +79,7 @@ def test_where_no_time_tells_a_slip_ends_with_the_first_pause(baud: float) -> No
     port = VirtualPort(board)
     talk = Conversation(board, port.clock)
     with Controller(
-        port, background=False, clock=port.clock, margin=MARGIN, baud=baud, settle=0
+        port, background=False, clock=port.clock, reply_timeout=REPLY_TIMEOUT, baud=baud, settle=0
     ) as controller:
         for _ in range(12):
             talk.ask(controller, None)
@@ -123,7 +123,9 @@ class Pausing(VirtualPort):
 def test_a_process_that_stands_still_within_a_healthy_reply_loses_nothing(behind: int) -> None:
     board = Board(baud=BAUD)
     port = Pausing(board, behind)
-    with Controller(port, background=False, clock=port.clock, margin=MARGIN) as controller:
+    with Controller(
+        port, background=False, clock=port.clock, reply_timeout=REPLY_TIMEOUT
+    ) as controller:
         for number in (1, 2, 3):
             positions = controller.read_servo_positions(SIX)
             assert {position for _, position in positions} == {number}
@@ -137,7 +139,7 @@ def test_an_echo_that_is_said_to_be_there_is_dropped() -> None:
     board = Board(baud=BAUD, echo=True, thinks=0.001, unknown_groups=[9], group_seconds=0.1)
     port = VirtualPort(board)
     with Controller(
-        port, background=False, clock=port.clock, margin=MARGIN, local_echo=True
+        port, background=False, clock=port.clock, reply_timeout=REPLY_TIMEOUT, local_echo=True
     ) as controller:
         controller.stop_action_group()
         controller.run_action_group(9, times=1)
@@ -162,7 +164,7 @@ def test_an_echo_that_is_missing_is_an_error() -> None:
     port = VirtualPort(Board(baud=BAUD))
     with (
         Controller(
-            port, background=False, clock=port.clock, margin=MARGIN, local_echo=True
+            port, background=False, clock=port.clock, reply_timeout=REPLY_TIMEOUT, local_echo=True
         ) as controller,
         pytest.raises(EchoError),
     ):
@@ -187,7 +189,12 @@ def test_an_echo_that_is_damaged_ends_one_call_alone() -> None:
     board = Board(baud=BAUD, echo=True, thinks=0.001)
     port = Damaging(board, 22)
     with Controller(
-        port, background=False, clock=port.clock, margin=MARGIN, local_echo=True, settle=0
+        port,
+        background=False,
+        clock=port.clock,
+        reply_timeout=REPLY_TIMEOUT,
+        local_echo=True,
+        settle=0,
     ) as controller:
         assert [controller.read_battery_voltage() for _ in range(2)] == [1, 2]
         with pytest.raises(EchoError):
@@ -220,7 +227,9 @@ def test_a_reply_meant_for_a_program_that_was_killed_is_not_taken_for_ours(
     question = firmware.positions_question(list(SIX)) if asked else firmware.battery_question()
     board.write(question, -(len(question) * BITS_PER_BYTE / BAUD) + after)
     talk = Conversation(board, port.clock)
-    with Controller(port, background=False, clock=port.clock, margin=MARGIN) as controller:
+    with Controller(
+        port, background=False, clock=port.clock, reply_timeout=REPLY_TIMEOUT
+    ) as controller:
         for _ in range(3):
             talk.ask(controller, asked)
     assert (talk.stale, talk.failed) == ([], [])
@@ -231,6 +240,8 @@ def test_what_is_in_the_buffer_at_opening_is_not_taken_for_ours() -> None:
     board.write(firmware.battery_question(), -1)
     port = VirtualPort(board)
     talk = Conversation(board, port.clock)
-    with Controller(port, background=False, clock=port.clock, margin=MARGIN) as controller:
+    with Controller(
+        port, background=False, clock=port.clock, reply_timeout=REPLY_TIMEOUT
+    ) as controller:
         talk.ask(controller, None)
     assert (talk.stale, talk.failed) == ([], [])

@@ -20,7 +20,7 @@ from tests.independent import faults, firmware
 from tests.independent.board import Board
 from tests.independent.conversation import SIX, Conversation, repeated
 from tests.independent.ports import Port, PtyPort, TcpPort
-from tests.patience import PATIENCE, await_that
+from tests.timeouts import GENEROUS, await_that
 
 if TYPE_CHECKING:
     from tests.independent.conversation import Asked
@@ -29,7 +29,7 @@ if TYPE_CHECKING:
 PORTS = [TcpPort] if sys.platform == "win32" else [PtyPort, TcpPort]
 BAUD = 9600
 # The other end is a thread of the same busy machine.
-MARGIN = 5.0
+REPLY_TIMEOUT = 5.0
 REPORT = firmware.report(firmware.COMPLETED, 8, 1)
 SCRIPTS = [
     faults.duplicated(),
@@ -65,7 +65,7 @@ def check(
     cannot know that it had come too soon: exactly which call may be stale, virtual time tells.
     """
     calls = [call for talk in talks for call in talk.calls]
-    assert max(call.ended - call.began for call in calls) < PATIENCE
+    assert max(call.ended - call.began for call in calls) < GENEROUS
     assert {call.number for call in calls if call.number} <= set(range(1, board.asked + 1))
     wrong = sum(len(talk.stale) + len(talk.failed) for talk in talks) + repeated(talks)
     assert wrong <= 2 * controller.counters.unsolicited
@@ -101,7 +101,10 @@ def reports_of(controller: Controller, board: Board) -> list[bytes]:
 
 @pytest.mark.parametrize("port", PORTS)
 def test_one_thread(port: type[Port]) -> None:
-    with port(scripts(1)) as end, open_controller(end.name, margin=MARGIN, settle=0) as controller:
+    with (
+        port(scripts(1)) as end,
+        open_controller(end.name, reply_timeout=REPLY_TIMEOUT, settle=0) as controller,
+    ):
         talk = Conversation(end.board, time.monotonic)
         ask_all(talk, controller, 1, 20)
         await_that(lambda: settle(end.board, controller))
@@ -112,7 +115,10 @@ def test_one_thread(port: type[Port]) -> None:
 
 @pytest.mark.parametrize("port", PORTS)
 def test_eight_threads(port: type[Port]) -> None:
-    with port(scripts(2)) as end, open_controller(end.name, margin=MARGIN, settle=0) as controller:
+    with (
+        port(scripts(2)) as end,
+        open_controller(end.name, reply_timeout=REPLY_TIMEOUT, settle=0) as controller,
+    ):
         talks = [Conversation(end.board, time.monotonic) for _ in range(8)]
         with ThreadPoolExecutor(8) as pool:
             each = enumerate(talks)
@@ -128,7 +134,9 @@ def test_one_task_and_twenty_more(port: type[Port]) -> None:
     with port(scripts(3)) as end:
 
         async def work() -> None:
-            async with open_async_controller(end.name, margin=MARGIN, settle=0) as controller:
+            async with open_async_controller(
+                end.name, reply_timeout=REPLY_TIMEOUT, settle=0
+            ) as controller:
                 talks = [Conversation(end.board, time.monotonic) for _ in range(21)]
                 await ask_all_async(talks[0], controller, 0, 10)
                 each = enumerate(talks[1:])
@@ -142,7 +150,7 @@ def test_one_task_and_twenty_more(port: type[Port]) -> None:
                 heard = [each.encode() async for each in controller.reports(timeout=0.05)]
                 assert heard == end.board.reported
 
-        asyncio.run(asyncio.wait_for(work(), PATIENCE))
+        asyncio.run(asyncio.wait_for(work(), GENEROUS))
 
 
 @pytest.mark.parametrize("port", PORTS)
@@ -151,7 +159,9 @@ def test_what_is_cancelled_leaves_no_reply_to_the_next(port: type[Port]) -> None
     with port(Board(baud=BAUD, gathers=True, thinks=0.002)) as end:
 
         async def work() -> None:
-            async with open_async_controller(end.name, margin=MARGIN, settle=0) as controller:
+            async with open_async_controller(
+                end.name, reply_timeout=REPLY_TIMEOUT, settle=0
+            ) as controller:
                 talk = Conversation(end.board, time.monotonic)
                 for wait in (0.0, 0.001, 0.003, 0.006, 0.009, 0.012):
                     given_up = asyncio.ensure_future(controller.read_battery_voltage())
@@ -161,7 +171,7 @@ def test_what_is_cancelled_leaves_no_reply_to_the_next(port: type[Port]) -> None
                     await talk.ask_async(controller, None)
                 assert (talk.stale, talk.failed) == ([], [])
 
-        asyncio.run(asyncio.wait_for(work(), PATIENCE))
+        asyncio.run(asyncio.wait_for(work(), GENEROUS))
 
 
 @pytest.mark.parametrize("port", PORTS)
@@ -170,5 +180,5 @@ def test_a_reply_meant_for_a_program_that_was_killed(port: type[Port]) -> None:
     with port(Board(baud=BAUD, gathers=True, faults={1: faults.late(0.004)}.get)) as end:
         end.hear(firmware.battery_question())
         await_that(lambda: end.board.asked)
-        with open_controller(end.name, margin=MARGIN) as controller:
+        with open_controller(end.name, reply_timeout=REPLY_TIMEOUT) as controller:
             assert controller.read_battery_voltage() == 2

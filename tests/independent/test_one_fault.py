@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from tests.independent.faults import Script
 
 BAUD = 9600
-MARGIN = 0.25
+REPLY_TIMEOUT = 0.25
 READS = {"battery": None, "six positions": SIX}
 REPORT = firmware.report(firmware.COMPLETED, 8, 1)
 STOPPED = firmware.report(firmware.STOPPED)
@@ -112,7 +112,7 @@ class Run:
         port = VirtualPort(self.board)
         self.talk = Conversation(self.board, port.clock)
         with Controller(
-            port, background=False, clock=port.clock, margin=MARGIN, settle=0
+            port, background=False, clock=port.clock, reply_timeout=REPLY_TIMEOUT, settle=0
         ) as controller:
             for _ in range(reads):
                 self.talk.ask(controller, asked)
@@ -121,7 +121,7 @@ class Run:
 
     def check(self, asked: Asked) -> None:
         # A read may wait for the late reply of the one before it, and then for its own.
-        self.talk.check(BAUD, bound=3 * (MARGIN + wire_time(asked, BAUD)))
+        self.talk.check(BAUD, bound=3 * (REPLY_TIMEOUT + wire_time(asked, BAUD)))
         assert self.reports == self.board.reported
         assert self.board.refused == []
 

@@ -23,11 +23,11 @@ if TYPE_CHECKING:
     from tests.independent.faults import Script
 
 BAUD = 9600
-MARGIN = 0.25
+REPLY_TIMEOUT = 0.25
 # So many healthy reads show that a line keeps its rate.
 HEALTHY = 8
 # A read may wait for the late reply of the one before it, and then for its own.
-BOUND = 3 * (MARGIN + wire_time(SIX, BAUD))
+BOUND = 3 * (REPLY_TIMEOUT + wire_time(SIX, BAUD))
 
 
 class Read(NamedTuple):
@@ -96,7 +96,7 @@ def test_whatever_happens_to_the_replies(steps: list[Step], thinks: float, laten
     talk = Conversation(board, port.clock)
     heard: list[bytes] = []
     with Controller(
-        port, background=False, clock=port.clock, margin=MARGIN, settle=0
+        port, background=False, clock=port.clock, reply_timeout=REPLY_TIMEOUT, settle=0
     ) as controller:
         for _ in range(HEALTHY):
             talk.ask(controller, None)

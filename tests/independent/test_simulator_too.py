@@ -25,12 +25,12 @@ if TYPE_CHECKING:
     from busservo_simulator.memory_end import MemoryEnd
 
 BAUD = 9600
-MARGIN = 0.25
+REPLY_TIMEOUT = 0.25
 # So many healthy reads show that a line keeps its rate.
 HEALTHY = 8
 # By then, all that was late is there.
 QUIET = 3.0
-BOUND = 3 * (MARGIN + wire_time(SIX, BAUD))
+BOUND = 3 * (REPLY_TIMEOUT + wire_time(SIX, BAUD))
 
 
 class Simulated:
@@ -140,7 +140,7 @@ def test_whatever_the_simulator_does(faults: Faults, asked: list[tuple[int, ...]
         simulated = Simulated(board, clock)
         talk = Conversation(simulated, clock.now)
         with Controller(
-            simulated, background=False, clock=clock.now, margin=MARGIN, settle=0
+            simulated, background=False, clock=clock.now, reply_timeout=REPLY_TIMEOUT, settle=0
         ) as controller:
             for _ in range(HEALTHY):
                 talk.ask(controller, None)
@@ -166,7 +166,7 @@ def test_reads_come_no_faster_than_the_line_allows() -> None:
             simulated = Simulated(board, clock)
             talk = Conversation(simulated, clock.now)
             with Controller(
-                simulated, background=False, clock=clock.now, margin=MARGIN, settle=0
+                simulated, background=False, clock=clock.now, reply_timeout=REPLY_TIMEOUT, settle=0
             ) as controller:
                 for _ in range(100):
                     talk.ask(controller, None)

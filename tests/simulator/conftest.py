@@ -6,8 +6,8 @@ import sys
 from typing import TYPE_CHECKING, Any
 
 import pytest
-from busservo.protocol import BAUD
-from busservo.serial_port import open_transport
+from busservo._frame.protocol import BAUD
+from busservo._serial.serial_port import open_transport
 from busservo_simulator import VirtualClock, VirtualController
 
 from tests.simulator.hosts import Host, host_of

@@ -7,12 +7,12 @@ from typing import TYPE_CHECKING
 
 from busservo import Direction, Message, Noise, StreamDecoder
 
-from tests.patience import PATIENCE
+from tests.timeouts import GENEROUS
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from busservo.transport import Transport
+    from busservo._serial.transport import Transport
     from busservo_simulator import VirtualController
 
 # How long silence lasts until it is believed, by the clock of a board whose time nobody waits for.
@@ -26,7 +26,7 @@ class Host:
         self,
         transport: Transport,
         now: Callable[[], float] = time.monotonic,
-        patience: float = PATIENCE,
+        patience: float = GENEROUS,
     ) -> None:
         self.transport = transport
         self.patience = patience

@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any
 import pytest
 import serial
 
-from tests.patience import PATIENCE, await_that
+from tests.timeouts import GENEROUS, await_that
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -139,7 +139,7 @@ class NextFrame(OtherClient):
         self._line.write(bytes([0x55, 0x55, len(parameters) + 2, command]) + parameters)
 
     def _receive(self) -> bytes:
-        self._line.timeout = PATIENCE if self.answer else SILENCE
+        self._line.timeout = GENEROUS if self.answer else SILENCE
         headers = 0
         while headers < 2:
             byte = self._line.read()

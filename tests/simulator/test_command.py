@@ -11,15 +11,15 @@ from typing import TYPE_CHECKING
 
 import pytest
 from busservo import BatteryVoltage, BatteryVoltageRead, ServoPositions, ServoPositionsRead
-from busservo.serial_port import open_transport
+from busservo._serial.serial_port import open_transport
 from busservo_simulator import Faults
 from busservo_simulator.cli import _board, main
 from busservo_simulator.faults import CHANCES
 from busservo_simulator.options import PROGRAM, faults_of, parser_of
 from busservo_simulator.servo_list import parse_servos
 
-from tests.patience import PATIENCE
 from tests.simulator.hosts import Host
+from tests.timeouts import GENEROUS
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
@@ -70,7 +70,7 @@ def test_it_answers_tells_what_happens_and_ends_cleanly(
     )
     host.hang_up()
     process.send_signal(kind)
-    output, errors = process.communicate(timeout=PATIENCE)
+    output, errors = process.communicate(timeout=GENEROUS)
     assert process.returncode == 0
     assert "LED2      blinks: BatteryVoltageRead()" in output
     assert errors == "2 messages, 0 rejected\n"
@@ -88,7 +88,7 @@ def test_over_tcp_it_can_be_quiet(
     assert host.noise()
     host.hang_up()
     process.send_signal(signal.SIGINT)
-    output, _ = process.communicate(timeout=PATIENCE)
+    output, _ = process.communicate(timeout=GENEROUS)
     assert (process.returncode, output) == (0, "")
 
 
@@ -193,7 +193,7 @@ def test_a_board_that_the_network_reaches_says_so(
 ) -> None:
     process, _ = start("--tcp", "--host", "0.0.0.0")  # noqa: S104 - it is what is asked for
     process.send_signal(signal.SIGTERM)
-    _, errors = process.communicate(timeout=PATIENCE)
+    _, errors = process.communicate(timeout=GENEROUS)
     assert errors.startswith("busservo-simulator: the network reaches it at 0.0.0.0\n")
 
 
@@ -207,7 +207,7 @@ def test_it_ends_when_whoever_read_along_has_gone(
     process.stdout = None
     host = Host(open_transport(port))
     host.say(BatteryVoltageRead())
-    _, errors = process.communicate(timeout=PATIENCE)
+    _, errors = process.communicate(timeout=GENEROUS)
     host.hang_up()
     assert (process.returncode, errors) == (141, "1 message, 0 rejected\n")
 
@@ -229,7 +229,7 @@ def test_how_it_ends_does_not_depend_on_when_its_reader_goes(
     process.stdout = None
     if signalled:
         process.send_signal(signal.SIGTERM)
-    _, errors = process.communicate(timeout=PATIENCE)
+    _, errors = process.communicate(timeout=GENEROUS)
     assert (process.returncode, errors) == (status, "0 messages, 0 rejected\n")
 
 
@@ -243,7 +243,7 @@ def test_it_ends_at_once_where_nobody_reads_the_name_of_its_port() -> None:
         env=ENVIRONMENT,
         stdout=theirs,
         stderr=subprocess.PIPE,
-        timeout=PATIENCE,
+        timeout=GENEROUS,
         check=False,
     )
     os.close(theirs)

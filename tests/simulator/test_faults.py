@@ -14,12 +14,12 @@ from busservo import (
     ServoPositions,
     ServoPositionsRead,
 )
-from busservo.link_errors import DisconnectedError, TransportError
+from busservo._serial.link_errors import DisconnectedError, TransportError
 from busservo_simulator import Faults, VirtualClock, VirtualController
 from busservo_simulator.faults import CHANCES, DURATIONS
 
-from tests.patience import await_that
 from tests.simulator.hosts import Host, host_of
+from tests.timeouts import await_that
 
 if TYPE_CHECKING:
     from collections.abc import Callable

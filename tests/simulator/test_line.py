@@ -17,16 +17,16 @@ from busservo import (
     ServoPositionsRead,
     strategies,
 )
-from busservo.link_errors import ClosedError, DisconnectedError, PortNotFoundError
+from busservo._serial.link_errors import ClosedError, DisconnectedError, PortNotFoundError
 from busservo_simulator import Board, Faults, VirtualClock, VirtualController
+from busservo_simulator.channel import Channel
 from busservo_simulator.faults import CHANCES
 from busservo_simulator.line import Line
-from busservo_simulator.wire import Wire
 from hypothesis import given
 from hypothesis import strategies as st
 
-from tests.patience import PATIENCE
 from tests.simulator.hosts import Host, host_of
+from tests.timeouts import GENEROUS
 
 HOST = Direction.HOST_TO_CONTROLLER
 
@@ -36,7 +36,7 @@ def paced() -> VirtualController:
 
 
 def test_a_wire_carries_a_byte_in_ten_bits() -> None:
-    wire = Wire(10 / 9600)
+    wire = Channel(10 / 9600)
     wire.put(b"abc", 1.0)
     wire.put(b"d", 1.0)
     assert wire.take(1.0 + 10 / 9600) == [b"a"]
@@ -46,7 +46,7 @@ def test_a_wire_carries_a_byte_in_ten_bits() -> None:
 
 
 def test_a_wire_without_a_rate_keeps_pieces_apart() -> None:
-    wire = Wire()
+    wire = Channel()
     wire.put(b"abc", 1.0)
     wire.put(b"d", 1.0)
     assert wire.take(0.9) == []
@@ -101,7 +101,7 @@ def test_a_read_in_another_thread_hears_a_report_at_once() -> None:
         reader = threading.Thread(target=lambda: heard.append(host.hear()))
         reader.start()
         board.report(ActionGroupStopped())
-        reader.join(PATIENCE)
+        reader.join(GENEROUS)
         assert heard == [ActionGroupStopped()]
 
 
@@ -109,7 +109,7 @@ def test_a_read_without_bytes_ends_in_time() -> None:
     with VirtualController() as board:
         begun = time.monotonic()
         assert board.transport.read(0.02) == b""
-        assert 0.02 <= time.monotonic() - begun < PATIENCE
+        assert 0.02 <= time.monotonic() - begun < GENEROUS
 
 
 def test_closing_ends_a_read_in_another_thread() -> None:
@@ -118,14 +118,14 @@ def test_closing_ends_a_read_in_another_thread() -> None:
 
         def read() -> None:
             try:
-                board.transport.read(2 * PATIENCE)
+                board.transport.read(2 * GENEROUS)
             except ClosedError as error:
                 failed.append(error)
 
         reader = threading.Thread(target=read)
         reader.start()
         board.transport.close()
-        reader.join(PATIENCE)
+        reader.join(GENEROUS)
         assert not reader.is_alive()
         assert len(failed) == 1
         with pytest.raises(ClosedError):
@@ -296,6 +296,6 @@ def test_what_is_said_to_nobody_is_lost(board: VirtualController, host: Host) ->
 
 
 def test_no_bytes_take_no_time() -> None:
-    wire = Wire(10 / 9600)
+    wire = Channel(10 / 9600)
     wire.put(b"", 1.0)
     assert (wire.next_event, wire.held) == (None, 0)

@@ -14,8 +14,8 @@ import pytest
 import serial
 from busservo_simulator import Faults, VirtualController
 
-from tests.patience import await_that
 from tests.simulator.other_clients import MISSING
+from tests.timeouts import await_that
 
 if TYPE_CHECKING:
     from collections.abc import Iterator

@@ -13,8 +13,8 @@ import pytest
 from busservo import ActionGroupCompleted
 from busservo_simulator import Faults, VirtualController
 
-from tests.patience import await_that
 from tests.simulator.other_clients import CLIENTS, LewansoulLx16a, OtherClient
+from tests.timeouts import await_that
 
 if TYPE_CHECKING:
     from collections.abc import Callable

@@ -23,14 +23,14 @@ from busservo import (
     ServoPositionsRead,
     ServoUnload,
 )
-from busservo.link_errors import TransportError
-from busservo.serial_port import open_transport
+from busservo._serial.link_errors import TransportError
+from busservo._serial.serial_port import open_transport
 from busservo_simulator import VirtualClock, VirtualController
 from busservo_simulator.tcp_end import TcpEnd
 from busservo_simulator.waker import Waker
 
-from tests.patience import PATIENCE, await_that
 from tests.simulator.hosts import Host
+from tests.timeouts import GENEROUS, await_that
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -190,14 +190,14 @@ def test_tcp_listens_on_loopback_alone() -> None:
 def test_tcp_serves_one_host_at_a_time_and_then_the_next() -> None:
     with VirtualController("tcp") as board:
         address = ("127.0.0.1", int(board.port.rpartition(":")[2]))
-        with socket.create_connection(address, timeout=PATIENCE) as first:
+        with socket.create_connection(address, timeout=GENEROUS) as first:
             first.sendall(ASK.encode())
             assert first.recv(100) == VOLTAGE.encode()
-            with socket.create_connection(address, timeout=PATIENCE) as second:
+            with socket.create_connection(address, timeout=GENEROUS) as second:
                 assert second.recv(100) == b""
-        deadline = time.monotonic() + PATIENCE
+        deadline = time.monotonic() + GENEROUS
         while time.monotonic() < deadline:
-            with socket.create_connection(address, timeout=PATIENCE) as third:
+            with socket.create_connection(address, timeout=GENEROUS) as third:
                 try:
                     third.sendall(ASK.encode())
                     data = third.recv(100)
@@ -245,7 +245,7 @@ def test_a_host_that_reads_nothing_stops_nobody() -> None:
 def test_a_host_that_crashes_makes_room_for_the_next() -> None:
     with VirtualController("tcp") as board:
         address = ("127.0.0.1", int(board.port.rpartition(":")[2]))
-        host = socket.create_connection(address, timeout=PATIENCE)
+        host = socket.create_connection(address, timeout=GENEROUS)
         host.sendall(ASK.encode())
         assert host.recv(100) == VOLTAGE.encode()
         crash(host)
@@ -259,14 +259,14 @@ def test_what_is_said_to_a_host_that_has_crashed_is_lost() -> None:
     end.plug_in()
     try:
         address = ("127.0.0.1", int(end.port.rpartition(":")[2]))
-        host = socket.create_connection(address, timeout=PATIENCE)
-        end.wait(PATIENCE, listening=True)
+        host = socket.create_connection(address, timeout=GENEROUS)
+        end.wait(GENEROUS, listening=True)
         assert end.receive() == b""
         crash(host)
-        end.wait(PATIENCE, listening=True)
+        end.wait(GENEROUS, listening=True)
         end.deliver(VOLTAGE.encode())
-        with socket.create_connection(address, timeout=PATIENCE) as again:
-            end.wait(PATIENCE, listening=True)
+        with socket.create_connection(address, timeout=GENEROUS) as again:
+            end.wait(GENEROUS, listening=True)
             end.deliver(STOPPED.encode())
             assert again.recv(100) == STOPPED.encode()
     finally:
@@ -297,7 +297,7 @@ def test_a_waker_that_is_not_open_wakes_nobody() -> None:
     assert waker.fileno() == -1
     waker.open()
     waker.wake()
-    assert select.select([waker], [], [], PATIENCE)[0] == [waker]
+    assert select.select([waker], [], [], GENEROUS)[0] == [waker]
     waker.clear()
     assert select.select([waker], [], [], 0)[0] == []
     waker.close()

@@ -17,15 +17,15 @@ from busservo import (
     StreamDecoder,
     strategies,
 )
-from busservo.serial_port import open_transport
+from busservo._serial.serial_port import open_transport
 from busservo_simulator import Board, VirtualController
 from busservo_simulator.line import Line
 from busservo_simulator.uart import sampled
 from hypothesis import given
 from hypothesis import strategies as st
 
-from tests.patience import await_that
 from tests.simulator.hosts import Host
+from tests.timeouts import await_that
 
 if sys.platform != "win32":
     from busservo_simulator.pty_rate import read_rate, set_rate

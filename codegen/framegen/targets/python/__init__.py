@@ -27,14 +27,14 @@ if TYPE_CHECKING:
 _HERE = Path(__file__).parent
 # What framegen and a library have in common is written once: where it is copied to.
 _SHARED = {
-    "cli/colour.py": "colour.py",
-    "cli/console.py": "console.py",
-    "hextext.py": "hextext.py",
-    "recording_file.py": "recording_file.py",
-    "wording.py": "wording.py",
+    "_cli/colour.py": "colour.py",
+    "_cli/console.py": "console.py",
+    "_codec/hextext.py": "hextext.py",
+    "_recording/file.py": "recording_file.py",
+    "_frame/wording.py": "wording.py",
 }
 # What only a protocol with poses has a use for.
-_FOR_POSES = {"cli/play.py", "cli/posefile.py", "cli/positions.py", "cli/teach.py"}
+_FOR_POSES = {"_cli/play.py", "_cli/posefile.py", "_cli/positions.py", "_cli/teach.py"}
 
 
 def render(compiled: Compiled, _snippets: Snippets) -> dict[str, str]:

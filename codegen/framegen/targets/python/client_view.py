@@ -27,7 +27,7 @@ _SHARED = (
 _LISTENS = "It sends nothing, and listens. How is explained at {}: {}, reports, and closing."
 
 # What a command returns, by module.
-_RESULTS = {"motion": ["AsyncMotion", "Motion"], "request": ["Sent"], "run": ["Run"]}
+_RESULTS = {"motion": ["AsyncMotion", "Motion"], "request": ["Run", "Sent"]}
 
 
 @dataclass(frozen=True, slots=True)
@@ -129,14 +129,14 @@ class ClientView:
         names |= {each.reply.name for each in self.model.exchanges if each.reply is not None}
         for each in self.model.exchanges:
             names |= set(each.reports)
-        return relative_import("messages", names)
+        return relative_import(".messages", names)
 
     @property
     def import_requests(self) -> str:
         """The classes that the methods make and expect."""
         names = {each.request.name for each in self.model.exchanges}
         names |= {each.reply.name for each in self.model.exchanges if each.reply is not None}
-        return relative_import("messages", names)
+        return relative_import(".messages", names)
 
     @property
     def import_elements(self) -> str:
@@ -146,7 +146,7 @@ class ClientView:
         elements = {each.element for each in lists if each is not None and each.element is not None}
         found = {each for each in elements if f"tuple[{each}, ...]" in shown}
         names = found | ({self.pose.element} if self.pose else set())
-        return relative_import("messages", names, 4) if names else ""
+        return relative_import(".messages", names, 4) if names else ""
 
     @property
     def iterables(self) -> bool:

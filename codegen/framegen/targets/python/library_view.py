@@ -96,7 +96,7 @@ class LibraryView:
 
     @property
     def import_numbers(self) -> str:
-        return relative_import("number", self.number_types)
+        return relative_import("_frame.number", self.number_types)
 
     @property
     def typing_imports(self) -> list[str]:

@@ -1,0 +1,110 @@
+"""The command of this library. Each verb is a module, imported only when it is asked for."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from contextlib import suppress
+from importlib import import_module
+
+from .._frame.protocol import SPEC_VERSION
+from . import console
+from .examples import EXAMPLES, PROGRAM, SUMMARY, VERBS
+from .exit_codes import DONE, MEANINGS, UNUSABLE
+from .usage_error import UsageError
+from .verbs import verbs
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+    from typing import Any
+
+_SHELLS = ("bash", "zsh", "tcsh", "fish")
+
+
+def main(argv: Sequence[str] | None = None) -> int:
+    """Runs the command line, and returns its exit status: one of those in `exits`."""
+    words = sys.argv[1:] if argv is None else list(argv)
+    return console.run(PROGRAM, lambda: _run(words))
+
+
+def _run(words: Sequence[str]) -> int:
+    try:
+        return _run_verb(words[0], words[1:]) if words and words[0] in VERBS else _run_none(words)
+    except UsageError as error:
+        # What was printed before it comes first; if that fails, console.run says so.
+        with suppress(OSError):
+            sys.stdout.flush()
+        console.complain(PROGRAM, str(error))
+        return error.code
+
+
+def _run_verb(name: str, words: Sequence[str]) -> int:
+    verb = _module(name)
+    if hasattr(verb, "hand_over"):
+        handed: int = verb.hand_over(words)
+        return handed
+    parser = _parser(name, verb)
+    # Intermixed, so that an option may stand between the words that it is about.
+    code: int = verb.run(parser.parse_intermixed_args(words))
+    return code
+
+
+def _module(name: str) -> Any:
+    return import_module(f"{__name__}.{name.replace('-', '_')}")
+
+
+def _parser(name: str, verb: Any) -> console.Parser:
+    ends: dict[int, str] = MEANINGS | getattr(verb, "ENDS", {})
+    statuses = [(str(code), told) for code, told in sorted(ends.items())]
+    about = [VERBS[name], *([verb.ABOUT] if hasattr(verb, "ABOUT") else [])]
+    parser = console.Parser(
+        prog=f"{PROGRAM} {name}",
+        description="\n\n".join(about),
+        epilog="\n\n".join(
+            (console.table("examples", EXAMPLES[name]), console.table("exit status", statuses))
+        ),
+    )
+    verb.add_arguments(parser)
+    return parser
+
+
+def _run_none(words: Sequence[str]) -> int:
+    here = verbs()
+    parser = console.Parser(
+        prog=PROGRAM,
+        usage=f"{PROGRAM} VERB ...",
+        description=SUMMARY,
+        epilog="\n\n".join(
+            (
+                console.table("verbs", here.items()),
+                console.table(
+                    "examples", [example for verb in here for example in EXAMPLES[verb][:2]]
+                ),
+                f"`{PROGRAM} VERB --help` shows what else a verb can do.",
+            )
+        ),
+    )
+    # Not argparse's: the version is looked up only when it is asked for.
+    parser.add_argument(
+        "--version", action="store_true", help="show program's version number and exit"
+    )
+    parser.add_argument(
+        "--print-completion",
+        choices=_SHELLS,
+        metavar="SHELL",
+        help=f"print what a shell needs to complete this command ({', '.join(_SHELLS)})",
+    )
+    parser.add_argument("verb", nargs="?", metavar="VERB", help=argparse.SUPPRESS)
+    known, _ = parser.parse_known_args(words)
+    if known.version:
+        version = import_module(".._version", __package__).__version__
+        print(f"{PROGRAM} {version}, spec {SPEC_VERSION}")
+        return DONE
+    if known.print_completion is not None:
+        print(_module("completion").script(known.print_completion))
+        return DONE
+    if known.verb is None:
+        parser.print_help(sys.stderr)
+        return UNUSABLE
+    raise UsageError(f"there is no verb {known.verb!r}; there are {', '.join(here)}")

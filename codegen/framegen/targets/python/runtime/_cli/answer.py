@@ -1,0 +1,143 @@
+"""The verb `answer`: this library at the end of a pipe, for programs in any language."""
+
+from __future__ import annotations
+
+import sys
+
+from .._codec.codec import decode
+from .._codec.decoder import StreamDecoder
+from .._codec.hextext import HexError, read_hex
+from .._codec.noise import Noise, UnknownFrame
+from .._frame.direction import Direction
+from .._frame.errors import DecodeError, EncodeError
+from .console import visible
+from .encode import message_named
+from .exit_codes import DONE, UNUSABLE
+from .numerals import whole
+from .usage_error import UsageError
+from .values import fields_as_json, fields_from_text
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from argparse import ArgumentParser, Namespace
+    from collections.abc import Iterator
+    from typing import Any
+
+    from .._frame.message import Message
+
+ENDS = {UNUSABLE: "there was a question that made no sense; what it was answered says why"}
+ABOUT = f"""\
+Questions are read from standard input, a line each, and answered at once:
+
+    decode WAY HEX              message NAME HEX FIELDS...  or  refused REASON OFFSET
+    encode NAME FIELDS...       frame HEX  or  refused
+    stream WAY LARGEST PARTS... what a line says, an event in each line
+
+and a line `end` behind each answer. WAY is {" or ".join(way.value for way in Direction)}.
+PARTS are chunks in hex, and `quiet` where the line goes quiet; no frame of more than LARGEST bytes
+is taken. Events are `message NAME HEX FIELDS...`, `unknown HEX`, `noise REASON HEX` and `quiet`."""
+
+
+def add_arguments(_parser: ArgumentParser) -> None:
+    """Declares the arguments of the verb: none."""
+
+
+def run(_arguments: Namespace) -> int:
+    """Answers until the input ends; goes on behind a question that makes no sense."""
+    status = DONE
+    for question in _questions():
+        try:
+            said = answer(question)
+        except UsageError as error:
+            said, status = [f"error {visible(str(error))}"], UNUSABLE
+        print(*said, "end", sep="\n", flush=True)
+    return status
+
+
+def _questions() -> Iterator[str]:
+    try:
+        for line in sys.stdin.buffer:
+            question = line.decode("utf-8", "replace").strip()
+            if question:
+                yield question
+    except OSError as error:
+        why = error.strerror or error
+        raise UsageError(f"standard input cannot be read: {why}") from None
+
+
+def answer(question: str) -> list[str]:
+    """The lines of an answer, without the `end`. Raises UsageError."""
+    verb, *words = question.split()
+    if verb == "encode" and words:
+        return [_encoded(words[0], words[1:])]
+    if verb == "decode" and words:
+        return [_decoded(_way(words[0]), _bytes(" ".join(words[1:])))]
+    if verb == "stream" and len(words) > 1:
+        return _streamed(_way(words[0]), words[1], words[2:])
+    raise UsageError("ask `decode WAY HEX`, `encode NAME FIELDS` or `stream WAY LARGEST PARTS`")
+
+
+def _encoded(name: str, words: list[str]) -> str:
+    kind = message_named(name)
+    given = fields_from_text(kind, words)
+    try:
+        return f"frame {kind(**given).encode().hex()}"
+    except EncodeError:
+        return "refused"
+
+
+def _decoded(way: Direction, data: bytes) -> str:
+    try:
+        return _event(decode(data, way))
+    except DecodeError as error:
+        return f"refused {_dashed(error.reason.value)} {error.offset}"
+
+
+def _streamed(way: Direction, largest: str, words: list[str]) -> list[str]:
+    try:
+        decoder = StreamDecoder(way, whole(largest))
+    except ValueError as error:
+        raise UsageError(f"{largest}: {error}") from None
+    said: list[str] = []
+    for word in words:
+        if word == "quiet":
+            said += [*map(_event, decoder.flush()), "quiet"]
+        else:
+            said += map(_event, decoder.feed(_bytes(word)))
+    return said
+
+
+def _event(event: Message | Noise) -> str:
+    if isinstance(event, UnknownFrame):
+        return f"unknown {event.data.hex()}"
+    if isinstance(event, Noise):
+        return f"noise {_dashed(event.reason.value)} {event.data.hex()}"
+    fields = [f"{name}={_text(value)}" for name, value in fields_as_json(event).items()]
+    return " ".join(["message", type(event).__name__, event.encode().hex(), *fields])
+
+
+def _text(value: Any) -> str:
+    """A number, or a list of numbers or of mappings of numbers."""
+    if not isinstance(value, list):
+        return str(value)
+    elements = [each.values() if isinstance(each, dict) else [each] for each in value]
+    return ",".join(":".join(map(str, element)) for element in elements)
+
+
+def _way(word: str) -> Direction:
+    try:
+        return Direction(word)
+    except ValueError:
+        ways = " and ".join(way.value for way in Direction)
+        raise UsageError(f"there is no way {word[:40]!r}; there are {ways}") from None
+
+
+def _bytes(digits: str) -> bytes:
+    try:
+        return read_hex(digits)
+    except HexError as error:
+        raise UsageError(str(error)) from None
+
+
+def _dashed(reason: str) -> str:
+    return reason.replace(" ", "-")

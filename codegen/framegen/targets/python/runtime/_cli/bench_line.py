@@ -1,0 +1,195 @@
+"""The verb `bench-line`: how long questions take on a line, and how long they would have to."""
+
+from __future__ import annotations
+
+import json
+import math
+import time
+from statistics import median
+
+from .._client.exchanges import EXCHANGES
+from .._client.long_question import left_out
+from .._client.wire_time import WireTime
+from .._frame.errors import EncodeError
+from .._frame.protocol import BAUD
+from .._frame.wording import counted
+from .._serial.link_errors import NoReplyError
+from . import link
+from .console import visible
+from .exit_codes import DONE, INTERRUPTED, NOT_ALL
+from .link import add_port, add_timeout, failures_told, open_client
+from .numerals import at_least
+from .progress import shown_progress
+from .questions import exchange_named
+from .usage_error import UsageError
+from .values import fields_as_text, message_from_text
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from argparse import ArgumentParser, Namespace
+    from typing import Any
+
+    from .._client.client import Client
+    from .._frame.message import Message
+
+ENDS = link.ENDS | {NOT_ALL: "not every question was answered, or not in full"}
+ABOUT = """\
+Asks the same question again and again, one at a time, and compares the round trips with what the
+bytes of question and answer take on the wire. Questions change nothing."""
+
+
+def add_arguments(parser: ArgumentParser) -> None:
+    """Declares the arguments of the verb."""
+    add_port(parser)
+    usual = _usual()
+    default = "" if usual is None else f" (default: {usual.__name__})"
+    parser.add_argument("message", metavar="MESSAGE", nargs="?", help=f"the question{default}")
+    parser.add_argument(
+        "fields", nargs="*", metavar="FIELD=VALUE", help="numbers, names of values, or lists"
+    )
+    parser.add_argument(
+        "-n", type=at_least(1), default=100, metavar="COUNT", help="how often (default: 100)"
+    )
+    add_timeout(parser)
+    parser.add_argument("--json", action="store_true", help="print the result as a line of JSON")
+
+
+def run(arguments: Namespace) -> int:
+    """Asks, and prints what came of it, also when it ended early."""
+    trips = Trips(_question(arguments), arguments.port, arguments.baud)
+    with failures_told(), open_client(arguments, settle=0) as client:
+        try:
+            trips.make(client, arguments.n)
+        except KeyboardInterrupt:
+            return INTERRUPTED
+        finally:
+            found = json.dumps(trips.as_record()) if arguments.json else trips.as_text()
+            print(found, flush=True)
+    return NOT_ALL if trips.errors else DONE
+
+
+def _usual() -> type[Message] | None:
+    """The question to ask where none is named: the first that needs no fields."""
+    questions = (kind for kind, exchange in EXCHANGES.items() if exchange.reply is not None)
+    return next((kind for kind in questions if not kind.__match_args__), None)
+
+
+def _question(arguments: Namespace) -> Message:
+    usual = _usual()
+    if arguments.message is None and usual is not None:
+        return usual()
+    questions = [kind.__name__ for kind, each in EXCHANGES.items() if each.reply is not None]
+    told = f"questions are {', '.join(questions) or 'unknown to this protocol'}"
+    if arguments.message is None:
+        raise UsageError(f"name the question that is to be asked; {told}")
+    kind, exchange = exchange_named(arguments.message)
+    if exchange.reply is None:
+        raise UsageError(f"nothing answers {kind.__name__}, so it cannot be timed; {told}")
+    question = message_from_text(kind, arguments.fields)
+    try:
+        exchange.check(question)
+    except EncodeError as error:
+        raise UsageError(str(error)) from None
+    return question
+
+
+class Trips:
+    """Round trips of one question on a port, as many as were made."""
+
+    def __init__(self, question: Message, port: str, baud: float = BAUD) -> None:
+        self._question = question
+        self._port = port
+        self._baud = baud
+        self._wire = WireTime(baud)
+        # Of each that was answered: the seconds it took, and the size of question and answer.
+        self._taken: list[float] = []
+        self._sizes: list[int] = []
+        self._whole = 0.0
+        # Replies that answer nothing, and questions with one sooner than the wire allows.
+        self._unsolicited = self._impossible = 0
+        self.errors: dict[str, int] = {}
+
+    def make(self, client: Client, count: int) -> None:
+        """Asks so often. Raises TransportError once the line is lost."""
+        began = time.perf_counter()
+        try:
+            with shown_progress(lambda _: f"{self._asked} of {count} asked; Ctrl-C ends"):
+                for _ in range(count):
+                    self._make_one(client)
+        finally:
+            self._whole = time.perf_counter() - began
+            self._unsolicited = client.counters.unsolicited
+            self._impossible = client.counters.impossible
+
+    def _make_one(self, client: Client) -> None:
+        began = time.perf_counter()
+        try:
+            reply = client.request(self._question)
+        except NoReplyError:
+            self._failed("no reply")
+            return
+        self._taken.append(time.perf_counter() - began)
+        self._sizes.append(len(self._question.encode()) + len(reply.encode()))
+        if left_out(self._question, reply)[1]:
+            self._failed("incomplete reply")
+
+    def _failed(self, kind: str) -> None:
+        self.errors[kind] = self.errors.get(kind, 0) + 1
+
+    @property
+    def _asked(self) -> int:
+        return len(self._taken) + self.errors.get("no reply", 0)
+
+    def as_record(self) -> dict[str, Any]:
+        """The result, for JSON: times in seconds."""
+        taken = self._taken
+        needed = [self._wire.seconds(size) for size in self._sizes]
+        return {
+            "question": type(self._question).__name__,
+            "baud": None if self._baud == math.inf else self._baud,
+            "asked": self._asked,
+            "answered": len(taken),
+            "errors": self.errors,
+            "unsolicited": self._unsolicited,
+            "impossible": self._impossible,
+            "min": round(min(taken), 6) if taken else None,
+            "median": round(median(taken), 6) if taken else None,
+            "max": round(max(taken), 6) if taken else None,
+            "wire": round(median(needed), 6) if needed else None,
+            "per_second": round(len(taken) / self._whole, 3) if self._whole else None,
+            "share": round(sum(needed) / self._whole, 4) if sum(needed) else None,
+        }
+
+    def as_text(self) -> str:
+        """The result, for people."""
+        found = self.as_record()
+        name = " ".join(filter(None, [found["question"], fields_as_text(self._question)]))
+        lines = [
+            f"{name} on {visible(self._port)}: {self._asked} asked, {len(self._taken)} answered"
+        ]
+        if self._taken:
+            there, size = len(self._question.encode()), round(median(self._sizes))
+            times = [f"{found[each] * 1000:.2f} ms" for each in ("wire", "min", "median", "max")]
+            faster = found["median"] < found["wire"]
+            hint = "; it is faster than that rate, so try --baud inf" if faster else ""
+            line = "on a line that takes no time"
+            rate = f"{found['per_second']:.1f} a second"
+            if self._baud != math.inf:
+                line = f"at {self._baud} baud"
+                rate = f"{rate}, {found['share']:.1%} of what the line allows"
+            wire = f"{times[0]}: {there} bytes there and {size - there} back, {line}"
+            lines += [
+                f"  the wire alone  {wire}",
+                f"  round trips     min {times[1]}, median {times[2]}, max {times[3]}",
+                f"  rate            {rate}{hint}",
+            ]
+        if self._unsolicited:
+            slips = counted(self._unsolicited, "reply", "replies")
+            lines.append(f"  slips           {slips} to nothing, sent twice or too late: dropped")
+        if self._impossible:
+            early = counted(self._impossible, "question")
+            lines.append(
+                f"  too soon        {early} had a reply that no such wire can have carried"
+            )
+        told = ", ".join(f"{number} {kind}" for kind, number in self.errors.items())
+        return "\n".join([*lines, f"  errors          {told or 'none'}"])

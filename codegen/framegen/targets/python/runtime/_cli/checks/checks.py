@@ -1,0 +1,77 @@
+"""All checks, in the order of the guide to troubleshooting, and how they are gone through."""
+
+from __future__ import annotations
+
+from ..._client.exchanges import POSE
+from ..._serial.link_errors import TransportError
+from . import (
+    busy,
+    echo,
+    hid_device,
+    look_alike,
+    opening,
+    permission,
+    port_listed,
+    rate,
+    reply,
+    round_trip,
+    silence,
+)
+from .present import present_check
+from .result import FAILED, failed, unknown
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Iterator
+
+    from .check import Check
+    from .diagnosis import Diagnosis
+    from .result import Result
+
+CHECKS: tuple[Check, ...] = (
+    port_listed.CHECK,
+    hid_device.CHECK,
+    permission.CHECK,
+    busy.CHECK,
+    opening.CHECK,
+    silence.CHECK,
+    rate.CHECK,
+    echo.CHECK,
+    reply.CHECK,
+    round_trip.CHECK,
+    *(() if POSE is None else (present_check(POSE),)),
+    look_alike.CHECK,
+)
+
+
+def examine(diagnosis: Diagnosis, checks: Iterable[Check]) -> Iterator[tuple[Check, Result]]:
+    """Makes one check after the other, and gives each with what it has found, as it is found.
+
+    The port is closed when this ends, however it does.
+    """
+    blocked: dict[str, str] = {}
+    try:
+        for check in checks:
+            reason = next((blocked[need] for need in check.needs if need in blocked), None)
+            if reason is not None:
+                blocked[check.id] = reason
+                yield check, unknown(f"not looked at: see the check `{reason}`")
+                continue
+            result = _looked(check, diagnosis)
+            if result.state == FAILED:
+                blocked[check.id] = check.id
+            if diagnosis.lost:
+                blocked["opening"] = check.id
+            yield check, result
+    finally:
+        diagnosis.close()
+
+
+def _looked(check: Check, diagnosis: Diagnosis) -> Result:
+    try:
+        return check.look(diagnosis)
+    except TransportError as error:
+        # The library would say `reconnect()`, which is nothing that can be done here.
+        diagnosis.lost = True
+        advice = "see to the cable and the power, then run this again"
+        return failed(f"{error.port}: {error.happened}", advice)

@@ -1,0 +1,104 @@
+"""What the checks share: what they look at, and what they have found so far."""
+
+from __future__ import annotations
+
+import math
+import time
+from pathlib import Path
+
+from ..._frame.protocol import BAUD
+from ..._serial.error_mapping import ErrorMapping
+from ..._serial.hid_devices import hid_devices_at_hand
+from ..._serial.serial_port import open_transport, serial_ports
+from .probe import Probe
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from ..._codec.noise import Noise
+    from ..._frame.message import Message
+    from ..._serial.hid_devices import HidDevice
+    from ..._serial.link_errors import TransportError
+    from ..._serial.serial_port import SerialPortSeen
+    from ..._serial.transport import Transport
+    from .probe import Entry
+    from .trip import Trip
+
+
+class Diagnosis:
+    """One examination of one port, with what has been found so far.
+
+    `port` may be None: the one that is plugged in is taken, if there is one. `opener` opens a port
+    at a rate, `ports` and `hid_devices` tell what is plugged in, and `clock` tells seconds; all of
+    them are for tests to replace. With `local_echo`, what is sent is expected to come back.
+    """
+
+    def __init__(
+        self,
+        port: str | None,
+        *,
+        baud: float = BAUD,
+        reply_timeout: float = 0.25,
+        local_echo: bool = False,
+        opener: Callable[[str, float], Transport] | None = None,
+        ports: Callable[[], list[SerialPortSeen]] = serial_ports,
+        hid_devices: Callable[[], list[HidDevice] | None] = hid_devices_at_hand,
+        clock: Callable[[], float] = time.monotonic,
+    ) -> None:
+        self.port = port
+        self.baud = baud
+        self.reply_timeout = reply_timeout
+        self.local_echo = local_echo
+        self.ports = ports()
+        self.hid_devices = hid_devices()
+        self.log: list[Entry] = []
+        # Why it could not be opened, and whether it was lost since.
+        self.error: TransportError | None = None
+        self.lost = False
+        self.probe: Probe | None = None
+        # What came unasked, and the questions at the rate that was found to be right.
+        self.unasked: list[Message | Noise] = []
+        self.trips: list[Trip] = []
+        # What came at other rates.
+        self.strange: list[Noise] = []
+        self._clock = clock
+        self._open = opener or (lambda name, rate: open_transport(name, baud=rate))
+
+    @property
+    def stated(self) -> str:
+        """The rate that the line is said to have, in words."""
+        return "no rate" if math.isinf(self.baud) else f"{self.baud:g} baud"
+
+    @property
+    def adapter(self) -> str:
+        """What is plugged in, by VID:PID and product; empty where that is not known."""
+        port = self.port or ""
+        if port.lower().startswith("hid:"):
+            return ", ".join(f"{each.ids} {each.product}" for each in self.hid_devices or [])
+        names = (port, str(Path(port).resolve()))
+        found = (each for each in self.ports if each.name in names)
+        return next((f"{each.usb} {each.product}".strip() for each in found), "")
+
+    def connect(self, baud: float | None = None) -> Probe:
+        """Opens the port, at a rate; whatever was open before is closed. Raises TransportError."""
+        if self.port is None:
+            raise AssertionError("no check asks for a port where none was found")
+        self.close()
+        rate = self.baud if baud is None else baud
+        transport = ErrorMapping(self._open(self.port, rate))
+        self.log.append((self._clock(), None, b"", f"opened, at {rate:g} baud"))
+        self.probe = Probe(
+            transport, baud=rate, reply_timeout=self.reply_timeout, clock=self._clock, log=self.log
+        )
+        return self.probe
+
+    def connected(self) -> Probe:
+        """The open port."""
+        return self.connect() if self.probe is None else self.probe
+
+    def close(self) -> None:
+        """Gives the port back."""
+        if self.probe is not None:
+            probe, self.probe = self.probe, None
+            probe.close()

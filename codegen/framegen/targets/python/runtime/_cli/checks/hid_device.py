@@ -1,0 +1,38 @@
+"""Check: whether a device is plugged in that has no serial port at all."""
+
+from __future__ import annotations
+
+from ..._frame.protocol import HID_DEVICES
+from ..._serial.hid_devices import UNSEEN
+from .check import Check
+from .result import passed, unknown
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from .diagnosis import Diagnosis
+    from .result import Result
+
+_PACKAGE = __name__.partition(".")[0]
+
+
+def _look(diagnosis: Diagnosis) -> Result:
+    known = ", ".join(f"{vendor:04X}:{product:04X}" for vendor, product, _ in HID_DEVICES)
+    if not known:
+        return passed("no device of this protocol is known to be reached by USB HID")
+    if diagnosis.hid_devices is None:
+        return unknown(
+            f"nobody here can tell whether a USB HID device ({known}) is plugged in",
+            f"pip install '{_PACKAGE}[hid]'; such a device has no serial port at all",
+        )
+    if not diagnosis.hid_devices:
+        return passed(f"no USB HID device ({known}) is plugged in")
+    told = ", ".join(f"{each.ids} {each.product}".rstrip() for each in diagnosis.hid_devices)
+    if diagnosis.port is not None and diagnosis.port.lower().startswith("hid:"):
+        return passed(f"{told} is plugged in")
+    return unknown(
+        f"{told} is plugged in, a device without a serial port ({UNSEEN})",
+        f"if that is the device you mean: pip install '{_PACKAGE}[hid]', and --port hid://",
+    )
+
+
+CHECK = Check("hid", "which devices have no serial port", (), _look)

@@ -1,0 +1,70 @@
+"""Check, for those who ask for it: something goes where it is sent, and back."""
+
+from __future__ import annotations
+
+from ..._client.exchanges import LIMITS
+from .check import Check
+from .present import ask_patiently
+from .result import failed, passed, unknown
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from ..._client.pose import Pose
+    from .diagnosis import Diagnosis
+    from .result import Result
+
+# How far, how long that may take, and how long it may take besides.
+STEP = 20
+_MILLISECONDS = 500
+_AFTER = 0.5
+
+
+def move_check(number: int, pose: Pose) -> Check:
+    """The check that moves one of them a little, and back to where it was."""
+    title = f"{pose.noun} {number} moves"
+    return Check("move", title, ("opening",), lambda each: _Motion(each, number, pose).look())
+
+
+class _Motion:
+    """There and back, with a look at where it is before, between and after."""
+
+    def __init__(self, diagnosis: Diagnosis, number: int, pose: Pose) -> None:
+        self._diagnosis = diagnosis
+        self._number = number
+        self._pose = pose
+        self._name = f"{pose.noun} {number}"
+
+    def look(self) -> Result:
+        """Moves it, if it says where it is and that is within the limits."""
+        began = self._position()
+        if began is None:
+            told = f"{self._name} tells no position, so it was not moved"
+            return failed(told, "see the check `present`")
+        low, high = LIMITS.usual or (self._pose.place.low, self._pose.place.high)
+        if not low <= began <= high:
+            told = f"{self._name} is at {began}, outside {low}..{high}, so it was not moved"
+            return unknown(told, "turn it into that range by hand")
+        target = began + STEP if began + STEP <= high else began - STEP
+        reached, ended = self._moved(target), self._moved(began)
+        told = f"{self._name} was at {began}, was sent to {target}, and was then at {reached}"
+        if reached is None or abs(reached - target) > STEP // 2:
+            advice = "see to its supply, which USB is not, and that nothing holds it"
+            return failed(told, advice)
+        told += f"; sent back, it is at {ended}"
+        if ended is None or abs(ended - began) > STEP // 2:
+            return failed(told, "see that nothing holds it")
+        return passed(told)
+
+    def _moved(self, target: int) -> int | None:
+        """Where it is after it was sent somewhere."""
+        probe = self._diagnosis.connected()
+        probe.tell(self._pose.motion([(self._number, target)], _MILLISECONDS))
+        probe.listen(_MILLISECONDS / 1000 + _AFTER)
+        return self._position()
+
+    def _position(self) -> int | None:
+        """Where it is; None where it does not say."""
+        request = self._pose.read(**{self._pose.asked: [self._number]})
+        reply = ask_patiently(self._diagnosis, request)
+        found = [] if reply is None else self._pose.there([reply])
+        return int(getattr(found[0], self._pose.position)) if found else None

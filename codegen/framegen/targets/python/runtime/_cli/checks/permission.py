@@ -1,0 +1,28 @@
+"""Check: the port may be used."""
+
+from __future__ import annotations
+
+from ..._serial.link_errors import PortPermissionError, TransportError
+from .check import Check
+from .result import failed, passed, unknown
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from .diagnosis import Diagnosis
+    from .result import Result
+
+
+def _look(diagnosis: Diagnosis) -> Result:
+    # This is where it is opened: what went wrong besides is told by the checks that follow.
+    try:
+        diagnosis.connect()
+    except PortPermissionError as error:
+        diagnosis.error = error
+        return failed(f"{error.port}: {error.happened}", error.advice)
+    except TransportError as error:
+        diagnosis.error = error
+        return unknown("it could not be opened for another reason")
+    return passed("the system lets you use it")
+
+
+CHECK = Check("permission", "the port may be used", ("port",), _look)

@@ -1,0 +1,73 @@
+"""Check: something is there behind the device, and tells its position."""
+
+from __future__ import annotations
+
+from ..._client.exchanges import EXCHANGES
+from .check import Check
+from .rate import EXTRA_TIME
+from .result import failed, passed, unknown
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from ..._client.pose import Pose
+    from ..._frame.message import Message
+    from .diagnosis import Diagnosis
+    from .probe import Probe
+    from .result import Result
+
+# One reply may be lost on any line: whether each comes is for another check to say.
+_TRIES = 3
+# How many are asked about at once where the line carries no long frames.
+_FEW = 16
+
+
+def present_check(pose: Pose) -> Check:
+    """The check that asks all that there can be where they are."""
+    title = "something is there behind the device"
+    return Check("present", title, ("opening",), lambda each: _look(each, pose))
+
+
+def _look(diagnosis: Diagnosis, pose: Pose) -> Result:
+    if not any(trip.replies for trip in diagnosis.trips):
+        return unknown("there is no reply to anything: see the check `rate`")
+    replies: list[Message] = []
+    for request in _requests(diagnosis.connected(), pose):
+        reply = ask_patiently(diagnosis, request)
+        if reply is None:
+            ids = getattr(request, pose.asked)
+            return failed(
+                f"the question about {pose.noun}s {ids[0]} to {ids[-1]} was not answered, though "
+                f"asked {_TRIES} times",
+                "see the check `reply`; if that has passed, the device may be of a kind that does "
+                "not know this question",
+                *(trip.received for trip in diagnosis.trips[-_TRIES:] if trip.received),
+            )
+        replies.append(reply)
+    frames = [reply.encode() for reply in replies]
+    there = pose.present_in(replies)
+    absent = sum(len(getattr(reply, pose.told)) for reply in replies) - len(there)
+    told = f"{pose.noun}s that are there: {', '.join(map(str, there)) or 'none'}"
+    told += f"; told to be absent: {absent}" if absent else ""
+    if not there:
+        advice = f"see to the supply of the {pose.noun}s, which USB is not, and to their cables"
+        return failed(told, advice, *frames)
+    return passed(told, *frames)
+
+
+def ask_patiently(diagnosis: Diagnosis, request: Message) -> Message | None:
+    """The first reply to a question, asked a few times; None where none comes."""
+    for _ in range(_TRIES):
+        trip = diagnosis.connected().ask(request, extra=EXTRA_TIME)
+        diagnosis.trips.append(trip)
+        if trip.replies:
+            return trip.replies[0][1]
+    return None
+
+
+def _requests(probe: Probe, pose: Pose) -> list[Message]:
+    """Questions about all that there can be, in parts that this line carries."""
+    most = EXCHANGES[pose.read].most or len(pose.ids)
+    if probe.largest_frame is not None:
+        most = min(most, _FEW)
+    parts = (pose.ids[at : at + most] for at in range(0, len(pose.ids), most))
+    return [pose.read(**{pose.asked: [*part]}) for part in parts]

@@ -1,0 +1,107 @@
+"""An open port, asked and listened to as it is: a client would hide what is looked for here."""
+
+from __future__ import annotations
+
+import math
+
+from ..._client.exchanges import EXCHANGES
+from ..._client.wire_time import WireTime
+from ..._codec.noise import Noise
+from .trip import Trip, timed_events
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from ..._frame.message import Message
+    from ..._serial.transport import Transport
+    from .trip import Pieces, TimedEvent
+
+    # The time, the sender or None for noise, the bytes, and what they are; without bytes, a note.
+    Entry = tuple[float, str | None, bytes, str]
+
+# A pause in what comes that ends it: above what USB adapters keep bytes back for.
+_PAUSE = 0.06
+_POLL_INTERVAL = 0.02
+# A line that never falls silent is left after so long.
+_LONGEST = 1.0
+
+
+class Probe:
+    """Asks over a transport at `baud`, and notes in `log` all that passes. Raises TransportError.
+
+    `reply_timeout` is how many seconds a device may take for an answer, besides those on the wire.
+    """
+
+    def __init__(
+        self,
+        transport: Transport,
+        *,
+        baud: float,
+        reply_timeout: float,
+        clock: Callable[[], float],
+        log: list[Entry],
+    ) -> None:
+        self.baud = baud
+        self.reply_timeout = reply_timeout
+        self.wire_time = WireTime(baud)
+        self.largest_frame: int | None = getattr(transport, "largest_frame", None)
+        self._transport = transport
+        self._clock = clock
+        self._log = log
+
+    def ask(self, question: Message, *, extra: float = 0.0) -> Trip:
+        """Asks, and waits for a reply: for `extra` seconds more than a program would."""
+        frame = question.encode()
+        sent_at = self._clock()
+        self._log.append((sent_at, question.DIRECTION.sender, frame, repr(question)))
+        self._transport.write(frame)
+        size = len(frame) + EXCHANGES[type(question)].reply_size(question)
+        until = sent_at + self.wire_time.seconds(size) + self.reply_timeout + extra
+        pieces = self._collected(until, lambda got: bool(Trip(question, sent_at, got).replies))
+        trip = Trip(question, sent_at, pieces)
+        if trip.echoed:
+            echo = f"the question, which came back: {question!r}"
+            self._log.append((sent_at, None, frame, echo))
+        self._note(trip.events)
+        return trip
+
+    def tell(self, command: Message) -> None:
+        """Sends what is not answered."""
+        frame = command.encode()
+        self._log.append((self._clock(), command.DIRECTION.sender, frame, repr(command)))
+        self._transport.write(frame)
+
+    def listen(self, seconds: float) -> list[Message | Noise]:
+        """What comes unasked within so many seconds, and what follows it without a pause."""
+        until = self._clock() + seconds
+        pieces = self._collected(until, lambda _: False)
+        events = timed_events(pieces)
+        self._note(events)
+        return [event for _, event in events]
+
+    def close(self) -> None:
+        """Gives the port back."""
+        self._transport.close()
+
+    def _collected(self, until: float, whole: Callable[[Pieces], bool]) -> Pieces:
+        """What comes until a pause behind what is whole, or behind whatever came by `until`."""
+        pieces: Pieces = []
+        last, ended = -math.inf, False
+        while True:
+            now = self._clock()
+            paused = now - last >= _PAUSE
+            if (paused and (ended or now >= until)) or now >= until + _LONGEST:
+                return pieces
+            data = self._transport.read(_POLL_INTERVAL)
+            if data:
+                last = self._clock()
+                pieces.append((last, data))
+                ended = whole(pieces)
+
+    def _note(self, events: list[TimedEvent]) -> None:
+        for at, event in events:
+            if isinstance(event, Noise):
+                self._log.append((at, None, event.data, event.reason.value))
+            else:
+                self._log.append((at, event.DIRECTION.sender, event.encode(), repr(event)))

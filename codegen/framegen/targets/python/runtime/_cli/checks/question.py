@@ -1,0 +1,16 @@
+"""What may be asked of any device: a question without fields, which changes nothing."""
+
+from __future__ import annotations
+
+from ..._client.exchanges import EXCHANGES
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from ..._frame.message import Message
+
+
+def harmless_question() -> Message | None:
+    """The first question of the protocol that has no fields; None where each has some."""
+    questions = (kind for kind, exchange in EXCHANGES.items() if exchange.reply is not None)
+    kind = next((kind for kind in questions if not kind.__match_args__), None)
+    return None if kind is None else kind()

@@ -1,0 +1,125 @@
+"""Check: the device answers at the rate of the protocol, or else at which it does."""
+
+from __future__ import annotations
+
+import math
+import sys
+from pathlib import Path
+
+from ..._serial.link_errors import ClosedError, DisconnectedError, TransportError
+from .check import Check
+from .question import harmless_question
+from .result import failed, passed, unknown
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from ..._frame.message import Message
+    from .diagnosis import Diagnosis
+    from .result import Result
+    from .trip import Trip
+
+# The rates that devices and adapters are mostly at, the likeliest first.
+_RATES = (115200, 57600, 38400, 19200, 9600, 4800)
+# How much longer than a program a reply is waited for, so that a late one is seen to be late.
+EXTRA_TIME = 1.0
+_NO_RATE = ("socket", "loop", "hid")
+_PSEUDO_TERMINALS = ("/dev/pts/", "/dev/ttys")
+_SILENT = (
+    "see that TX goes to RX and RX to TX, that the grounds are joined, that the device is "
+    "supplied, and that it is the device's port: unplug it, and see which one goes"
+)
+
+
+def _look(diagnosis: Diagnosis) -> Result:
+    question = harmless_question()
+    if question is None:
+        return unknown("the protocol has no question that could be asked of any device")
+    probe = diagnosis.connected()
+    for _ in range(2):
+        diagnosis.trips.append(probe.ask(question, extra=EXTRA_TIME))
+        if diagnosis.trips[-1].replies:
+            return _answered(diagnosis, question)
+    return _searched(diagnosis, question)
+
+
+def _answered(diagnosis: Diagnosis, question: Message) -> Result:
+    """It answers at the rate that it should: if that is one."""
+    stated = diagnosis.stated
+    port = diagnosis.port or ""
+    reply = diagnosis.trips[-1].replies[0][1].encode()
+    if math.isinf(diagnosis.baud):
+        return passed("it answers, on a line that you say has no rate", reply)
+    if _has_no_rate(port):
+        return unknown(f"it answers, over a line that has no rate of its own ({port})", "", reply)
+    if not _is_pseudo_terminal(port):
+        return passed(f"it answers at {stated}", reply)
+    other = next(rate for rate in _RATES if rate != diagnosis.baud)
+    trip = diagnosis.connect(other).ask(question)
+    diagnosis.connect()
+    if trip.replies:
+        told = f"it answers at {stated} and at {other} baud alike: a pseudo terminal without a rate"
+        return unknown(told, "", reply)
+    return passed(f"it answers at {stated}", reply)
+
+
+def _searched(diagnosis: Diagnosis, question: Message) -> Result:
+    """It does not: whether it does at another rate."""
+    asked = f"{type(question).__name__} was not answered"
+    found = [trip.received for trip in diagnosis.trips if trip.received]
+    tried: list[str] = []
+    for rate in _RATES:
+        if rate == diagnosis.baud or _has_no_rate(diagnosis.port or ""):
+            continue
+        trip = _tried(diagnosis, question, rate)
+        if trip is None:
+            continue
+        if trip.replies:
+            diagnosis.strange += [each for trip in diagnosis.trips for each in trip.noise]
+            diagnosis.trips = [trip]
+            return failed(
+                f"{asked} at {diagnosis.stated}, but is at {rate}",
+                f"set the device to {diagnosis.stated}, or say --baud {rate} "
+                f"(baud={rate} in Python)",
+                trip.replies[0][1].encode(),
+            )
+        tried.append(str(rate))
+        diagnosis.strange += trip.noise
+    diagnosis.connect()
+    if tried:
+        asked += f", nor at {', '.join(tried)} baud"
+    if not found:
+        return failed(f"{asked}: nothing came at all", _SILENT)
+    told = f"{asked}: {sum(map(len, found))} bytes came"
+    if all(trip.echoed and not trip.noise for trip in diagnosis.trips if trip.received):
+        return failed(f"{told}, which are the question itself", _SILENT, *found)
+    advice = (
+        "see at which rate the device is set, that the grounds are joined, and the checks below"
+    )
+    return failed(f"{told} that are no reply", advice, *found)
+
+
+def _tried(diagnosis: Diagnosis, question: Message, rate: int) -> Trip | None:
+    """The question, asked at another rate; None where the port cannot be set to it."""
+    try:
+        probe = diagnosis.connect(rate)
+    except (DisconnectedError, ClosedError):
+        raise
+    except TransportError:
+        return None
+    trip = probe.ask(question)
+    # Asked once more, so that no reply that is late is taken for that of another rate.
+    return probe.ask(question) if trip.replies else trip
+
+
+def _has_no_rate(port: str) -> bool:
+    scheme, separator, _ = port.partition("://")
+    return bool(separator) and scheme.lower() in _NO_RATE
+
+
+def _is_pseudo_terminal(port: str) -> bool:
+    if sys.platform == "win32" or "://" in port:
+        return False
+    return str(Path(port).resolve()).startswith(_PSEUDO_TERMINALS)
+
+
+CHECK = Check("rate", "the device answers at the rate of the protocol", ("opening",), _look)

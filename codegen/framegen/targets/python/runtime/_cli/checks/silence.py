@@ -1,0 +1,34 @@
+"""Check: nothing but reports comes unasked."""
+
+from __future__ import annotations
+
+from ..._codec.noise import Noise
+from .check import Check
+from .result import failed, passed
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from .diagnosis import Diagnosis
+    from .result import Result
+
+_LISTENING = 0.3
+
+
+def _look(diagnosis: Diagnosis) -> Result:
+    diagnosis.unasked = diagnosis.connected().listen(_LISTENING)
+    noise = [each.data for each in diagnosis.unasked if isinstance(each, Noise)]
+    if noise:
+        return failed(
+            f"{sum(map(len, noise))} bytes that are no frame came unasked",
+            "see that the rate is right, that the grounds are joined, and that the plug is the "
+            "device's",
+            *noise,
+        )
+    told = [repr(each) for each in diagnosis.unasked if not isinstance(each, Noise)]
+    if told:
+        frames = (each.encode() for each in diagnosis.unasked if not isinstance(each, Noise))
+        return passed(f"reports came unasked, as they may: {', '.join(told[:3])}", *frames)
+    return passed(f"nothing came within {_LISTENING:g} s")
+
+
+CHECK = Check("silence", "a line that is not asked is silent", ("opening",), _look)

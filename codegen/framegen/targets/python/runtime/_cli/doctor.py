@@ -1,0 +1,155 @@
+"""The verb `doctor`: troubleshooting as a program."""
+
+from __future__ import annotations
+
+import json
+import sys
+
+from .._client.exchanges import POSE
+from .._frame.bytes_like import format_hex
+from . import link
+from .checks.checks import CHECKS, examine
+from .checks.diagnosis import Diagnosis
+from .checks.move import STEP, move_check
+from .checks.report import Report
+from .checks.result import FAILED, PASSED, STATES, UNKNOWN
+from .colour import painted, takes_colour
+from .console import visible, write_as_it_is
+from .exit_codes import DONE, LINE_LOST, NOT_ALL
+from .link import add_port, add_timeout, failures_told, open_line
+from .numerals import at_least
+from .progress import shown_progress
+from .usage_error import UsageError
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from argparse import ArgumentParser, Namespace
+    from collections.abc import Iterator
+    from typing import Any
+
+    from .._client.pose import Pose
+    from .._serial.transport import Transport
+    from .checks.check import Check
+    from .checks.result import Result
+
+ENDS = link.ENDS | {NOT_ALL: "a check has failed"}
+ABOUT = """\
+Looks at ports, permissions, the rate, the replies, their times, and what is there behind the
+device, in the order of the guide to troubleshooting. Each line says `passed`, `failed` or
+`unknown`, what was seen, the bytes that show it, and what to do next. It only reads"""
+ABOUT += "." if POSE is None else ";\n--move asks before it moves anything."
+_COLOURS = {PASSED: "green", FAILED: "red", UNKNOWN: "yellow"}
+
+
+def add_arguments(parser: ArgumentParser) -> None:
+    """Declares the arguments of the verb."""
+    add_port(parser, required=False)
+    add_timeout(parser)
+    if POSE is not None:
+        told = f"also move this {POSE.noun} by {STEP} steps and back; asks first"
+        parser.add_argument("--move", type=at_least(0), metavar="ID", help=told)
+        parser.add_argument("--yes", action="store_true", help="do not ask before --move")
+    parser.add_argument(
+        "--report", metavar="FILE", help="write a recording of it all, to be sent to others"
+    )
+    parser.add_argument(
+        "--model", default="", metavar="TEXT", help="what the device is, for the report"
+    )
+    parser.add_argument("--json", action="store_true", help="print each check as a line of JSON")
+
+
+def run(arguments: Namespace) -> int:
+    """Makes the checks, prints what each has found, and writes the report."""
+    checks = [*CHECKS]
+    if POSE is not None and arguments.move is not None:
+        _confirm(arguments, POSE)
+        checks.append(move_check(arguments.move, POSE))
+    report = None if arguments.report is None else _report(arguments.report)
+    diagnosis = Diagnosis(
+        arguments.port,
+        baud=arguments.baud,
+        reply_timeout=arguments.timeout,
+        local_echo=arguments.local_echo,
+        opener=_open,
+    )
+    findings: list[tuple[Check, Result]] = []
+    with failures_told():
+        try:
+            found = examine(diagnosis, checks)
+            while (finding := _next(found)) is not None:
+                findings.append(finding)
+                shown = _as_json(*finding) if arguments.json else _as_text(*finding)
+                write_as_it_is(sys.stdout, f"{shown}\n")
+                sys.stdout.flush()
+        finally:
+            if report is not None:
+                _finish(report, arguments, diagnosis, findings)
+    states = [result.state for _, result in findings]
+    told = ", ".join(f"{states.count(each)} {each}" for each in STATES)
+    print(told, file=sys.stderr)
+    if diagnosis.lost:
+        return LINE_LOST
+    return NOT_ALL if FAILED in states else DONE
+
+
+def _next(found: Iterator[tuple[Check, Result]]) -> tuple[Check, Result] | None:
+    """What the next check has found; None behind the last."""
+    with shown_progress(lambda waited: f"looking, {waited:.0f} s; Ctrl-C ends"):
+        return next(found, None)
+
+
+def _open(port: str, baud: float) -> Transport:
+    return open_line(port, baud)
+
+
+def _confirm(arguments: Namespace, pose: Pose) -> None:
+    """Asks whether something may be moved. Raises UsageError where it may not."""
+    if arguments.move not in pose.ids:
+        told = f"{pose.noun}s have numbers from {pose.ids[0]} to {pose.ids[-1]}"
+        raise UsageError(f"--move {arguments.move}: {told}")
+    if arguments.yes:
+        return
+    if not sys.stdin.isatty():
+        raise UsageError("--move asks first, and nobody is there to answer: say --yes")
+    told = f"{pose.noun} {arguments.move} will move by {STEP} steps and back; keep clear of it"
+    print(f"{told}. Go on? [y/N] ", end="", file=sys.stderr, flush=True)
+    if sys.stdin.readline().strip().lower() not in {"y", "yes"}:
+        raise UsageError("nothing was moved, and nothing looked at")
+
+
+def _report(path: str) -> Report:
+    try:
+        return Report(path)
+    except OSError as error:
+        raise UsageError(f"{path} cannot be written: {error.strerror or error}") from None
+
+
+def _finish(
+    report: Report,
+    arguments: Namespace,
+    diagnosis: Diagnosis,
+    findings: list[tuple[Check, Result]],
+) -> None:
+    try:
+        report.write(diagnosis, findings, arguments.model)
+    except OSError as error:
+        told = f"{arguments.report} cannot be written: {error.strerror or error}"
+        raise UsageError(told) from None
+
+
+def _as_json(check: Check, result: Result) -> str:
+    record: dict[str, Any] = {"check": check.id, "title": check.title, "state": result.state}
+    record |= {"seen": result.seen, "bytes": [format_hex(each) for each in result.evidence]}
+    return json.dumps(record | {"next": result.advice})
+
+
+def _as_text(check: Check, result: Result) -> str:
+    """The state, the check and what was seen; below it the bytes, and what to do."""
+    state = f"{result.state:8}"
+    if takes_colour(sys.stdout):
+        state = painted(state, _COLOURS[result.state])
+    lines = [f"{state} {check.id:12} {visible(result.seen)}"]
+    lines += [f"{'':8} {'bytes':>12} {format_hex(each)}" for each in result.evidence]
+    if result.advice:
+        lines.append(f"{'':8} {'next':>12} {visible(result.advice)}")
+    return "\n".join(lines)

@@ -1,0 +1,52 @@
+"""The verb `encode`: the frame of a message, from its name and its fields."""
+
+from __future__ import annotations
+
+import sys
+
+from .._frame.bytes_like import format_hex
+from ..messages import MESSAGES
+from .usage_error import UsageError
+from .values import message_from_text
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from argparse import ArgumentParser, Namespace
+
+    from .._frame.message import Message
+
+
+def add_arguments(parser: ArgumentParser) -> None:
+    """Declares the arguments of the verb."""
+    parser.add_argument("message", metavar="MESSAGE", help="its name, such as it has in Python")
+    parser.add_argument(
+        "fields", nargs="*", metavar="FIELD=VALUE", help="numbers, names of values, or lists"
+    )
+    parser.add_argument("--raw", action="store_true", help="write the bytes themselves, not hex")
+
+
+def run(arguments: Namespace) -> int:
+    """Prints the frame in hex, or with --raw writes its bytes."""
+    frame = message_from_text(message_named(arguments.message), arguments.fields).encode()
+    if arguments.raw:
+        sys.stdout.buffer.write(frame)
+    else:
+        print(format_hex(frame))
+    return 0
+
+
+def message_named(name: str) -> type[Message]:
+    """The message of that name, however its words are joined."""
+    for kind in MESSAGES:
+        if _folded(kind.__name__) == _folded(name):
+            return kind
+    from difflib import get_close_matches  # only for those who mistype
+
+    names = [kind.__name__ for kind in MESSAGES]
+    near = get_close_matches(name, names, n=1)
+    hint = f"did you mean {near[0]}?" if near else f"there are {', '.join(names)}"
+    raise UsageError(f"there is no message {name[:40]!r}; {hint}")
+
+
+def _folded(name: str) -> str:
+    return name.replace("_", "").replace("-", "").lower()

@@ -1,0 +1,99 @@
+"""What was on a line, in words and as JSON: messages, noise, and frames of unknown command."""
+
+from __future__ import annotations
+
+import json
+
+from .._codec.codec import table_for, twins
+from .._codec.noise import Noise, UnknownFrame
+from .._frame.bytes_like import format_hex
+from .._frame.wording import counted
+from .._recording.entry import SENDERS
+from .._recording.file import EITHER, NOISE
+from .values import fields_as_text, fields_in_json
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from typing import Any
+
+    from .._codec.counters import Counters
+    from .._frame.direction import Direction
+    from .._frame.message import Message
+
+# What is no message, but has the shape of one.
+UNKNOWN = "unknown"
+KINDS = [*SENDERS, EITHER, NOISE, UNKNOWN]
+
+
+def bytes_of(event: Message | Noise) -> bytes:
+    """The bytes that it is made of."""
+    return event.data if isinstance(event, Noise) else event.encode()
+
+
+def names_of(event: Message | Noise, direction: Direction | None) -> list[str]:
+    """The messages that it may be; none for noise."""
+    if isinstance(event, Noise):
+        return []
+    name = type(event).__name__
+    return [name, *(kind.__name__ for kind in twins(event))] if direction is None else [name]
+
+
+def sender_of(event: Message | Noise, direction: Direction | None) -> str:
+    """Who sent it; `either` where nobody can tell; or that it is noise."""
+    if isinstance(event, Noise):
+        return UNKNOWN if isinstance(event, UnknownFrame) else NOISE
+    return origin_of(event, direction)[0]
+
+
+def origin_of(event: Message | Noise, direction: Direction | None) -> tuple[str, list[str]]:
+    """Who sent it, noise or no, `either` where nobody can tell; and the messages it may be."""
+    if isinstance(event, Noise):
+        return EITHER if direction is None else direction.sender, []
+    names = names_of(event, direction)
+    return EITHER if len(names) > 1 else event.DIRECTION.sender, names
+
+
+def in_words(event: Message | Noise, direction: Direction | None) -> str:
+    """What it says: the name and the fields with their units; for noise, why it is noise."""
+    if isinstance(event, UnknownFrame):
+        return f"command={event.command} parameters={format_hex(event.parameters) or 'none'}"
+    if isinstance(event, Noise):
+        return _why(event, direction)
+    name = " or ".join(names_of(event, direction))
+    return " ".join(part for part in (name, fields_as_text(event)) if part)
+
+
+def in_json(event: Message | Noise, direction: Direction | None) -> str:
+    """What it says, as the text of a JSON object: who sent it, noise or no, and what it is."""
+    sender, names = origin_of(event, direction)
+    if isinstance(event, Noise):
+        record: dict[str, Any] = {"from": sender, "noise": format_hex(event.data)}
+        record["reason"] = event.reason.value
+        if isinstance(event, UnknownFrame):
+            record |= {"command": event.command, "parameters": format_hex(event.parameters)}
+        return json.dumps(record)
+    name, *others = names
+    way, fields = event.DIRECTION.value, fields_in_json(event)
+    what = f'"direction": "{way}", "message": "{name}", "fields": {fields}'
+    either = f', "or": {json.dumps(others)}' if others else ""
+    return (
+        f'{{"from": {json.dumps(sender)}, {what}, "hex": "{format_hex(event.encode())}"{either}}}'
+    )
+
+
+def totals(seen: Counters) -> str:
+    """What a decoder has seen."""
+    unknown = (
+        f", {counted(seen.unknown_frames, 'unknown frame')} in it" if seen.unknown_frames else ""
+    )
+    told = f"{counted(seen.fed, 'byte')}: {counted(seen.messages, 'message')}"
+    return f"{told}, {counted(seen.noise, 'byte')} of noise{unknown}"
+
+
+def _why(noise: Noise, direction: Direction | None) -> str:
+    """The reason, and what was expected, where the bytes themselves tell."""
+    table = table_for(direction)
+    verdict = table.weigh(noise.data)
+    if verdict.kind is None and verdict.reason is noise.reason:
+        return f"{noise.reason.value}: {table.error(noise.data, verdict).problem}"
+    return noise.reason.value

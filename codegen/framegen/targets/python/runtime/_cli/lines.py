@@ -1,0 +1,83 @@
+"""Lines of text for what comes and goes on a line: time, who, what it says, and its bytes."""
+
+from __future__ import annotations
+
+import time
+
+from .._frame.bytes_like import format_hex
+from .._recording.entry import SENDERS
+from .._recording.file import EITHER, NOISE
+from .colour import painted, takes_colour
+from .console import visible, write_as_it_is
+from .events import UNKNOWN, bytes_of, in_json, in_words, sender_of
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from typing import TextIO
+
+    from .._codec.noise import Noise
+    from .._frame.direction import Direction
+    from .._frame.message import Message
+
+TIMES = ("absolute", "delta", "zero")
+_COLOURS = {
+    **dict(zip(SENDERS, ("cyan", "green"), strict=False)),
+    EITHER: "yellow",
+    UNKNOWN: "magenta",
+    NOISE: "red",
+}
+
+
+class Lines:
+    """Prints one line for each event, at once, so that a pipe has it when it comes.
+
+    `times` is one of TIMES. Times are handed in as seconds, of the day's clock for `absolute` and
+    of any clock for the others.
+    """
+
+    def __init__(self, screen: TextIO, times: str = "zero", *, as_json: bool = False) -> None:
+        self._screen = screen
+        self._times = times
+        self._began = self._last = 0.0
+        self._json = as_json
+        self._colour = takes_colour(screen) and not as_json
+        self.count = 0
+
+    def begin(self, now: float) -> None:
+        """Says from when on time counts."""
+        self._began = self._last = now
+
+    def show(self, event: Message | Noise, direction: Direction | None, now: float) -> None:
+        """Prints an event that was heard in a direction; None for one of two that share a line."""
+        self.count += 1
+        since = {"absolute": 0.0, "delta": self._last, "zero": self._began}[self._times]
+        at, self._last = now - since, now
+        if self._json:
+            text = self._as_json(event, direction, at)
+        else:
+            text = self._as_text(event, direction, at)
+        write_as_it_is(self._screen, f"{text}\n")
+        self._screen.flush()
+
+    def _as_text(self, event: Message | Noise, direction: Direction | None, at: float) -> str:
+        when = time_of_day(at) if self._times == "absolute" else f"{at:12.6f}"
+        line = in_line(event, direction)
+        if self._colour:
+            who = sender_of(event, direction)
+            line = painted(f"{who:10}", _COLOURS[who]) + line[max(10, len(who)) :]
+        return f"{when:>12}  {line}"
+
+    def _as_json(self, event: Message | Noise, direction: Direction | None, at: float) -> str:
+        return f'{{"time": {round(at, 6)}, {in_json(event, direction)[1:]}'
+
+
+def in_line(event: Message | Noise, direction: Direction | None) -> str:
+    """What every verb says of an event, behind its time or place: who, what, and its bytes."""
+    who, what = sender_of(event, direction), in_words(event, direction)
+    return f"{who:10}  {visible(what)} | {format_hex(bytes_of(event))}"
+
+
+def time_of_day(now: float) -> str:
+    """The time that a clock on the wall shows, as HH:MM:SS.ffffff."""
+    whole, part = divmod(round(now * 1_000_000), 1_000_000)
+    return f"{time.strftime('%H:%M:%S', time.localtime(whole))}.{part:06d}"

@@ -1,0 +1,152 @@
+"""What the verbs with a port share: how it is named and opened, and what is shown when it fails."""
+
+from __future__ import annotations
+
+import logging
+import math
+import signal
+import sys
+from contextlib import contextmanager
+
+from .._client.client import REPLY_TIMEOUT, Client
+from .._client.exchanges import LIMITS
+from .._frame.protocol import BAUD
+from .._serial.link_errors import ClosedError, DisconnectedError, TransportError, WriteStuckError
+from .._serial.serial_port import open_transport
+from .console import visible
+from .examples import PROGRAM
+from .exit_codes import LINE_LOST, TERMINATED
+from .numerals import above_zero, at_least
+from .progress import shown_progress
+from .usage_error import LineLostError, UsageError
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    import argparse
+    from collections.abc import Iterator
+
+    from .._client.limits import Bounds
+    from .._serial.transport import Transport
+
+ENDS = {
+    LINE_LOST: "the line was lost: a cable pulled, a device gone, the other end hung up",
+    TERMINATED: "ended by SIGTERM, as `timeout 10 ...` does",
+}
+# The longest wait that can be asked for, so that none is without end.
+_LONGEST = 3600.0
+
+
+def add_port(
+    parser: argparse.ArgumentParser, *, required: bool = True, client: bool = True
+) -> None:
+    """Declares the options that name the port and say what its line is like.
+
+    `client` is whether a client is opened on it; only that knows what to do about a local echo.
+    """
+    parser.add_argument(
+        "--port",
+        required=required,
+        metavar="PORT",
+        help="such as /dev/ttyUSB0, COM7 or socket://HOST:PORT; `ports` lists them",
+    )
+    parser.add_argument(
+        "--baud",
+        type=_rate,
+        default=BAUD,
+        metavar="BAUD",
+        help=f"the rate of the line; inf: one that takes no time, as TCP may be (default: {BAUD})",
+    )
+    if client:
+        parser.add_argument(
+            "--local-echo",
+            action="store_true",
+            help="the line gives back what is sent, as adapters for half-duplex wires do",
+        )
+
+
+def _rate(text: str) -> float:
+    """A rate, as an argument: a whole number of baud, or inf."""
+    return math.inf if text == "inf" else at_least(1)(text)
+
+
+def add_timeout(parser: argparse.ArgumentParser) -> None:
+    """Declares the option that says how long an answer may take."""
+    parser.add_argument(
+        "--timeout",
+        type=above_zero(highest=_LONGEST, unit="seconds"),
+        default=REPLY_TIMEOUT,
+        metavar="S",
+        help="seconds that the device may take for an answer, besides those on the wire "
+        f"(default: {REPLY_TIMEOUT})",
+    )
+
+
+def open_line(port: str, baud: float = BAUD) -> Transport:
+    """Opens a port, and shows that it is at it: an address that is far away may take a while.
+
+    Raises UsageError for a rate that no port can be set to.
+    """
+    try:
+        with shown_progress(lambda waited: f"opening {port}, {waited:.0f} s"):
+            return open_transport(port, baud=baud)
+    except ValueError as error:
+        raise UsageError(str(error)) from None
+
+
+def open_client(
+    arguments: argparse.Namespace,
+    *,
+    retries: int = 0,
+    limits: Bounds | None = LIMITS.usual,
+    settle: float | None = None,
+) -> Client:
+    """As open_line, for a client that waits as long as the arguments say."""
+    logger = logging.getLogger(Client.__module__.rpartition(".")[0])
+    if not any(isinstance(each, _Warnings) for each in logger.handlers):
+        logger.addHandler(_Warnings(logging.WARNING))
+    return Client(
+        open_line(arguments.port, arguments.baud),
+        baud=arguments.baud,
+        reply_timeout=arguments.timeout,
+        retries=retries,
+        local_echo=arguments.local_echo,
+        limits=limits,
+        settle=settle,
+    )
+
+
+class _Warnings(logging.Handler):
+    """Prints what the library has to say of a line as the command prints everything else."""
+
+    def emit(self, record: logging.LogRecord) -> None:
+        print(f"{PROGRAM}: {visible(record.getMessage())}", file=sys.stderr)
+
+
+@contextmanager
+def failures_told() -> Iterator[None]:
+    """Turns what goes wrong with a port into one line that says what to do.
+
+    SIGTERM ends it as Ctrl-C does: totals are printed, and ports and the terminal given back.
+    """
+    try:
+        with _ended_by_sigterm():
+            yield
+    except (ClosedError, DisconnectedError, WriteStuckError) as error:
+        # The library would say `reconnect()`, which is nothing that can be typed here.
+        advice = "see to the cable and the power, then run this again"
+        raise LineLostError(f"{error.port}: {error.happened}; {advice}") from None
+    except TransportError as error:
+        raise UsageError(str(error)) from None
+
+
+@contextmanager
+def _ended_by_sigterm() -> Iterator[None]:
+    try:
+        before = signal.signal(signal.SIGTERM, lambda *_: sys.exit(TERMINATED))
+    except ValueError:  # signals are for the main thread, which this is not
+        yield
+        return
+    try:
+        yield
+    finally:
+        signal.signal(signal.SIGTERM, before)

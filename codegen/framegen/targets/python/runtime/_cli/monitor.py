@@ -1,0 +1,197 @@
+"""The verb `monitor`: what a line carries, one line for each frame and each piece of noise."""
+
+from __future__ import annotations
+
+import sys
+import time
+from contextlib import closing
+from pathlib import Path
+
+from .._codec.careful_decoder import GAP
+from .._codec.decoder import StreamDecoder
+from .._frame.direction import RECEIVED
+from .._frame.wording import counted
+from .._recording.entry import SENDERS
+from .._recording.file import EITHER, NOISE
+from ..messages import MESSAGES
+from . import link
+from .encode import message_named
+from .events import KINDS, UNKNOWN, names_of, sender_of, totals
+from .exit_codes import DONE, INTERRUPTED
+from .lines import TIMES, Lines
+from .link import add_port, failures_told, open_line
+from .numerals import at_least
+from .progress import PROGRESS_INTERVAL, Progress
+from .recorder import Recorder
+from .usage_error import UsageError
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from argparse import ArgumentParser, Namespace
+    from collections.abc import Callable
+    from typing import TextIO
+
+    from .._codec.noise import Noise
+    from .._frame.message import Message
+    from .._serial.transport import Transport
+
+ENDS = link.ENDS
+ABOUT = """\
+One line for each frame and each piece of noise: the time, who sent it, what it says, its bytes.
+Ctrl-C ends it, and the totals follow on the error stream. Colours are for terminals alone, and for
+nobody who has set NO_COLOR."""
+# How long to read in one piece, so that Ctrl-C is noticed on every system.
+_POLL_INTERVAL = 0.25
+
+
+def add_arguments(parser: ArgumentParser) -> None:
+    """Declares the arguments of the verb."""
+    add_port(parser, client=False)
+    # Where nothing comes to a client, whoever looks at a line looks at what one sends.
+    comes = any(kind.DIRECTION is RECEIVED for kind in MESSAGES)
+    usual = RECEIVED.sender if comes else "any"
+    parser.add_argument(
+        "--direction",
+        choices=[*SENDERS, "any"],
+        default=usual,
+        help=f"who sends on this line; any: both ends do, and what both may have sent is shown as "
+        f"`either` (default: {usual})",
+    )
+    parser.add_argument(
+        "-t",
+        choices=TIMES,
+        default="zero",
+        dest="time",
+        help="the time of day, seconds since the line before, or since the start (default: zero)",
+    )
+    parser.add_argument(
+        "--only",
+        action="append",
+        default=[],
+        metavar="NAME",
+        help=f"show nothing else: a message, {', '.join(KINDS)}; may be given several times",
+    )
+    parser.add_argument(
+        "--hide",
+        action="append",
+        default=[],
+        metavar="NAME",
+        help="show all but this, named likewise",
+    )
+    parser.add_argument(
+        "--log",
+        type=Path,
+        metavar="FILE",
+        help="record all of it, shown or not, for `decode` and `replay`; a FILE that holds "
+        "anything is never overwritten",
+    )
+    parser.add_argument("-n", type=at_least(1), metavar="N", help="end after so many lines")
+    parser.add_argument(
+        "--json",
+        action="store_true",
+        help="print lines of JSON; absolute times are seconds since 1970",
+    )
+
+
+def run(arguments: Namespace) -> int:
+    """Prints until Ctrl-C, -n or the loss of the line, and then the totals."""
+    # Names are read before a port is opened or a file begun.
+    monitor = Monitor(arguments, sys.stdout)
+    with (
+        failures_told(),
+        closing(open_line(arguments.port, arguments.baud)) as line,
+        Recorder(arguments.log) as recorder,
+    ):
+        recorder.begin(arguments.port, time.monotonic())
+        try:
+            monitor.watch(line, recorder)
+        except KeyboardInterrupt:
+            return INTERRUPTED
+    return DONE
+
+
+class Monitor:
+    """Shows what a transport brings, on a screen and by clocks that are handed in."""
+
+    def __init__(
+        self,
+        arguments: Namespace,
+        screen: TextIO,
+        *,
+        clock: Callable[[], float] = time.monotonic,
+        day: Callable[[], float] = time.time,
+    ) -> None:
+        self._clock = clock
+        self._day = day
+        self._absolute = arguments.time == "absolute"
+        self._left: int | None = arguments.n
+        self._only = {_filter(name) for name in arguments.only}
+        self._hidden = {_filter(name) for name in arguments.hide}
+        self._direction = SENDERS.get(arguments.direction)
+        self._decoder = StreamDecoder(self._direction)
+        self._progress = Progress(sys.stderr)
+        self._lines = Lines(screen, arguments.time, as_json=arguments.json)
+
+    def watch(self, line: Transport, recorder: Recorder) -> None:
+        """Reads and shows, until so many lines were shown; the totals come in any case."""
+        shown = self._clock()
+        self._lines.begin(self._day() if self._absolute else shown)
+        try:
+            while self._left != 0:
+                data = line.read(GAP if self._decoder.pending else _POLL_INTERVAL)
+                now = self._clock()
+                before = self._lines.count
+                if data:
+                    self._tell(self._decoder.feed(data), recorder, now)
+                elif self._decoder.pending:
+                    # Found empty for so long: half a frame must not grow together with the next.
+                    self._tell(self._decoder.flush(), recorder, now)
+                    recorder.quiet()
+                if self._lines.count != before:
+                    shown = now
+                elif now - shown >= PROGRESS_INTERVAL:
+                    self._progress.show(self._so_far(now - shown))
+        finally:
+            self._progress.end()
+            try:
+                # What was held back in hope of the rest of a frame was heard as well.
+                self._tell(self._decoder.flush(), recorder, self._clock())
+            finally:
+                print(self._totals(), file=sys.stderr)
+
+    def _tell(self, events: list[Message | Noise], recorder: Recorder, now: float) -> None:
+        """Keeps them all, and prints those that are asked for."""
+        recorder.record(events, self._direction, now)
+        when = self._day() if self._absolute else now
+        for event in events:
+            if self._left != 0 and self._wanted(event):
+                self._progress.clear()
+                self._lines.show(event, self._direction, when)
+                if self._left is not None:
+                    self._left -= 1
+
+    def _wanted(self, event: Message | Noise) -> bool:
+        who = sender_of(event, self._direction)
+        names = {who, *names_of(event, self._direction)}
+        # An unknown frame is noise, too, and what either end may have sent is what each may have.
+        wider = names | {UNKNOWN: {NOISE}, EITHER: {*SENDERS}}.get(who, set())
+        return (not self._only or bool(wider & self._only)) and not names & self._hidden
+
+    def _so_far(self, waited: float) -> str:
+        seen = self._decoder.counters
+        if not seen.fed:
+            return f"nothing heard for {waited:.0f} s (Ctrl-C ends)"
+        return f"nothing to show for {waited:.0f} s (Ctrl-C ends); {totals(seen)}"
+
+    def _totals(self) -> str:
+        filtered = f"; {counted(self._lines.count, 'line')} shown"
+        return totals(self._decoder.counters) + (filtered if self._only or self._hidden else "")
+
+
+def _filter(name: str) -> str:
+    if name in KINDS:
+        return name
+    try:
+        return message_named(name).__name__
+    except UsageError as error:
+        raise UsageError(f"{error}; besides messages, there are {', '.join(KINDS)}") from None

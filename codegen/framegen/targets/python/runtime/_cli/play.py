@@ -1,0 +1,153 @@
+"""The verb `play`: moves through recorded poses, one after the other."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+import time
+from itertools import chain, repeat
+from pathlib import Path
+
+from .._client.wire_time import WireTime
+from .._frame.wording import counted
+from . import link
+from .exit_codes import DONE, INTERRUPTED
+from .limits import add_limits, limits_of
+from .link import add_port, add_timeout, failures_told, open_client
+from .numerals import at_least, from_zero, whole
+from .posefile import LONGEST_PAUSE, check_limits, read_poses
+from .positions import UNREAD, hold, in_options, listed, the_pose
+from .progress import shown_progress
+from .usage_error import UsageError
+from .values import fields_as_text
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from .._client.client import Client
+    from .._client.limits import Bounds
+    from .._client.pose import Pose
+    from .._frame.message import Message
+    from .posefile import Recorded
+
+ENDS = link.ENDS
+ABOUT = """\
+Moves to each pose of FILE, which `teach` has written, and waits for as long as that takes. The
+whole file is looked at before the first move. Ctrl-C commands the positions of that moment, so that
+nothing moves on. Give it room, and look at --dry-run first: nothing here knows what is in the way,
+and the way to the first pose is as long as it is."""
+# How long to sleep in one piece, so that Ctrl-C is noticed on every system.
+_POLL_INTERVAL = 0.1
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Declares the arguments of the verb."""
+    parser.add_argument("file", type=Path, metavar="FILE", help="poses that `teach` has recorded")
+    add_port(parser, required=False)
+    parser.add_argument(
+        "--time-ms",
+        type=_time,
+        default=1000,
+        metavar="MS",
+        help="how long the way to each pose takes, where the file does not say (default: 1000)",
+    )
+    parser.add_argument(
+        "--pause",
+        type=from_zero(highest=LONGEST_PAUSE, unit="seconds"),
+        default=0.0,
+        metavar="S",
+        help="seconds to stay at each pose, where the file does not say (default: 0)",
+    )
+    parser.add_argument(
+        "--repeat", type=at_least(1), default=1, metavar="N", help="play it so often (default: 1)"
+    )
+    parser.add_argument("--dry-run", action="store_true", help="print what would be sent, and when")
+    add_limits(parser)
+    add_timeout(parser)
+
+
+def run(arguments: argparse.Namespace) -> int:
+    """Plays a file, or only prints what it would send."""
+    pose, limits = the_pose(), limits_of(arguments)
+    if not arguments.port and not arguments.dry_run:
+        raise UsageError("play needs --port PORT, or --dry-run to see what it would send")
+    poses = read_poses(arguments.file, pose)
+    check_limits(arguments.file, poses, limits)
+    if not poses:
+        raise UsageError(f"{arguments.file} holds no pose")
+    steps = [_Step(at, each, pose, arguments) for at, each in enumerate(poses, 1)]
+    if arguments.dry_run:
+        at = 0.0
+        for step in chain.from_iterable(repeat(steps, arguments.repeat)):
+            print(step.told(at), flush=True)
+            at += step.wire + step.seconds
+        total = counted(len(steps) * arguments.repeat, "pose")
+        print(f"{total} in {at:.3f} s: nothing was sent", file=sys.stderr)
+        return DONE
+    with failures_told(), open_client(arguments, limits=limits) as controller:
+        return _play(controller, pose, steps, arguments.repeat, limits)
+
+
+class _Step:
+    """One motion, and how long to wait for it."""
+
+    def __init__(
+        self, number: int, recorded: Recorded, pose: Pose, arguments: argparse.Namespace
+    ) -> None:
+        time_ms = arguments.time_ms if recorded.time_ms is None else recorded.time_ms
+        pause = arguments.pause if recorded.pause_s is None else recorded.pause_s
+        self.message: Message = pose.motion(recorded.positions.items(), time_ms)
+        self.number = number
+        self.ids = tuple(recorded.positions)
+        self.seconds = time_ms / 1000 + pause
+        self.wire = WireTime(arguments.baud).seconds(len(self.message.encode()))
+
+    def told(self, at: float) -> str:
+        """The line that is printed for it."""
+        what = f"{type(self.message).__name__} {fields_as_text(self.message)}"
+        return f"{at:12.6f}  pose {self.number}  {what}"
+
+
+def _play(
+    controller: Client, pose: Pose, steps: list[_Step], times: int, limits: Bounds | None
+) -> int:
+    began = time.monotonic()
+    done = 0
+    try:
+        for step in chain.from_iterable(repeat(steps, times)):
+            at = time.monotonic()
+            print(step.told(at - began), flush=True)
+            sent = controller.send(step.message)
+            _wait(at + sent.delay + sent.duration + step.seconds)
+            done += 1
+    except KeyboardInterrupt:
+        ids = tuple(dict.fromkeys(each for step in steps for each in step.ids))
+        try:
+            hold(controller, pose, ids, limits)
+        except UNREAD as error:
+            told = f"the motion under way goes on to its end: {in_options(error)}"
+            print(f"\n{told}", file=sys.stderr)
+        else:
+            print(f"\n{listed(pose, ids)} held", file=sys.stderr)
+        return INTERRUPTED
+    finally:
+        print(f"{done} of {counted(len(steps) * times, 'pose')} played", file=sys.stderr)
+    return DONE
+
+
+def _wait(until: float) -> None:
+    """Waits for a moment; a long wait says so."""
+    with shown_progress(lambda _: f"the next pose in {until - time.monotonic():.0f} s"):
+        while (left := until - time.monotonic()) > 0:
+            time.sleep(min(left, _POLL_INTERVAL))
+
+
+def _time(text: str) -> int:
+    bounds = the_pose().duration
+    try:
+        given = whole(text)
+    except ValueError as error:
+        raise argparse.ArgumentTypeError(str(error)) from None
+    if not bounds.low <= given <= bounds.high:
+        told = f"{given} is outside {bounds.low}..{bounds.high} milliseconds"
+        raise argparse.ArgumentTypeError(told)
+    return given

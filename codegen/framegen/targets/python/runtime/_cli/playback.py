@@ -1,0 +1,108 @@
+"""Sends what was recorded, each part when its time has come, and shows what comes back."""
+
+from __future__ import annotations
+
+import queue
+import sys
+import threading
+import time
+
+from .._codec.careful_decoder import GAP
+from .._codec.decoder import StreamDecoder
+from .._frame.direction import RECEIVED
+from .._frame.wording import counted
+from .._serial.link_errors import TransportError
+from .events import bytes_of, totals
+from .lines import Lines
+from .progress import PROGRESS_INTERVAL, Progress
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from collections.abc import Iterable
+    from typing import TextIO
+
+    from .._codec.noise import Noise
+    from .._frame.message import Message
+    from .._serial.transport import Transport
+    from ..recordings import Entry
+
+# How long the last answer may take.
+_QUIET = 0.25
+# How long to wait in one piece, so that Ctrl-C is noticed on every system.
+_POLL_INTERVAL = 0.1
+
+
+class Playback:
+    """One replay, on a screen that is handed in."""
+
+    def __init__(self, screen: TextIO) -> None:
+        self._lines = Lines(screen)
+        self._progress = Progress(sys.stderr)
+        self._decoder = StreamDecoder(RECEIVED)
+        # What the listener has heard: bytes, or the error that ended it; and when.
+        self._heard: queue.SimpleQueue[tuple[bytes | TransportError, float]] = queue.SimpleQueue()
+        self._over = threading.Event()
+        self._last = 0.0
+
+    def play(self, line: Transport, entries: Iterable[tuple[Entry, float]], count: int) -> None:
+        """Sends each of so many entries at its time; the totals come in any case."""
+        sent = size = 0
+        # Reading in a thread of its own, since a read may take longer than the time up to the next
+        # frame, and that one is not to be late.
+        listener = threading.Thread(target=self._listen, args=(line,), daemon=True)
+        listener.start()
+        began = self._last = time.monotonic()
+        self._lines.begin(began)
+        try:
+            for entry, at in entries:
+                self._wait(began + at, f"{sent} of {count} sent, the next")
+                data, now = bytes_of(entry.event), time.monotonic()
+                line.write(data)
+                self._progress.clear()
+                self._lines.show(entry.event, entry.direction, now)
+                sent, size = sent + 1, size + len(data)
+            line.drain(1.0)
+            self._wait(time.monotonic() + _QUIET, "the last answer")
+        finally:
+            self._over.set()
+            listener.join(1.0)
+            self._progress.end()
+            told = f"{sent} of {counted(count, 'frame')} sent, {counted(size, 'byte')}"
+            try:
+                self._show(self._decoder.flush(), time.monotonic())
+            finally:
+                print(f"{told}; came back: {totals(self._decoder.counters)}", file=sys.stderr)
+
+    def _listen(self, line: Transport) -> None:
+        while not self._over.is_set():
+            try:
+                data = line.read(_POLL_INTERVAL)
+            except TransportError as error:
+                self._heard.put((error, time.monotonic()))
+                return
+            if data:
+                self._heard.put((data, time.monotonic()))
+
+    def _wait(self, until: float, what: str) -> None:
+        """Shows what comes back up to a moment. Raises TransportError once the line is lost."""
+        began = time.monotonic()
+        while (left := until - time.monotonic()) > 0:
+            try:
+                pause = GAP if self._decoder.pending else _POLL_INTERVAL
+                heard, now = self._heard.get(timeout=min(left, pause))
+            except queue.Empty:
+                now = time.monotonic()
+                if self._decoder.pending and now - self._last >= GAP:
+                    self._show(self._decoder.flush(), now)
+                if now - began >= PROGRESS_INTERVAL:
+                    self._progress.show(f"{what} in {left:.0f} s")
+                continue
+            if isinstance(heard, TransportError):
+                raise heard
+            self._last = now
+            self._show(self._decoder.feed(heard), now)
+
+    def _show(self, events: list[Message | Noise], now: float) -> None:
+        for event in events:
+            self._progress.clear()
+            self._lines.show(event, RECEIVED, now)

@@ -1,0 +1,90 @@
+"""Writes what a line carries to a file: a line of hex for each event, and in a comment what it is.
+
+A trace of the client has the same form.
+"""
+
+from __future__ import annotations
+
+from contextlib import contextmanager, suppress
+
+from .._codec.noise import Noise
+from .._frame.direction import RECEIVED
+from .._recording.file import EITHER, NOISE, RecordingFile
+from .events import bytes_of, names_of, sender_of
+from .usage_error import UsageError
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Iterator
+    from pathlib import Path
+    from types import TracebackType
+
+    from typing_extensions import Self
+
+    from .._frame.direction import Direction
+    from .._frame.message import Message
+
+
+class Recorder:
+    """A recording in the making, or none at all; to be used in a `with`. Raises UsageError."""
+
+    def __init__(self, path: Path | None) -> None:
+        self._path = path
+        self._file: RecordingFile | None = None
+        self._began = 0.0
+        if path is not None:
+            with self._failures_told():
+                self._file = RecordingFile(path)
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        traceback: TracebackType | None,
+    ) -> None:
+        if self._file is not None:
+            # What went wrong before it is what is told.
+            with self._failures_told() if kind is None else suppress(OSError):
+                self._file.close()
+
+    def begin(self, port: str, now: float) -> None:
+        """Notes where it was recorded, and when that began, by the clock of `now` and the day's."""
+        self._began = now
+        if self._file is not None:
+            with self._failures_told():
+                self._file.begin(port)
+
+    def record(
+        self, events: Iterable[Message | Noise], direction: Direction | None, now: float
+    ) -> None:
+        """Writes what was heard in a direction, or in either for None."""
+        if self._file is None:
+            return
+        for event in events:
+            who, what = sender_of(event, direction), " or ".join(names_of(event, direction))
+            if isinstance(event, Noise):
+                # What the device sends is never sent to it, noise or no; all else is to be read.
+                sender = EITHER if direction is None else direction.sender
+                who = NOISE if direction is RECEIVED else f"{sender} {NOISE}"
+                what = event.reason.value
+            elif who != EITHER:
+                what = repr(event)
+            with self._failures_told():
+                self._file.write(bytes_of(event), now - self._began, who, what)
+
+    def quiet(self) -> None:
+        """Notes that half a frame was given up: what follows is not its other half."""
+        if self._file is not None:
+            with self._failures_told():
+                self._file.quiet()
+
+    @contextmanager
+    def _failures_told(self) -> Iterator[None]:
+        try:
+            yield
+        except OSError as error:
+            problem = f"{self._path} cannot be written: {error.strerror or error}"
+            raise UsageError(problem) from None

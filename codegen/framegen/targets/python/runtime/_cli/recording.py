@@ -1,0 +1,85 @@
+"""What the verbs read, a file or standard input: opened, read as it comes, and failures told."""
+
+from __future__ import annotations
+
+import sys
+import time
+from contextlib import contextmanager
+
+from ..recordings import RecordingError, read
+from .progress import PROGRESS_INTERVAL, Progress
+from .usage_error import UsageError
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+    from pathlib import Path
+    from typing import BinaryIO
+
+    from .._frame.direction import Direction
+    from ..recordings import Entry
+
+
+class Recording:
+    """A recording that is open; `again` says whether it can be read more than once.
+
+    What was printed is shown before it waits for more. Where that leaves a terminal empty for long,
+    it says there how far it has come.
+    """
+
+    def __init__(self, stream: BinaryIO, name: str) -> None:
+        self.name = name
+        self._stream = stream
+        self._read = getattr(stream, "read1", stream.read)
+        self.again = stream.seekable()
+        self._size = stream.seek(0, 2) if self.again else 0
+        self._done = 0
+        self._progress = Progress(sys.stderr)
+        self._shown = time.monotonic()
+
+    def entries(self, form: str, direction: Direction | None) -> Iterator[Entry]:
+        """What it holds, from its beginning on. Raises UsageError."""
+        self._done = 0
+        if self.again:
+            self._stream.seek(0)
+        try:
+            yield from read(self, form=form, direction=direction)
+        except RecordingError as error:
+            raise UsageError(f"{self.name}, {error}") from None
+        finally:
+            self._progress.clear()
+
+    def read(self, size: int) -> bytes:
+        """What there is, and at most so many bytes. Raises UsageError."""
+        sys.stdout.flush()
+        try:
+            data: bytes = self._read(size)
+        except OSError as error:
+            raise _unreadable(self.name, error) from None
+        self._done += len(data)
+        if time.monotonic() - self._shown >= PROGRESS_INTERVAL and not sys.stdout.isatty():
+            self._shown = time.monotonic()
+            of = f" of {self._size / 1e6:.1f}" if self._size else ""
+            self._progress.show(f"{self.name}: {self._done / 1e6:.1f}{of} MB read")
+        return data
+
+
+@contextmanager
+def opened(path: Path) -> Iterator[Recording]:
+    """The file of that name, or standard input for `-`. Raises UsageError."""
+    name = "standard input" if str(path) == "-" else str(path)
+    if name != str(path) and sys.stdin is None:
+        raise UsageError("standard input is closed; name a file")
+    try:
+        stream = path.open("rb") if name == str(path) else sys.stdin.buffer
+    except OSError as error:
+        raise _unreadable(name, error) from None
+    try:
+        yield Recording(stream, name)
+    finally:
+        if name == str(path):
+            stream.close()
+
+
+def _unreadable(name: str, error: OSError) -> UsageError:
+    return UsageError(f"{name} cannot be read: {error.strerror or error}")

@@ -1,0 +1,97 @@
+"""The verb `send`: sends any message of this end, and prints the reply where there is one."""
+
+from __future__ import annotations
+
+import sys
+
+from .._client.exchanges import EXCHANGES
+from .._client.long_question import left_out
+from .._frame.errors import EncodeError, LimitError
+from .._recording.entry import Entry
+from .._serial.link_errors import NoReplyError
+from . import link
+from .entries import EntryLines
+from .exit_codes import DONE, NOT_ALL
+from .limits import add_limits, limits_of, refused
+from .link import add_port, add_timeout, failures_told, open_client
+from .numerals import at_least
+from .progress import shown_progress
+from .questions import in_parts
+from .usage_error import UsageError
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from argparse import ArgumentParser, Namespace
+
+    from .._client.client import Client
+    from .._frame.message import Message
+
+ENDS = link.ENDS | {NOT_ALL: "no reply came in time, or it told less than was asked"}
+
+
+def add_arguments(parser: ArgumentParser) -> None:
+    """Declares the arguments of the verb."""
+    add_port(parser)
+    parser.add_argument("message", metavar="MESSAGE", help="its name, such as it has in Python")
+    parser.add_argument(
+        "fields", nargs="*", metavar="FIELD=VALUE", help="numbers, names of values, or lists"
+    )
+    parser.add_argument(
+        "--retries",
+        type=at_least(0),
+        default=0,
+        metavar="N",
+        help="ask so often again where no reply comes (default: 0)",
+    )
+    add_timeout(parser)
+    add_limits(parser)
+    parser.add_argument("--json", action="store_true", help="print the reply as a line of JSON")
+
+
+def run(arguments: Namespace) -> int:
+    """Sends the message, and prints what answers it."""
+    messages = in_parts(arguments.message, arguments.fields)
+    if len(messages) > 1:
+        told = f"asked in {len(messages)} requests: one reply has no room for so much"
+        print(told, file=sys.stderr)
+    lines = EntryLines(sys.stdout, "json" if arguments.json else "text")
+    missing: dict[str, list[int]] = {}
+    silent: NoReplyError | None = None
+    with (
+        failures_told(),
+        open_client(
+            arguments, retries=arguments.retries, limits=limits_of(arguments)
+        ) as controller,
+    ):
+        for message in messages:
+            try:
+                reply = _answer(controller, message)
+            except LimitError as error:
+                raise refused(error) from None
+            except EncodeError as error:
+                raise UsageError(str(error)) from None
+            except NoReplyError as error:
+                silent = error
+                break
+            if reply is not None:
+                lines.show(Entry(reply, reply.DIRECTION.sender, 0))
+                sys.stdout.flush()
+                asked, lacks, _ = left_out(message, reply)
+                missing.setdefault(asked, []).extend(lacks)
+    for asked, values in missing.items():
+        if values:
+            told = ", ".join(str(value) for value in values)
+            print(f"the reply is incomplete: nothing of {asked} {told}", file=sys.stderr)
+    if silent is not None:
+        print(silent, file=sys.stderr)
+    return NOT_ALL if silent is not None or any(missing.values()) else DONE
+
+
+def _answer(controller: Client, message: Message) -> Message | None:
+    """The reply to a question; None for a command, which has none."""
+    reply = EXCHANGES[type(message)].reply
+    if reply is None:
+        controller.send(message)
+        return None
+    with shown_progress(lambda waited: f"waiting for {reply.__name__}, {waited:.0f} s"):
+        return controller.request(message)

@@ -1,0 +1,214 @@
+"""The verb `teach`: lets go, and records where everything is each time that Enter is pressed."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from pathlib import Path
+
+from .._frame.wording import counted
+from .._serial.link_errors import NoReplyError
+from . import link
+from .examples import PROGRAM
+from .exit_codes import DONE, INTERRUPTED, NOT_ALL
+from .limits import add_limits, limits_of
+from .link import add_port, add_timeout, failures_told, open_client
+from .numerals import whole
+from .posefile import Recorded, read_poses, write_poses
+from .positions import (
+    UNREAD,
+    find_present,
+    hold,
+    in_options,
+    listed,
+    read_targets,
+    the_pose,
+)
+from .usage_error import UsageError
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from .._client.client import Client
+    from .._client.limits import Bounds
+    from .._client.pose import Pose
+
+ENDS = link.ENDS | {NOT_ALL: "no reply came in time, or nothing was there to let go"}
+ABOUT = """\
+Lets go, after asking: whatever is held up falls, so hold it. Then move it by hand, and press Enter:
+each time, where everything is goes into FILE as a pose, for `play`. q and Enter, or Ctrl-D, ends
+it; Ctrl-C does so at once. What is recorded is in FILE from that moment on. FILE is JSON, and made
+to be edited. A file that is there already is left alone unless an option says otherwise."""
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Declares the arguments of the verb."""
+    parser.add_argument("file", type=Path, metavar="FILE", help="where the poses go")
+    add_port(parser)
+    parser.add_argument(
+        "--ids",
+        type=_numbers,
+        metavar="1-6,9",
+        help="which to let go and to record (default: all that are there)",
+    )
+    kept = parser.add_mutually_exclusive_group()
+    kept.add_argument("--append", action="store_true", help="record behind the poses of FILE")
+    kept.add_argument("--force", action="store_true", help="record in place of what FILE holds")
+    parser.add_argument("--yes", action="store_true", help="let go without asking")
+    parser.add_argument(
+        "--hold", action="store_true", help="at the end, hold everything there without asking"
+    )
+    add_limits(parser)
+    add_timeout(parser)
+
+
+def run(arguments: argparse.Namespace) -> int:
+    """Records as long as somebody presses Enter."""
+    pose = the_pose()
+    kept = _kept(arguments, pose)
+    with failures_told(), open_client(arguments, limits=limits_of(arguments)) as controller:
+        try:
+            ids = arguments.ids or find_present(controller, pose)
+        except NoReplyError as error:
+            print(error, file=sys.stderr)
+            return NOT_ALL
+        if not ids:
+            told = f"no {pose.noun} is there: is the supply of the {pose.noun}s on?"
+            print(told, file=sys.stderr)
+            return NOT_ALL
+        if len(ids) > pose.room:
+            told = f"{len(ids)} {pose.noun}s are more than the {pose.room} that one motion moves"
+            raise UsageError(f"{told}; choose some by --ids")
+        lesson = _Lesson(controller, pose, ids, arguments.file, kept, limits_of(arguments))
+        if not arguments.yes and not _agreed(
+            f"{listed(pose, ids)} will go limp, and what they hold up falls: hold it. Let go?"
+        ):
+            print("nothing was let go, and nothing recorded", file=sys.stderr)
+            return DONE
+        return lesson.give(hold_after=arguments.hold)
+
+
+class _Lesson:
+    """One session of recording."""
+
+    def __init__(
+        self,
+        controller: Client,
+        pose: Pose,
+        ids: tuple[int, ...],
+        path: Path,
+        poses: list[Recorded],
+        limits: Bounds | None,
+    ) -> None:
+        self._controller = controller
+        self._pose = pose
+        self._ids = ids
+        self._path = path
+        self._poses = poses
+        self._before = len(poses)
+        self._limits = limits
+
+    def give(self, *, hold_after: bool) -> int:
+        """Lets go, and records until the end is asked for; says in any case what is limp now."""
+        who = listed(self._pose, self._ids)
+        left = f"{who} {'is' if len(self._ids) == 1 else 'are'} limp"
+        self._controller.send(self._pose.letting_go(self._ids))
+        try:
+            asked = self._record()
+            ending = "Hold everything where it is now?"
+            if (hold_after or (asked and _agreed(ending))) and self._held():
+                left = f"{who} held"
+        except KeyboardInterrupt:
+            print(file=sys.stderr)
+            return INTERRUPTED
+        finally:
+            recorded = len(self._poses) - self._before
+            print(f"{counted(recorded, 'pose')} recorded; {left}", file=sys.stderr)
+            if recorded:
+                told = f"`{PROGRAM} play {self._path} --dry-run` shows what would be sent"
+                print(told, file=sys.stderr)
+        return DONE
+
+    def _record(self) -> bool:
+        """Records at each Enter; whether the end was asked for, and not just the input over."""
+        prompt = "Enter records a pose, q and Enter ends"
+        while (line := _line(f"{prompt}: ")) is not None:
+            word = line.strip().lower()
+            if word in {"q", "quit"}:
+                return True
+            if word:
+                print(f"{word[:40]!r} is nothing that can be done here", file=sys.stderr)
+                continue
+            try:
+                targets = read_targets(self._controller, self._pose, self._ids, self._limits)
+            except UNREAD as error:
+                print(f"nothing recorded: {in_options(error)}", file=sys.stderr)
+                continue
+            pose = Recorded(dict(targets))
+            write_poses(self._path, [*self._poses, pose])
+            self._poses.append(pose)
+            shown = ",".join(f"{number}:{position}" for number, position in targets)
+            print(f"pose {len(self._poses)}  {shown}", flush=True)
+        return False
+
+    def _held(self) -> bool:
+        try:
+            hold(self._controller, self._pose, self._ids, self._limits)
+        except UNREAD as error:
+            print(f"not held: {in_options(error)}", file=sys.stderr)
+            return False
+        return True
+
+
+def _kept(arguments: argparse.Namespace, pose: Pose) -> list[Recorded]:
+    """The poses that are to stay. Raises UsageError where a file would be lost."""
+    path: Path = arguments.file
+    if path.exists() and not path.is_file():
+        raise UsageError(f"{path} is no file that could be written anew: name another")
+    if arguments.append and path.exists():
+        return read_poses(path, pose)
+    if path.exists() and not arguments.force:
+        raise UsageError(
+            f"{path} is there already; --append records behind what it holds, --force instead of it"
+        )
+    if not path.parent.is_dir():
+        raise UsageError(f"{path} cannot be written: there is no folder {path.parent}")
+    return []
+
+
+def _agreed(question: str) -> bool:
+    """The answer to a question; no, where nobody answers."""
+    line = _line(f"{question} [y/N] ")
+    return line is not None and line.strip().lower() in {"y", "yes"}
+
+
+def _line(prompt: str) -> str | None:
+    """A line that somebody types; None once there is no more."""
+    print(prompt, end="", file=sys.stderr, flush=True)
+    try:
+        line = sys.stdin.readline()
+    except UnicodeDecodeError:
+        return "?"
+    except OSError:  # it is closed: nobody types
+        line = ""
+    if not line:
+        print(file=sys.stderr)
+    return line or None
+
+
+def _numbers(text: str) -> tuple[int, ...]:
+    """`1-6,9` as an argument."""
+    pose = the_pose()
+    found: dict[int, None] = {}
+    for part in text.split(","):
+        first, dash, last = part.partition("-")
+        try:
+            low, high = whole(first), whole(last if dash else first)
+        except ValueError:
+            raise argparse.ArgumentTypeError(
+                f"{part[:40]!r} is no number, nor two like 1-6"
+            ) from None
+        if not pose.item.low <= low <= high <= pose.item.high:
+            bounds = f"{pose.item.low}..{pose.item.high}"
+            raise argparse.ArgumentTypeError(f"{part[:40]} is outside {bounds}, or turned around")
+        found |= dict.fromkeys(range(low, high + 1))
+    return tuple(found)

@@ -1,0 +1,1 @@
+"""The clients: sessions, requests, replies and reports, for threads and for asyncio."""

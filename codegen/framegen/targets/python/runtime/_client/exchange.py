@@ -1,0 +1,119 @@
+"""What comes back for a request, and how it is told from what comes back for another."""
+
+from __future__ import annotations
+
+from .._frame.errors import EncodeError
+from .._frame.protocol import UNCOUNTED
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from .._frame.message import Message
+
+
+class Exchange:
+    """One message of the client, and its answers.
+
+    `method` is the method of the client that sends it and `arguments` their order; `result` is the
+    field of the reply that the method returns, or empty. `reply` is the message that answers it,
+    None where none does; `reports` are messages that may follow it, and `acknowledged` is that of
+    them which says that it was taken. `lasts` is the field that says how long what it starts
+    goes on, and how many steps of it make a second. `echoed` pairs what was asked with where the
+    reply repeats it (`ids` with `items.id`); `most` is how many elements of the request a reply has
+    room for, 0 where that does not matter.
+    """
+
+    __slots__ = (
+        "acknowledged",
+        "arguments",
+        "echoed",
+        "lasts",
+        "method",
+        "most",
+        "reply",
+        "reports",
+        "result",
+    )
+
+    def __init__(
+        self,
+        method: str,
+        arguments: tuple[str, ...],
+        *,
+        reply: type[Message] | None = None,
+        result: str = "",
+        reports: tuple[type[Message], ...] = (),
+        acknowledged: type[Message] | None = None,
+        lasts: tuple[str, int] | None = None,
+        echoed: tuple[tuple[str, str], ...] = (),
+        most: int = 0,
+    ) -> None:
+        self.method = method
+        self.arguments = arguments
+        self.reply = reply
+        self.result = result
+        self.reports = reports
+        self.acknowledged = acknowledged
+        self.lasts = lasts
+        self.echoed = echoed
+        self.most = most
+
+    def check(self, request: Message) -> None:
+        """Raises EncodeError where no reply has room for the answer to `request`."""
+        items = request.SHAPE.items
+        if self.most and items is not None and len(getattr(request, items.name)) > self.most:
+            size = len(getattr(request, items.name))
+            problem = f"{size} items are asked for at once, and a reply has room for {self.most}"
+            raise EncodeError(items.name, getattr(request, items.name), problem)
+
+    def answers(self, request: Message, message: Message) -> bool:
+        """Whether `message` can be the reply to `request`: it tells of nothing not asked."""
+        if self.reply is None or type(message) is not self.reply:
+            return False
+        for asked, told in self.echoed:
+            left = column(request, asked)
+            for value in column(message, told):
+                if value not in left:
+                    return False
+                left.remove(value)
+        return True
+
+    def missing(self, request: Message, reply: Message) -> Iterator[tuple[str, int]]:
+        """What was asked and is not in the reply, each with the field that asked for it."""
+        for asked, told in self.echoed:
+            there = set(column(reply, told))
+            for value in dict.fromkeys(column(request, asked)):
+                if value not in there:
+                    yield asked, value
+
+    def seconds(self, request: Message) -> float:
+        """How long what `request` starts goes on; 0.0 where it says nothing of that."""
+        if self.lasts is None:
+            return 0.0
+        name, steps_per_second = self.lasts
+        steps: int = getattr(request, name)
+        return steps / steps_per_second
+
+    def reply_size(self, request: Message) -> int:
+        """The bytes of the largest frame that can answer `request`."""
+        if self.reply is None:
+            return 0
+        items = self.reply.SHAPE.items
+        lengths = self.reply.LENGTHS
+        if items is not None:
+            for asked, told in self.echoed:
+                if told.partition(".")[0] == items.name:
+                    count = len(column(request, asked))
+                    if count in items.counts:
+                        return lengths[items.counts.index(count)] + UNCOUNTED
+        return lengths[-1] + UNCOUNTED
+
+
+def column(message: Message, path: str) -> list[int]:
+    """The values of a field, by path: one number, or one for each element of a list."""
+    name, _, inner = path.partition(".")
+    value = getattr(message, name)
+    if inner:
+        return [getattr(item, inner) for item in value]
+    return list(value) if isinstance(value, tuple) else [value]

@@ -1,0 +1,130 @@
+"""Lines that give back what is sent on them, as adapters for half-duplex wires do."""
+
+from __future__ import annotations
+
+from collections import deque
+
+from .._codec.codec import decode
+from .._frame.direction import RECEIVED
+from .._frame.errors import DecodeError
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from .request import Request
+
+
+class LocalEcho:
+    """Expects every frame back that is sent, and takes it out of what arrives.
+
+    Whatever the other end says comes through: in front of an echo, behind it, and in its place.
+    """
+
+    def __init__(self) -> None:
+        # What was sent and has not come back, each with its frame and when it is given up.
+        self._expected: deque[tuple[Request, bytes, float]] = deque()
+        # The last bytes that have arrived, where they may be the start of an echo.
+        self._held = b""
+
+    @property
+    def due(self) -> float | None:
+        """When the next echo is given up; None while none is expected."""
+        return self._expected[0][2] if self._expected else None
+
+    def expects(self, request: Request) -> bool:
+        """Whether the echo of a request is still to come."""
+        return any(each is request for each, _, _ in self._expected)
+
+    def sent(self, request: Request, frame: bytes, until: float) -> None:
+        """Takes note that a frame has been sent, whose echo may come up to a time."""
+        self._expected.append((request, frame, until))
+
+    def take_out(self, data: bytes) -> tuple[bytes, list[Request], list[Request]]:
+        """What of `data` the other end has sent, whose echoes came, and whose should have before.
+
+        Frames come back in order: where the echo of a later one comes, those before it are lost.
+        """
+        data, self._held = self._held + data, b""
+        others = b""
+        came: list[Request] = []
+        lost: list[Request] = []
+        while self._expected:
+            found = [
+                (at, number)
+                for number, (_, frame, _) in enumerate(self._expected)
+                if (at := data.find(frame)) >= 0
+            ]
+            if not found:
+                kept = max(_overlap(data, frame) for _, frame, _ in self._expected)
+                others += data[: len(data) - kept]
+                self._held = data[len(data) - kept :]
+                return others, came, lost
+            at, number = min(found)
+            lost += [self._expected.popleft()[0] for _ in range(number)]
+            request, frame, _ = self._expected.popleft()
+            came.append(request)
+            others += data[:at]
+            data = data[at + len(frame) :]
+        return others + data, came, lost
+
+    def forget(self, request: Request) -> None:
+        """No longer expects the echo of a request."""
+        self._expected = deque(each for each in self._expected if each[0] is not request)
+
+    def expire(self, now: float) -> tuple[bytes, list[Request]]:
+        """What was held back in vain, and the requests whose echo should have come by now."""
+        lost: list[Request] = []
+        while self._expected and self._expected[0][2] <= now:
+            lost.append(self._expected.popleft()[0])
+        held = b""
+        if lost:
+            held, self._held = self._held, b""
+        return held, lost
+
+    def clear(self) -> list[Request]:
+        """Forgets what was expected, and gives whose echoes those were."""
+        waiting = [request for request, _, _ in self._expected]
+        self._expected.clear()
+        self._held = b""
+        return waiting
+
+
+class EchoWatch:
+    """Sees that a line gives back what is sent, although nobody has said that it would.
+
+    By the return of a frame that the other end cannot send, and by nothing else: the others may be
+    its reports.
+    """
+
+    def __init__(self) -> None:
+        # What was sent last, and what of it would be a sign: all, or nothing.
+        self._sent = self._sign = b""
+        self._noise = b""
+
+    def sent(self, frame: bytes) -> None:
+        """Takes note that a frame has been sent."""
+        self._noise = b""
+        if frame == self._sent:
+            return  # the same question, again and again
+        self._sent = frame
+        try:
+            decode(frame, RECEIVED)
+        except DecodeError:
+            self._sign = frame
+        else:
+            self._sign = b""
+
+    def comes_back(self, noise: bytes) -> bool:
+        """Whether the frame that was sent last is in the noise that has come since."""
+        if not self._sign:
+            return False
+        self._noise = (self._noise + noise)[-4 * len(self._sign) :]
+        if self._sign not in self._noise:
+            return False
+        self._noise = b""
+        return True
+
+
+def _overlap(data: bytes, frame: bytes) -> int:
+    """How many of the last bytes of `data` are the first of `frame`, and not the whole of it."""
+    longest = min(len(data), len(frame) - 1)
+    return next((size for size in range(longest, 0, -1) if frame.startswith(data[-size:])), 0)

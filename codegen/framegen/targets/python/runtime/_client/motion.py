@@ -1,0 +1,118 @@
+"""What a command returns whose effect takes a time that it says: when it will be over."""
+
+from __future__ import annotations
+
+from .._serial.link_errors import TransportError
+from .request import Sent
+
+TYPE_CHECKING = False  # typing alone would double the time that the import takes
+if TYPE_CHECKING:
+    from collections.abc import Awaitable, Callable
+
+    from .request import Request
+    from .wire_time import WireTime
+
+
+class Timed(Sent):
+    """A command that starts something which goes on for `lasts` seconds.
+
+    When that is over is worked out, from when the last byte has left and from what the command
+    says: nothing on the line tells. What cannot be done in that time takes longer.
+
+    Where it was sent with `latest`, it may still wait for the line: `delay` is then how long it
+    will wait at least, and `ends_at` is not known yet.
+    """
+
+    __slots__ = ("_clock", "_request", "lasts")
+
+    def __init__(self, request: Request, wire_time: WireTime, clock: Callable[[], float]) -> None:
+        duration = wire_time.seconds(len(request.message.encode()))
+        sent = request.sent
+        delay = max(0.0, wire_time.free_at - clock()) if sent is None else sent.delay
+        super().__init__(request.message, delay, duration)
+        self.lasts = request.exchange.seconds(request.message)
+        self._request = request
+        self._clock = clock
+
+    @property
+    def ends_at(self) -> float | None:
+        """When it is over, on the clock of the client; None before it is sent, or if it never is.
+
+        That clock is `time.monotonic`, unless the client was given another.
+        """
+        return None if self._request.sent is None else self._request.left_at + self.lasts
+
+    @property
+    def remaining(self) -> float | None:
+        """The seconds until it is over, and 0.0 from then on; None where `ends_at` is None."""
+        ends_at = self.ends_at
+        return None if ends_at is None else max(0.0, ends_at - self._clock())
+
+    @property
+    def replaced(self) -> bool:
+        """Whether a newer one has taken its place before it left, so that it never began."""
+        request = self._request
+        return request.done and request.sent is None and request.error is None
+
+    def _over(self) -> bool:
+        """Whether there is nothing left to wait for. Raises the error that has kept it back."""
+        error = self._request.error
+        if error is not None:
+            raise error.again() if isinstance(error, TransportError) else error
+        return self.replaced or self.remaining == 0.0
+
+    def __repr__(self) -> str:
+        return f"{super().__repr__()[:-1]}, lasts={self.lasts})"
+
+
+class Motion(Timed):
+    """A command that starts something which goes on for `lasts` seconds, and can be waited for."""
+
+    __slots__ = ("_live",)
+
+    def __init__(
+        self,
+        request: Request,
+        wire_time: WireTime,
+        clock: Callable[[], float],
+        live: Callable[[float | None], None],
+    ) -> None:
+        super().__init__(request, wire_time, clock)
+        # Lets the client read for a while, until a time at the latest.
+        self._live = live
+
+    def wait(self) -> bool:
+        """Returns once it is over: True, or False where a newer one has taken its place.
+
+        Reports that come meanwhile are kept. Raises TransportError where the line is lost or closed
+        before the end.
+        """
+        while not self._over():
+            self._live(self.ends_at)
+        return not self.replaced
+
+
+class AsyncMotion(Timed):
+    """A command that starts something which goes on for `lasts` seconds, and can be waited for."""
+
+    __slots__ = ("_live",)
+
+    def __init__(
+        self,
+        request: Request,
+        wire_time: WireTime,
+        clock: Callable[[], float],
+        live: Callable[[float | None], Awaitable[None]],
+    ) -> None:
+        super().__init__(request, wire_time, clock)
+        self._live = live
+
+    async def wait(self) -> bool:
+        """Returns once it is over: True, or False where a newer one has taken its place.
+
+        Reports that come meanwhile are kept. Raises TransportError where the line is lost or closed
+        before the end.
+        """
+        while not self._over():
+            await self._live(self.ends_at)
+        return not self.replaced

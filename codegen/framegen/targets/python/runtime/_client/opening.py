@@ -1,0 +1,55 @@
+"""Opens a port, and gives a client of the device behind it."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from .._frame.protocol import BAUD
+from .._serial.serial_port import open_transport
+from .client import REPLY_TIMEOUT, REPORT_LIMIT
+from .controller import Controller
+from .exchanges import LIMITS
+
+if TYPE_CHECKING:
+    from os import PathLike
+
+    from .limits import Bounds
+
+
+def open_controller(
+    port: str,
+    *,
+    baud: float = BAUD,
+    exclusive: bool = True,
+    reply_timeout: float = REPLY_TIMEOUT,
+    retries: int = 0,
+    trace: str | PathLike[str] | None = None,
+    report_limit: int = REPORT_LIMIT,
+    limits: Bounds | None = LIMITS.usual,
+    local_echo: bool = False,
+    settle: float | None = None,
+) -> Controller:
+    """Opens the port of a device, to be used in a `with`.
+
+    `port` is a name or a URL that pyserial knows: `/dev/ttyUSB0`, `COM7`, `hwgrep://CH340`,
+    `socket://host:port`, `rfc2217://host:port`, `loop://`; `hid://` is a USB HID device, which
+    needs the extra `hid`, and was not seen on hardware yet. With `exclusive`, nobody else can have
+    it meanwhile. The rest is explained at Controller. Raises TransportError, which names the port,
+    what happened and what to do.
+    """
+    transport = open_transport(port, baud=baud, exclusive=exclusive)
+    try:
+        return Controller(
+            transport,
+            baud=baud,
+            reply_timeout=reply_timeout,
+            retries=retries,
+            trace=trace,
+            report_limit=report_limit,
+            limits=limits,
+            local_echo=local_echo,
+            settle=settle,
+        )
+    except BaseException:
+        transport.close()
+        raise

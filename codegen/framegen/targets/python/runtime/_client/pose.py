@@ -1,0 +1,145 @@
+"""Positions that were read, made into what can be commanded: who is there, and where to."""
+
+from __future__ import annotations
+
+from .._frame.errors import LimitError
+from .._serial.link_errors import AbsentError
+from .limits import nearest
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Sequence
+    from typing import Any
+
+    from .._frame.items import Items
+    from .._frame.message import Message
+    from .._frame.number import Number
+    from .limits import Bounds, Limits
+
+HOLD_MS = 100
+"""How long a motion takes, in milliseconds, that only holds what is there."""
+
+# How far outside the limits what is at its stop may be read: this part of what they allow.
+_SLACK = 20
+
+
+class Pose:
+    """How the positions of a protocol are read, commanded and let go, and under which names.
+
+    `read`, `move` and `release` are the messages that do so. `asked` is the list of numbers that
+    `read` and `release` are given, `told` the list of positions that answers `read`, each a number
+    and a position; `moved` the list that `move` is given, and `time` the milliseconds that it may
+    take. `position` is the property that tells a position, below zero included. `ids` are all
+    numbers that there can be, `limits` those of the positions that are commanded.
+
+    Of what is commanded, `item` is the number that says whose a position is, `place` the position,
+    `duration` the milliseconds that a motion may take, and `room` how many one can move.
+    """
+
+    __slots__ = (
+        "asked",
+        "duration",
+        "ids",
+        "item",
+        "limits",
+        "move",
+        "moved",
+        "place",
+        "position",
+        "read",
+        "release",
+        "room",
+        "time",
+        "told",
+    )
+
+    def __init__(
+        self,
+        *,
+        read: type[Message],
+        move: type[Message],
+        release: type[Message],
+        ids: range,
+        asked: str,
+        told: str,
+        position: str,
+        moved: str,
+        time: str,
+        limits: Limits,
+    ) -> None:
+        self.read = read
+        self.move = move
+        self.release = release
+        self.ids = ids
+        self.asked = asked
+        self.told = told
+        self.position = position
+        self.moved = moved
+        self.time = time
+        self.limits = limits
+        targets: Items[Any] = getattr(move, moved)
+        self.item, self.place = targets.fields
+        self.room = targets.most
+        self.duration: Number = getattr(move, time)
+
+    @property
+    def noun(self) -> str:
+        """What one of those is called whose positions these are."""
+        return self.item.name.removesuffix("_id").replace("_", " ")
+
+    def motion(self, targets: Iterable[tuple[int, int]], time_ms: int) -> Message:
+        """The command that moves to these targets. Raises EncodeError."""
+        return self.move(**{self.moved: list(targets), self.time: time_ms})
+
+    def letting_go(self, ids: Iterable[int]) -> Message:
+        """The command that lets go of these. Raises EncodeError."""
+        return self.release(**{self.asked: list(ids)})
+
+    def there(self, replies: Iterable[Message]) -> list[Any]:
+        """The positions that replies tell, without those that are told to be absent."""
+        told = [each for reply in replies for each in getattr(reply, self.told)]
+        return [each for each in told if not getattr(each, "absent", False)]
+
+    def present_in(self, replies: Iterable[Message]) -> tuple[int, ...]:
+        """The numbers of those that are there, in the order of the replies."""
+        return tuple(number for number, _ in self.there(replies))
+
+    def targets_of(self, positions: Iterable[Any], limits: Bounds | None) -> list[tuple[int, int]]:
+        """Where to send those that are there, to be where they were.
+
+        One that is absent is left out. One at its stop may be read a little below zero, or a little
+        outside the limits: it is sent to the nearest position inside. Raises LimitError for one
+        that is further out, and would be sent somewhere else.
+        """
+        bounds = (self.place.low, self.place.high) if limits is None else limits
+        slack = (bounds[1] - bounds[0]) // _SLACK
+        targets: list[tuple[int, int]] = []
+        for at, each in enumerate(positions):
+            if getattr(each, "absent", False):
+                continue
+            number, raw = each
+            below: int = getattr(each, self.position)
+            value = below if -slack <= below < 0 else raw
+            near = nearest(value, bounds)
+            if abs(value - near) > slack:
+                path = f"{self.told}[{at}].{self.place.name}"
+                raise LimitError(path, value, bounds, self.limits.way_out(value, read=True))
+            targets.append((number, near))
+        return targets
+
+    def held(
+        self, exchanged: Sequence[tuple[Message, Message]], limits: Bounds | None
+    ) -> list[tuple[int, int]]:
+        """What holds all that was asked about, by the replies to it.
+
+        Raises AbsentError where one is not there, and LimitError where one is outside the limits.
+        """
+        asked = [number for request, _ in exchanged for number in getattr(request, self.asked)]
+        replies = [reply for _, reply in exchanged]
+        there = self.there(replies)
+        missing = dict.fromkeys(asked).keys() - {number for number, _ in there}
+        if missing:
+            raise AbsentError(
+                self.asked, [each for each in asked if each in missing], replies, there
+            )
+        return self.targets_of(there, limits)

@@ -1,0 +1,72 @@
+"""Which reports somebody waits for: of some classes, with some values in their fields."""
+
+from __future__ import annotations
+
+from .._frame.direction import RECEIVED
+from .._frame.message import Message
+
+TYPE_CHECKING = False  # typing alone would double the time that the import takes
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+    from typing import TypeAlias
+
+    Kinds: TypeAlias = type[Message] | tuple[type[Message], ...]
+
+
+class ReportFilter:
+    """Reports of one class, or of any of a tuple of them, with these values in these fields.
+
+    A field is not asked of a class that lacks it. Raises TypeError for a class that never comes to
+    this end, and for a field that none of the classes has.
+    """
+
+    __slots__ = ("fields", "kinds")
+
+    def __init__(self, kinds: Kinds, fields: Mapping[str, int]) -> None:
+        self.kinds = kinds if isinstance(kinds, tuple) else (kinds,)
+        self.fields = dict(fields)
+        if not self.kinds:
+            raise TypeError("no class of reports is named: give one, or a tuple of some")
+        for kind in self.kinds:
+            if not (isinstance(kind, type) and issubclass(kind, Message)):
+                raise TypeError(f"{kind!r} is no class of messages")
+            if getattr(kind, "DIRECTION", None) is not RECEIVED:
+                raise TypeError(f"{kind.__name__} is no message that comes to this end")
+        for name in self.fields:
+            if not any(name in kind.__match_args__ for kind in self.kinds):
+                raise TypeError(self._lacking(name))
+
+    def __str__(self) -> str:
+        return " or ".join(
+            f"{kind.__name__}({', '.join(f'{name}={value}' for name, value in asked.items())})"
+            for kind, asked in ((kind, self.asked_of(kind)) for kind in self.kinds)
+        )
+
+    def asked_of(self, kind: type[Message]) -> dict[str, int]:
+        """The values asked for, in those fields that messages of a class have."""
+        known = kind.__match_args__
+        return {name: value for name, value in self.fields.items() if name in known}
+
+    def is_met_by(self, message: Message) -> bool:
+        """Whether this is one of the reports."""
+        kind = type(message)
+        return kind in self.kinds and self._agrees(message)
+
+    def may_follow(self, command: Message, reports: tuple[type[Message], ...]) -> bool:
+        """Whether a command that causes such reports may cause one of these.
+
+        Where a command and a report share a field, such as a number, it must be the one asked for.
+        """
+        return not set(reports).isdisjoint(self.kinds) and self._agrees(command)
+
+    def _agrees(self, message: Message) -> bool:
+        asked = self.asked_of(type(message))
+        return all(getattr(message, name) == value for name, value in asked.items())
+
+    def _lacking(self, name: str) -> str:
+        known = {kind.__name__: ", ".join(kind.__match_args__) or "none" for kind in self.kinds}
+        if len(known) == 1:
+            ((only, fields),) = known.items()
+            return f"{only} has no field {name!r}; it has {fields}"
+        listed = "; ".join(f"{kind} has {fields}" for kind, fields in known.items())
+        return f"none of these has a field {name!r}: {listed}"

@@ -1,0 +1,137 @@
+"""One message on its way to the device, and what has become of it."""
+
+from __future__ import annotations
+
+from .._frame.errors import EncodeError
+from .._frame.protocol import UNCOUNTED
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from .._frame.message import Message
+    from .exchange import Exchange
+
+
+class Sent:
+    """A command that has been handed to the line.
+
+    `delay` is how many seconds later its first byte is on the wire, the frames before it taking
+    their time, and `duration` how many seconds it takes from there to its last byte.
+    """
+
+    __slots__ = ("delay", "duration", "message")
+
+    def __init__(self, message: Message, delay: float, duration: float) -> None:
+        self.message = message
+        self.delay = delay
+        self.duration = duration
+
+    def __repr__(self) -> str:
+        name, when = type(self).__name__, f"delay={self.delay:.4f}, duration={self.duration:.4f}"
+        return f"{name}({self.message!r}, {when})"
+
+
+class Run(Sent):
+    """A command that has been handed to the line, and whether its receiver has taken it.
+
+    `started` is True once the report has come that acknowledges it, with the same values. It is
+    False where none came in the time of a reply, though others have come over this line before: the
+    command was ignored. It is None while neither is known; on a line over which no such report has
+    ever come, that is for ever.
+
+    It is found out when the line is read: by a client that listens in the background, or while a
+    call waits. The report names nobody: another command with the same values has the same.
+    """
+
+    __slots__ = ("started",)
+
+    started: bool | None
+
+    def __repr__(self) -> str:
+        return f"{super().__repr__()[:-1]}, started={self.started})"
+
+
+class Request:
+    """What a session was asked to send. Once `done`, it has `sent`, a `reply` or an `error`."""
+
+    __slots__ = (
+        "after_lost",
+        "attempts",
+        "counted",
+        "deadline",
+        "done",
+        "doubted",
+        "error",
+        "exchange",
+        "latest",
+        "left_at",
+        "left_soonest",
+        "message",
+        "notify",
+        "reply",
+        "reply_size",
+        "retries",
+        "sent",
+        "sent_at",
+        "written",
+    )
+
+    def __init__(
+        self, message: Message, exchange: Exchange, *, retries: int = 0, latest: bool = False
+    ) -> None:
+        self.message = message
+        self.exchange = exchange
+        # How many bytes its reply can have at most; 0 where there is none.
+        self.reply_size = exchange.reply_size(message)
+        self.retries = retries
+        # Whether it gives way to a newer one of its kind.
+        self.latest = latest
+        self.attempts = 0
+        # Whether the port is known to have the frame of the latest attempt.
+        self.written = False
+        self.done = False
+        self.sent: Sent | None = None
+        self.reply: Message | None = None
+        self.error: Exception | None = None
+        # When it was handed over first, when the last byte of it has left, and when to give up.
+        self.sent_at = self.left_at = self.deadline = 0.0
+        # When the last byte of the first attempt can have left at the soonest.
+        self.left_soonest = 0.0
+        # Whether a reply came that is impossible; whether the reply to an earlier one, which never
+        # came, may come yet; and what had been counted when it was sent.
+        self.doubted = self.after_lost = False
+        self.counted: tuple[int, int, int] = (0, 0, 0)
+        # What to call once it is done.
+        self.notify: Callable[[], None] | None = None
+
+    def finish(
+        self,
+        *,
+        sent: Sent | None = None,
+        reply: Message | None = None,
+        error: Exception | None = None,
+    ) -> None:
+        """Says what has become of it."""
+        self.sent = sent
+        self.reply = reply
+        self.error = error
+        # Last, for those who look from other threads.
+        self.done = True
+        if self.notify is not None:
+            self.notify()
+
+
+def check_room(message: Message, largest_frame: int | None) -> None:
+    """Raises EncodeError for a frame of more bytes than this; None is for a line of any."""
+    size = len(message.encode())
+    if largest_frame is None or size <= largest_frame:
+        return
+    why = f"the frame has {size} bytes, and this line carries {largest_frame} at once"
+    items = message.SHAPE.items
+    if items is None:
+        raise EncodeError(type(message).__name__, message, why)
+    lengths = zip(items.counts, message.LENGTHS, strict=True)
+    most = max((n for n, length in lengths if length + UNCOUNTED <= largest_frame), default=0)
+    given = getattr(message, items.name)
+    raise EncodeError(items.name, given, f"{why}: room for {most} of {len(given)}")

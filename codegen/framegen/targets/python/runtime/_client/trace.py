@@ -1,0 +1,58 @@
+"""Shows what passes on a line: to `logging`, and to a recording that `recordings` reads back."""
+
+from __future__ import annotations
+
+from .._codec.noise import Noise
+from .._frame.bytes_like import format_hex
+from .._log import log, shows_frames
+from .._recording.file import NOISE, RecordingFile
+
+TYPE_CHECKING = False  # typing alone would double the time that the import takes
+if TYPE_CHECKING:
+    from os import PathLike
+
+    from .._frame.message import Message
+
+
+class Trace:
+    """Logs each frame at level DEBUG, and records it in the file `trace`.
+
+    Raises OSError where that cannot be written: FileExistsError if it holds a recording.
+    """
+
+    def __init__(self, name: str, trace: str | PathLike[str] | None = None) -> None:
+        self._name = name
+        self._trace = None if trace is None else RecordingFile(trace)
+        self._began: float | None = None
+
+    def sent(self, message: Message, now: float) -> None:
+        """A frame was handed to the line."""
+        self._tell(">", message.DIRECTION.sender, message, message.encode(), now)
+
+    def received(self, event: Message | Noise, now: float) -> None:
+        """A frame, or noise, came from the line."""
+        if isinstance(event, Noise):
+            self._tell("<", NOISE, event.reason.value, event.data, now)
+        else:
+            self._tell("<", event.DIRECTION.sender, event, event.encode(), now)
+
+    def quiet(self) -> None:
+        """The line fell silent within a frame: what comes next is not the rest of it."""
+        if self._trace is not None:
+            self._trace.quiet()
+
+    def _tell(self, way: str, who: str, what: Message | str, data: bytes, now: float) -> None:
+        if shows_frames():
+            log().debug("%s %s %s | %s", self._name, way, what, format_hex(data))
+        if self._trace is None:
+            return
+        if self._began is None:
+            self._began = now
+            self._trace.begin(self._name)
+        self._trace.write(data, now - self._began, who, what)
+
+    def close(self) -> None:
+        """Closes the trace."""
+        if self._trace is not None:
+            self._trace.close()
+            self._trace = None

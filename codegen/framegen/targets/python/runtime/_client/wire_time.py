@@ -1,0 +1,46 @@
+"""How long bytes take on the line, when it is free again, and what it cannot have carried yet."""
+
+from __future__ import annotations
+
+from .._frame.protocol import BITS_PER_BYTE
+
+# A UART may run this much faster than its stated rate and still be understood; a reply is called
+# impossible only where even such a line could not have carried it.
+_FASTEST = 0.95
+
+
+class WireTime:
+    """The outgoing half of the line, by calculation: nobody can ask a UART how far it has got."""
+
+    __slots__ = ("free_at", "free_soonest", "seconds_per_byte")
+
+    def __init__(self, baud: float) -> None:
+        if not baud > 0:
+            raise ValueError(f"baud is {baud!r}, and must be above 0 (math.inf for a line at once)")
+        self.seconds_per_byte = BITS_PER_BYTE / baud
+        # When the last byte handed over has left; and when it can have left at the soonest.
+        self.free_at = self.free_soonest = float("-inf")
+
+    def seconds(self, size: int) -> float:
+        """How long `size` bytes take."""
+        return size * self.seconds_per_byte
+
+    def least(self, size: int) -> float:
+        """How long `size` bytes take at the least, on a line that runs a little fast."""
+        return size * self.seconds_per_byte * _FASTEST
+
+    def take(self, size: int, now: float) -> float:
+        """Puts `size` bytes on the line behind what is there; gives when their first one leaves."""
+        starts = max(now, self.free_at)
+        self.free_at = starts + self.seconds(size)
+        self.free_soonest = max(now, self.free_soonest) + self.least(size)
+        return starts
+
+    def seen_idle(self, now: float) -> None:
+        """Takes note that everything sent has arrived, however long it should have taken."""
+        self.free_at = min(self.free_at, now)
+        self.free_soonest = min(self.free_soonest, now)
+
+    def clear(self) -> None:
+        """Takes note that this is another line, on which nothing is under way."""
+        self.free_at = self.free_soonest = float("-inf")

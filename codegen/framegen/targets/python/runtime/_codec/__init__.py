@@ -1,0 +1,1 @@
+"""Bytes to messages and back: single frames, streams, noise and look-alikes."""

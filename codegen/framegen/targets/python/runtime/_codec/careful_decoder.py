@@ -1,0 +1,177 @@
+"""A stream decoder that does not trust a frame whose last bytes may be the start of another.
+
+Where bytes are lost inside a frame, those of the next one take their place, and the two together
+may well look legal. Such a frame ends in what begins a frame: it is held until what follows shows
+which of the two it was, or until the line is quiet. No other frame waits.
+"""
+
+from __future__ import annotations
+
+from copy import copy
+
+from .._frame.errors import Reason
+from .._frame.protocol import HEADER
+from .decoder import StreamDecoder
+from .noise import Noise
+
+# How many seconds a line is quiet before a frame that has begun on it is given up: longer than the
+# latency of any adapter, which gathers bytes for up to 16 ms.
+GAP = 0.05
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from .._frame.direction import Direction
+    from .._frame.message import Message
+
+
+class CarefulDecoder:
+    """Turns bytes into messages and noise, as StreamDecoder does, and doubts some of them.
+
+    It has no clock either: whoever has one calls `flush` when the line has been quiet.
+    """
+
+    __slots__ = ("_decoder", "_direction", "_doubted", "_later", "_rival", "_rival_at", "_told")
+
+    def __init__(self, direction: Direction | None) -> None:
+        self._direction = direction
+        self._decoder = StreamDecoder(direction)
+        # The message that is held, and the bytes that have come since.
+        self._doubted: Message | None = None
+        self._later = b""
+        # The decoder of what may begin inside it, at which of its bytes, and what that has told.
+        self._rival = self._decoder
+        self._rival_at = 0
+        self._told: list[Message | Noise] = []
+
+    @property
+    def doubted(self) -> Message | None:
+        """The message that is held back, if there is one."""
+        return self._doubted
+
+    @property
+    def pending(self) -> int:
+        """How many bytes are held back."""
+        if self._doubted is not None:
+            return len(self._doubted.encode()) + len(self._later)
+        return self._decoder.pending
+
+    @property
+    def missing(self) -> int:
+        """How many bytes must come at the least before anything is told."""
+        return 1 if self._doubted is not None else self._decoder.missing
+
+    def feed(self, data: bytes) -> list[Message | Noise]:
+        """Takes in bytes, and returns what can be told now."""
+        doubted = self._doubted
+        if doubted is None:
+            return self._sifted(self._decoder.feed(data))
+        self._later += data
+        self._told += self._rival.feed(data)
+        if self._next_begins() < len(doubted.encode()):
+            return self._refuted(doubted) if self._has_told_a_message() else []
+        # What follows goes on with no frame: the one that is held was whole.
+        later = self._later
+        self._believe()
+        return [doubted, *self.feed(later)]
+
+    def flush(self) -> list[Message | Noise]:
+        """Says that the line has gone quiet: what is held is no frame, but may hide one.
+
+        A message that is in doubt is one if nothing has come behind it. Else it cannot be told from
+        one with a hole, so it is noise.
+        """
+        doubted = self._doubted
+        if doubted is None:
+            return self._decoder.flush()
+        if self._later:
+            self._told += self._rival.flush()
+            return self._refuted(doubted)
+        self._believe()
+        return [doubted]
+
+    def _believe(self) -> None:
+        """Lets go of the message that is held, which was whole: what follows it begins anew."""
+        self._doubted, self._later = None, b""
+        self._decoder = StreamDecoder(self._direction)
+
+    def __copy__(self) -> CarefulDecoder:
+        other = CarefulDecoder(self._direction)
+        other._decoder, other._rival = copy(self._decoder), copy(self._rival)
+        other._doubted, other._rival_at = self._doubted, self._rival_at
+        other._later, other._told = self._later, [*self._told]
+        return other
+
+    def _sifted(self, events: list[Message | Noise]) -> list[Message | Noise]:
+        """The events, up to a message that is in doubt; what follows that is looked at again."""
+        for number, event in enumerate(events):
+            if isinstance(event, Noise) or not (self._is_torn(event) or self._doubt(event)):
+                continue
+            rest = b"".join(
+                each.data if isinstance(each, Noise) else each.encode()
+                for each in events[number + 1 :]
+            )
+            rest += self._decoder.held
+            found = [] if self._doubted is not None else self._refuted(event)
+            return [*events[:number], *found, *(self.feed(rest) if rest else ())]
+        return events
+
+    def _is_torn(self, message: Message) -> bool:
+        """Whether a message ends in whole frames, which have filled its hole."""
+        return any(
+            self._told and not any(isinstance(event, Noise) for event in self._told)
+            for _ in self._rivals(message)
+        )
+
+    def _doubt(self, message: Message) -> bool:
+        """Holds a message back if a frame may begin in its last bytes."""
+        size = len(message.encode())
+        if not any(
+            not self._has_told_a_message() and self._next_begins() < size
+            for _ in self._rivals(message)
+        ):
+            return False
+        self._doubted, self._later = message, b""
+        return True
+
+    def _rivals(self, message: Message) -> Iterator[int]:
+        """Reads anew from each place in a message where another may begin, one after the other."""
+        frame = message.encode()
+        for at in _beginnings(frame):
+            self._rival, self._rival_at = StreamDecoder(self._direction), at
+            self._told = self._rival.feed(frame[at:])
+            yield at
+
+    def _has_told_a_message(self) -> bool:
+        return any(not isinstance(event, Noise) for event in self._told)
+
+    def _next_begins(self) -> int:
+        """At which byte, from the first of the message that is doubted, the next frame begins.
+
+        It may yet turn out to begin further behind, as long as its own decoder has not told it.
+        """
+        at = self._rival_at
+        for event in self._told:
+            if not isinstance(event, Noise):
+                return at
+            at += len(event.data)
+        return at + self._rival.scanned
+
+    def _refuted(self, doubted: Message) -> list[Message | Noise]:
+        """Takes a message for what it was: the start of one frame, and then another."""
+        self._doubted, self._later = None, b""
+        self._decoder = self._rival
+        torn = Noise(doubted.encode()[: self._rival_at], Reason.TOO_SHORT)
+        return [torn, *self._sifted(self._told)]
+
+
+def _beginnings(frame: bytes) -> Iterator[int]:
+    """Where in a frame, behind its own, a header stands, or may begin at the very end."""
+    at = frame.find(HEADER, 1)
+    while at > 0:
+        yield at
+        at = frame.find(HEADER, at + 1)
+    for size in range(len(HEADER) - 1, 0, -1):
+        if frame.endswith(HEADER[:size]):
+            yield len(frame) - size

@@ -1,0 +1,110 @@
+"""Tells the frames of a protocol that is easily taken for this one, in bytes of any origin."""
+
+from __future__ import annotations
+
+from .._frame.errors import DecodeError
+from .._frame.protocol import read_number
+from .codec import decode
+
+TYPE_CHECKING = False  # typing alone would double the time that the import takes
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Iterator
+
+# Bytes enough to tell by; a search through more would only take longer.
+_SEARCHED = 16384
+
+
+class Lookalike:
+    """A protocol that is easily taken for this one, and where the parts of its frames stand.
+
+    `constants` are places with the bytes that stand there; `length` is the place of a number that
+    says how many bytes a frame has besides `uncounted`; `least` is the size of the smallest frame;
+    `command` is the place of its command, and `commands` are those known, empty for any.
+    `checksums` are places, each with the places whose inverted sum stands there.
+    """
+
+    __slots__ = (
+        "checksums",
+        "command",
+        "commands",
+        "constants",
+        "least",
+        "length",
+        "title",
+        "uncounted",
+    )
+
+    def __init__(
+        self,
+        title: str,
+        *,
+        constants: tuple[tuple[slice, bytes], ...],
+        length: slice,
+        uncounted: int,
+        least: int,
+        command: slice,
+        commands: tuple[int, ...],
+        checksums: tuple[tuple[slice, tuple[slice, ...]], ...],
+    ) -> None:
+        self.title = title
+        self.constants = constants
+        self.length = length
+        self.uncounted = uncounted
+        self.least = least
+        self.command = command
+        self.commands = frozenset(commands)
+        self.checksums = checksums
+
+    def covered(self, data: bytes) -> int:
+        """How many bytes of `data` are frames of this protocol."""
+        found = at = 0
+        header = next((text for place, text in self.constants if place.start == 0), b"")
+        while (at := data.find(header, at)) >= 0 and at + self.least <= len(data):
+            frame = data[at : at + self._size(data, at)]
+            # Without a checksum, a frame with another header in it is nothing to go by.
+            if self._is_frame(frame) and (self.checksums or frame.rfind(header) <= 0):
+                found += len(frame)
+                at += len(frame)
+            else:
+                at += 1
+        return found
+
+    def _size(self, data: bytes, at: int) -> int:
+        """The size that a frame at `at` says that it has, or else all there is."""
+        if self.length.start < 0:
+            return len(data) - at
+        return self.uncounted + read_number(data[at + self.length.start : at + self.length.stop])
+
+    def _is_frame(self, frame: bytes) -> bool:
+        if len(frame) < self.least or any(frame[place] != text for place, text in self.constants):
+            return False
+        if read_number(frame[self.length]) + self.uncounted != len(frame):
+            return False
+        if self.commands and read_number(frame[self.command]) not in self.commands:
+            return False
+        for place, covered in self.checksums:
+            total = sum(sum(frame[each]) for each in covered)
+            mask = (1 << 8 * len(frame[place])) - 1
+            if read_number(frame[place]) != ~total & mask:
+                return False
+        return not _is_message(frame)
+
+
+def most_likely(lookalikes: Iterable[Lookalike], data: bytes) -> str | None:
+    """The title of the one to which most of `data` belongs, by frames; None if none has half."""
+    searched = data[:_SEARCHED]
+
+    def shares() -> Iterator[tuple[int, str]]:
+        for each in lookalikes:
+            yield each.covered(searched), each.title
+
+    covered, title = max(shares(), key=lambda share: share[0], default=(0, ""))
+    return title if covered and 2 * covered >= len(searched) else None
+
+
+def _is_message(frame: bytes) -> bool:
+    try:
+        decode(frame, None)
+    except DecodeError:
+        return False
+    return True

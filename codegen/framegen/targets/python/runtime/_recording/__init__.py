@@ -1,0 +1,1 @@
+"""Recordings of a line: their files, their forms and their entries."""

@@ -1,0 +1,58 @@
+"""One event of a recording: what it was, who sent it, when, and where it stands."""
+
+from __future__ import annotations
+
+from .._frame.direction import Direction
+
+TYPE_CHECKING = False  # typing alone would double the time that the import takes
+if TYPE_CHECKING:
+    from .._codec.noise import Noise
+    from .._frame.message import Message
+
+SENDERS = {direction.sender: direction for direction in Direction}
+
+
+class RecordingError(ValueError):
+    """What a recording holds makes no sense; the text says in which line, and why."""
+
+
+class Entry:
+    """One message or one piece of noise of a recording.
+
+    `time` is seconds from the beginning of the recording, and `began` when that was, in seconds
+    since 1970; None where it does not say. `sender` is the name of the end that has sent it, None
+    where nobody can tell. `line` is the number of its line, None where lines mean nothing, and
+    `offset` counts the bytes of all events before it.
+    """
+
+    __slots__ = ("began", "event", "line", "offset", "sender", "time")
+
+    def __init__(
+        self,
+        event: Message | Noise,
+        sender: str | None,
+        offset: int,
+        *,
+        line: int | None = None,
+        time: float | None = None,
+        began: float | None = None,
+    ) -> None:
+        self.event = event
+        self.sender = sender
+        self.offset = offset
+        self.line = line
+        self.time = time
+        self.began = began
+
+    @property
+    def direction(self) -> Direction | None:
+        """The direction of its sender; None where nobody can tell."""
+        return None if self.sender is None else SENDERS[self.sender]
+
+    @property
+    def place(self) -> str:
+        """Where it stands, for people: `line 3`, or `byte 40`."""
+        return f"byte {self.offset}" if self.line is None else f"line {self.line}"
+
+    def __repr__(self) -> str:
+        return f"Entry({self.place}, time={self.time}, sender={self.sender!r}, {self.event!r})"

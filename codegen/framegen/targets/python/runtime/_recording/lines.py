@@ -1,0 +1,112 @@
+"""Reads the lines of a recording: each is one event, with its time, its sender and its bytes."""
+
+from __future__ import annotations
+
+import re
+from datetime import datetime
+
+from .._codec.codec import table_for
+from .._codec.decoder import StreamDecoder
+from .._codec.hextext import HexError, read_hex
+from .._codec.noise import Noise
+from .._frame.direction import RECEIVED
+from .._frame.errors import Reason
+from .._frame.message import Message
+from .entry import SENDERS, Entry, RecordingError
+from .file import EITHER, NOISE
+from .form import LONGEST_LINE, TIMED_LINE
+
+TYPE_CHECKING = False  # typing alone would double the time that the import takes
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Iterator
+
+    from .._frame.direction import Direction
+
+_BEGAN = re.compile(
+    r"# recorded of .* from (\d{4}-\d\d-\d\d \d\d:\d\d:\d\d)(\.\d{1,6})? ([+-]\d{4}) on"
+)
+_REASONS = {reason.value: reason for reason in Reason}
+
+
+def recorded(blocks: Iterable[str], direction: Direction | None) -> Iterator[Entry]:
+    """The entries of a recording; `direction` is of what the recording says either end has sent."""
+    began: float | None = None
+    number = offset = 0
+    for block in blocks:
+        lines = block.split("\n")
+        if not lines[-1]:
+            lines.pop()
+        for line in lines:
+            number += 1
+            found = TIMED_LINE.match(line)
+            if found is None or len(line) >= LONGEST_LINE:
+                began = _beginning(line, number, began)
+                continue
+            text, at, who, what = found.groups()
+            try:
+                data = read_hex(text)
+            except HexError as error:
+                raise RecordingError(f"line {number}: {error}") from None
+            sender, is_noise = _sender(who, number, direction)
+            time = float(at)
+            for event in _events(data, sender, what.strip(), is_noise=is_noise):
+                yield Entry(event, sender, offset, line=number, time=time, began=began)
+                offset += len(event.encode() if isinstance(event, Message) else event.data)
+
+
+def _beginning(line: str, number: int, began: float | None) -> float | None:
+    """When the recording began, if the line says so. Raises RecordingError where it has bytes."""
+    line = line.strip()
+    if len(line) >= LONGEST_LINE:
+        problem = f"it has more than {LONGEST_LINE} characters, and is no line of a recording"
+        raise RecordingError(f"line {number}: {problem}")
+    if line and not line.startswith("#"):
+        raise RecordingError(
+            f"line {number}: it has no time and sender, as in `HEX  # 0.5 s, NAME: ...`, "
+            "and other lines have"
+        )
+    found = _BEGAN.fullmatch(line)
+    if found is None:
+        return began
+    day, part, zone = found.groups()
+    try:
+        return datetime.strptime(f"{day} {zone}", "%Y-%m-%d %H:%M:%S %z").timestamp() + float(
+            part or 0
+        )
+    except ValueError:  # the 31st of February
+        return began
+
+
+def _sender(who: str, number: int, direction: Direction | None) -> tuple[str | None, bool]:
+    """Who sent a line, None for either end, and whether it was noise. Raises RecordingError."""
+    whose, _, last = who.rpartition(" ")
+    if is_noise := last == NOISE:
+        # Where nobody is named, it came to this end: what a client sends is never noise.
+        who = whose or RECEIVED.sender
+    if who in SENDERS:
+        return who, is_noise
+    if who == EITHER:
+        return (None if direction is None else direction.sender), is_noise
+    known = ", ".join([*SENDERS, EITHER, NOISE])
+    raise RecordingError(f"line {number}: {who!r} is none of those who send: {known}")
+
+
+def _events(data: bytes, sender: str | None, what: str, *, is_noise: bool) -> list[Message | Noise]:
+    """What the bytes of a line are, as their sender's: one event, or more if somebody joined them.
+
+    What was noise when it was heard stays noise, even if its bytes would be a message by
+    themselves; save for a frame whose command was not known then.
+    """
+    direction = None if sender is None else SENDERS[sender]
+    message = None if is_noise else table_for(direction).find(data)
+    if message is not None:
+        return [message]
+    decoder = StreamDecoder(direction)
+    events = [*decoder.feed(data), *decoder.flush()]
+    if not is_noise:
+        return events
+    reason = _REASONS.get(what)
+    if reason is Reason.UNKNOWN_COMMAND and len(events) == 1 and type(events[0]) is not Noise:
+        return events
+    reasons = [event.reason for event in events if isinstance(event, Noise)]
+    return [Noise(data, reason or (reasons or [Reason.BAD_HEADER])[0])] if data else []

@@ -1,0 +1,1 @@
+"""Transports: serial ports, USB HID devices, and the errors of both."""

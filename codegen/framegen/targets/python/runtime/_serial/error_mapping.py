@@ -1,0 +1,75 @@
+"""A transport whose every failure is a TransportError, whoever wrote it."""
+
+from __future__ import annotations
+
+from functools import partial
+
+from .._log import log
+from .link_errors import ClosedError, DisconnectedError, TransportError
+
+TYPE_CHECKING = False  # typing alone would double the time that the import takes
+if TYPE_CHECKING:
+    from collections.abc import Callable
+    from typing import TypeVar
+
+    from .transport import Transport
+
+    _Result = TypeVar("_Result")
+
+
+class ErrorMapping:
+    """Passes everything on, and turns whatever is raised into the errors of this library."""
+
+    def __init__(self, transport: Transport) -> None:
+        self._transport = transport
+        self.name = str(getattr(transport, "name", type(transport).__name__))
+        self.largest_frame: int | None = getattr(transport, "largest_frame", None)
+        self._closed = False
+
+    def read(self, timeout: float) -> bytes:
+        """As Transport.read."""
+        return self._mapped(partial(self._transport.read, timeout))
+
+    def write(self, data: bytes) -> None:
+        """As Transport.write."""
+        self._mapped(partial(self._transport.write, data))
+
+    def drain(self, timeout: float) -> None:
+        """As Transport.drain."""
+        self._mapped(partial(self._transport.drain, timeout))
+
+    def close(self) -> None:
+        """As Transport.close; what is gone cannot be closed any better."""
+        self._closed = True
+        try:
+            self._mapped(self._transport.close)
+        except TransportError as error:
+            log().debug("%s could not be closed: %s", self.name, error)
+
+    @property
+    def reopen(self) -> Callable[[], ErrorMapping]:
+        """What opens the same line anew. Raises TypeError where the transport does not know how."""
+        reopen: Callable[[], Transport] | None = getattr(self._transport, "reopen", None)
+        if reopen is None:
+            raise TypeError(f"{self.name} has no method reopen(), and cannot be opened again")
+        return lambda: ErrorMapping(self._mapped(reopen))
+
+    def _mapped(self, call: Callable[[], _Result]) -> _Result:
+        try:
+            return call()
+        except TransportError:
+            raise
+        except Exception as error:
+            if self._closed:
+                # Whatever a read says that was under way when it was closed.
+                raise ClosedError(self.name, "it has been closed", "open it again") from error
+            raise self._failed(error) from error
+
+    def _failed(self, error: Exception) -> TransportError:
+        if isinstance(error, OSError):
+            advice = "see to the cable and the power, then reconnect()"
+            return DisconnectedError(self.name, f"the line was lost ({error})", advice)
+        # Whoever waits for the line must hear of it, in whichever thread it happened.
+        log().error("%s failed", self.name, exc_info=error)
+        happened = f"its transport failed ({error!r})"
+        return TransportError(self.name, happened, "mend the transport")

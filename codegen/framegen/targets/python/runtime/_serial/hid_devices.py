@@ -1,0 +1,104 @@
+"""The USB HID devices that are plugged in: found by the extra `hid`, on Linux without it too.
+
+A device of this kind has no serial port. None was seen by this library on hardware yet.
+"""
+
+from __future__ import annotations
+
+import sys
+from importlib import import_module
+from pathlib import Path
+from typing import TYPE_CHECKING, NamedTuple
+
+from .._frame.protocol import HID_DEVICES
+from .link_errors import TransportError
+
+if TYPE_CHECKING:
+    from typing import Any
+
+UNSEEN = "not seen on hardware yet"
+_EXTRA = f"{__name__.partition('.')[0]}[hid]"
+_LINUX = Path("/sys/bus/hid/devices")
+
+
+class HidDevice(NamedTuple):
+    """A device that is plugged in. `path` is the system's name of it, `product` its own."""
+
+    vendor: int
+    product_id: int
+    path: str
+    product: str
+
+    @property
+    def ids(self) -> str:
+        """Vendor and product, as `ports` shows them."""
+        return f"{self.vendor:04X}:{self.product_id:04X}"
+
+
+def report_size(vendor: int, product_id: int) -> int | None:
+    """The bytes of a report of such a device; None for what is no device of this protocol."""
+    sizes = {(vendor, product): size for vendor, product, size in HID_DEVICES}
+    return sizes.get((vendor, product_id))
+
+
+def hid_library(port: str) -> Any:
+    """The module that speaks USB HID. Raises TransportError where it is not installed."""
+    # On Linux one of the two takes the device away from the kernel, and the other does not.
+    names = ("hidraw", "hid") if sys.platform.startswith("linux") else ("hid",)
+    for name in names:
+        try:
+            found = import_module(name)
+        except (ImportError, OSError):
+            continue
+        # Another package is imported by the same name, and works otherwise.
+        if hasattr(found, "device") and hasattr(found, "enumerate"):
+            return found
+    happened = f"USB HID needs the package hidapi, which is not installed ({UNSEEN})"
+    raise TransportError(port, happened, f"pip install '{_EXTRA}'")
+
+
+def hid_devices(library: Any) -> list[HidDevice]:
+    """The devices of this protocol that are plugged in, as the library has them."""
+    found = [
+        HidDevice(
+            each["vendor_id"],
+            each["product_id"],
+            each["path"].decode(errors="backslashreplace"),
+            each.get("product_string") or "",
+        )
+        for each in library.enumerate()
+    ]
+    return sorted(each for each in found if report_size(each.vendor, each.product_id) is not None)
+
+
+def hid_devices_at_hand(folder: Path = _LINUX) -> list[HidDevice] | None:
+    """The same without a port to open: None where nobody can tell, for want of the library."""
+    try:
+        return hid_devices(hid_library("hid://"))
+    except (TransportError, OSError):
+        return _as_linux_tells(folder) if folder.is_dir() else None
+
+
+def _as_linux_tells(folder: Path) -> list[HidDevice]:
+    """What the kernel lists: a folder for each device, such as 0003:0483:5750.0001."""
+    found: list[HidDevice] = []
+    for device in folder.iterdir():
+        try:
+            bus, vendor, product = device.name.partition(".")[0].split(":")
+            ids = int(vendor, 16), int(product, 16)
+        except ValueError:
+            continue
+        if int(bus, 16) == 3 and report_size(*ids) is not None:
+            names = sorted(each.name for each in (device / "hidraw").glob("hidraw*"))
+            path = f"/dev/{names[0]}" if names else ""
+            found.append(HidDevice(*ids, path, _name_of(device)))
+    return sorted(found)
+
+
+def _name_of(device: Path) -> str:
+    try:
+        lines = (device / "uevent").read_text(encoding="utf-8", errors="replace").splitlines()
+    except OSError:
+        return ""
+    named = (line.removeprefix("HID_NAME=") for line in lines if line.startswith("HID_NAME="))
+    return next(named, "")

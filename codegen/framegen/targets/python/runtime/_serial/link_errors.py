@@ -1,0 +1,178 @@
+"""What can go wrong on a live line: the port itself, a reply or a report that does not come."""
+
+from __future__ import annotations
+
+from .._frame.errors import ProtocolError
+from .._frame.wording import counted
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Mapping
+
+    from typing_extensions import Self
+
+    from .._frame.message import Message
+
+# How many reports the text of an error names.
+_SHOWN = 4
+
+
+class TransportError(ProtocolError, OSError):
+    """The port failed. `port` is which, `happened` what happened, and `advice` what to do now."""
+
+    def __init__(self, port: str, happened: str, advice: str) -> None:
+        super().__init__(port, happened, advice)
+        self.port = port
+        self.happened = happened
+        self.advice = advice
+
+    def __str__(self) -> str:
+        return f"{self.port}: {self.happened}; {self.advice}"
+
+    def again(self) -> Self:
+        """The same error, to be raised once more, with no traceback of its own yet."""
+        return type(self)(self.port, self.happened, self.advice)
+
+
+class PortNotFoundError(TransportError):
+    """There is no such port."""
+
+
+class PortBusyError(TransportError):
+    """Another program has the port."""
+
+
+class PortPermissionError(TransportError):
+    """The user may not use the port."""
+
+
+class PortAddressError(TransportError, ValueError):
+    """What was given is the name of no port, nor a URL of any known kind."""
+
+
+class DisconnectedError(TransportError):
+    """The line was lost: a cable pulled, a device gone, the other end hung up."""
+
+
+class WriteStuckError(TransportError):
+    """The port takes no more bytes."""
+
+
+class ClosedError(TransportError):
+    """The line has been closed at this end."""
+
+
+class EchoError(TransportError):
+    """What was sent has not come back, on a line that was said to give it back."""
+
+
+class NoReplyError(ProtocolError, TimeoutError):
+    """No reply came in time. `request` is what was asked, `waited` the seconds spent on it.
+
+    What came instead meanwhile: `noise` bytes that are no frame, `reports`, and `unsolicited`
+    replies, which cannot be the answer.
+    """
+
+    def __init__(
+        self,
+        request: Message,
+        reply: str,
+        waited: float,
+        attempts: int = 1,
+        noise: int = 0,
+        reports: int = 0,
+        unsolicited: int = 0,
+    ) -> None:
+        super().__init__(request, reply, waited, attempts, noise, reports, unsolicited)
+        self.request = request
+        self.reply = reply
+        self.waited = waited
+        self.attempts = attempts
+        self.noise = noise
+        self.reports = reports
+        self.unsolicited = unsolicited
+
+    def __str__(self) -> str:
+        tries = f" to {self.attempts} requests" if self.attempts > 1 else ""
+        asked = f"no {self.reply} came within {self.waited:.3f} s{tries} of {self.request!r}"
+        return f"{asked}; {self._what_came()}"
+
+    def _what_came(self) -> str:
+        came: list[str] = []
+        if self.noise:
+            verb = "is" if self.noise == 1 else "are"
+            came.append(
+                f"{counted(self.noise, 'byte')} came that {verb} no frame: wrong baud rate?"
+            )
+        if self.unsolicited:
+            replies = counted(self.unsolicited, "reply", "replies")
+            came.append(f"{replies} came that cannot be the answer: late, or sent twice")
+        if self.reports:
+            came.append(f"{counted(self.reports, 'report')} came, so the device can be heard")
+        return "; ".join(came) or (
+            "nothing came at all: is the device switched on, and is this its port?"
+        )
+
+
+class IncompleteReplyError(ProtocolError):
+    """A reply told less than was asked.
+
+    `missing` is what was asked about and not told, `arrived` what was told (such as positions), and
+    `replies` the messages that told it.
+    """
+
+    def __init__(
+        self,
+        asked: str,
+        missing: Iterable[int],
+        replies: Iterable[Message],
+        arrived: Iterable[object],
+    ) -> None:
+        self.asked = asked
+        self.missing = tuple(missing)
+        self.replies = tuple(replies)
+        self.arrived = tuple(arrived)
+        super().__init__(asked, self.missing, self.replies, self.arrived)
+
+    def __str__(self) -> str:
+        missing = ", ".join(str(number) for number in self.missing)
+        return (
+            f"nothing was told of {self.asked} {missing}; "
+            f"what did arrive ({len(self.arrived)}) is kept in `arrived`"
+        )
+
+
+class AbsentError(IncompleteReplyError):
+    """Some of those that were to be held are switched off or missing, so that nothing was sent."""
+
+    def __str__(self) -> str:
+        missing = ", ".join(str(number) for number in self.missing)
+        return (
+            f"nothing was sent, since these are off or missing: {self.asked} {missing}; "
+            f"what did arrive ({len(self.arrived)}) is kept in `arrived`"
+        )
+
+
+class NoReportError(ProtocolError, TimeoutError):
+    """A report did not come. `report` is what was waited for, `waited` how many seconds.
+
+    `instead` has the reports that came in its place, and how often each of them did.
+    """
+
+    def __init__(
+        self, report: str, waited: float, instead: Mapping[Message, int] | None = None
+    ) -> None:
+        self.report = report
+        self.waited = waited
+        self.instead = {} if instead is None else dict(instead)
+        super().__init__(report, waited, self.instead)
+
+    def __str__(self) -> str:
+        came = [
+            f"{message!r}" if count == 1 else f"{count} times {message!r}"
+            for message, count in self.instead.items()
+        ]
+        # The latest tell most of what goes on now.
+        more = [f"{len(came) - _SHOWN} others"] if len(came) > _SHOWN else []
+        what = ", ".join([*more, *came[-_SHOWN:]]) or "no report at all"
+        return f"no {self.report} came within {self.waited:.3f} s; what came instead: {what}"

@@ -1,0 +1,48 @@
+"""How long a test waits for what must come, so that no machine that is slow or pauses fails it."""
+
+from __future__ import annotations
+
+import math
+import time
+from contextlib import contextmanager
+from typing import TYPE_CHECKING, TypedDict
+from unittest import mock
+
+from busservo._client import session
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterator
+
+# Far more than anything takes. What comes ends the wait, so that only a failure costs as much.
+GENEROUS = 60.0
+
+
+class Line(TypedDict):
+    """What a client is told of its line."""
+
+    reply_timeout: float
+    baud: float
+    settle: float
+
+
+# A board in this process or on this machine, behind no wire: it may be slow, and never too fast.
+LIVE: Line = {"reply_timeout": GENEROUS, "baud": math.inf, "settle": 0}
+
+
+def await_that(true: Callable[[], object]) -> None:
+    """Waits until something is true; fails when it takes too long."""
+    end = time.monotonic() + GENEROUS
+    while not true():
+        assert time.monotonic() < end, "it has not come true"
+        time.sleep(0.001)
+
+
+@contextmanager
+def undoubted() -> Iterator[None]:
+    """Where nobody else asks, and what answers does so once, no client need wait to be sure.
+
+    It waits a moment before it asks on a line that was opened just now, and before it believes what
+    came sooner than a wire could have carried it.
+    """
+    with mock.patch.object(session, "_LATENCY", 0.001):
+        yield
