@@ -838,7 +838,7 @@ def _rename_element(message: Data, name: str) -> None:
 @pytest.mark.parametrize("name", ["greenhouse", "kiln", "shapes", "bare"])
 def test_every_verb_of_a_library_has_help(many: Path, name: str) -> None:
     program = (
-        f"from {name}.cli import main; from {name}.cli.examples import VERBS; "
+        f"from {name}._cli import main; from {name}._cli.examples import VERBS; "
         "print([verb for verb in VERBS if verb != 'simulate' and main([verb, '--help'])])"
     )
     done = subprocess.run(
@@ -897,6 +897,12 @@ def test_the_libraries_are_clean(many: Path, words: tuple[str, ...], tmp_path: P
 def test_no_check_is_switched_off_in_the_generated_part(folder: Path) -> None:
     """In what templates made; the runtime is code like any other, and gives its reasons."""
     package = folder / "generated" / "greenhouse"
-    for name in ("__init__.py", "messages.py", "protocol.py", "direction.py", "strategies.py"):
+    for name in (
+        "__init__.py",
+        "messages.py",
+        "_frame/protocol.py",
+        "_frame/direction.py",
+        "strategies.py",
+    ):
         text = (package / name).read_text(encoding="utf-8")
         assert re.findall(r"#\s*(?:noqa|type:|pyright:|mypy:|fmt:|pragma)", text) == [], name

@@ -610,7 +610,7 @@ def _works(data: Data, folder: Path) -> None:
             }
             assert type(message)(**given_).encode() == frame
             assert {name: _plain(getattr(message, name)) for name in given_} == given_
-        for module in ("strategies", "cli"):
+        for module in ("strategies", "_cli"):
             __import__(f"{made.__name__}.{module}")
 
 

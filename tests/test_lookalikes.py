@@ -78,7 +78,7 @@ def test_the_generator_recognises_the_same(data: bytes, title: str) -> None:
 def test_another_protocol_has_look_alikes_of_its_own(tmp_path: Path) -> None:
     layout = layout_of(data_of(DEMO))
     with library(files_of(data_of(DEMO)), tmp_path) as made:
-        found = __import__(f"{made.__name__}.lookalikes", fromlist=["recognise"])
+        found = __import__(f"{made.__name__}._codec.lookalikes", fromlist=["recognise"])
         for data, title in examples(layout):
             assert found.recognise(data) == title
             assert found.recognise(data[:-1]) is None

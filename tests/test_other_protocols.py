@@ -76,7 +76,7 @@ def prose(text: str) -> Iterator[str]:
         # What is a name is code, such as that of a module in a table of modules.
         if isinstance(node, ast.Constant) and isinstance(node.value, str):
             lines = node.value.split("\n")
-            yield from [] if node.value == "controller" else lines
+            yield from [] if node.value == "_client.controller" else lines
     for token in tokenize.generate_tokens(io.StringIO(text).readline):
         if token.type == tokenize.COMMENT:
             yield token.string

@@ -261,8 +261,9 @@ def test_a_new_message_changes_what_shows_it() -> None:
     touched = changed(files(text), files(text[:where] + MESSAGE + text[where:]))
     pages = {"README.md", "examples.md", "messages/BuzzerBeep.md", "sequences.md"}
     modules = {
-        *("__init__.py", "messages.py", "strategies.py", "vectors.json", "exchanges.py"),
-        *("controller.py", "async_controller.py", "device.py"),
+        *("__init__.py", "messages.py", "strategies.py", "vectors.json"),
+        *(f"_client/{name}.py" for name in ("exchanges", "controller", "async_controller")),
+        "device.py",
     }
     assert touched == {f"docs/reference/busservo/{page}" for page in pages} | {
         f"generated/busservo/{module}" for module in modules
@@ -292,8 +293,8 @@ def test_a_new_named_value_changes_what_shows_it() -> None:
     assert changed(before, files(as_text(data))) == {
         "docs/reference/busservo/examples.md",
         "docs/reference/busservo/messages/ServoMove.md",
-        "generated/busservo/async_controller.py",
-        "generated/busservo/controller.py",
+        "generated/busservo/_client/async_controller.py",
+        "generated/busservo/_client/controller.py",
         "generated/busservo/messages.py",
     }
 
@@ -304,6 +305,6 @@ def test_a_new_version_changes_what_states_it() -> None:
     assert changed(files(text), files(later)) == {
         "docs/reference/busservo/README.md",
         "docs/reference/busservo/changelog.md",
-        "generated/busservo/protocol.py",
+        "generated/busservo/_frame/protocol.py",
         "generated/busservo/vectors.json",
     }

@@ -34,7 +34,7 @@ def test_a_report_in_front_of_the_commands_turns_nobody_round(data: Data) -> Non
     name = data["protocol"]["name"]
     before, after = files_of(data), files_of(moved)
     # What lists messages lists them in the order of the spec; what each end does is the same.
-    for file in ("controller", "async_controller", "direction"):
+    for file in ("_client/controller", "_client/async_controller", "_frame/direction"):
         path = f"generated/{name}/{file}.py"
         assert _without_banner(before[path]) == _without_banner(after[path]), path
 

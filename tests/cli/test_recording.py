@@ -237,7 +237,7 @@ def test_a_long_file_says_how_far_it_has_been_read(
 ) -> None:
     terminal = Terminal()
     monkeypatch.setattr(sys, "stderr", terminal)
-    monkeypatch.setattr(recording, "GENEROUS", 0.0)
+    monkeypatch.setattr(recording, "PROGRESS_INTERVAL", 0.0)
     monkeypatch.chdir(log.parent)
     log.write_text(CUT_OFF + 300_000 * "#\n")
     assert main(["decode", log.name]) == 0

@@ -24,7 +24,7 @@ def python_command(compiled: Compiled, folder: Path) -> list[str]:
     """Write the library to `folder`; the command that answers with it."""
     write_files(library_files(compiled), folder)
     name = compiled.spec.protocol.name
-    code = f"import sys; sys.path.insert(0, sys.argv.pop(1)); from {name}.cli import main; "
+    code = f"import sys; sys.path.insert(0, sys.argv.pop(1)); from {name}._cli import main; "
     return [sys.executable, "-c", f"{code}sys.exit(main())", str(folder / "generated"), "answer"]
 
 

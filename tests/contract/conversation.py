@@ -58,7 +58,7 @@ def converse(made: ModuleType, model: Model) -> None:
     """
     _both_ways(made, model)
     device = _device(made, model)
-    spent = made.protocol.BITS_PER_BYTE / made.protocol.BAUD
+    spent = made._frame.protocol.BITS_PER_BYTE / made._frame.protocol.BAUD
     line = Line(device, spent)
     # However slow the line is, and whatever is sent in front of a reply: it will come.
     patience = {"reply_timeout": 9e9, "clock": line.clock, "background": False}

@@ -134,7 +134,7 @@ def test_a_line_that_is_lost_while_it_is_looked_at_is_told_as_lost() -> None:
 @pytest.fixture
 def quick(monkeypatch: pytest.MonkeyPatch) -> None:
     """Nothing here is late, so nothing is waited for."""
-    monkeypatch.setattr(rate, "GENEROUS", 0.0)
+    monkeypatch.setattr(rate, "EXTRA_TIME", 0.0)
 
 
 def rate_of(port: str, **more: Any) -> Any:

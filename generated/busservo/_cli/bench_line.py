@@ -20,7 +20,7 @@ from .console import visible
 from .exit_codes import DONE, INTERRUPTED, NOT_ALL
 from .link import add_port, add_timeout, failures_told, open_client
 from .numerals import at_least
-from .progress import shown_progress
+from .progress_thread import shown_progress
 from .questions import exchange_named
 from .usage_error import UsageError
 from .values import fields_as_text, message_from_text

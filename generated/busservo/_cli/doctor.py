@@ -19,7 +19,7 @@ from .console import visible, write_as_it_is
 from .exit_codes import DONE, LINE_LOST, NOT_ALL
 from .link import add_port, add_timeout, failures_told, open_line
 from .numerals import at_least
-from .progress import shown_progress
+from .progress_thread import shown_progress
 from .usage_error import UsageError
 
 TYPE_CHECKING = False

@@ -18,7 +18,7 @@ from .console import visible
 from .examples import PROGRAM
 from .exit_codes import LINE_LOST, TERMINATED
 from .numerals import above_zero, at_least
-from .progress import shown_progress
+from .progress_thread import shown_progress
 from .usage_error import LineLostError, UsageError
 
 TYPE_CHECKING = False

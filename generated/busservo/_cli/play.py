@@ -18,7 +18,7 @@ from .link import add_port, add_timeout, failures_told, open_client
 from .numerals import at_least, from_zero, whole
 from .posefile import LONGEST_PAUSE, check_limits, read_poses
 from .positions import UNREAD, hold, in_options, listed, the_pose
-from .progress import shown_progress
+from .progress_thread import shown_progress
 from .usage_error import UsageError
 from .values import fields_as_text
 

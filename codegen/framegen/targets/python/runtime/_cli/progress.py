@@ -3,16 +3,11 @@
 from __future__ import annotations
 
 import os
-import sys
-import threading
-import time
-from contextlib import contextmanager
 
 from .console import visible, write_as_it_is
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator
     from typing import TextIO
 
 # How long a wait may be before it is worth a word, and how often the word changes.
@@ -53,33 +48,6 @@ class Progress:
     def _write(self, text: str) -> None:
         write_as_it_is(self._screen, text)
         self._screen.flush()
-
-
-@contextmanager
-def shown_progress(tell: Callable[[float], str]) -> Iterator[None]:
-    """Shows each second what `tell` says of the seconds so far, while the body of the `with` waits.
-
-    By a thread of its own: what waits there reads no clock of ours.
-    """
-    waiting = Progress(sys.stderr)
-    if not waiting.seen:
-        yield
-        return
-    ended = threading.Event()
-    began = time.monotonic()
-
-    def run() -> None:
-        while not ended.wait(PROGRESS_INTERVAL):
-            waiting.show(tell(time.monotonic() - began))
-
-    thread = threading.Thread(target=run, daemon=True)
-    thread.start()
-    try:
-        yield
-    finally:
-        ended.set()
-        thread.join()
-        waiting.clear()
 
 
 def _columns(screen: TextIO) -> int:

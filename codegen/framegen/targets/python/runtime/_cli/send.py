@@ -15,7 +15,7 @@ from .exit_codes import DONE, NOT_ALL
 from .limits import add_limits, limits_of, refused
 from .link import add_port, add_timeout, failures_told, open_client
 from .numerals import at_least
-from .progress import shown_progress
+from .progress_thread import shown_progress
 from .questions import in_parts
 from .usage_error import UsageError
 

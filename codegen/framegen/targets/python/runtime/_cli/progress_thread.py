@@ -1,0 +1,41 @@
+"""Progress shown by a thread of its own, for waits that read no clock of ours."""
+
+from __future__ import annotations
+
+import sys
+import threading
+import time
+from contextlib import contextmanager
+
+from .progress import PROGRESS_INTERVAL, Progress
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterator
+
+
+@contextmanager
+def shown_progress(tell: Callable[[float], str]) -> Iterator[None]:
+    """Shows each second what `tell` says of the seconds so far, while the body of the `with` waits.
+
+    By a thread of its own: what waits there reads no clock of ours.
+    """
+    waiting = Progress(sys.stderr)
+    if not waiting.seen:
+        yield
+        return
+    ended = threading.Event()
+    began = time.monotonic()
+
+    def run() -> None:
+        while not ended.wait(PROGRESS_INTERVAL):
+            waiting.show(tell(time.monotonic() - began))
+
+    thread = threading.Thread(target=run, daemon=True)
+    thread.start()
+    try:
+        yield
+    finally:
+        ended.set()
+        thread.join()
+        waiting.clear()
