@@ -72,7 +72,7 @@ class Board(Device):
         self.led_stays_on = False
         self.beeps = 0
         self._performance: Performance | None = None
-        self._deaf_until = 0.0
+        self._blackout_until = 0.0
 
     # ---------------------------------------------------------------- time
 
@@ -112,7 +112,7 @@ class Board(Device):
 
     def hear(self, data: bytes) -> None:
         """Takes in what arrived now, unless it is busy starting."""
-        if self.now >= self._deaf_until:
+        if self.now >= self._blackout_until:
             self.accept(data)
 
     def accepted(self, message: Message) -> None:
@@ -191,12 +191,12 @@ class Board(Device):
         self.send(ActionGroupStopped())
 
     def reboot(self, seconds: float) -> None:
-        """Switches it off and on: deaf for `seconds`, its speeds forgotten, and no group runs."""
+        """Switch it off and on: a startup blackout of `seconds`, after which no group runs."""
         self._log("board", f"restarts, for {seconds:g} s")
         self._performance = None
         self.speeds.clear()
         self.restart()
-        self._deaf_until = self.now + seconds
+        self._blackout_until = self.now + seconds
 
     # ---------------------------------------------------------------- details
 

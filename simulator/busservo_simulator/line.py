@@ -58,7 +58,7 @@ class Line:
         self._babble = b""
         self._babble_pause = 0.0
         self._babbles_at: float | None = None
-        self._deaf = False
+        self._ignores_input = False
 
     @property
     def faults(self) -> Faults:
@@ -129,9 +129,11 @@ class Line:
         self._waiting = b""
         self.board.reboot(seconds)
 
-    def babble(self, data: bytes, per_second: float, moment: float, *, deaf: bool) -> None:
+    def spurious_output(
+        self, data: bytes, per_second: float, moment: float, *, ignore_input: bool
+    ) -> None:
         """Sends `data` again and again; without any, ends that."""
-        self._deaf = deaf and bool(data)
+        self._ignores_input = ignore_input and bool(data)
         self._babble = data
         self._babble_pause = 1 / per_second
         self._babbles_at = moment if data else None
@@ -165,7 +167,7 @@ class Line:
         self.board.advance_to(moment)
         self._send_reports(moment)
         for data in self._to_board.take(moment):
-            if not self._deaf:
+            if not self._ignores_input:
                 self.board.hear(data)
                 self._send_reports(moment)
         while self._late and self._late[0][0] <= moment:

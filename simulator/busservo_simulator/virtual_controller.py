@@ -205,10 +205,14 @@ class VirtualController:
             self._line.send(data, self._moment)
         self._nudge()
 
-    def babble(self, data: bytes | None, per_second: float = 960, *, deaf: bool = True) -> None:
-        """Sends `data` again and again, and if `deaf` does nothing else; None ends that."""
+    def spurious_output(
+        self, data: bytes | None, per_second: float = 960, *, ignore_input: bool = True
+    ) -> None:
+        """Sends `data` again and again, and with `ignore_input` does nothing else; None ends that."""
         with self._changed:
-            self._line.babble(data or b"", per_second, self._moment, deaf=deaf)
+            self._line.spurious_output(
+                data or b"", per_second, self._moment, ignore_input=ignore_input
+            )
         self._nudge()
 
     def reboot(self, seconds: float = 1.0) -> None:

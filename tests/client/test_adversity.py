@@ -307,11 +307,11 @@ def test_a_board_that_sends_nonsense_alone_ends_in_an_error(
     board: VirtualController, nonsense: bytes
 ) -> None:
     with open_controller(board.port, reply_timeout=SHORT) as controller:
-        board.babble(nonsense, per_second=500)
+        board.spurious_output(nonsense, per_second=500)
         for _ in range(2):
             with bounded(), pytest.raises(NoReplyError):
                 controller.read_battery_voltage()
-        board.babble(None)
+        board.spurious_output(None)
         assert controller.request(BatteryVoltageRead(), retries=OFTEN) == BatteryVoltage(7500)
         assert controller.counters.noise
 
@@ -321,10 +321,10 @@ def test_a_board_that_sends_nonsense_alone_ends_in_an_error_with_asyncio(
 ) -> None:
     async def work() -> None:
         async with open_async_controller(board.port, reply_timeout=SHORT) as controller:
-            board.babble(b"\x55", per_second=500)
+            board.spurious_output(b"\x55", per_second=500)
             with bounded(), pytest.raises(NoReplyError):
                 await controller.read_battery_voltage()
-            board.babble(None)
+            board.spurious_output(None)
             answer = await controller.request(BatteryVoltageRead(), retries=OFTEN)
             assert answer == BatteryVoltage(7500)
 

@@ -158,10 +158,10 @@ def test_right_or_declared_and_in_bounded_time(
     st.lists(st.sampled_from([b"\x55", b"\x55\x55", b"\x55\x55\x15"]), max_size=40), st.booleans()
 )
 def test_a_board_that_sends_nothing_but_headers_ends_in_an_error(
-    babble: list[bytes], flood: bool
+    spurious: list[bytes], flood: bool
 ) -> None:
     line = VirtualLine()
-    for at, data in enumerate(babble):
+    for at, data in enumerate(spurious):
         line.say(data * (40 if flood else 1), 0.02 * at)
     client = Controller(line, reply_timeout=REPLY_TIMEOUT, background=False, clock=line.clock)
     with pytest.raises(NoReplyError) as caught:

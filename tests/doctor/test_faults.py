@@ -141,15 +141,15 @@ CASES = {
         },
     ),
     "as fast as can be, and said to be": Case(board={"baud": None}, given={"baud": math.inf}),
-    "babble": Case(
-        before=lambda board: board.babble(b"\x00\xf8", 20, deaf=False),
+    "spurious output": Case(
+        before=lambda board: board.spurious_output(b"\x00\xf8", 20, ignore_input=False),
         told={
             "silence": (FAILED, "bytes that are no frame came unasked", "see that the rate"),
             "reply": (FAILED, "answered with noise around it", "grounds"),
         },
     ),
-    "babble and nothing else": Case(
-        before=lambda board: board.babble(b"\x00\xf8", 20),
+    "spurious output and nothing else": Case(
+        before=lambda board: board.spurious_output(b"\x00\xf8", 20),
         told=NO_REPLY
         | {
             "silence": (FAILED, "bytes that are no frame came unasked", "see that the rate"),

@@ -29,14 +29,14 @@ OPTIONS = [
 ]
 
 
-def babbling(data: bytes) -> list[tuple[float, bytes]]:
+def spurious(data: bytes) -> list[tuple[float, bytes]]:
     return [(0.01 * at, bytes.fromhex("55 55 15") + data) for at in range(9)]
 
 
 DEVICES: dict[str, Callable[[], Answer]] = {
     "answers": lambda: by_the_reference(MODEL),
     "is silent": lambda: lambda _: [],
-    "babbles": lambda: babbling,
+    "sends spurious bytes": lambda: spurious,
 }
 
 
