@@ -208,7 +208,7 @@ class VirtualController:
     def spurious_output(
         self, data: bytes | None, per_second: float = 960, *, ignore_input: bool = True
     ) -> None:
-        """Sends `data` again and again, and with `ignore_input` does nothing else; None ends that."""
+        """Send `data` again and again, and with `ignore_input` do nothing else; None ends it."""
         with self._changed:
             self._line.spurious_output(
                 data or b"", per_second, self._moment, ignore_input=ignore_input
