@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Literal, TypeAlias
 
-from framegen.language.spec import ConstantPart, GroupField, IdPart, LengthPart
+from framegen.language.spec import ConstantPart, IdPart, LengthPart, ListField
 from framegen.language.values import Direction, to_hex
 from framegen.model.exchanges import method_of
 from framegen.model.slots import Number
@@ -200,7 +200,7 @@ def _fields(path: str, old: tuple[Number, ...], new: tuple[Number, ...]) -> Iter
     for field in new:
         here = f"{path}.{field.name}"
         if field.name not in before:
-            yield Difference("field-added", here, None, field.wire.name)
+            yield Difference("field-added", here, None, field.number_type.name)
             continue
         was = before[field.name]
         kind = "count-renamed" if field.role == "count" else "field-renamed"
@@ -209,7 +209,7 @@ def _fields(path: str, old: tuple[Number, ...], new: tuple[Number, ...]) -> Iter
     after = [field.name for field in new]
     for name, was in before.items():
         if name not in after:
-            yield Difference("field-removed", f"{path}.{was.name}", was.wire.name)
+            yield Difference("field-removed", f"{path}.{was.name}", was.number_type.name)
     kept = [name for name in before if name in after]
     order = [name for name in after if name in before]
     yield from _changed("field-order", path, ", ".join(kept), ", ".join(order))
@@ -262,8 +262,8 @@ def _pose(old: Pose | None, new: Pose | None) -> Iterator[Difference]:
 
 
 def _number(path: str, old: Number, new: Number) -> Iterator[Difference]:
-    if old.wire != new.wire:
-        yield Difference("field-type", f"{path}.type", old.wire.name, new.wire.name)
+    if old.number_type != new.number_type:
+        yield Difference("field-type", f"{path}.type", old.number_type.name, new.number_type.name)
     else:
         yield from _range(f"{path}.range", (old.low, old.high), (new.low, new.high))
     for name in ("unit", "scale"):
@@ -338,7 +338,7 @@ def _prose(message: Message) -> dict[object, object]:
     }
     for name, field in message.fields.items():
         said[name] = (field.about, field.notes, field.cite)
-        inner = field.fields if isinstance(field, GroupField) else {"": field}
+        inner = field.fields if isinstance(field, ListField) else {"": field}
         for key, number in inner.items():
             others = None if number.limits is None else number.limits.others
             said[name, key] = (number.about, number.notes, number.cite, others)
@@ -389,7 +389,8 @@ def _numbers(message: MessageLayout) -> tuple[Number, ...]:
 
 def _renamed_fields(old: tuple[Number, ...], new: tuple[Number, ...]) -> dict[str, str]:
     places = (
-        {field.name: (at, field.wire) for at, field in enumerate(each)} for each in (old, new)
+        {field.name: (at, field.number_type) for at, field in enumerate(each)}
+        for each in (old, new)
     )
     return _renamed(*places)
 
@@ -406,8 +407,8 @@ def _seen(way: Direction, ends: Mapping[str, str]) -> Direction:
 
 def _identity(message: MessageLayout, ends: Mapping[str, str]) -> object:
     """What makes two messages of different names the same: their frames."""
-    numbers = tuple(field.wire for field in _numbers(message))
-    listed = () if message.items is None else tuple(f.wire for f in message.items.fields)
+    numbers = tuple(field.number_type for field in _numbers(message))
+    listed = () if message.items is None else tuple(f.number_type for f in message.items.fields)
     return message.id, _seen(message.direction, ends), numbers, listed
 
 

@@ -8,9 +8,9 @@ from typing import TYPE_CHECKING
 from framegen.checks import check_model, check_structure
 from framegen.language.load import load
 from framegen.model.model import derive
+from framegen.pluralize import pluralize
 from framegen.reading.findings import in_order
 from framegen.reading.yamltree import Unusable
-from framegen.wording import counted
 
 if TYPE_CHECKING:
     from framegen.language.spec import Spec
@@ -42,7 +42,7 @@ class Compiled:
             name = self.source.name
             first = self.findings[0].render(self.source)
             raise Unusable(
-                f"{name} has {counted(len(self.findings), 'finding')}; the first is\n{first}",
+                f"{name} has {pluralize(len(self.findings), 'finding')}; the first is\n{first}",
                 hint=f"`framegen check {name}` shows them all",
             )
         return self.derived

@@ -80,14 +80,14 @@ def spoilt_slot(
     match slot.role:
         case "length" | "count":
             for step in -1, 1:
-                value = (slot.read(data) + step) % (slot.wire.high + 1)
+                value = (slot.read(data) + step) % (slot.number_type.high + 1)
                 yield f"the {slot.role} off by {step:+}", slot.write(value)
         case "id":
             unknown = unknown_id(model, message.direction)
             if unknown is not None:
                 yield "an unknown command", slot.write(unknown)
         case _:
-            if slot.high < slot.wire.high:
+            if slot.high < slot.number_type.high:
                 yield f"{placed.path} too high", slot.write(slot.high + 1)
-            if slot.low > slot.wire.low:
+            if slot.low > slot.number_type.low:
                 yield f"{placed.path} too low", slot.write(slot.low - 1)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from framegen.checks.rule import ModelRule, Problem
-from framegen.language.spec import GroupField
+from framegen.language.spec import ListField
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -21,7 +21,7 @@ def _look(model: Model) -> Iterator[Problem]:
         path = ("messages", name, "fields")
         numbers: dict[str, NumberField] = {}
         for field_name, field in message.fields.items():
-            if isinstance(field, GroupField):
+            if isinstance(field, ListField):
                 yield from _clashes((*path, field_name, "fields"), field.fields)
             else:
                 numbers[field_name] = field

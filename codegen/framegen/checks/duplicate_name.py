@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from framegen.checks.rule import Problem, StructureRule
-from framegen.language.spec import GroupField
+from framegen.language.spec import ListField
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -36,7 +36,7 @@ def _classes(spec: Spec) -> Iterator[tuple[KeyPath, str, bool]]:
         yield ("messages", name), name, True
     for name, message in spec.messages.items():
         for field_name, field in message.fields.items():
-            if isinstance(field, GroupField):
+            if isinstance(field, ListField):
                 path = ("messages", name, "fields", field_name, "element")
                 yield path, field.element, False
 

@@ -5,8 +5,8 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from framegen.checks.rule import Problem, StructureRule
-from framegen.language.spec import GroupField
-from framegen.language.wiretypes import WIRE_TYPES
+from framegen.language.number_types import NUMBER_TYPES
+from framegen.language.spec import ListField
 from framegen.model.exchanges import paths_of
 from framegen.reading.findings import did_you_mean
 
@@ -70,13 +70,16 @@ def _values(message: Message, path: str) -> tuple[int, int] | None:
     """The values that a field, or one of an element, may have; None where its type is unknown."""
     outer, _, inner = path.partition(".")
     field = message.fields[outer]
-    number = field.fields[inner] if isinstance(field, GroupField) else field
-    wire = WIRE_TYPES.get(number.type)
-    if wire is None:
+    number = field.fields[inner] if isinstance(field, ListField) else field
+    type_ = NUMBER_TYPES.get(number.type)
+    if type_ is None:
         return None
     declared = number.range
     high = None if declared is None else declared.high
-    return wire.low if declared is None else declared.low, wire.high if high is None else high
+    return (
+        type_.low if declared is None else declared.low,
+        type_.high if high is None else high,
+    )
 
 
 RULE = StructureRule(

@@ -91,7 +91,7 @@ def _swapped(path: KeyPath, frame: Any, said: Any, message: MessageLayout) -> bo
     number = message.numbers_by_path.get(name)
     if number is None or type(said) is not int or type(frame) is not int:
         return False
-    fits = number.wire.low <= said <= number.wire.high
+    fits = number.number_type.low <= said <= number.number_type.high
     return fits and number.read(number.write(said)[::-1]) == frame
 
 

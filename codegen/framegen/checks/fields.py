@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from framegen.language.spec import GroupField
+from framegen.language.spec import ListField
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -23,7 +23,7 @@ def numbers_of(path: KeyPath, message: Message) -> Iterator[tuple[KeyPath, Numbe
     """Walk along every number of the message at `path`."""
     for name, field in message.fields.items():
         here = (*path, "fields", name)
-        if not isinstance(field, GroupField):
+        if not isinstance(field, ListField):
             yield here, field
             continue
         for inner_name, inner in field.fields.items():
@@ -36,8 +36,8 @@ def owned_numbers(spec: Spec) -> Iterator[tuple[KeyPath, dict[str, NumberField]]
         path: KeyPath = ("messages", name, "fields")
         yield (
             path,
-            {key: each for key, each in message.fields.items() if not isinstance(each, GroupField)},
+            {key: each for key, each in message.fields.items() if not isinstance(each, ListField)},
         )
         for key, field in message.fields.items():
-            if isinstance(field, GroupField):
+            if isinstance(field, ListField):
                 yield (*path, key, "fields"), field.fields

@@ -5,8 +5,8 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from framegen.checks.rule import ModelRule, Problem
+from framegen.language.number_types import NUMBER_TYPES
 from framegen.language.spec import NumberField
-from framegen.language.wiretypes import WIRE_TYPES
 from framegen.model.exchanges import STEPS_PER_SECOND, arguments_of
 from framegen.reading.findings import did_you_mean
 
@@ -50,8 +50,8 @@ def _no_time(name: str, message: Message, lasts: str) -> tuple[str, str] | None:
         return f"`{lasts}` is a list, and not one time", did_you_mean(lasts, times)
     if field.unit not in STEPS_PER_SECOND:
         return f"`{lasts}` has no unit of time", f"give it {_UNITS}, or name another field"
-    wire = WIRE_TYPES.get(field.type)
-    lowest = field.range.low if field.range is not None else 0 if wire is None else wire.low
+    type_ = NUMBER_TYPES.get(field.type)
+    lowest = field.range.low if field.range is not None else 0 if type_ is None else type_.low
     if lowest < 0:
         what = f"`{lasts}` may be below zero, and no time is"
         return what, "take a type without a sign, or give it a `range` from 0 on"

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 from framegen.checks.fields import owned_numbers
 from framegen.checks.rule import Problem, StructureRule
-from framegen.language.spec import GroupField
+from framegen.language.spec import ListField
 from framegen.model.exchanges import snake_case
 
 if TYPE_CHECKING:
@@ -51,7 +51,7 @@ def _messages(spec: Spec) -> Iterator[Problem]:
         for key, field in message.fields.items():
             inside = (*here, "fields", key)
             yield from _name(inside, key, _OTHERS)
-            if isinstance(field, GroupField):
+            if isinstance(field, ListField):
                 yield from _class((*inside, "element"), field.element, on_key=False)
                 for inner in field.fields:
                     yield from _name((*inside, "fields", inner), inner, _OTHERS)

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 from framegen.checks.fields import numbers
 from framegen.checks.rule import Problem, StructureRule
-from framegen.language.wiretypes import WIRE_TYPES
+from framegen.language.number_types import NUMBER_TYPES
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -32,13 +32,13 @@ def _look(spec: Spec) -> Iterator[Problem]:
 
 
 def _outside(path: KeyPath, field: NumberField, name: str, value: int) -> Iterator[Problem]:
-    wire = WIRE_TYPES.get(field.type)
-    if wire is None:
+    type_ = NUMBER_TYPES.get(field.type)
+    if type_ is None:
         return
-    low, high = wire.low, wire.high
+    low, high = type_.low, type_.high
     if field.range is not None:
         low = field.range.low
-        high = wire.high if field.range.high is None else field.range.high
+        high = type_.high if field.range.high is None else field.range.high
     if not low <= value <= high:
         yield Problem(
             path, f"`{name}` is {value}, outside {low}..{high}", "widen the range or mend it"

@@ -5,8 +5,8 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from framegen.checks.rule import ModelRule, Problem
-from framegen.language.spec import GroupField, NumberField
-from framegen.language.wiretypes import WIRE_TYPES
+from framegen.language.number_types import NUMBER_TYPES
+from framegen.language.spec import ListField, NumberField
 from framegen.model.exchanges import arguments_of
 from framegen.reading.findings import did_you_mean
 
@@ -73,26 +73,26 @@ def _told(spec: Spec, read: Message, asked: str) -> list[str] | None:
     reply = None if read.reply is None else spec.messages.get(read.reply)
     name, _, inner = read.echoed.get(asked, "").partition(".")
     group = None if reply is None else reply.fields.get(name)
-    if not isinstance(group, GroupField):
+    if not isinstance(group, ListField):
         return None
     fields = list(group.fields)
     return fields if len(fields) == 2 and fields[0] == inner else None
 
 
-def _ids(pose: Pose, field: NumberField | GroupField) -> Iterator[Problem]:
-    wire = WIRE_TYPES.get(getattr(field, "type", ""))
+def _ids(pose: Pose, field: NumberField | ListField) -> Iterator[Problem]:
+    type_ = NUMBER_TYPES.get(getattr(field, "type", ""))
     low, high = pose.ids.low, pose.ids.high
     if high is None or low > high:
         what = f"the numbers {pose.ids} have no end, or one below their beginning"
         yield Problem(("pose", "ids"), what, "write both ends, like 1..253")
-    elif wire is not None and not wire.low <= low <= high <= wire.high:
-        what = f"{pose.ids} is more than {wire.low}..{wire.high}, which {wire.name} holds"
+    elif type_ is not None and not type_.low <= low <= high <= type_.high:
+        what = f"{pose.ids} is more than {type_.low}..{type_.high}, which {type_.name} holds"
         yield Problem(("pose", "ids"), what, "keep them inside the type")
 
 
 def _move(name: str, move: Message, told: list[str]) -> Iterator[Problem]:
     given = {key: move.fields[key] for key in arguments_of(move)}
-    groups = [field for field in given.values() if isinstance(field, GroupField)]
+    groups = [field for field in given.values() if isinstance(field, ListField)]
     if [list(group.fields) for group in groups] != [told]:
         what = f"{name} has no list of elements with the fields {' and '.join(told)}"
         yield Problem(("pose", "move"), what, "name them as the reply has them")

@@ -7,7 +7,7 @@ import sys
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from framegen.wording import counted
+from framegen.pluralize import pluralize
 
 if TYPE_CHECKING:
     from argparse import ArgumentParser, Namespace
@@ -68,4 +68,4 @@ def _summary(found: list[Difference]) -> str:
         f"{sum(difference.breaks == what for difference in found)} {words}"
         for what, words in (("wire", "break the wire"), ("programs", "break programs"))
     ]
-    return f"{counted(len(found), 'difference')}: {', '.join(counts)}"
+    return f"{pluralize(len(found), 'difference')}: {', '.join(counts)}"

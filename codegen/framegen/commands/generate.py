@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 from framegen.commands.output_arguments import add_force, add_spec
 from framegen.console import visible
-from framegen.wording import counted
+from framegen.pluralize import pluralize
 
 if TYPE_CHECKING:
     from argparse import ArgumentParser, Namespace
@@ -117,12 +117,12 @@ def _remark(found: Survey | Written) -> None:
     for path in found.strangers[:_NAMED]:
         _tell(f"left alone, for framegen did not write it: {visible(path)}")
     if len(found.strangers) > _NAMED:
-        _tell(f"left alone, too: {counted(len(found.strangers) - _NAMED, 'more file')}")
+        _tell(f"left alone, too: {pluralize(len(found.strangers) - _NAMED, 'more file')}")
 
 
 def _sum_up(outputs: Sequence[Output], specs: Sequence[Compiled], root: Path, what: str) -> None:
-    files = counted(sum(len(output.files) + 1 for output in outputs), "file")
-    source = specs[0].source.name if len(specs) == 1 else counted(len(specs), "spec")
+    files = pluralize(sum(len(output.files) + 1 for output in outputs), "file")
+    source = specs[0].source.name if len(specs) == 1 else pluralize(len(specs), "spec")
     # Paths are shown as they are below the root: so it is told where that is another folder.
     below = "" if os.path.realpath(root) == os.path.realpath(Path()) else f" below {_near(root)}"
     _tell(f"{files} from {source}{below}: {what}")

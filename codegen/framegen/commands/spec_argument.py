@@ -7,9 +7,9 @@ from typing import TYPE_CHECKING
 
 from framegen.compile import compile_spec
 from framegen.language.load import read_source
+from framegen.pluralize import pluralize
 from framegen.project import default_spec, named_spec
 from framegen.reading.yamltree import Unusable
-from framegen.wording import counted
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -42,6 +42,6 @@ def print_findings(specs: Sequence[Compiled]) -> bool:
             print(finding.render(spec.source) + "\n")
         if spec.findings:
             sys.stdout.flush()
-            found = counted(len(spec.findings), "finding")
+            found = pluralize(len(spec.findings), "finding")
             print(f"{found} in {spec.source.name}: nothing was written", file=sys.stderr)
     return any(spec.findings for spec in specs)

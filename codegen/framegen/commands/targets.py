@@ -5,7 +5,7 @@ from __future__ import annotations
 from textwrap import wrap
 from typing import TYPE_CHECKING
 
-from framegen.wording import counted
+from framegen.pluralize import pluralize
 
 if TYPE_CHECKING:
     from argparse import ArgumentParser, Namespace
@@ -65,7 +65,7 @@ def _listed(targets: list[Target], models: list[Model]) -> Iterator[str]:
         if folders:
             yield f"{'':<{width}}  all of {', '.join(f'{folder}/' for folder in folders)}"
         if taken:
-            yield f"{'':<{width}}  {counted(len(taken), 'word')} taken"
+            yield f"{'':<{width}}  {pluralize(len(taken), 'word')} taken"
 
 
 def _described(target: Target) -> Iterator[str]:

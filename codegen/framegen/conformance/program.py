@@ -18,8 +18,8 @@ from threading import Condition, Thread
 from typing import IO, TYPE_CHECKING, Any
 
 from framegen.conformance.language import END
+from framegen.pluralize import pluralize
 from framegen.reading.yamltree import Unusable
-from framegen.wording import counted
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -127,7 +127,7 @@ class _Running:
 
     def _why(self, timeout: float, lines: int, *, hangs: bool) -> str:
         """Say why no `end` came."""
-        after = f"after {counted(lines, 'line')}" if lines else "before it printed a line"
+        after = f"after {pluralize(lines, 'line')}" if lines else "before it printed a line"
         if self._heard.too_much:
             return f"it prints on and on: {self._heard.room} bytes without an `end`"
         if hangs:

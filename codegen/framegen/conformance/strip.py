@@ -12,7 +12,7 @@ from framegen.explain import seen_rows
 from framegen.explain_text import table
 from framegen.model.codec import Unencodable, encode
 from framegen.model.verdict import weigh, weigh_whole
-from framegen.wording import counted
+from framegen.pluralize import pluralize
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
@@ -77,7 +77,7 @@ def _answers(difference: Difference) -> Iterator[str]:
         rows.insert(0, ("reference", "", "nothing"))
     start = max(0, difference.at - _BEFORE)
     if start:
-        yield f"  ... {counted(start, 'line')} before, in which they agree"
+        yield f"  ... {pluralize(start, 'line')} before, in which they agree"
     for who, at, line in rows[start : start + _LINES]:
         cut = line if len(line) <= _WIDTH else f"{line[: _WIDTH - 3]}..."
         yield f"  {who:<9}  {at:>4}  {cut}".rstrip()

@@ -15,8 +15,8 @@ from pydantic import Field as Key
 from framegen.language.edition import LATEST, Edition
 from framegen.language.formula import Formula, parse_formula
 from framegen.language.notation import Notation, OneOf
+from framegen.language.number_types import NUMBER_TYPES
 from framegen.language.values import Citation, Direction, Method, Range, Scale, parse_hex
-from framegen.language.wiretypes import WIRE_TYPES
 
 Cite: TypeAlias = Annotated[Citation, Notation("a citation", "vendor, section 1.1", Citation.parse)]
 Hex: TypeAlias = Annotated[bytes, Notation("hex", "55 55 02 07", parse_hex)]
@@ -191,7 +191,7 @@ class Limits(Part):
 class NumberField(Part):
     """A number; with `counted_by`, a list of them."""
 
-    type: str = Key(description=f"The number type: {', '.join(WIRE_TYPES)}.")
+    type: str = Key(description=f"The number type: {', '.join(NUMBER_TYPES)}.")
     about: str = Key(description="What it is.")
     unit: str = Key("", description="The unit of one step, such as ms.")
     scale: Step | None = Key(None, description="What one step is in a larger unit.")
@@ -221,7 +221,7 @@ class NumberField(Part):
     )
 
 
-class GroupField(Part):
+class ListField(Part):
     """A list of elements that each have fields of their own."""
 
     element: str = Key(description="The name of one element's class.")
@@ -238,14 +238,14 @@ class GroupField(Part):
 
 
 def _kind_of_field(value: object) -> str:
-    group = isinstance(value, GroupField) or (
+    group = isinstance(value, ListField) or (
         isinstance(value, dict) and not value.keys().isdisjoint(("element", "fields"))
     )
     return "group" if group else "number"
 
 
 AnyField: TypeAlias = Annotated[
-    Annotated[GroupField, Tag("group")] | Annotated[NumberField, Tag("number")],
+    Annotated[ListField, Tag("group")] | Annotated[NumberField, Tag("number")],
     Discriminator(_kind_of_field),
 ]
 

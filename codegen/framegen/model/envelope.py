@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING
 
+from framegen.language.number_types import NUMBER_TYPES
 from framegen.language.spec import (
     BodyPart,
     ChecksumPart,
@@ -13,7 +14,6 @@ from framegen.language.spec import (
     LengthPart,
     NumberField,
 )
-from framegen.language.wiretypes import WIRE_TYPES
 from framegen.model.slots import Body, Constant, Number, Placed, lay_out
 
 if TYPE_CHECKING:
@@ -142,11 +142,11 @@ def _number(
     elif isinstance(part, ChecksumPart):
         of = tuple(part.covers)
     field = NumberField.model_validate({"type": part.type, "about": part.about})
-    return Number(name, part.is_, at, WIRE_TYPES[part.type], order, field, of)
+    return Number(name, part.is_, at, NUMBER_TYPES[part.type], order, field, of)
 
 
 def _size_of(part: FramePart) -> int:
     """How many bytes a part of a frame has; 0 for the body, whose size varies."""
     if isinstance(part, ConstantPart):
         return len(part.bytes_)
-    return 0 if isinstance(part, BodyPart) else WIRE_TYPES[part.type].size
+    return 0 if isinstance(part, BodyPart) else NUMBER_TYPES[part.type].size

@@ -6,7 +6,7 @@ import re
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from framegen.language.spec import GroupField
+from framegen.language.spec import ListField
 from framegen.language.values import Method
 
 if TYPE_CHECKING:
@@ -94,7 +94,7 @@ def paths_of(message: Message) -> dict[str, bool]:
     paths: dict[str, bool] = {}
     for name in arguments_of(message):
         field = message.fields[name]
-        if isinstance(field, GroupField):
+        if isinstance(field, ListField):
             paths |= {f"{name}.{inner}": True for inner in field.fields}
         else:
             paths[name] = field.counted_by is not None

@@ -8,7 +8,7 @@ from functools import partial
 from typing import TYPE_CHECKING, Any
 
 from framegen.language.formula import Formula, parse_formula
-from framegen.language.spec import GroupField
+from framegen.language.spec import ListField
 from framegen.model.codec import decode
 from framegen.model.slots import Number
 from framegen.reading.findings import did_you_mean
@@ -108,7 +108,7 @@ def _require_field(message: Message, name: str, path: str) -> None:
     outer, _, inner = path.partition(".")
     field = message.fields.get(outer)
     known = list(message.fields)
-    if inner and isinstance(field, GroupField):
+    if inner and isinstance(field, ListField):
         known = [f"{outer}.{each}" for each in field.fields]
     if field is None or (inner and path not in known):
         raise NoSuchFact("field", f"{name} has no field `{path}`", did_you_mean(path, known))

@@ -12,8 +12,8 @@ from functools import cached_property
 from typing import TYPE_CHECKING
 
 from framegen.language.formula import Formula
-from framegen.language.spec import GroupField
-from framegen.language.wiretypes import WIRE_TYPES
+from framegen.language.number_types import NUMBER_TYPES
+from framegen.language.spec import ListField
 from framegen.model.slots import Body, Constant, Items, Number, lay_out
 
 if TYPE_CHECKING:
@@ -164,14 +164,14 @@ def _fields(spec: Spec, frame: Envelope, message: Message) -> Iterator[MessageSl
     at = frame.body_at
     behind = sum(slot.size for slot in frame.tail)
     for name, field in message.fields.items():
-        if field.counted_by is None and not isinstance(field, GroupField):
+        if field.counted_by is None and not isinstance(field, ListField):
             role: NumberRole = "count" if name in counters else "field"
-            wire = WIRE_TYPES[field.type]
-            numbers[name] = Number(name, role, at, wire, spec.byte_order, field)
+            number_type = NUMBER_TYPES[field.type]
+            numbers[name] = Number(name, role, at, number_type, spec.byte_order, field)
             yield numbers[name]
-            at += wire.size
+            at += number_type.size
             continue
-        element = field.element if isinstance(field, GroupField) else None
+        element = field.element if isinstance(field, ListField) else None
         fields = tuple(_element(spec, name, field))
         counter = numbers[str(field.counted_by)]
         fixed = at + behind - frame.uncounted
@@ -179,17 +179,17 @@ def _fields(spec: Spec, frame: Envelope, message: Message) -> Iterator[MessageSl
         yield Items(name, at, element, fields, counter, low, high, field)
 
 
-def _element(spec: Spec, name: str, field: GroupField | NumberField) -> Iterator[Number]:
+def _element(spec: Spec, name: str, field: ListField | NumberField) -> Iterator[Number]:
     at = 0
-    inner = field.fields if isinstance(field, GroupField) else {name: field}
+    inner = field.fields if isinstance(field, ListField) else {name: field}
     for each, number in inner.items():
-        yield Number(each, "field", at, WIRE_TYPES[number.type], spec.byte_order, number)
-        at += WIRE_TYPES[number.type].size
+        yield Number(each, "field", at, NUMBER_TYPES[number.type], spec.byte_order, number)
+        at += NUMBER_TYPES[number.type].size
 
 
 def _count_bounds(
     frame: Envelope,
-    field: GroupField | NumberField,
+    field: ListField | NumberField,
     counter: Number,
     constant: int,
     size: int,

@@ -62,6 +62,6 @@ def _fits(placed: Placed, parts: dict[str, Placed], data: bytes) -> bool:
             return slot.read(found) == sum(parts[name].size for name in slot.of)
         case "checksum":
             total = sum(sum(parts[name].of(data)) for name in slot.of)
-            return slot.read(found) == ~total & slot.wire.high
+            return slot.read(found) == ~total & slot.number_type.high
         case _:
             return True

@@ -15,8 +15,8 @@ from typing import TYPE_CHECKING, ClassVar, Literal, TypeAlias
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator
 
-    from framegen.language.spec import GroupField, NumberField
-    from framegen.language.wiretypes import WireType
+    from framegen.language.number_types import NumberType
+    from framegen.language.spec import ListField, NumberField
 
 ByteOrder: TypeAlias = Literal["little", "big"]
 
@@ -52,7 +52,7 @@ class Number:
     name: str
     role: NumberRole
     at: int
-    wire: WireType
+    number_type: NumberType
     order: ByteOrder
     field: NumberField
     of: tuple[str, ...] = ()
@@ -60,23 +60,23 @@ class Number:
     @property
     def size(self) -> int:
         """How many bytes it has."""
-        return self.wire.size
+        return self.number_type.size
 
     @cached_property
     def low(self) -> int:
         """The lowest value allowed."""
-        return self.wire.low if self.field.range is None else self.field.range.low
+        return self.number_type.low if self.field.range is None else self.field.range.low
 
     @cached_property
     def high(self) -> int:
         """The highest value allowed."""
         declared = self.field.range
-        return self.wire.high if declared is None or declared.high is None else declared.high
+        return self.number_type.high if declared is None or declared.high is None else declared.high
 
     @property
     def narrowed(self) -> bool:
         """Whether fewer values are allowed than the type holds."""
-        return (self.low, self.high) != (self.wire.low, self.wire.high)
+        return (self.low, self.high) != (self.number_type.low, self.number_type.high)
 
     @property
     def is_field(self) -> bool:
@@ -90,7 +90,7 @@ class Number:
 
     def read(self, data: bytes) -> int:
         """Read it from its bytes."""
-        return int.from_bytes(data, self.order, signed=self.wire.low < 0)
+        return int.from_bytes(data, self.order, signed=self.number_type.low < 0)
 
     def read_in(self, frame: bytes) -> int:
         """Read it where it stands in `frame`, which has all of it."""
@@ -103,7 +103,7 @@ class Number:
 
     def write(self, value: int) -> bytes:
         """Make the bytes that stand for `value`. OverflowError where they do not hold it."""
-        return value.to_bytes(self.size, self.order, signed=self.wire.low < 0)
+        return value.to_bytes(self.size, self.order, signed=self.number_type.low < 0)
 
 
 @dataclass(frozen=True)
@@ -122,7 +122,7 @@ class Items:
     counter: Number
     low: int
     high: int
-    field: GroupField | NumberField
+    field: ListField | NumberField
 
     @cached_property
     def size(self) -> int:

@@ -12,7 +12,7 @@ from itertools import islice
 from typing import TYPE_CHECKING
 
 from framegen.model.slots import Constant, Number
-from framegen.wording import describe_range
+from framegen.pluralize import describe_range
 
 if TYPE_CHECKING:
     from collections.abc import Sequence

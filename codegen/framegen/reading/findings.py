@@ -7,8 +7,8 @@ from dataclasses import dataclass
 from difflib import get_close_matches
 from typing import TYPE_CHECKING
 
+from framegen.pluralize import pluralize
 from framegen.reading.text import shown
-from framegen.wording import counted
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator
@@ -68,7 +68,7 @@ def in_order(findings: Iterable[Finding]) -> list[Finding]:
     unique = sorted(dict.fromkeys(findings), key=lambda f: (f.span, f.rule, f.message))
     told, more = unique[:MOST_FINDINGS], unique[MOST_FINDINGS:]
     if more:
-        message = f"not shown: {counted(len(more), 'finding')} from here down"
+        message = f"not shown: {pluralize(len(more), 'finding')} from here down"
         hint = "mend those above, and check again"
         told.append(Finding("many-findings", more[0].span, more[0].path, message, hint))
     return told

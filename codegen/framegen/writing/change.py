@@ -8,7 +8,7 @@ from io import StringIO
 from typing import TYPE_CHECKING, Literal
 
 from framegen.console import visible
-from framegen.wording import counted
+from framegen.pluralize import pluralize
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -49,5 +49,5 @@ def describe(found: Sequence[Change]) -> str:
     """Say what stands in the way, a line each; of many, how many more there are."""
     lines = [f"{change.why}: {visible(change.path)}" for change in found[:_NAMED]]
     if len(found) > len(lines):
-        lines.append(f"and {counted(len(found) - len(lines), 'more file')}")
+        lines.append(f"and {pluralize(len(found) - len(lines), 'more file')}")
     return "\n".join(f"  {line}" for line in lines)

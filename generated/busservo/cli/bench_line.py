@@ -12,9 +12,9 @@ from ..errors import EncodeError
 from ..exchanges import EXCHANGES
 from ..link_errors import NoReplyError
 from ..long_question import left_out
+from ..pluralize import pluralize
 from ..protocol import BAUD
 from ..wire import Wire
-from ..wording import counted
 from . import link
 from .console import visible
 from .exits import DONE, INTERRUPTED, NOT_ALL
@@ -185,10 +185,10 @@ class Trips:
                 f"  rate            {rate}{hint}",
             ]
         if self._unsolicited:
-            slips = counted(self._unsolicited, "reply", "replies")
+            slips = pluralize(self._unsolicited, "reply", "replies")
             lines.append(f"  slips           {slips} to nothing, sent twice or too late: dropped")
         if self._impossible:
-            early = counted(self._impossible, "question")
+            early = pluralize(self._impossible, "question")
             lines.append(
                 f"  too soon        {early} had a reply that no such wire can have carried"
             )

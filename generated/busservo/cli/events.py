@@ -8,10 +8,10 @@ import json
 from ..codec import table_for
 from ..noise import Noise, UnknownFrame
 from ..octets import spaced
+from ..pluralize import pluralize
 from ..recording_entry import SENDERS
 from ..recording_file import EITHER, NOISE
 from ..twins import twins
-from ..wording import counted
 from .values import fields_as_text, fields_in_json
 
 TYPE_CHECKING = False
@@ -84,10 +84,10 @@ def in_json(event: Message | Noise, direction: Direction | None) -> str:
 def totals(seen: Counters) -> str:
     """What a decoder has seen."""
     unknown = (
-        f", {counted(seen.unknown_frames, 'unknown frame')} in it" if seen.unknown_frames else ""
+        f", {pluralize(seen.unknown_frames, 'unknown frame')} in it" if seen.unknown_frames else ""
     )
-    told = f"{counted(seen.fed, 'byte')}: {counted(seen.messages, 'message')}"
-    return f"{told}, {counted(seen.noise, 'byte')} of noise{unknown}"
+    told = f"{pluralize(seen.fed, 'byte')}: {pluralize(seen.messages, 'message')}"
+    return f"{told}, {pluralize(seen.noise, 'byte')} of noise{unknown}"
 
 
 def _why(noise: Noise, direction: Direction | None) -> str:

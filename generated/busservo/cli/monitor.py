@@ -12,9 +12,9 @@ from ..careful_decoder import GAP
 from ..decoder import StreamDecoder
 from ..exchanges import RECEIVED
 from ..messages import MESSAGES
+from ..pluralize import pluralize
 from ..recording_entry import SENDERS
 from ..recording_file import EITHER, NOISE
-from ..wording import counted
 from . import link
 from .encode import message_named
 from .events import KINDS, UNKNOWN, names_of, sender_of, totals
@@ -185,7 +185,7 @@ class Monitor:
         return f"nothing to show for {waited:.0f} s (Ctrl-C ends); {totals(seen)}"
 
     def _totals(self) -> str:
-        filtered = f"; {counted(self._lines.count, 'line')} shown"
+        filtered = f"; {pluralize(self._lines.count, 'line')} shown"
         return totals(self._decoder.counters) + (filtered if self._only or self._hidden else "")
 
 

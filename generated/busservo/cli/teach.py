@@ -8,7 +8,7 @@ import sys
 from pathlib import Path
 
 from ..link_errors import NoReplyError
-from ..wording import counted
+from ..pluralize import pluralize
 from . import link
 from .examples import PROGRAM
 from .exits import DONE, INTERRUPTED, NOT_ALL
@@ -123,7 +123,7 @@ class _Lesson:
             return INTERRUPTED
         finally:
             recorded = len(self._poses) - self._before
-            print(f"{counted(recorded, 'pose')} recorded; {left}", file=sys.stderr)
+            print(f"{pluralize(recorded, 'pose')} recorded; {left}", file=sys.stderr)
             if recorded:
                 told = f"`{PROGRAM} play {self._path} --dry-run` shows what would be sent"
                 print(told, file=sys.stderr)

@@ -9,7 +9,7 @@ from framegen.conformance.device.step import Malformed, data_of, excess, request
 from framegen.language.values import to_hex
 from framegen.model.codec import values_of
 from framegen.model.verdict import weigh
-from framegen.wording import counted
+from framegen.pluralize import pluralize
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
@@ -167,7 +167,7 @@ class _Judge:
         self.noise.append(received)
         shown = to_hex(data[:_SHOWN]) + (" ..." if len(data) > _SHOWN else "")
         kind = "unknown frame" if event.kind == "unknown" else f"noise, {event.reason}"
-        self.found.notes.append(f"{kind}: {counted(len(data), 'byte')}, {shown}")
+        self.found.notes.append(f"{kind}: {pluralize(len(data), 'byte')}, {shown}")
 
     def _missing(self, request: Request, limit: float) -> None:
         name = "" if request.reply is None else request.reply.name
@@ -177,7 +177,7 @@ class _Judge:
             self._fault("no frame", f"{waited}; what came is none: {broken}")
         elif self.noise:
             size = sum(len(each.event.data) for each in self.noise)
-            problem = f"{counted(size, 'byte')} came without any header: is the baud rate right?"
+            problem = f"{pluralize(size, 'byte')} came without any header: is the baud rate right?"
             self._fault("silence", f"{waited}; {problem}")
         else:
             self._fault("silence", waited)

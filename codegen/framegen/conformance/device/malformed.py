@@ -107,7 +107,7 @@ def _numbers(request: Request) -> Iterator[tuple[Placed, Number]]:
 
 def _with(request: Request, placed: Placed, slot: Number, value: int) -> Iterator[bytes]:
     """The frame with another value in one place, where there is room for it."""
-    if slot.wire.low <= value <= slot.wire.high:
+    if slot.number_type.low <= value <= slot.number_type.high:
         yield request.frame[: placed.at] + slot.write(value) + request.frame[placed.end :]
 
 

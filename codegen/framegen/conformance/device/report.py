@@ -10,7 +10,7 @@ from framegen.conformance.language import fields
 from framegen.language.values import to_hex
 from framegen.model.codec import values_of
 from framegen.model.verdict import weigh
-from framegen.wording import counted
+from framegen.pluralize import pluralize
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator
@@ -121,7 +121,7 @@ def closing(report: Report) -> Iterator[str]:
         yield f"stopped: {report.stopped}"
     passed = len(tried) - len(failed)
     skipped = len(report.results) - len(tried)
-    yield f"{passed} of {counted(len(tried), 'step')} passed" + (
+    yield f"{passed} of {pluralize(len(tried), 'step')} passed" + (
         f", {skipped} skipped" if skipped else ""
     )
 

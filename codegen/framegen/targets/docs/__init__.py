@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from framegen.targets.docs.markdown_pages import markdown_files
 from framegen.targets.docs.site import SiteView
-from framegen.targets.docs.twin import markdown_files
 from framegen.targets.filenames import file_stem
 from framegen.targets.target import Comment, Target
 

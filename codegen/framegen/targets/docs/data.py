@@ -93,7 +93,7 @@ def _number(number: Number) -> dict[str, Any]:
     said, scale = number.field, number.field.scale
     return {
         "order": number.order,
-        "signed": number.wire.low < 0,
+        "signed": number.number_type.low < 0,
         "low": number.low,
         "high": number.high,
         "unit": said.unit,

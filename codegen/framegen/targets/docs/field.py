@@ -13,7 +13,7 @@ from framegen.targets.docs.strip import place_in_each
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from framegen.language.spec import GroupField
+    from framegen.language.spec import ListField
     from framegen.model.layout import MessageLayout
     from framegen.model.model import Model
     from framegen.model.slots import Number
@@ -102,14 +102,14 @@ class _Maker:
             path,
             offset,
             key,
-            field.wire.name,
+            field.number_type.name,
             bounds,
             derived=field.role == "count",
         )
 
     def view(
         self,
-        field: NumberField | GroupField,
+        field: NumberField | ListField,
         path: str,
         offset: str,
         key: KeyPath,
@@ -146,7 +146,7 @@ class _Maker:
         )
 
 
-def _beside(name: str, field: NumberField | GroupField) -> list[str]:
+def _beside(name: str, field: NumberField | ListField) -> list[str]:
     """What the library makes of a number besides the number itself."""
     if not isinstance(field, NumberField):
         return []

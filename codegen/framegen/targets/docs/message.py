@@ -6,15 +6,15 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING
 
+from framegen.pluralize import describe_range
 from framegen.targets.docs.address import message_page
 from framegen.targets.docs.cite import CiteView, Place, cite_view
 from framegen.targets.docs.drawing import Drawing, drawing
 from framegen.targets.docs.escape import paragraphs
-from framegen.targets.docs.exchange import ExampleView, example_views
+from framegen.targets.docs.examples import ExampleView, example_views
 from framegen.targets.docs.field import FieldView, field_views
 from framegen.targets.docs.strip import Cell, pattern_strip
 from framegen.targets.docs.timing import milliseconds
-from framegen.wording import describe_range
 
 if TYPE_CHECKING:
     from framegen.language.spec import Message
@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True)
-class MessageView:
+class MessagePage:
     """The facts of one message, each ready to be shown."""
 
     model: Model
@@ -47,14 +47,14 @@ class MessageView:
         return message_page(self.name)
 
     @property
-    def code(self) -> int:
-        """Its code."""
+    def id(self) -> int:
+        """The id of the message."""
         return self.layout.id
 
     @property
     def hex(self) -> str:
-        """Its code in hex, as wide as the frame has it."""
-        return f"0x{self.code:0{2 * self.layout.frame.id.size}X}"
+        """Its id in hex, as wide as the frame has it."""
+        return f"0x{self.id:0{2 * self.layout.frame.id.size}X}"
 
     @property
     def direction(self) -> str:
@@ -132,7 +132,7 @@ class MessageView:
 
     @property
     def parameters(self) -> list[Cell]:
-        """Of those cells, the ones between the code and the end."""
+        """Of those cells, the ones between the id and the end."""
         return [cell for cell in self.cells if cell.role in ("field", "count", "repeated")]
 
     @cached_property
@@ -172,7 +172,7 @@ class MessageView:
         ).lower()
 
     @property
-    def codes(self) -> str:
-        """Its code in every way that people write it."""
+    def id_spellings(self) -> str:
+        """Its id in every way that people write it."""
         digits = self.hex.removeprefix("0x").lower()
-        return " ".join(dict.fromkeys([str(self.code), digits, f"0x{digits}", f"0x{self.code:x}"]))
+        return " ".join(dict.fromkeys([str(self.id), digits, f"0x{digits}", f"0x{self.id:x}"]))

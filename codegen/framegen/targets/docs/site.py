@@ -8,21 +8,21 @@ from typing import TYPE_CHECKING
 
 from framegen.targets.docs.cite import CiteView, cite_view
 from framegen.targets.docs.drawing import Drawing, interruption
+from framegen.targets.docs.errata import ErratumView, UnknownView, erratum_views, unknown_views
 from framegen.targets.docs.escape import paragraphs
-from framegen.targets.docs.exchange import Exchange, exchanges
-from framegen.targets.docs.lessons import Lesson, lessons
-from framegen.targets.docs.listing import Line, listing
-from framegen.targets.docs.message import MessageView
-from framegen.targets.docs.quirks import (
-    ErratumView,
-    LookalikeView,
-    UnknownView,
-    erratum_views,
-    lookalike_views,
-    unknown_views,
-)
+from framegen.targets.docs.examples import ExampleSequence, example_sequences
+from framegen.targets.docs.lookalikes import LookalikeEntry, lookalike_views
+from framegen.targets.docs.message import MessagePage
+from framegen.targets.docs.spec_listing import SpecLine, listing
+from framegen.targets.docs.stream_examples import StreamExample, stream_examples
 from framegen.targets.docs.strip import Cell, parts_strip
-from framegen.targets.docs.timing import RoundTrip, Timing, bytes_a_second, round_trips, timings
+from framegen.targets.docs.timing import (
+    FrameTiming,
+    RoundTrip,
+    bytes_a_second,
+    round_trips,
+    timings,
+)
 from framegen.targets.filenames import file_stem
 
 if TYPE_CHECKING:
@@ -44,8 +44,8 @@ class PageView:
     title: str
     label: str
     scripts: tuple[str, ...] = ("page",)
-    twin: bool = True
-    message: MessageView | None = None
+    in_markdown: bool = True
+    message: MessagePage | None = None
 
     @property
     def html(self) -> str:
@@ -79,7 +79,7 @@ class HidBoardView:
 
 @dataclass(frozen=True, slots=True)
 class ReservedView:
-    """A code that must not be used, and why."""
+    """An id that must not be used, and why."""
 
     said: Reserved
     cite: CiteView | None
@@ -181,21 +181,21 @@ class SiteView:
 
     @property
     def id_name(self) -> str:
-        """What the code is called."""
+        """The name of the id: `command`, say."""
         return self.model.frame.id.name
 
     @cached_property
-    def messages(self) -> list[MessageView]:
+    def messages(self) -> list[MessagePage]:
         """Every message, in the order of the spec."""
         return [
-            MessageView(self.model, message, self.snippets)
+            MessagePage(self.model, message, self.snippets)
             for message in self.model.messages.values()
         ]
 
     @cached_property
-    def by_code(self) -> list[MessageView]:
-        """Every message, by code; where two share one, in the order of the spec."""
-        return sorted(self.messages, key=lambda message: message.code)
+    def by_id(self) -> list[MessagePage]:
+        """Every message, by id; where two share one, in the order of the spec."""
+        return sorted(self.messages, key=lambda message: message.id)
 
     @cached_property
     def addresses(self) -> dict[str, str]:
@@ -203,14 +203,14 @@ class SiteView:
         return {message.name: f"{message.page}.html" for message in self.messages}
 
     @cached_property
-    def exchanges(self) -> list[Exchange]:
+    def example_sequences(self) -> list[ExampleSequence]:
         """Every documented frame, requests with what comes back."""
-        return exchanges(self.model)
+        return example_sequences(self.model)
 
     @cached_property
-    def lessons(self) -> list[Lesson]:
+    def stream_examples(self) -> list[StreamExample]:
         """How a stream is decoded."""
-        return lessons(self.model)
+        return stream_examples(self.model)
 
     @property
     def drawings(self) -> list[Drawing]:
@@ -226,7 +226,7 @@ class SiteView:
         return [message.name for message in self.messages if message.silent]
 
     @property
-    def timings(self) -> list[Timing]:
+    def timings(self) -> list[FrameTiming]:
         """What each message costs."""
         return timings(self.model)
 
@@ -246,13 +246,13 @@ class SiteView:
         return unknown_views(self.model)
 
     @cached_property
-    def lookalikes(self) -> list[LookalikeView]:
+    def lookalikes(self) -> list[LookalikeEntry]:
         """Protocols easily taken for this one."""
         return lookalike_views(self.model)
 
     @property
     def reserved(self) -> list[ReservedView]:
-        """Codes and names that are kept free."""
+        """Ids and names that are kept free."""
         spec = self.model.spec
         return [
             ReservedView(
@@ -267,7 +267,7 @@ class SiteView:
         return self.model.spec.history[::-1]
 
     @property
-    def listing(self) -> list[Line]:
+    def listing(self) -> list[SpecLine]:
         """The spec itself."""
         return listing(self.compiled.source, self.compiled.tree)
 
@@ -279,14 +279,16 @@ class SiteView:
         return [
             PageView("index", "index", self.protocol.title, "Frames"),
             PageView("examples", "examples", "Examples, byte by byte", "Examples"),
-            PageView("decoder", "decoder", "Decoder and encoder", "Decoder", decoder, twin=False),
+            PageView(
+                "decoder", "decoder", "Decoder and encoder", "Decoder", decoder, in_markdown=False
+            ),
             PageView("stream", "stream", "How the stream is decoded", "Stream"),
             PageView("sequences", "sequences", "Sequences and timing", "Sequences"),
             PageView("errata", "errata", "Errata and unknowns", "Errata"),
             PageView("lookalikes", "lookalikes", "Is this your protocol?", "Look-alikes"),
-            PageView("cheatsheet", "cheatsheet", "Cheat sheet", "Cheat sheet", twin=False),
+            PageView("cheatsheet", "cheatsheet", "Cheat sheet", "Cheat sheet", in_markdown=False),
             PageView("changelog", "changelog", "Changelog", "Changelog"),
-            PageView("spec", "spec", "The spec", "Spec", (), twin=False),
+            PageView("spec", "spec", "The spec", "Spec", (), in_markdown=False),
         ]
 
     @cached_property

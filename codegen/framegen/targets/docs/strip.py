@@ -65,13 +65,15 @@ def _pattern(message: MessageLayout, slot: Constant | Number) -> Cell:
             data = to_hex(slot.write(message.lengths[0])) if fixed else _dots(slot.size)
             value = str(message.formula)
         case _:
-            data, value = _dots(slot.size), slot.wire.name
+            data, value = _dots(slot.size), slot.number_type.name
     return Cell(_place(slot), data, slot.name, value, slot.role)
 
 
 def _in_each(items: Items, field: Number) -> Cell:
     offset = place_in_each(items, field.at)
-    return Cell(offset, _dots(field.size), items.path("i", field), field.wire.name, "repeated")
+    return Cell(
+        offset, _dots(field.size), items.path("i", field), field.number_type.name, "repeated"
+    )
 
 
 def place_in_each(items: Items, at: int = 0) -> str:

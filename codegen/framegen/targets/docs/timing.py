@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from framegen.wording import counted
+from framegen.pluralize import pluralize
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True, slots=True)
-class Timing:
+class FrameTiming:
     """One size of a message: what it holds, its bytes, and what they cost."""
 
     message: str
@@ -48,7 +48,7 @@ def bytes_a_second(model: Model) -> str:
     return _trimmed(link.baud / link.bits_per_byte)
 
 
-def timings(model: Model) -> list[Timing]:
+def timings(model: Model) -> list[FrameTiming]:
     """Every message at its smallest, as its examples have it, and at its largest."""
     return [
         _timing(message, count) for message in model.messages.values() for count in _sizes(message)
@@ -76,11 +76,11 @@ def _trips(model: Model, request: MessageLayout) -> Iterator[RoundTrip]:
         )
 
 
-def _timing(message: MessageLayout, count: int) -> Timing:
+def _timing(message: MessageLayout, count: int) -> FrameTiming:
     size = message.size_at(count)
     seconds = message.wire_seconds(size)
     what = _what(message, count)
-    return Timing(message.name, what, size, milliseconds(seconds), _trimmed(1 / seconds))
+    return FrameTiming(message.name, what, size, milliseconds(seconds), _trimmed(1 / seconds))
 
 
 def _sizes(message: MessageLayout) -> list[int]:
@@ -93,7 +93,7 @@ def _sizes(message: MessageLayout) -> list[int]:
 
 
 def _what(message: MessageLayout, count: int) -> str:
-    return "" if message.items is None else f"{counted(count, 'item')} in {message.items.name}"
+    return "" if message.items is None else f"{pluralize(count, 'item')} in {message.items.name}"
 
 
 def _trimmed(number: float) -> str:

@@ -31,7 +31,7 @@ _SHARED = {
     "cli/console.py": "console.py",
     "hextext.py": "hextext.py",
     "recording_file.py": "recording_file.py",
-    "wording.py": "wording.py",
+    "pluralize.py": "pluralize.py",
 }
 # What only a protocol with poses has a use for.
 _FOR_POSES = {"cli/play.py", "cli/posefile.py", "cli/positions.py", "cli/teach.py"}

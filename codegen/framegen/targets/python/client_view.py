@@ -13,7 +13,7 @@ from framegen.targets.python.escape import Bracketed, Part, Text, literal
 from framegen.targets.python.exports import relative_import
 from framegen.targets.python.method_view import Flavour, MethodView
 from framegen.targets.python.pose_view import PoseView
-from framegen.targets.python.words import direction_member
+from framegen.targets.python.spelling import direction_member
 
 if TYPE_CHECKING:
     from framegen.language.values import Range

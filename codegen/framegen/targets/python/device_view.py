@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 from framegen.model.exchanges import snake_case
 from framegen.targets.python.escape import WIDTH, Bracketed
 from framegen.targets.python.exports import relative_import
-from framegen.targets.python.words import direction_member
+from framegen.targets.python.spelling import direction_member
 
 if TYPE_CHECKING:
     from framegen.language.values import Direction

@@ -12,7 +12,7 @@ from framegen.targets.python.exports import HOMES, export_order, relative_import
 from framegen.targets.python.list_view import ListView
 from framegen.targets.python.lookalike_view import LookalikeView
 from framegen.targets.python.message_view import MessageView
-from framegen.targets.python.words import direction_member, struct_order
+from framegen.targets.python.spelling import direction_member, struct_order
 
 if TYPE_CHECKING:
     from framegen.language.spec import Link

@@ -7,12 +7,12 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from framegen.model.slots import Constant, Items, Number
+from framegen.pluralize import describe_range
 from framegen.targets.python.escape import Bracketed, Part, Sum, byte_literal, literal, session
 from framegen.targets.python.list_view import ListView, given
 from framegen.targets.python.names import strategy_name
 from framegen.targets.python.number_view import AbsentView, NumberView, absent_view
-from framegen.targets.python.words import direction_member, range_expression, struct_order
-from framegen.wording import describe_range
+from framegen.targets.python.spelling import direction_member, range_expression, struct_order
 
 if TYPE_CHECKING:
     from typing import Any
@@ -144,9 +144,9 @@ class MessageView:
             if isinstance(slot, Constant):
                 fixed += f"{slot.size}s"
             elif isinstance(slot, Number):
-                fixed += slot.wire.code
+                fixed += slot.number_type.code
             else:
-                codes = "".join(field.wire.code for field in slot.fields)
+                codes = "".join(field.number_type.code for field in slot.fields)
                 listed = [f"{slot.counter.name} * {literal(codes)}"]
         return [literal(fixed), *listed]
 

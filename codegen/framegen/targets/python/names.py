@@ -11,7 +11,7 @@ from dataclasses import dataclass, replace
 from functools import cached_property, lru_cache
 from typing import TYPE_CHECKING
 
-from framegen.language.spec import GroupField
+from framegen.language.spec import ListField
 from framegen.language.values import Direction, Method
 from framegen.model.exchanges import arguments_of, method_of, snake_case
 from framegen.model.roles import Roles
@@ -194,7 +194,7 @@ class Names:
                 {self.of("field of an element", inner): number for inner, number in item.items()}
                 for item in value
             ]
-            if isinstance(fields[name], GroupField)
+            if isinstance(fields[name], ListField)
             else value
             for name, value in values.items()
         }
@@ -259,7 +259,7 @@ class Names:
 
     def _field(self, field: AnyField) -> AnyField:
         counted_by = field.counted_by and self.of("field", field.counted_by)
-        if not isinstance(field, GroupField):
+        if not isinstance(field, ListField):
             return field.model_copy(update={"counted_by": counted_by})
         inner = {self.of("field of an element", name): each for name, each in field.fields.items()}
         element = self.of("element", field.element)
@@ -285,7 +285,7 @@ class Names:
     def _items(self, items: Items, numbers: dict[str, Number], message: Message) -> Items:
         name = self.of("field", items.name)
         field = message.fields[name]
-        if isinstance(field, GroupField):
+        if isinstance(field, ListField):
             fields = [self._number("field of an element", f, field.fields) for f in items.fields]
         else:
             fields = [self._number("field", each, message.fields) for each in items.fields]
@@ -309,7 +309,7 @@ _POSE_METHODS = ("hold", "present", "targets")
 
 def _field_names(path: KeyPath, name: str, field: AnyField) -> Iterator[tuple[KeyPath, str, str]]:
     yield path, "field", name
-    if not isinstance(field, GroupField):
+    if not isinstance(field, ListField):
         for value in field.values:
             yield (*path, "values", value), "constant", f"{name}_{value}".upper()
         return

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from framegen.language.wiretypes import WIRE_TYPES
+from framegen.language.number_types import NUMBER_TYPES
 from framegen.targets.python.escape import WIDTH, Bracketed, Part, Text, literal
 from framegen.targets.python.names import constant_name, signed_name
 
@@ -92,7 +92,7 @@ class NumberView:
     @property
     def type(self) -> str:
         """The class of the field: `U16`."""
-        return self.slot.wire.name.upper()
+        return self.slot.number_type.name.upper()
 
     @property
     def described(self) -> str:
@@ -103,8 +103,8 @@ class NumberView:
         """That call, with what the type alone does not say."""
         slot, field = self.slot, self.slot.field
         items: list[Part] = [*place]
-        items += [f"low={slot.low}"] if slot.low != slot.wire.low else []
-        items += [f"high={slot.high}"] if slot.high != slot.wire.high else []
+        items += [f"low={slot.low}"] if slot.low != slot.number_type.low else []
+        items += [f"high={slot.high}"] if slot.high != slot.number_type.high else []
         items += [Text(field.unit, before="unit=")] if field.unit else []
         names = [
             f"{literal(name)}: {constant.name}"
@@ -126,8 +126,8 @@ class NumberView:
         signed_as = self.slot.field.signed_as
         if signed_as is None:
             return None
-        wire = WIRE_TYPES[signed_as]
-        sign = wire.high + 1
+        number_type = NUMBER_TYPES[signed_as]
+        sign = number_type.high + 1
         rest = "; one that is `absent` has none" if self.absent_values else ""
         doc = [f"`{self.name}` read as {signed_as}, which may be below zero{rest}."]
         read = _signed(f"self.{self.name} ^ {sign:#x}", f" - {sign:#x}")

@@ -9,7 +9,7 @@ from framegen.model.exchanges import arguments_of
 from framegen.targets.python.escape import Bracketed, Part, literal
 from framegen.targets.python.method_view import MethodView
 from framegen.targets.python.names import signed_name
-from framegen.targets.python.words import range_expression
+from framegen.targets.python.spelling import range_expression
 
 if TYPE_CHECKING:
     from framegen.language.spec import Pose

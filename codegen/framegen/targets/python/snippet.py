@@ -9,7 +9,7 @@ from framegen.model.slots import Number
 from framegen.targets.python.escape import Bracketed
 from framegen.targets.python.message_view import MessageView
 from framegen.targets.python.names import names_of
-from framegen.targets.python.words import direction_member
+from framegen.targets.python.spelling import direction_member
 
 if TYPE_CHECKING:
     from framegen.language.spec import Example

@@ -9,8 +9,8 @@ from __future__ import annotations
 import json
 from typing import TYPE_CHECKING, Any
 
+from framegen.language.number_types import NUMBER_TYPES
 from framegen.language.spec import Spec
-from framegen.language.wiretypes import WIRE_TYPES
 from framegen.output import banner
 from framegen.reading.yamltree import Unusable
 from framegen.targets.target import Target
@@ -64,9 +64,9 @@ def schema_text() -> str:
     schema = _tidied(Spec.model_json_schema(by_alias=True, mode="validation"))
     for model in schema["$defs"].values():
         if "type" in model["properties"]:
-            model["properties"]["type"]["enum"] = list(WIRE_TYPES)
+            model["properties"]["type"]["enum"] = list(NUMBER_TYPES)
         if "signed_as" in model["properties"]:
-            signed = [name for name, wire in WIRE_TYPES.items() if wire.low < 0]
+            signed = [name for name, number_type in NUMBER_TYPES.items() if number_type.low < 0]
             model["properties"]["signed_as"]["anyOf"][0]["enum"] = signed
     schema["$schema"] = "https://json-schema.org/draft/2020-12/schema"
     schema["$comment"] = banner("")

@@ -11,7 +11,7 @@ from ..careful_decoder import GAP
 from ..decoder import StreamDecoder
 from ..exchanges import RECEIVED
 from ..link_errors import TransportError
-from ..wording import counted
+from ..pluralize import pluralize
 from .events import bytes_of, totals
 from .lines import Lines
 from .waiting import PATIENCE, Waiting
@@ -67,7 +67,7 @@ class Playback:
             self._over.set()
             listener.join(1.0)
             self._waiting.end()
-            told = f"{sent} of {counted(count, 'frame')} sent, {counted(size, 'byte')}"
+            told = f"{sent} of {pluralize(count, 'frame')} sent, {pluralize(size, 'byte')}"
             try:
                 self._show(self._decoder.flush(), time.monotonic())
             finally:

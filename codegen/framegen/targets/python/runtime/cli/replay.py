@@ -8,11 +8,11 @@ from pathlib import Path
 
 from ..exchanges import EXCHANGES, RECEIVED
 from ..noise import Noise
+from ..pluralize import pluralize
 from ..recording_entry import SENDERS
 from ..recording_file import EITHER, NOISE
 from ..recordings import FORMS
 from ..wire import Wire
-from ..wording import counted
 from . import link
 from .events import bytes_of, in_words
 from .exits import DONE, INTERRUPTED
@@ -157,8 +157,10 @@ def _is_chosen(entry: Entry, name: str, arguments: argparse.Namespace) -> bool:
 
 def _kinds(found: dict[str, int]) -> str:
     """How much there is of each kind, in words."""
-    told = [f"{counted(n, 'frame')} of {sender}" for sender, n in found.items() if sender != NOISE]
-    told += [f"{counted(found[NOISE], 'piece')} of noise"] if NOISE in found else []
+    told = [
+        f"{pluralize(n, 'frame')} of {sender}" for sender, n in found.items() if sender != NOISE
+    ]
+    told += [f"{pluralize(found[NOISE], 'piece')} of noise"] if NOISE in found else []
     return ", ".join(told) or "nothing at all"
 
 
@@ -180,5 +182,5 @@ def _show(timed: Iterable[tuple[Entry, float]], baud: float) -> None:
         lines.show(entry.event, entry.direction, at)
         size += len(bytes_of(entry.event))
         ends = at + wire.seconds(len(bytes_of(entry.event)))
-    told = f"{counted(lines.count, 'frame')}, {counted(size, 'byte')} in {ends:.3f} s"
+    told = f"{pluralize(lines.count, 'frame')}, {pluralize(size, 'byte')} in {ends:.3f} s"
     print(f"{told}: nothing was sent", file=sys.stderr)

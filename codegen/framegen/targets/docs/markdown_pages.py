@@ -25,7 +25,7 @@ def markdown_files(site: SiteView) -> dict[str, str]:
             site=site, page=page, message=page.message
         )
         for page in [*site.pages, *site.message_pages]
-        if page.twin
+        if page.in_markdown
     }
 
 

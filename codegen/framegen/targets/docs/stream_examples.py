@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 from framegen.model.codec import Unencodable, encode
 from framegen.model.slots import Constant
 from framegen.model.verdict import COUNT_MISMATCH
-from framegen.targets.docs.walk import Walk, walk
+from framegen.targets.docs.walkthrough import Walkthrough, walkthrough
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -22,16 +22,16 @@ _LONGEST_LIST = 8
 
 
 @dataclass(frozen=True, slots=True)
-class Lesson:
+class StreamExample:
     """One walk, and what it teaches."""
 
     id: str
     title: str
     text: str
-    walk: Walk
+    walkthrough: Walkthrough
 
 
-# What each lesson is called, and what it teaches.
+# What each example is called, and what it teaches.
 _SAID = {
     "whole": (
         "A frame, as it arrives",
@@ -61,10 +61,12 @@ _SAID = {
 }
 
 
-def lessons(model: Model) -> list[Lesson]:
-    """The lessons that this protocol can give, from the easiest on."""
+def stream_examples(model: Model) -> list[StreamExample]:
+    """The examples that this protocol can give, from the easiest on."""
     return [
-        Lesson(id_, _SAID[id_][0], " ".join(_SAID[id_][1].split()), walk(model, way, data))
+        StreamExample(
+            id_, _SAID[id_][0], " ".join(_SAID[id_][1].split()), walkthrough(model, way, data)
+        )
         for id_, way, data in _materials(model)
         if data is not None
     ]
@@ -94,7 +96,7 @@ def _misread(model: Model, way: Direction) -> bytes | None:
     for message in model.sent(way).values():
         for frame in _lengthened(message):
             data = model.frame.header[-1:] + frame
-            events = walk(model, way, data).events
+            events = walkthrough(model, way, data).events
             if [event.reason for event in events] == [COUNT_MISMATCH, ""]:
                 return data
     return None

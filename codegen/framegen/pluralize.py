@@ -6,7 +6,7 @@ The Python target copies this file into each library, so it imports nothing of o
 from __future__ import annotations
 
 
-def counted(number: int, noun: str, plural: str = "") -> str:
+def pluralize(number: int, noun: str, plural: str = "") -> str:
     """Count things: `1 finding`, `2 findings`; `plural` for a noun that takes no s."""
     return f"{number} {noun if number == 1 else plural or noun + 's'}"
 

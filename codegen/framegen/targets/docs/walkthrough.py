@@ -13,7 +13,7 @@ from framegen.language.values import to_hex
 from framegen.model.slots import Number
 from framegen.model.stream import ReferenceDecoder
 from framegen.model.verdict import BAD_HEADER, COUNT_MISMATCH, LENGTH_MISMATCH, TOO_SHORT
-from framegen.wording import counted, describe_range
+from framegen.pluralize import describe_range, pluralize
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -51,7 +51,7 @@ class EventView:
 
 
 @dataclass(frozen=True, slots=True)
-class Walk:
+class Walkthrough:
     """One stretch of the line, from its first byte to silence."""
 
     data: bytes
@@ -75,7 +75,7 @@ class Walk:
         return f"hex={self.data.hex()}&direction={self.direction.key}"
 
 
-def walk(model: Model, direction: Direction, data: bytes) -> Walk:
+def walkthrough(model: Model, direction: Direction, data: bytes) -> Walkthrough:
     """Decode `data`, after which the line stays quiet."""
     line = ReferenceDecoder(model, [direction])
     events = [piece for event in line.decode(data) for piece in _pieces(model, event)]
@@ -84,7 +84,7 @@ def walk(model: Model, direction: Direction, data: bytes) -> Walk:
         EventView(event.data, "" if event.message is None else event.message.name, event.reason)
         for event in events
     ]
-    return Walk(data, direction, steps, told)
+    return Walkthrough(data, direction, steps, told)
 
 
 def _pieces(model: Model, event: Event) -> Iterator[Event]:
@@ -108,12 +108,12 @@ def _steps(line: ReferenceDecoder, event: Event, rest: bytes) -> Iterator[Step]:
         yield Step(event.at + at, to_hex(rest[at:end]), text, ok=True)
         at = end
     if verdict.message is not None:
-        size = counted(verdict.offset, "byte")
+        size = pluralize(verdict.offset, "byte")
         yield Step(event.at, "", f"{verdict.message.name}, whole: {size} from here", ok=True)
         return
     piece, text = _refusal(line.model, verdict, rest, at)
     yield Step(event.at + at, to_hex(piece), text, ok=False)
-    size = counted(len(event.data), "byte")
+    size = pluralize(len(event.data), "byte")
     told = f"{size} of noise: {event.reason}" if event.kind == "noise" else f"{size}: unknown frame"
     yield Step(event.at, to_hex(event.data), told, ok=False)
 
@@ -131,7 +131,7 @@ def _agreed(model: Model, verdict: Verdict, data: bytes) -> Iterator[tuple[str, 
             case "constant":
                 text = "a header: a frame may begin here"
             case "length":
-                size = counted(value + model.frame.uncounted, "byte")
+                size = pluralize(value + model.frame.uncounted, "byte")
                 text = f"{name} {value}: the frame would have {size}"
             case "id" if verdict.likely is not None:
                 text = f"{name} {value}: {verdict.likely.name}, {_rule(verdict.likely)}"

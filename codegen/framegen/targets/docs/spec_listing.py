@@ -22,7 +22,7 @@ class Piece:
 
 
 @dataclass(frozen=True, slots=True)
-class Line:
+class SpecLine:
     """One line of the spec: `anchor` names what begins first on it, if anything does."""
 
     number: int
@@ -30,21 +30,21 @@ class Line:
     pieces: list[Piece]
 
 
-def listing(source: Source, tree: Tree) -> list[Line]:
+def listing(source: Source, tree: Tree) -> list[SpecLine]:
     """Every line, but for the blank one at the end."""
     begins = _begins(tree)
     lines = source.text.rstrip("\n").split("\n")
     return [_line(number, text, begins.get(number, [])) for number, text in enumerate(lines, 1)]
 
 
-def _line(number: int, text: str, begins: list[tuple[int, str]]) -> Line:
+def _line(number: int, text: str, begins: list[tuple[int, str]]) -> SpecLine:
     if not begins:
-        return Line(number, "", [Piece("", text)])
+        return SpecLine(number, "", [Piece("", text)])
     (_, anchor), *others = begins
     starts = [(0, ""), *others]
     ends = [*(start for start, _ in others), len(text)]
     pieces = [Piece(name, text[start:end]) for (start, name), end in zip(starts, ends, strict=True)]
-    return Line(number, anchor, pieces)
+    return SpecLine(number, anchor, pieces)
 
 
 def _begins(tree: Tree) -> dict[int, list[tuple[int, str]]]:

@@ -55,7 +55,7 @@ class ExampleView:
 
 
 @dataclass(frozen=True, slots=True)
-class Exchange:
+class ExampleSequence:
     """A frame, and those that its message leads to: its reply, or reports that may follow."""
 
     request: ExampleView
@@ -82,11 +82,11 @@ def example_views(model: Model, message: MessageLayout) -> list[ExampleView]:
     ]
 
 
-def exchanges(model: Model) -> list[Exchange]:
+def example_sequences(model: Model) -> list[ExampleSequence]:
     """Every documented frame once: requests with what answers them, then what is left over."""
     views = {name: example_views(model, message) for name, message in model.messages.items()}
     told: set[tuple[str, int]] = set()
-    found: list[Exchange] = []
+    found: list[ExampleSequence] = []
     for name, message in model.messages.items():
         said = message.message
         follow = [said.reply] if said.reply is not None else said.reports
@@ -95,7 +95,7 @@ def exchanges(model: Model) -> list[Exchange]:
                 continue
             replies = list(_answers(model, view, follow, views))
             told |= {(reply.message, reply.number) for reply in replies}
-            found.append(Exchange(view, replies, certain=said.reply is not None))
+            found.append(ExampleSequence(view, replies, certain=said.reply is not None))
     return found
 
 
