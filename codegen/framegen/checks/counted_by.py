@@ -69,7 +69,7 @@ def _counter(
 
 
 def _plain(field: AnyField) -> bool:
-    """Whether it is one number that can count; of an unknown type, another rule speaks."""
+    """Tell whether a field is an unsigned number; an unknown type is another rule's concern."""
     if not isinstance(field, NumberField) or field.counted_by is not None:
         return False
     type_ = NUMBER_TYPES.get(field.type)

@@ -1,4 +1,4 @@
-"""Rule: no two classes have one name."""
+"""Rule: no two classes have the same name."""
 
 from __future__ import annotations
 
@@ -43,9 +43,8 @@ def _classes(spec: Spec) -> Iterator[tuple[KeyPath, str, bool]]:
 
 RULE = StructureRule(
     id="duplicate-name",
-    title="No two classes have one name",
-    why="Messages and elements become classes side by side: of two with one name, one would "
-    "vanish.",
+    title="No two classes have the same name",
+    why="Messages and elements become classes in one module: one of two equal names would be lost.",
     bad="messages: {LampRead: {...}, Lampread: {...}}",
     good="messages: {LampRead: {...}, LampState: {...}}",
     look=_look,

@@ -53,7 +53,7 @@ def _pair(
 def _room(
     path: KeyPath, request: tuple[Message, str], answer: tuple[Message, str]
 ) -> Iterator[Problem]:
-    """What is asked for and cannot be told makes questions that nothing answers."""
+    """Find values that can be requested but not reported: such a request never gets a reply."""
     asked, told = _values(*request), _values(*answer)
     if asked is None or told is None:
         return
@@ -67,7 +67,7 @@ def _room(
 
 
 def _values(message: Message, path: str) -> tuple[int, int] | None:
-    """The values that a field, or one of an element, may have; None where its type is unknown."""
+    """Return the values that a field may have; None where its type is unknown."""
     outer, _, inner = path.partition(".")
     field = message.fields[outer]
     number = field.fields[inner] if isinstance(field, ListField) else field
@@ -85,8 +85,8 @@ def _values(message: Message, path: str) -> tuple[int, int] | None:
 RULE = StructureRule(
     id="echoed",
     title="What a reply repeats is a field of both messages",
-    why="A client tells the reply to its request from others by the fields that it repeats: by one "
-    "that is not there, no reply is ever the right one.",
+    why="A client matches a reply to its request by the fields that it repeats: where one does "
+    "not exist, no reply ever matches.",
     bad="LampRead: {reply: LampState, echoed: {lamp: lamp_id}}",
     good="LampRead: {reply: LampState, echoed: {lamp_id: lamp_id}}",
     look=_look,

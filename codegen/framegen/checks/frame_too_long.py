@@ -1,4 +1,4 @@
-"""Rule: the length and the count can say how long every legal frame is, and none is endless."""
+"""Rule: length and count have room for every legal frame."""
 
 from __future__ import annotations
 
@@ -52,7 +52,7 @@ def _list(path: KeyPath, message: MessageLayout, items: Items) -> Iterator[Probl
 
 
 def _room(message: MessageLayout, items: Items) -> tuple[int, str]:
-    """Reckon how many elements length and count can tell of, and which of the two limits them."""
+    """Return how many elements length and count have room for, and which of them is the limit."""
     by_length = (message.frame.length.high - message.formula.constant) // items.size
     by_count = items.counter.number_type.high
     if by_count < by_length:
@@ -62,9 +62,9 @@ def _room(message: MessageLayout, items: Items) -> tuple[int, str]:
 
 RULE = ModelRule(
     id="frame-too-long",
-    title="The length and the count can say how long every legal frame is, and none is endless",
-    why="A frame whose length does not fit cannot be sent, and to cut it in silence is worse. "
-    "A decoder holds the longest frame that there may be: 64 KiB are enough for any serial line.",
+    title="Length and count have room for every legal frame",
+    why="A frame whose length does not fit cannot be sent, and must not be cut silently. A "
+    "decoder holds the longest frame: 64 KiB are enough for any serial line.",
     bad="count: 1..300  # where the length is a u8",
     good="count: 1..",
     look=_look,

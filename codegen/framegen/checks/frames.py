@@ -1,4 +1,4 @@
-"""What is asked of the parts of any frame, the protocol's own or a look-alike's."""
+"""Requirements on the parts of any frame, the protocol's own or a look-alike's."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ _WITHOUT = {
 
 
 def part_problems(path: KeyPath, frame: dict[str, FramePart]) -> Iterator[Problem]:
-    """Find what keeps the parts of the frame at `path` from fitting together."""
+    """Find what is wrong with the parts of the frame at `path`."""
     for kind in ("length", "id", "body"):
         names = [name for name, part in frame.items() if part.is_ == kind]
         if not names:

@@ -1,4 +1,4 @@
-"""Rule: every code fits the part of the frame that carries it."""
+"""Rule: every id fits the part of the frame that carries it."""
 
 from __future__ import annotations
 
@@ -38,8 +38,8 @@ def _codes(spec: Spec) -> Iterator[tuple[KeyPath, int]]:
 
 RULE = StructureRule(
     id="id-range",
-    title="Every code fits the part of the frame that carries it",
-    why="A code that is too large would be cut, and the frame taken for another message.",
+    title="Every id fits the part of the frame that carries it",
+    why="An id that is too large would be cut, and the frame taken for another message.",
     bad="id: 300  # where `command` is a u8",
     good="id: 30",
     look=_look,

@@ -1,4 +1,4 @@
-"""Rule: limits are values that the field can have, the same wherever a client has them."""
+"""Rule: limits lie inside the field's range, and are the same wherever the field occurs."""
 
 from __future__ import annotations
 
@@ -61,9 +61,9 @@ def _bounds(path: KeyPath, range_: Range, field: NumberField) -> Iterator[Proble
 
 RULE = ModelRule(
     id="limits",
-    title="Limits are values that the field can have, the same wherever a client has them",
-    why="A client refuses what is outside: by limits that no frame can reach it refuses nothing, "
-    "and of two pairs nobody could say which one `limits=` is about.",
+    title="Limits lie inside the field's range, and are the same wherever the field occurs",
+    why="A client refuses values outside its limits: limits beyond the range refuse nothing, and "
+    "with two different pairs it is unclear which one `limits=` changes.",
     bad="level: {type: u8, limits: {usual: 0..1000}}",
     good="level: {type: u16, limits: {usual: 0..1000}}",
     look=_look,

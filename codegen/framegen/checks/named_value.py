@@ -1,4 +1,4 @@
-"""Rule: a named value is one that the field can have, and has one name."""
+"""Rule: a named value is inside the field's range, and has one name."""
 
 from __future__ import annotations
 
@@ -47,9 +47,9 @@ def _outside(path: KeyPath, field: NumberField, name: str, value: int) -> Iterat
 
 RULE = StructureRule(
     id="named-value",
-    title="A named value is one that the field can have, and has one name",
-    why="A name for a value that is always refused promises what no frame can carry; two names for "
-    "one value leave open which of them a decoder shows.",
+    title="A named value is inside the field's range, and has one name",
+    why="A name for a value that is always refused is useless; with two names for one value it is "
+    "unclear which of them a decoder shows.",
     bad="{type: u8, range: 0..100, values: {off: {value: 255}}}",
     good="{type: u8, range: 0..100, values: {off: {value: 0}}}",
     look=_look,

@@ -1,4 +1,4 @@
-"""Rule: positions are read, commanded and let go by messages that speak of the same things."""
+"""Rule: the messages that read, command and release positions have the same fields."""
 
 from __future__ import annotations
 
@@ -59,7 +59,7 @@ def _messages(model: Model, pose: Pose) -> Iterator[Problem]:
 
 
 def _lone_list(message: Message) -> str | None:
-    """The list of numbers that is all that a message is given."""
+    """Return the list of numbers, if it is all that the message is given."""
     names = arguments_of(message)
     if len(names) != 1:
         return None
@@ -69,7 +69,7 @@ def _lone_list(message: Message) -> str | None:
 
 
 def _told(spec: Spec, read: Message, asked: str) -> list[str] | None:
-    """The fields of an element of the reply: the number that was asked about, and its position."""
+    """Return the fields of an element of the reply: the requested number, and its position."""
     reply = None if read.reply is None else spec.messages.get(read.reply)
     name, _, inner = read.echoed.get(asked, "").partition(".")
     group = None if reply is None else reply.fields.get(name)
@@ -104,9 +104,9 @@ def _move(name: str, move: Message, told: list[str]) -> Iterator[Problem]:
 
 RULE = ModelRule(
     id="pose",
-    title="Positions are read, commanded and let go by messages that speak of the same things",
-    why="A client holds what it has read, and plays what was recorded: the numbers of a reply have "
-    "to be those that a command takes.",
+    title="The messages that read, command and release positions have the same fields",
+    why="A client holds the positions that it has read, and plays those that were recorded: the "
+    "fields of a reply have to be those that a command takes.",
     bad="pose: {read: LampRead, move: FansSet, ...}",
     good="pose: {read: LampsRead, move: LampsSet, ...}",
     look=_look,

@@ -1,4 +1,4 @@
-"""Rule: a number that can be read as signed is unsigned itself, and as wide."""
+"""Rule: a number that is read as signed is unsigned itself, and as wide."""
 
 from __future__ import annotations
 
@@ -45,9 +45,9 @@ def _listed(path: KeyPath, field: NumberField) -> Iterator[Problem]:
 
 RULE = StructureRule(
     id="signed-as",
-    title="A number that can be read as signed is unsigned itself, and as wide",
-    why="The bits are the same and only their meaning differs: `signed_position` tells what "
-    "`position` is when it wraps round below zero.",
+    title="A number that is read as signed is unsigned itself, and as wide",
+    why="The bits are the same and only their meaning differs: `signed_position` is the value of "
+    "`position` where it wraps round below zero.",
     bad="position: {type: u16, signed_as: i8}",
     good="position: {type: u16, signed_as: i16}",
     look=_look,

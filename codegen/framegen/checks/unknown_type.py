@@ -44,7 +44,7 @@ def _types(spec: Spec) -> Iterator[tuple[KeyPath, str]]:
 RULE = StructureRule(
     id="unknown-type",
     title="Every type is one that the language has",
-    why="A misspelt type has no size, and nothing after it would have a place.",
+    why="A type that does not exist has no size, so no later field would have a place.",
     bad="time_ms: {type: u17}",
     good="time_ms: {type: u16}",
     look=_look,

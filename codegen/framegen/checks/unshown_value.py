@@ -1,4 +1,4 @@
-"""Rule: an example shows every named value, every end of a range, and what is below zero."""
+"""Rule: examples show every named value, both ends of a range, and negative values."""
 
 from __future__ import annotations
 
@@ -58,8 +58,8 @@ def _shown(model: Model, message: MessageLayout) -> dict[KeyPath, set[int]]:
 
 RULE = ModelRule(
     id="unshown-value",
-    title="An example shows every named value, every end of a range, and what is below zero",
-    why="The values at the edge are where a width or a sign goes wrong unseen.",
+    title="Examples show every named value, both ends of a range, and negative values",
+    why="Values at the ends of a range show a wrong width or a wrong sign.",
     bad="level: {type: u8, range: 0..100}  # and examples with 50 alone",
     good="level: {type: u8, range: 0..100}  # and examples with 0 and 100",
     look=_look,

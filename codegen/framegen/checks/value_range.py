@@ -39,7 +39,7 @@ def _look(spec: Spec) -> Iterator[Problem]:
 RULE = StructureRule(
     id="value-range",
     title="A range has its ends in order and inside the type",
-    why="A range that holds no value refuses every frame; an end outside the type is a slip.",
+    why="A range that holds no value refuses every frame; an end outside the type is a mistake.",
     bad="{type: u8, range: 0..1000}",
     good="{type: u16, range: 0..1000}",
     look=_look,

@@ -1,4 +1,4 @@
-"""`framegen check`: everything that can be said against a spec."""
+"""`framegen check`: every finding about a spec."""
 
 from __future__ import annotations
 
@@ -33,10 +33,10 @@ def add_arguments(parser: ArgumentParser) -> None:
 
 
 def run(arguments: Namespace) -> int:
-    """Print the findings; to the error stream, what is no finding. 1 where there are any.
+    """Print the findings; counts and remarks go to the error stream. Return 1 if there are any.
 
-    That is how many there are, and which names a target writes otherwise: whoever counts lines of
-    the output counts findings.
+    The error stream also names what a target writes otherwise, so that lines of the output are
+    findings.
     """
     from framegen.commands.spec_argument import compiled  # noqa: PLC0415
     from framegen.project import all_specs  # noqa: PLC0415
@@ -71,7 +71,7 @@ def _json(each: Compiled, finding: Finding) -> str:
 
 
 def _notes(each: Compiled) -> Iterator[str]:
-    """Say each name that a target writes otherwise once, where it comes first."""
+    """Name each name that a target writes otherwise, once, where it first occurs."""
     from framegen.targets.table import TARGETS  # noqa: PLC0415
 
     if each.findings:

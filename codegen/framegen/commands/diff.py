@@ -1,4 +1,4 @@
-"""`framegen diff`: what lies between two editions of a spec, and what of it breaks."""
+"""`framegen diff`: compares two versions of a spec and classifies each change by what it breaks."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ def add_arguments(parser: ArgumentParser) -> None:
 
 
 def run(arguments: Namespace) -> int:
-    """Print the differences, what breaks first. 1 where the wire or programs break."""
+    """Print the differences, the most serious first. 1 where the wire or programs break."""
     from framegen.commands.spec_argument import compiled  # noqa: PLC0415
     from framegen.comparison import differences  # noqa: PLC0415
 

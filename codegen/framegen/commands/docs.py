@@ -1,4 +1,4 @@
-"""`framegen docs`: the reference of a spec as pages."""
+"""`framegen docs`: builds the reference of a spec as HTML pages."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""`framegen generate`: everything that follows from the specs, written, compared or shown."""
+"""`framegen generate`: writes, compares or shows everything that follows from the specs."""
 
 from __future__ import annotations
 
@@ -53,7 +53,7 @@ def add_arguments(parser: ArgumentParser) -> None:
 
 
 def run(arguments: Namespace) -> int:
-    """Check the specs, render them, and bring the disk to agree. 1: findings, or with --check."""
+    """Check the specs, render them, and update the disk. 1: findings, or changes with --check."""
     from framegen.commands.spec_argument import compiled, print_findings  # noqa: PLC0415
     from framegen.project import FOLDER, all_specs, project_root  # noqa: PLC0415
     from framegen.render import render, render_shared  # noqa: PLC0415
@@ -82,7 +82,7 @@ def run(arguments: Namespace) -> int:
 
 
 def _target(name: str) -> Target:
-    """Find a target by its name. Raises Unusable where there is none."""
+    """Find a target by its name. Raises Unusable."""
     from framegen.reading.findings import did_you_mean  # noqa: PLC0415
     from framegen.reading.yamltree import Unusable  # noqa: PLC0415
     from framegen.targets.table import TARGETS  # noqa: PLC0415
@@ -111,7 +111,7 @@ def _report(done: Written) -> None:
 
 
 def _remark(found: Survey | Written) -> None:
-    """Say what a reader may want to know, and need do nothing about."""
+    """Print a remark on the output that calls for no action."""
     for notice in found.notices:
         _tell(visible(notice))
     for path in found.strangers[:_NAMED]:
@@ -129,7 +129,7 @@ def _sum_up(outputs: Sequence[Output], specs: Sequence[Compiled], root: Path, wh
 
 
 def _near(root: Path) -> str:
-    """Name a folder as it is seen from here, where that is shorter."""
+    """Name a folder relative to the current one, where that is shorter."""
     try:
         relative = os.path.relpath(root)
     except ValueError:  # on another drive

@@ -1,4 +1,4 @@
-"""The SPEC that verbs are given: which file it is, and what it says."""
+"""The SPEC argument: finds the file and compiles it."""
 
 from __future__ import annotations
 
@@ -19,9 +19,9 @@ if TYPE_CHECKING:
 
 
 def compiled(file: Path | None) -> Compiled:
-    """Compile `file`, which may be the name of a spec of the project, or else its only spec.
+    """Compile `file`, the named spec of the project, or the only spec.
 
-    Raises Unusable, with the place in its text, where it is no spec at all.
+    Raises Unusable, with the place in the text, where it is no spec at all.
     """
     if file is None:
         file = default_spec()
@@ -36,7 +36,7 @@ def compiled(file: Path | None) -> Compiled:
 
 
 def print_findings(specs: Sequence[Compiled]) -> bool:
-    """Print what is wrong with specs of which something was to be written; whether anything is."""
+    """Print the findings of specs that something was to be written of; return whether any is."""
     for spec in specs:
         for finding in spec.findings:
             print(finding.render(spec.source) + "\n")

@@ -1,4 +1,4 @@
-"""Tells how a program did: as text, as JSON, or in the words of a badge."""
+"""The report on a program: as text, as JSON, or as a badge."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ _LAST_LINES = 8
 
 
 def as_text(model: Model, trial: Trial, command: Sequence[str]) -> Iterator[str]:
-    """Tell it to a person, line by line."""
+    """Report to a person, line by line."""
     if trial.smallest is not None:
         yield from _first(model, trial.smallest)
         yield ""
@@ -44,7 +44,7 @@ def as_text(model: Model, trial: Trial, command: Sequence[str]) -> Iterator[str]
 
 
 def colour_of(line: str) -> str:
-    """Which colour a line of the text has on a terminal; empty for none."""
+    """Return the colour of a line of the text on a terminal; empty for none."""
     return _COLOURS.get(line[: line.find("  ", 2)].strip(), "") if line.startswith("  ") else ""
 
 
@@ -76,7 +76,7 @@ def _first(model: Model, smallest: Smallest) -> Iterator[str]:
 
 
 def _first_failure(trial: Trial) -> Iterator[str]:
-    """Tell when it first gave no answer, where that was not the first difference."""
+    """Report the first failure to answer, where it was not the first difference."""
     failed = next((found for found in trial.differences if found.failure), None)
     if failed is not None and failed is not trial.differences[0]:
         yield f"the first that it did not answer: {failed.title}"
@@ -112,7 +112,7 @@ def _kinds(differences: Sequence[Difference]) -> Iterator[str]:
 
 
 def as_json(model: Model, trial: Trial, command: Sequence[str], seed: int | None) -> dict[str, Any]:
-    """Give it as values that JSON has."""
+    """Report as values that JSON has."""
     protocol, smallest = model.spec.protocol, trial.smallest
     return {
         "protocol": protocol.name,
@@ -154,7 +154,7 @@ def _difference_json(found: Difference) -> dict[str, Any]:
 
 
 def as_badge(model: Model, trial: Trial) -> str:
-    """Draw it."""
+    """Draw the badge."""
     protocol = model.spec.protocol
     label = f"{protocol.name} {protocol.version}"
     if not trial.conforms:

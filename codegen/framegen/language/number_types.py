@@ -20,7 +20,7 @@ class NumberType:
 
     @property
     def is_byte(self) -> bool:
-        """Whether it is a byte as it stands on the wire: of one, and not below zero."""
+        """Whether it is an unsigned byte."""
         return self.size == 1 and self.low == 0
 
 

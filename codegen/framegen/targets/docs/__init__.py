@@ -1,4 +1,4 @@
-"""The reference: Markdown to be read where the project lies, and pages that need no network."""
+"""The reference: Markdown for forges and editors, and HTML pages that need no network."""
 
 from __future__ import annotations
 
@@ -16,14 +16,14 @@ if TYPE_CHECKING:
 
 
 def render(compiled: Compiled, snippets: Snippets) -> dict[str, str]:
-    """The reference in Markdown, by path below the project's root."""
+    """Render the reference in Markdown, by path below the project's root."""
     (root,) = folders(compiled.model)
     files = markdown_files(SiteView(compiled, snippets))
     return {f"{root}/{path}": text for path, text in files.items()}
 
 
 def folders(model: Model) -> tuple[str, ...]:
-    """The folder of the protocol's reference."""
+    """Return the folder of the protocol's reference."""
     return (f"docs/reference/{file_stem(model.spec.protocol.name)}",)
 
 

@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, slots=True)
 class ErratumView:
-    """One slip of a document."""
+    """A mistake in a document."""
 
     number: int
     title: str
@@ -31,7 +31,7 @@ class ErratumView:
 
 @dataclass(frozen=True, slots=True)
 class UnknownView:
-    """Something that nobody has written down."""
+    """A question that no source answers."""
 
     message: str
     concern: str
@@ -39,7 +39,7 @@ class UnknownView:
 
 
 def erratum_views(model: Model) -> list[ErratumView]:
-    """Every erratum, in the order of the spec."""
+    """Return every erratum, in the order of the spec."""
     return [
         ErratumView(
             number,
@@ -58,7 +58,7 @@ def erratum_views(model: Model) -> list[ErratumView]:
 
 
 def unknown_views(model: Model) -> list[UnknownView]:
-    """Every unknown, in the order of the spec."""
+    """Return every unknown, in the order of the spec."""
     return [
         UnknownView(unknown.concerns.message, _concern(unknown.concerns), unknown.what)
         for unknown in model.spec.unknowns
@@ -66,7 +66,7 @@ def unknown_views(model: Model) -> list[UnknownView]:
 
 
 def _concern(concern: Concern) -> str:
-    """Say which fact of the message is meant."""
+    """Name the fact of the message that is meant."""
     words = [] if concern.fact is None else [f"its {concern.fact}"]
     if concern.parameter is not None:
         words.append(f"parameter {concern.parameter}")

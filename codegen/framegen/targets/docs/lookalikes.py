@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, slots=True)
 class LookalikeFrame:
-    """A frame of a look-alike, and what this protocol makes of it, one line a direction."""
+    """A frame of a look-alike, and the verdict of this protocol in each direction."""
 
     title: str
     hex: str
@@ -33,7 +33,7 @@ class LookalikeFrame:
 
 @dataclass(frozen=True, slots=True)
 class LookalikeCommand:
-    """An id that means one thing there and another here, or nothing; `here` names messages."""
+    """An id of a look-alike, its meaning there, and the messages with that id here."""
 
     id: int
     pattern: str
@@ -55,7 +55,7 @@ class LookalikeEntry:
 
 
 def lookalike_views(model: Model) -> list[LookalikeEntry]:
-    """Every look-alike, in the order of the spec."""
+    """Return every look-alike, in the order of the spec."""
     return [
         LookalikeEntry(
             key,
@@ -98,7 +98,7 @@ def _commands(model: Model, other: Lookalike) -> list[LookalikeCommand]:
 
 
 def _head(slot: Constant | Number, id_: int) -> str:
-    """The bytes of a slot in front of the fields, as far as they are known of an id."""
+    """Return the bytes of a slot in front of the fields, as far as the id determines them."""
     if isinstance(slot, Constant):
         return to_hex(slot.data)
     return to_hex(slot.write(id_)) if slot.role == "id" else " ".join(["··"] * slot.size)

@@ -18,7 +18,7 @@ _TEMPLATES = Path(__file__).parent / "templates"
 
 
 def markdown_files(site: SiteView) -> dict[str, str]:
-    """Every page that has a twin, by path below the root of the reference."""
+    """Render every page that is there in Markdown, by path below the root."""
     templates = _environment()
     return {
         page.markdown: templates.get_template(f"{page.template}.md.jinja").render(

@@ -1,4 +1,4 @@
-"""One message as its page shows it."""
+"""The page of one message."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class MessagePage:
-    """The facts of one message, each ready to be shown."""
+    """The facts of one message, ready to be shown."""
 
     model: Model
     layout: MessageLayout
@@ -33,17 +33,17 @@ class MessagePage:
 
     @property
     def said(self) -> Message:
-        """What the spec says of it: name, summary, since and the like."""
+        """The message in the spec: name, summary, since and the like."""
         return self.layout.message
 
     @property
     def name(self) -> str:
-        """Its name, which is also its anchor."""
+        """The name, which is also the anchor."""
         return self.layout.name
 
     @property
     def page(self) -> str:
-        """Its page, from the root of the reference, whatever it is written in."""
+        """The page, from the root of the reference, without its suffix."""
         return message_page(self.name)
 
     @property
@@ -53,32 +53,32 @@ class MessagePage:
 
     @property
     def hex(self) -> str:
-        """Its id in hex, as wide as the frame has it."""
+        """The id in hex, as wide as in the frame."""
         return f"0x{self.id:0{2 * self.layout.frame.id.size}X}"
 
     @property
     def direction(self) -> str:
-        """Who sends it to whom."""
+        """The sender and the receiver."""
         return f"{self.layout.direction.sender} to {self.layout.direction.receiver}"
 
     @property
     def kind(self) -> str:
-        """Command, query, reply or report."""
+        """The kind: command, query, reply or report."""
         return self.model.kind(self.name)
 
     @property
     def description(self) -> list[str]:
-        """Its description, a paragraph an item."""
+        """The description, a paragraph an item."""
         return paragraphs(self.said.description)
 
     @property
     def cite(self) -> CiteView:
-        """Where it is known from."""
+        """The source of the message."""
         return cite_view(self.model.spec, self.said.cite)
 
     @property
     def place(self) -> Place:
-        """Where the spec says all this."""
+        """The place of the message in the spec."""
         return Place(("messages", self.name))
 
     @property
@@ -99,7 +99,7 @@ class MessagePage:
 
     @property
     def posed(self) -> list[str]:
-        """The methods of a client that send it besides its own."""
+        """The methods for poses that send it besides its own."""
         pose = self.model.spec.pose
         if pose is None:
             return []
@@ -127,22 +127,22 @@ class MessagePage:
 
     @cached_property
     def cells(self) -> list[Cell]:
-        """What every frame of it looks like."""
+        """The byte strip of any frame of the message."""
         return pattern_strip(self.layout)
 
     @property
     def parameters(self) -> list[Cell]:
-        """Of those cells, the ones between the id and the end."""
+        """The cells between the id and the end."""
         return [cell for cell in self.cells if cell.role in ("field", "count", "repeated")]
 
     @cached_property
     def fields(self) -> list[FieldView]:
-        """Its fields, in the order of the frame."""
+        """The fields, in the order of the frame."""
         return field_views(self.model, self.layout)
 
     @cached_property
     def examples(self) -> list[ExampleView]:
-        """Its documented frames."""
+        """The documented frames."""
         return example_views(self.model, self.layout)
 
     @property
@@ -160,12 +160,12 @@ class MessagePage:
 
     @property
     def drawing(self) -> Drawing | None:
-        """What it sets off, as a picture."""
+        """The sequence diagram of what follows it."""
         return drawing(self.model, self.name)
 
     @property
     def words(self) -> str:
-        """What a search finds it by, in lower case."""
+        """The words that a search finds it by, in lower case."""
         names = [field.path.replace("[i]", "") for field in self.fields]
         return " ".join(
             [self.name, self.said.vendor_name, self.kind, self.direction, *names]
@@ -173,6 +173,6 @@ class MessagePage:
 
     @property
     def id_spellings(self) -> str:
-        """Its id in every way that people write it."""
+        """The id as people may write it in a search."""
         digits = self.hex.removeprefix("0x").lower()
         return " ".join(dict.fromkeys([str(self.id), digits, f"0x{digits}", f"0x{self.id:x}"]))

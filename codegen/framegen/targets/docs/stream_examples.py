@@ -1,4 +1,4 @@
-"""What the page about stream decoding shows: real bytes, made from the examples of the spec."""
+"""Examples for the page about stream decoding: real bytes, made from those of the spec."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ _LONGEST_LIST = 8
 
 @dataclass(frozen=True, slots=True)
 class StreamExample:
-    """One walk, and what it teaches."""
+    """One walk-through, and what it shows."""
 
     id: str
     title: str
@@ -62,7 +62,7 @@ _SAID = {
 
 
 def stream_examples(model: Model) -> list[StreamExample]:
-    """The examples that this protocol can give, from the easiest on."""
+    """Return the examples that this protocol allows, the easiest first."""
     return [
         StreamExample(
             id_, _SAID[id_][0], " ".join(_SAID[id_][1].split()), walkthrough(model, way, data)
@@ -92,7 +92,7 @@ def _frames(model: Model, way: Direction) -> list[bytes]:
 
 
 def _misread(model: Model, way: Direction) -> bytes | None:
-    """Find a frame that, behind a stray header byte, begins like a frame of another length."""
+    """Find a frame that, behind a false header byte, begins like a frame of another length."""
     for message in model.sent(way).values():
         for frame in _lengthened(message):
             data = model.frame.header[-1:] + frame
@@ -103,7 +103,7 @@ def _misread(model: Model, way: Direction) -> bytes | None:
 
 
 def _lengthened(message: MessageLayout) -> Iterator[bytes]:
-    """The first example of a message, with lists of other lengths."""
+    """Yield the first example of a message, with lists of other lengths."""
     items, examples = message.items, message.message.examples
     if items is None or not examples:
         return
@@ -117,7 +117,7 @@ def _lengthened(message: MessageLayout) -> Iterator[bytes]:
 
 
 def _unknown_head(model: Model, way: Direction) -> bytes | None:
-    """Make the head of a frame whose command has no meaning, and whose length is the longest."""
+    """Make the head of a frame with an unknown id and the largest length."""
     frame, sent = model.frame, model.sent(way)
     code = next((code for code in frame.legal_ids if code not in sent and code), None)
     if code is None:

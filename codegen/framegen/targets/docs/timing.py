@@ -1,4 +1,4 @@
-"""How long frames are on the line, and how many of them it carries in a second."""
+"""Timing: how long frames take on the line, and how many of them it carries in a second."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, slots=True)
 class FrameTiming:
-    """One size of a message: what it holds, its bytes, and what they cost."""
+    """One size of a message: its contents, its bytes, and its time on the line."""
 
     message: str
     what: str
@@ -27,7 +27,7 @@ class FrameTiming:
 
 @dataclass(frozen=True, slots=True)
 class RoundTrip:
-    """A request and its reply with nothing between them: the best that the line allows."""
+    """A request and its reply without a pause: the best that the line allows."""
 
     request: str
     reply: str
@@ -43,20 +43,20 @@ def milliseconds(seconds: float) -> str:
 
 
 def bytes_a_second(model: Model) -> str:
-    """Say what the line carries, as `960`."""
+    """Return the bytes a second that the line carries, as text: `960`."""
     link = model.spec.link
     return _trimmed(link.baud / link.bits_per_byte)
 
 
 def timings(model: Model) -> list[FrameTiming]:
-    """Every message at its smallest, as its examples have it, and at its largest."""
+    """Return the times of every message at its smallest, as in its examples, and at its largest."""
     return [
         _timing(message, count) for message in model.messages.values() for count in _sizes(message)
     ]
 
 
 def round_trips(model: Model) -> list[RoundTrip]:
-    """Every request with its reply; lists of the same length where both have one."""
+    """Return the times of every request with its reply, lists of both at the same count."""
     return [trip for message in model.messages.values() for trip in _trips(model, message)]
 
 
@@ -84,7 +84,7 @@ def _timing(message: MessageLayout, count: int) -> FrameTiming:
 
 
 def _sizes(message: MessageLayout) -> list[int]:
-    """Counts worth showing: the fewest, those of the examples, the most."""
+    """Return the counts worth showing: the fewest, those of the examples, the most."""
     items = message.items
     if items is None:
         return [0]

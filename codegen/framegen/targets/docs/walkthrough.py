@@ -1,6 +1,6 @@
-"""A stream decoded step by step: what can be told of each byte, and when a header is given up.
+"""A walk-through of stream decoding: what each byte shows, and where a header is given up.
 
-What it comes to is what the reference says; here it is put in words.
+The events are the reference's; here they are explained in words.
 """
 
 from __future__ import annotations
@@ -28,7 +28,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, slots=True)
 class Step:
-    """Some bytes, and what they tell. `ok` is whether a frame is still possible after them."""
+    """Some bytes, and what they show. `ok` says whether a frame is still possible after them."""
 
     offset: int
     bytes: str
@@ -38,7 +38,7 @@ class Step:
 
 @dataclass(frozen=True, slots=True)
 class EventView:
-    """What the decoder gives: a message by name; or no name, and why it is none."""
+    """An event of the decoder: the name of a message; or none, and the reason."""
 
     data: bytes
     message: str
@@ -52,7 +52,7 @@ class EventView:
 
 @dataclass(frozen=True, slots=True)
 class Walkthrough:
-    """One stretch of the line, from its first byte to silence."""
+    """The steps and events of one stretch of the line, from its first byte to silence."""
 
     data: bytes
     direction: Direction
@@ -66,17 +66,17 @@ class Walkthrough:
 
     @property
     def way(self) -> str:
-        """Who sends it to whom."""
+        """The sender and the receiver."""
         return f"{self.direction.sender} to {self.direction.receiver}"
 
     @property
     def query(self) -> str:
-        """What opens the decoder on these bytes."""
+        """The query string that opens the decoder with these bytes."""
         return f"hex={self.data.hex()}&direction={self.direction.key}"
 
 
 def walkthrough(model: Model, direction: Direction, data: bytes) -> Walkthrough:
-    """Decode `data`, after which the line stays quiet."""
+    """Decode `data` step by step; the line stays quiet after it."""
     line = ReferenceDecoder(model, [direction])
     events = [piece for event in line.decode(data) for piece in _pieces(model, event)]
     steps = [step for event in events for step in _steps(line, event, data[event.at :])]
@@ -88,7 +88,7 @@ def walkthrough(model: Model, direction: Direction, data: bytes) -> Walkthrough:
 
 
 def _pieces(model: Model, event: Event) -> Iterator[Event]:
-    """Cut noise where headers stand in it, or begin at its end; all else is one piece."""
+    """Cut noise where headers occur in it, or begin at its end; leave all else whole."""
     header = model.frame.header
     inside = range(1, len(event.data) if event.kind == "noise" else 1)
     starts = [at for at in inside if header.startswith(event.data[at : at + len(header)])]
@@ -97,7 +97,7 @@ def _pieces(model: Model, event: Event) -> Iterator[Event]:
 
 
 def _steps(line: ReferenceDecoder, event: Event, rest: bytes) -> Iterator[Step]:
-    """Tell one piece of the line slot by slot, until a frame is whole or there is no hope of it."""
+    """Yield the steps of one event slot by slot, until a frame is whole or impossible."""
     verdict = line.weigh(rest)
     if verdict.reason == BAD_HEADER:
         text = "no frame begins so: noise up to the next header"
@@ -119,7 +119,7 @@ def _steps(line: ReferenceDecoder, event: Event, rest: bytes) -> Iterator[Step]:
 
 
 def _agreed(model: Model, verdict: Verdict, data: bytes) -> Iterator[tuple[str, int]]:
-    """What the slots tell that agreed with a frame, and where each telling ends."""
+    """Yield what the slots show that agreed with a frame, and where each piece ends."""
     groups = [(kind, list(slots)) for kind, slots in groupby(verdict.seen, _kind)]
     if groups and groups[-1][0] == "values" and verdict.reason == TOO_SHORT:
         groups.pop()  # they end in the silence
@@ -144,13 +144,13 @@ def _agreed(model: Model, verdict: Verdict, data: bytes) -> Iterator[tuple[str, 
 
 
 def _kind(placed: Placed) -> str:
-    """What is told together: each number of the head and the count alone, all else as one."""
+    """Return what is shown together: each number of the head and the count alone, else all."""
     role = placed.slot.role
     return role if role in ("constant", "length", "id", "count") else "values"
 
 
 def _refusal(model: Model, verdict: Verdict, data: bytes, at: int) -> tuple[bytes, str]:
-    """The bytes that end the hope of a frame, which stand at `at`, and why."""
+    """Return the bytes at `at` that rule out a frame, and why."""
     frame, message, rest = model.frame, verdict.likely, data[at:]
     if verdict.reason == TOO_SHORT:
         return rest, "the line goes quiet before the frame is whole"

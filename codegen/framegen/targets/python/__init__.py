@@ -38,7 +38,7 @@ _FOR_POSES = {"cli/play.py", "cli/posefile.py", "cli/positions.py", "cli/teach.p
 
 
 def render(compiled: Compiled, _snippets: Snippets) -> dict[str, str]:
-    """The library's files, by path below the project's root."""
+    """Render the library's files, by path below the project's root."""
     library = LibraryView(names_of(compiled.model).library)
     poses = compiled.model.spec.pose is not None
     copied = {name: text for name, text in _runtime().items() if poses or name not in _FOR_POSES}
@@ -48,13 +48,13 @@ def render(compiled: Compiled, _snippets: Snippets) -> dict[str, str]:
 
 
 def folders(model: Model) -> tuple[str, ...]:
-    """The folder of the package."""
+    """Return the folder of the package."""
     return (f"generated/{package_of(model)}",)
 
 
 @cache
 def _runtime() -> dict[str, str]:
-    """The files that are the same for every protocol, copied as they are, and so read once."""
+    """Return the files that are the same for every protocol; read once."""
     root = _HERE / "runtime"
     files = {file.relative_to(root).as_posix(): file for file in sorted(root.rglob("*.py"))}
     files |= {name: _HERE.parents[1] / shared for name, shared in _SHARED.items()}

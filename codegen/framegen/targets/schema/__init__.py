@@ -1,4 +1,4 @@
-"""The spec language as JSON Schema, for completion and help in any editor that reads one.
+"""The spec language as JSON Schema, for completion and help in editors.
 
 Only the keywords listed here are passed on, in this order: what pydantic adds for other readers is
 left out, and every version of it gives the same text.
@@ -47,12 +47,12 @@ _KEYWORDS = (
 
 
 def render(_compiled: Compiled, _snippets: Snippets) -> dict[str, str]:
-    """The schema, by path below the project's root: beside the spec, where editors look for it."""
+    """Render the schema, by path below the project's root: beside the spec, where editors look."""
     return {"spec/framegen.schema.json": schema_text()}
 
 
 def schema_text() -> str:
-    """Give the schema as JSON text, with a final newline: the same text for the same language.
+    """Return the schema as JSON text, with a final newline: the same for the same language.
 
     Raises Unusable where Python was told to drop docstrings, which the descriptions are.
     """
@@ -75,7 +75,7 @@ def schema_text() -> str:
 
 
 def _tidied(schema: dict[str, Any]) -> dict[str, Any]:
-    """Without what repeats the key (`title`) or says nothing (an empty default)."""
+    """Remove what repeats the key (`title`) or says nothing (an empty default)."""
     return {
         keyword: _mapped(keyword, value, _tidied)
         for keyword, value in schema.items()
@@ -92,7 +92,7 @@ def _ordered(schema: dict[str, Any]) -> dict[str, Any]:
 
 
 def _mapped(keyword: str, value: Any, change: Callable[[dict[str, Any]], dict[str, Any]]) -> Any:
-    """Give the value of a keyword, with `change` made to every schema in it."""
+    """Return the value of a keyword, with `change` made to every schema in it."""
     if keyword == "properties":
         return {name: change(schema) for name, schema in value.items()}
     if keyword == "$defs":
