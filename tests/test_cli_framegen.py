@@ -253,7 +253,7 @@ def test_a_rule_says_why_and_shows_both_sides(capsys: Capture) -> None:
     assert capsys.readouterr().out == (
         "unknown-type: Every type is one that the language has\n"
         "\n"
-        "A misspelt type has no size, and nothing after it would have a place.\n"
+        "A type that does not exist has no size, so no later field would have a place.\n"
         "\n"
         "refused:\n"
         "  time_ms: {type: u17}\n"

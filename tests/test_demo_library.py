@@ -15,8 +15,8 @@ from typing import Any
 
 import pytest
 from framegen.cases.valid import valid_frames
-from framegen.language import wiretypes
-from framegen.language.wiretypes import WIRE_TYPES, WireType
+from framegen.language import number_types
+from framegen.language.number_types import NUMBER_TYPES, NumberType
 from framegen.model import codec
 from framegen.model.codec import NotAFrame
 from framegen.model.layout import MessageLayout
@@ -739,7 +739,7 @@ def test_limits_hold_for_a_number_and_for_numbers_in_a_list(tmp_path: Path) -> N
 def test_a_frame_of_any_layout_works(
     tmp_path: Path, order: str, parts: list[str], size: str, kind: str, counts: list[str]
 ) -> None:
-    widths = {"size": WIRE_TYPES[size].size, "kind": WIRE_TYPES[kind].size, "body": 3}
+    widths = {"size": NUMBER_TYPES[size].size, "kind": NUMBER_TYPES[kind].size, "body": 3}
     length = sum(widths[part] for part in counts)
     values = {"size": length, "kind": 9}
     head = b"".join(
@@ -787,7 +787,7 @@ def test_a_new_field_type_takes_one_new_row(
     )
     data = spec_with("Made", message, "8 * n + 9", **FRAME)
     assert set(rules_broken(data)) == {"unknown-type"}
-    monkeypatch.setitem(wiretypes.WIRE_TYPES, "u64", WireType("u64", 8, 0, 2**64 - 1, "Q"))
+    monkeypatch.setitem(number_types.NUMBER_TYPES, "u64", NumberType("u64", 8, 0, 2**64 - 1, "Q"))
     assert rules_broken(data) == []
     holds(data, tmp_path / "wide")
     data["messages"]["Made"]["fields"]["stamp"]["range"] = f"1..{2**64 - 2}"

@@ -10,7 +10,7 @@ GENERATOR = Path(__file__).parent.parent / "codegen" / "framegen"
 
 # From the ground up. What shares a line knows nothing of each other.
 STOREYS = [
-    {"__version__", "colour", "console", "hextext", "recording_file", "wording"},
+    {"__version__", "colour", "console", "hextext", "recording_file", "pluralize"},
     {"reading"},
     {"project", "language"},
     {"model"},

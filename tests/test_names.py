@@ -22,7 +22,7 @@ from framegen.cli import main
 from framegen.model.exchanges import snake_case
 from framegen.render import render, render_target, snippets
 from framegen.targets.docs import TARGET as DOCS
-from framegen.targets.docs.pages import render_site
+from framegen.targets.docs.html_pages import render_site
 from framegen.targets.filenames import DEVICES, file_stem
 from framegen.targets.python import reserved
 from framegen.targets.python.names import names_of, strategy_name

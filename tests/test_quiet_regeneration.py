@@ -14,7 +14,7 @@ from framegen.cli import main
 from framegen.compile import Compiled, compile_spec
 from framegen.reading.source import Source
 from framegen.render import render, snippets
-from framegen.targets.docs.pages import render_site
+from framegen.targets.docs.html_pages import render_site
 
 from tests.factories import BUSSERVO, DEMO, Data, Steps, data_of
 

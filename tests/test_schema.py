@@ -9,8 +9,8 @@ from typing import Any
 import pytest
 from framegen.cli import main
 from framegen.language.load import read_source
+from framegen.language.number_types import NUMBER_TYPES
 from framegen.language.spec import Spec
-from framegen.language.wiretypes import WIRE_TYPES
 from framegen.reading.yamltree import read_tree
 from framegen.targets.schema import _KEYWORDS, schema_text
 from jsonschema import Draft202012Validator
@@ -156,7 +156,7 @@ def test_every_number_type_is_offered() -> None:
     typed = [model for model in SCHEMA["$defs"].values() if "type" in model["properties"]]
     assert len(typed) == 5
     for model in typed:
-        assert model["properties"]["type"]["enum"] == list(WIRE_TYPES)
+        assert model["properties"]["type"]["enum"] == list(NUMBER_TYPES)
 
 
 def test_every_signed_type_is_offered_to_read_a_number_as() -> None:

@@ -1,4 +1,4 @@
-"""The `framegen` command: finds the verb, runs it, and turns what goes wrong into plain words."""
+"""The `framegen` command: finds the verb, runs it, and reports errors in plain words."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ The exit code is 0 when all is well, 1 when something was found (or the bytes ar
 
 
 class Verb(Protocol):
-    """What a module in `commands` offers. An example is a command line and what it does."""
+    """The interface of a module in `commands`. An example is a command line and what it does."""
 
     SUMMARY: str
     EXAMPLES: Sequence[tuple[str, str]]
@@ -44,7 +44,7 @@ class Verb(Protocol):
         """Declare the arguments of the verb."""
 
     def run(self, arguments: argparse.Namespace) -> int:
-        """Do it, and give the exit code. Raises Unusable."""
+        """Run the verb, and return the exit code. Raises Unusable."""
 
 
 def main(argv: Sequence[str] | None = None) -> int:

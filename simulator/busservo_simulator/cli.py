@@ -10,7 +10,7 @@ from contextlib import ExitStack, contextmanager
 from typing import TYPE_CHECKING
 
 from busservo._cli import console
-from busservo._frame.wording import counted
+from busservo._frame.pluralize import pluralize
 
 from busservo_simulator.options import PROGRAM, faults_of, parser_of
 from busservo_simulator.tcp_end import LOOPBACK
@@ -57,7 +57,7 @@ def _run(arguments: argparse.Namespace, program: str) -> int:
             over = ended.wait(0.5)
             gone = not arguments.quiet and _reader_has_gone()
         log.listener = None
-        totals = f"{counted(board.accepted, 'message')}, {board.rejects.total} rejected"
+        totals = f"{pluralize(board.accepted, 'message')}, {board.rejects.total} rejected"
         print(totals, file=sys.stderr)
     return console.READER_GONE if gone else console.DONE
 

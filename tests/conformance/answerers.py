@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from framegen.render import snippets
-from framegen.targets.docs.pages import render_site
+from framegen.targets.docs.html_pages import render_site
 
 from tests.docs.reference import NODE
 from tests.factories import library_files, write_files

@@ -5,7 +5,7 @@ from __future__ import annotations
 import copy
 from typing import TYPE_CHECKING, Any
 
-from framegen.language.wiretypes import WIRE_TYPES
+from framegen.language.number_types import NUMBER_TYPES
 from framegen.model.codec import Unencodable, encode
 from framegen.model.slots import Number
 from framegen.reading.yamltree import Unusable
@@ -86,8 +86,8 @@ def _many(field: Number) -> int:
 def _all_of(field: Number) -> list[int]:
     """The values that an example of a field has to show, inside its limits."""
     found = [field.low, field.high, *(each.value for each in field.field.values.values())]
-    if field.field.signed_as in WIRE_TYPES:
-        found.append(WIRE_TYPES[field.field.signed_as].high + 1)
+    if field.field.signed_as in NUMBER_TYPES:
+        found.append(NUMBER_TYPES[field.field.signed_as].high + 1)
     limits = field.field.limits
     if limits is None:
         return list(dict.fromkeys(found))

@@ -15,7 +15,7 @@ from framegen.language.load import read_source
 from framegen.reading.source import Source
 from framegen.render import render_target, snippets
 from framegen.targets import docs
-from framegen.targets.docs.pages import render_site
+from framegen.targets.docs.html_pages import render_site
 
 if TYPE_CHECKING:
     from framegen.model.model import Model

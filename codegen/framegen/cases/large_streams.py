@@ -1,4 +1,4 @@
-"""The largest frames, and lines on which no frame may be larger than a bound."""
+"""Streams with the largest frames, and streams with a bound on the size of a frame."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ _REPORT = 64
 
 
 def large_streams(sender: Sender) -> Iterator[StreamCase]:
-    """The largest frame in all ways, then the bound."""
+    """Yield streams with the largest frame, whole and in pieces, then those with a bound."""
     frames = [*sender.small_frames.values()]
     if not frames:
         return

@@ -1,4 +1,4 @@
-"""What can happen to the frames of one message on a line."""
+"""Streams with the frames of one message: whole, in pieces, repeated, behind noise."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
 
 def message_streams(sender: Sender) -> Iterator[StreamCase]:
-    """The same lines for each message."""
+    """Yield the same streams for each message."""
     for name, frame in sender.small_frames.items():
         for title, parts in _lines(sender, sender.model.messages[name], frame):
             yield StreamCase(f"{name}: {title}", sender.direction, parts)

@@ -1,4 +1,4 @@
-"""Lines with noise on them, and frames that came in parts."""
+"""Streams with noise, and with frames that arrive in pieces."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 
 
 def noise_streams(sender: Sender) -> Iterator[StreamCase]:
-    """Noise around frames, stray headers, frames cut, and lengths that no frame has."""
+    """Yield streams of noise around frames, false headers, cut frames and illegal lengths."""
     frames = [*sender.small_frames.values()]
     if frames:
         # The second, so that a message more changes nothing here.
@@ -68,7 +68,7 @@ def _cuts(sender: Sender, frame: bytes, other: bytes) -> Iterator[tuple[str, Par
 
 
 def _lengths(sender: Sender, frame: bytes) -> Iterator[tuple[str, Parts]]:
-    """Lengths that no frame has, of a message that there is."""
+    """Yield frames of a known message whose length no frame has."""
     envelope = sender.model.frame
     known = next(iter(sender.model.sent(sender.direction)))
     sizes = {
@@ -91,7 +91,7 @@ def _together(frames: list[bytes]) -> Iterator[tuple[str, Parts]]:
 
 
 def _mixed(sender: Sender, frame: bytes, other: bytes) -> Iterator[tuple[str, Parts]]:
-    """Whatever comes, in an order that nobody has thought of."""
+    """Yield mixtures of frames, noise and parts of both, in a pseudo-random order."""
     header = sender.header
     told = sender.unknown(sender.noise(2)) or header
     pieces = [

@@ -1,4 +1,4 @@
-"""Frames of an id that no message has, whole and in part, and what hides in them."""
+"""Streams with frames of an unknown id, whole and cut short, and with frames inside them."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 
 
 def unknown_streams(sender: Sender) -> Iterator[StreamCase]:
-    """All of them, as far as a frame of this direction has room for what they hold."""
+    """Yield these streams, as far as a frame of this direction has room for their contents."""
     empty = sender.unknown(b"")
     if not sender.small_frames or empty is None:
         return
@@ -31,7 +31,7 @@ def unknown_streams(sender: Sender) -> Iterator[StreamCase]:
 
 
 def _filled(sender: Sender) -> bytes | None:
-    """An unknown frame with a few bytes that mean nothing, as many as there is room for."""
+    """Make an unknown frame that holds up to a few bytes without meaning."""
     found = (sender.unknown(sender.noise(size)) for size in (3, 2, 1))
     return next((each for each in found if each is not None), None)
 
@@ -59,7 +59,7 @@ def _whole(
 def _holding(
     sender: Sender, frame: bytes, empty: bytes, filled: bytes
 ) -> Iterator[tuple[str, Parts]]:
-    """Whole ones, by what they hold; and what comes behind them."""
+    """Yield whole unknown frames, by what they hold and by what follows them."""
     header, calm = sender.header, sender.noise(1)
     held = {
         "a frame": (frame, b""),
@@ -79,7 +79,7 @@ def _holding(
 
 
 def _unfinished(sender: Sender, frame: bytes, empty: bytes) -> Iterator[tuple[str, Parts]]:
-    """Those whose length says more than comes."""
+    """Yield unknown frames whose length claims more than arrives."""
     calm, least = sender.noise(1), sender.model.frame.least
     more = least + 2 * len(frame) + 2 * len(empty) + 4
     claim, larger = sender.unknown(b"", more), sender.unknown(b"", more + 1)
@@ -98,7 +98,7 @@ def _unfinished(sender: Sender, frame: bytes, empty: bytes) -> Iterator[tuple[st
 
 
 def _in_a_run(sender: Sender) -> Iterator[tuple[str, Parts]]:
-    """One that begins in a run of one byte, which says how long it is, and ends behind the run."""
+    """Yield unknown frames that begin in a run of one byte, which is also their length."""
     first = sender.header[:1]
     run = first[0] + sender.model.frame.uncounted + 1
     if set(sender.header) == {*first} and run <= sender.largest:

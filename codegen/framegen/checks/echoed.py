@@ -5,8 +5,8 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from framegen.checks.rule import Problem, StructureRule
-from framegen.language.spec import GroupField
-from framegen.language.wiretypes import WIRE_TYPES
+from framegen.language.number_types import NUMBER_TYPES
+from framegen.language.spec import ListField
 from framegen.model.exchanges import paths_of
 from framegen.reading.findings import did_you_mean
 
@@ -53,7 +53,7 @@ def _pair(
 def _room(
     path: KeyPath, request: tuple[Message, str], answer: tuple[Message, str]
 ) -> Iterator[Problem]:
-    """What is asked for and cannot be told makes questions that nothing answers."""
+    """Find values that can be requested but not reported: such a request never gets a reply."""
     asked, told = _values(*request), _values(*answer)
     if asked is None or told is None:
         return
@@ -67,23 +67,26 @@ def _room(
 
 
 def _values(message: Message, path: str) -> tuple[int, int] | None:
-    """The values that a field, or one of an element, may have; None where its type is unknown."""
+    """Return the values that a field may have; None where its type is unknown."""
     outer, _, inner = path.partition(".")
     field = message.fields[outer]
-    number = field.fields[inner] if isinstance(field, GroupField) else field
-    wire = WIRE_TYPES.get(number.type)
-    if wire is None:
+    number = field.fields[inner] if isinstance(field, ListField) else field
+    type_ = NUMBER_TYPES.get(number.type)
+    if type_ is None:
         return None
     declared = number.range
     high = None if declared is None else declared.high
-    return wire.low if declared is None else declared.low, wire.high if high is None else high
+    return (
+        type_.low if declared is None else declared.low,
+        type_.high if high is None else high,
+    )
 
 
 RULE = StructureRule(
     id="echoed",
     title="What a reply repeats is a field of both messages",
-    why="A client tells the reply to its request from others by the fields that it repeats: by one "
-    "that is not there, no reply is ever the right one.",
+    why="A client matches a reply to its request by the fields that it repeats: where one does "
+    "not exist, no reply ever matches.",
     bad="LampRead: {reply: LampState, echoed: {lamp: lamp_id}}",
     good="LampRead: {reply: LampState, echoed: {lamp_id: lamp_id}}",
     look=_look,

@@ -1,4 +1,4 @@
-"""Puts output on disk: what is framegen's own, and only that; nothing half-written, ever."""
+"""Writing of output: only what is framegen's own, and never half of a file."""
 
 from __future__ import annotations
 

@@ -12,8 +12,8 @@ from .._client.exchanges import EXCHANGES
 from .._client.long_question import left_out
 from .._client.wire_time import WireTime
 from .._frame.errors import EncodeError
+from .._frame.pluralize import pluralize
 from .._frame.protocol import BAUD
-from .._frame.wording import counted
 from .._serial.link_errors import NoReplyError
 from . import link
 from .console import visible
@@ -185,10 +185,10 @@ class Trips:
                 f"  rate            {rate}{hint}",
             ]
         if self._unsolicited:
-            slips = counted(self._unsolicited, "reply", "replies")
+            slips = pluralize(self._unsolicited, "reply", "replies")
             lines.append(f"  slips           {slips} to nothing, sent twice or too late: dropped")
         if self._impossible:
-            early = counted(self._impossible, "question")
+            early = pluralize(self._impossible, "question")
             lines.append(
                 f"  too soon        {early} had a reply that no such wire can have carried"
             )

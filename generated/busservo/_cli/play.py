@@ -10,7 +10,7 @@ from itertools import chain, repeat
 from pathlib import Path
 
 from .._client.wire_time import WireTime
-from .._frame.wording import counted
+from .._frame.pluralize import pluralize
 from . import link
 from .exit_codes import DONE, INTERRUPTED
 from .limits import add_limits, limits_of
@@ -81,7 +81,7 @@ def run(arguments: argparse.Namespace) -> int:
         for step in chain.from_iterable(repeat(steps, arguments.repeat)):
             print(step.told(at), flush=True)
             at += step.wire + step.seconds
-        total = counted(len(steps) * arguments.repeat, "pose")
+        total = pluralize(len(steps) * arguments.repeat, "pose")
         print(f"{total} in {at:.3f} s: nothing was sent", file=sys.stderr)
         return DONE
     with failures_told(), open_client(arguments, limits=limits) as controller:
@@ -131,7 +131,7 @@ def _play(
             print(f"\n{listed(pose, ids)} held", file=sys.stderr)
         return INTERRUPTED
     finally:
-        print(f"{done} of {counted(len(steps) * times, 'pose')} played", file=sys.stderr)
+        print(f"{done} of {pluralize(len(steps) * times, 'pose')} played", file=sys.stderr)
     return DONE
 
 

@@ -11,7 +11,7 @@ import time
 from .._codec.careful_decoder import GAP
 from .._codec.decoder import StreamDecoder
 from .._frame.direction import RECEIVED
-from .._frame.wording import counted
+from .._frame.pluralize import pluralize
 from .._serial.link_errors import TransportError
 from .events import bytes_of, totals
 from .lines import Lines
@@ -68,7 +68,7 @@ class Playback:
             self._over.set()
             listener.join(1.0)
             self._progress.end()
-            told = f"{sent} of {counted(count, 'frame')} sent, {counted(size, 'byte')}"
+            told = f"{sent} of {pluralize(count, 'frame')} sent, {pluralize(size, 'byte')}"
             try:
                 self._show(self._decoder.flush(), time.monotonic())
             finally:

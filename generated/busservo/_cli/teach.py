@@ -7,7 +7,7 @@ import argparse
 import sys
 from pathlib import Path
 
-from .._frame.wording import counted
+from .._frame.pluralize import pluralize
 from .._serial.link_errors import NoReplyError
 from . import link
 from .examples import PROGRAM
@@ -123,7 +123,7 @@ class _Lesson:
             return INTERRUPTED
         finally:
             recorded = len(self._poses) - self._before
-            print(f"{counted(recorded, 'pose')} recorded; {left}", file=sys.stderr)
+            print(f"{pluralize(recorded, 'pose')} recorded; {left}", file=sys.stderr)
             if recorded:
                 told = f"`{PROGRAM} play {self._path} --dry-run` shows what would be sent"
                 print(told, file=sys.stderr)

@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 from .._frame.errors import ProtocolError
-from .._frame.wording import counted
+from .._frame.pluralize import pluralize
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
@@ -103,13 +103,13 @@ class NoReplyError(ProtocolError, TimeoutError):
         if self.noise:
             verb = "is" if self.noise == 1 else "are"
             came.append(
-                f"{counted(self.noise, 'byte')} came that {verb} no frame: wrong baud rate?"
+                f"{pluralize(self.noise, 'byte')} came that {verb} no frame: wrong baud rate?"
             )
         if self.unsolicited:
-            replies = counted(self.unsolicited, "reply", "replies")
+            replies = pluralize(self.unsolicited, "reply", "replies")
             came.append(f"{replies} came that cannot be the answer: late, or sent twice")
         if self.reports:
-            came.append(f"{counted(self.reports, 'report')} came, so the device can be heard")
+            came.append(f"{pluralize(self.reports, 'report')} came, so the device can be heard")
         return "; ".join(came) or (
             "nothing came at all: is the device switched on, and is this its port?"
         )

@@ -1,4 +1,4 @@
-"""One thing that is tried on a device: what is sent, piece by piece, and which replies are due."""
+"""One step of a run on a device: what is sent, and which replies are due."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Request:
-    """A frame of a message that is allowed. `about` says where its values are from."""
+    """A frame of an allowed message. `about` says where its values are from."""
 
     exchange: Exchange
     values: Mapping[str, Any]
@@ -30,7 +30,7 @@ class Request:
 
     @property
     def reply(self) -> MessageLayout | None:
-        """The message that is due for it."""
+        """The message that is due as its reply."""
         return self.exchange.reply
 
     @property
@@ -39,14 +39,14 @@ class Request:
         return " ".join([self.message.name, *fields(self.message, self.values)])
 
     def answered_by(self, message: MessageLayout, values: Mapping[str, Any]) -> bool:
-        """Whether a message can be its reply: it tells of nothing that was not asked."""
+        """Tell whether a message can be its reply: it reports only what was requested."""
         return message == self.reply and not any(
             excess(self, path, told, values) for path, told in self.exchange.echoed
         )
 
     @property
     def reply_size(self) -> int:
-        """Bytes of the largest reply that it can have; 0 where none is due."""
+        """The size of the largest reply that it can have; 0 where none is due."""
         if self.reply is None:
             return 0
         items = self.reply.items
@@ -60,7 +60,7 @@ class Request:
 
 @dataclass(frozen=True, slots=True)
 class Malformed:
-    """Bytes that are no frame, for a reason; `about` says in which way."""
+    """Bytes that are no frame, and the reason; `about` says in which way."""
 
     frame: bytes
     reason: str
@@ -74,29 +74,29 @@ Burst: TypeAlias = tuple[Piece, ...]
 
 @dataclass(frozen=True, slots=True)
 class Step:
-    """What is sent, a burst at a time, each once the replies to the one before it are there."""
+    """Bursts to send, each once the replies to the one before it have arrived."""
 
     title: str
     bursts: tuple[Burst, ...]
 
     @property
     def is_malformed(self) -> bool:
-        """Whether any of it is no frame."""
+        """Whether any of it is malformed."""
         return any(isinstance(piece, Malformed) for burst in self.bursts for piece in burst)
 
 
 def data_of(burst: Burst) -> bytes:
-    """The bytes of what is sent at once."""
+    """Return the bytes of a burst."""
     return b"".join(piece.frame for piece in burst)
 
 
 def requests_of(burst: Burst) -> list[Request]:
-    """What of it a device is to answer, or to do."""
+    """Return the requests of a burst that a device must answer or carry out."""
     return [piece for piece in burst if isinstance(piece, Request)]
 
 
 def column(values: Mapping[str, Any], path: str) -> list[int]:
-    """The values of a field, by path: one number, or one for each element of a list."""
+    """Return the values of a field, by path: one number, or one for each element of a list."""
     name, _, inner = path.partition(".")
     value = values[name]
     if inner:
@@ -105,9 +105,9 @@ def column(values: Mapping[str, Any], path: str) -> list[int]:
 
 
 def excess(request: Request, asked: str, told: str, values: Mapping[str, Any]) -> list[int]:
-    """What a reply with these values tells beyond what was asked, each as often as it is too much.
+    """Return what a reply with these values reports beyond the request, with how often.
 
-    What is left out is not looked at: a device may have nothing to tell of it.
+    What it omits does not count: a device may have nothing to report of it.
     """
     left = column(request.values, asked)
     found = []

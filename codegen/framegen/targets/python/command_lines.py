@@ -1,4 +1,4 @@
-"""The verbs of the command: what each is for, and command lines for its help."""
+"""The verbs of the command: what each is for, and example command lines for its help."""
 
 from __future__ import annotations
 
@@ -43,12 +43,12 @@ class VerbView:
 
     @property
     def entry(self) -> str:
-        """Its examples as the entry of a dict."""
+        """The examples as the entry of a dict."""
         return Bracketed(f"{literal(self.name)}: (", [*self.examples], "),", lone=",").fitted(4)
 
 
 def verbs(model: Model) -> list[VerbView]:
-    """The verbs that have something to do in this protocol, in the order of the alphabet."""
+    """Return the verbs that this protocol has a use for, in alphabetical order."""
     program = model.spec.protocol.name
     found: list[VerbView] = []
     for verb, lines in sorted(_examples(model).items()):
@@ -58,7 +58,7 @@ def verbs(model: Model) -> list[VerbView]:
 
 
 def _examples(model: Model) -> dict[str, list[_Line]]:
-    """What stands behind each verb in its examples, and what it does."""
+    """Return the example arguments of each verb, and what they do."""
     commands, questions = _commands(model), _questions(model)
     found = {
         "answer": [("", "what is asked on standard input, until that ends")],
@@ -115,7 +115,7 @@ def _examples(model: Model) -> dict[str, list[_Line]]:
 
 
 def _decode_lines(model: Model) -> list[_Line]:
-    """The ways to hand over bytes."""
+    """Return the ways to pass bytes."""
     frame = _messages(model)[0].example.hex
     return [
         (frame.hex(" ").upper(), "bytes in hex, however they are written"),
@@ -128,7 +128,7 @@ def _decode_lines(model: Model) -> list[_Line]:
 
 
 def _encode_lines(model: Model) -> list[_Line]:
-    """An example of each shape of message."""
+    """Return an example of each shape of message."""
     shapes: dict[tuple[bool, bool], _Line] = {}
     for message in _messages(model):
         shape = bool(message.numbers), message.items is not None
@@ -138,7 +138,7 @@ def _encode_lines(model: Model) -> list[_Line]:
 
 
 def _commands(model: Model) -> list[_Line]:
-    """An example of each message of the client that is not answered, and what it does."""
+    """Return an example of each message of the client without a reply, and what it does."""
     return [
         (f"--port COM7 {_words(message)}", message.layout.message.summary)
         for exchange, message in _sent(model)
@@ -147,7 +147,7 @@ def _commands(model: Model) -> list[_Line]:
 
 
 def _questions(model: Model) -> list[tuple[str, str, str]]:
-    """An example of each question, what it does, and its reply."""
+    """Return an example of each query, what it does, and its reply."""
     return [
         (f"--port COM7 {_words(message)}", message.layout.message.summary, exchange.reply.name)
         for exchange, message in _sent(model)
@@ -160,7 +160,7 @@ def _sent(model: Model) -> list[tuple[Exchange, MessageView]]:
 
 
 def _words(message: MessageView) -> str:
-    """A message as the command takes it, with the values of its example."""
+    """Return a message as the command accepts it, with the values of its example."""
     return " ".join([message.name, *message.command_words(message.example.values)])
 
 

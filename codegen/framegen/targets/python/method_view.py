@@ -1,4 +1,4 @@
-"""What the templates of the two clients show of a method, which sends one message."""
+"""A client's method as the templates show it: it sends one message."""
 
 from __future__ import annotations
 
@@ -40,9 +40,9 @@ _PARTLY = (
 
 @dataclass(frozen=True, slots=True)
 class Flavour:
-    """How one of the clients is written: what stands before a definition, a call and an example.
+    """The style of one of the clients: what precedes a definition, a call and an example.
 
-    `motion` is what it returns for a message that lasts.
+    `motion` is the result for a message that lasts.
     """
 
     define: str
@@ -60,12 +60,12 @@ class MethodView:
 
     @property
     def name(self) -> str:
-        """How it is called."""
+        """The name of the method."""
         return self.exchange.method.name
 
     @property
     def signature(self) -> str:
-        """Its declaration."""
+        """The declaration."""
         given = [self._declared(self._argument(name)) for name in self._names]
         latest = [] if self.exchange.lasts is None else ["*", "latest: bool = False"]
         before = f"{self.flavour.define}{self.name}("
@@ -91,7 +91,7 @@ class MethodView:
 
     @property
     def doc(self) -> list[str]:
-        """What it does; its arguments with their units; what it returns, and what it raises."""
+        """The docstring: what it does, its arguments with units, its result, and its errors."""
         message = self.exchange.request.message
         found = [message.summary, message.description]
         if message.deprecated:
@@ -139,12 +139,12 @@ class MethodView:
 
     @property
     def in_parts(self) -> bool:
-        """Whether it may take several requests, whose replies are put together."""
+        """Whether it may send several requests, whose replies are joined."""
         return self.exchange.split is not None
 
     @property
     def result(self) -> str:
-        """The field of the reply that it returns; empty where it returns the reply, or has none."""
+        """The field of the reply that it returns; empty where it returns the reply or nothing."""
         return self.exchange.method.result
 
     @property
@@ -162,7 +162,7 @@ class MethodView:
 
     @property
     def joined(self) -> str:
-        """What the replies to several requests say, put together."""
+        """The expression that joins the replies to several requests."""
         clauses = ["each", "for reply in replies", f"for each in reply.{self.result}"]
         line = " ".join(clauses)
         if len(f"        return tuple({line})") <= WIDTH:
@@ -173,13 +173,13 @@ class MethodView:
 
     @property
     def sent(self) -> str:
-        """What a command is sent with."""
+        """The message of a command, as an expression."""
         latest = [] if self.exchange.lasts is None else ["latest=latest"]
         return self._given("return ", self.sender, [self._made, *latest])
 
     @property
     def sender(self) -> str:
-        """What a command is sent by."""
+        """The function that sends a command."""
         if self.exchange.lasts is not None:
             return "_move"
         return "send" if self.exchange.acknowledged is None else "_run"
@@ -194,7 +194,7 @@ class MethodView:
         return Bracketed(f"{self._request}(", given, ")")
 
     def _given(self, before: str, method: str, arguments: list[Part]) -> str:
-        """The arguments of a call in the body, broken where the line would be too long."""
+        """Return the arguments of a call in the body, broken where the line would be too long."""
         call = f"{before}{self.flavour.wait}self.{method}("
         return Bracketed(call, arguments, ")").fitted(8).removeprefix(call).removesuffix(")")
 
@@ -229,7 +229,7 @@ class MethodView:
         return argument.argument if isinstance(argument, ListView) else f"{argument.name}: int"
 
     def _session(self, before: str) -> list[str]:
-        """A call of it in an interactive session: the first argument by place, others by name."""
+        """Return a call in an interactive session: the first argument by place, others by name."""
         values = self.exchange.request.message.examples[0].values
         shown = [
             given(self._field(name), values[name], f"{name}=" if at else "")

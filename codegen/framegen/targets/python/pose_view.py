@@ -1,4 +1,4 @@
-"""What the templates of the two clients show of a pose: three methods beside those of messages."""
+"""The pose methods of the clients as the templates show them."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from framegen.model.exchanges import arguments_of
 from framegen.targets.python.escape import Bracketed, Part, literal
 from framegen.targets.python.method_view import MethodView
 from framegen.targets.python.names import signed_name
-from framegen.targets.python.words import range_expression
+from framegen.targets.python.spelling import range_expression
 
 if TYPE_CHECKING:
     from framegen.language.spec import Pose
@@ -24,7 +24,7 @@ _RAISED = "NoReplyError where no reply comes in time, and TransportError."
 
 @dataclass(frozen=True, slots=True)
 class PoseView:
-    """The methods of a client that read and command the positions of many."""
+    """The methods of a client that read and command many positions."""
 
     pose: Pose
     model: Model
@@ -32,7 +32,7 @@ class PoseView:
 
     @property
     def entry(self) -> str:
-        """What describes it to the runtime."""
+        """The description of the pose for the runtime."""
         pose = self.pose
         items: list[str | Bracketed] = [
             f"read={pose.read}",
@@ -53,7 +53,7 @@ class PoseView:
 
     @property
     def read(self) -> str:
-        """The message that asks for positions."""
+        """The message that requests positions."""
         return self.pose.read
 
     @property
@@ -77,7 +77,7 @@ class PoseView:
 
     @property
     def time(self) -> str:
-        """The argument that says how long a motion takes."""
+        """The argument for the duration of a motion."""
         lists = [self._moved.name]
         [name] = [
             each
@@ -93,12 +93,12 @@ class PoseView:
 
     @property
     def moves(self) -> str:
-        """What that method returns."""
+        """The return type of that method."""
         return MethodView(self._exchange(self.pose.move), self.model, self.flavour).returns
 
     @property
     def call(self) -> str:
-        """What sends it."""
+        """The expression that sends the request."""
         given = {
             self._moved.name: "targets",
             self.time: self.time,
@@ -111,20 +111,20 @@ class PoseView:
 
     @property
     def exchanged(self) -> str:
-        """What asks about all that was given, and has the replies."""
+        """The expression that sends all requests and returns the replies."""
         before = f"exchanged = {self.flavour.wait}self._exchanged("
         return Bracketed(before, [self.pose.read, self.asked], ")").fitted(8)
 
     @property
     def hold(self) -> str:
-        """The declaration of the method that commands what it reads."""
+        """The declaration of the method that commands the positions that it reads."""
         given = ["self", f"{self.asked}: Iterable[int]", f"{self.time}: int = HOLD_MS"]
         before = f"{self.flavour.define}{self.pose.hold}("
         return Bracketed(before, given, f") -> {self.moves}:").fitted(4)
 
     @property
     def present(self) -> str:
-        """The declaration of the method that finds who is there."""
+        """The declaration of the method that finds which ids answer."""
         given = ["self", f"{self.asked}: Iterable[int] | None = None"]
         before = f"{self.flavour.define}{self.pose.present}("
         return Bracketed(before, given, ") -> tuple[int, ...]:").fitted(4)
@@ -140,7 +140,7 @@ class PoseView:
 
     @property
     def limited(self) -> str:
-        """What targets are made of: the positions, and the limits of the client."""
+        """The arguments that targets are made from: the positions, and the client's limits."""
         call = "return POSE.targets_of("
         given = [self.told.name, "self._limits"]
         return Bracketed(call, given, ")").fitted(8).removeprefix(call).removesuffix(")")

@@ -7,7 +7,7 @@ import json
 from .._codec.codec import table_for, twins
 from .._codec.noise import Noise, UnknownFrame
 from .._frame.bytes_like import format_hex
-from .._frame.wording import counted
+from .._frame.pluralize import pluralize
 from .._recording.entry import SENDERS
 from .._recording.file import EITHER, NOISE
 from .values import fields_as_text, fields_in_json
@@ -84,10 +84,10 @@ def in_json(event: Message | Noise, direction: Direction | None) -> str:
 def totals(seen: Counters) -> str:
     """What a decoder has seen."""
     unknown = (
-        f", {counted(seen.unknown_frames, 'unknown frame')} in it" if seen.unknown_frames else ""
+        f", {pluralize(seen.unknown_frames, 'unknown frame')} in it" if seen.unknown_frames else ""
     )
-    told = f"{counted(seen.fed, 'byte')}: {counted(seen.messages, 'message')}"
-    return f"{told}, {counted(seen.noise, 'byte')} of noise{unknown}"
+    told = f"{pluralize(seen.fed, 'byte')}: {pluralize(seen.messages, 'message')}"
+    return f"{told}, {pluralize(seen.noise, 'byte')} of noise{unknown}"
 
 
 def _why(noise: Noise, direction: Direction | None) -> str:

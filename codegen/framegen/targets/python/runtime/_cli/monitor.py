@@ -10,7 +10,7 @@ from pathlib import Path
 from .._codec.careful_decoder import GAP
 from .._codec.decoder import StreamDecoder
 from .._frame.direction import RECEIVED
-from .._frame.wording import counted
+from .._frame.pluralize import pluralize
 from .._recording.entry import SENDERS
 from .._recording.file import EITHER, NOISE
 from ..messages import MESSAGES
@@ -184,7 +184,7 @@ class Monitor:
         return f"nothing to show for {waited:.0f} s (Ctrl-C ends); {totals(seen)}"
 
     def _totals(self) -> str:
-        filtered = f"; {counted(self._lines.count, 'line')} shown"
+        filtered = f"; {pluralize(self._lines.count, 'line')} shown"
         return totals(self._decoder.counters) + (filtered if self._only or self._hidden else "")
 
 

@@ -10,7 +10,7 @@ from .._client.exchanges import EXCHANGES
 from .._client.wire_time import WireTime
 from .._codec.noise import Noise
 from .._frame.direction import RECEIVED
-from .._frame.wording import counted
+from .._frame.pluralize import pluralize
 from .._recording.entry import SENDERS
 from .._recording.file import EITHER, NOISE
 from ..recordings import FORMS
@@ -158,8 +158,10 @@ def _is_chosen(entry: Entry, name: str, arguments: argparse.Namespace) -> bool:
 
 def _kinds(found: dict[str, int]) -> str:
     """How much there is of each kind, in words."""
-    told = [f"{counted(n, 'frame')} of {sender}" for sender, n in found.items() if sender != NOISE]
-    told += [f"{counted(found[NOISE], 'piece')} of noise"] if NOISE in found else []
+    told = [
+        f"{pluralize(n, 'frame')} of {sender}" for sender, n in found.items() if sender != NOISE
+    ]
+    told += [f"{pluralize(found[NOISE], 'piece')} of noise"] if NOISE in found else []
     return ", ".join(told) or "nothing at all"
 
 
@@ -181,5 +183,5 @@ def _show(timed: Iterable[tuple[Entry, float]], baud: float) -> None:
         lines.show(entry.event, entry.direction, at)
         size += len(bytes_of(entry.event))
         ends = at + wire.seconds(len(bytes_of(entry.event)))
-    told = f"{counted(lines.count, 'frame')}, {counted(size, 'byte')} in {ends:.3f} s"
+    told = f"{pluralize(lines.count, 'frame')}, {pluralize(size, 'byte')} in {ends:.3f} s"
     print(f"{told}: nothing was sent", file=sys.stderr)

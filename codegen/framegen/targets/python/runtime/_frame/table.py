@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from .bytes_like import as_bytes, format_hex
 from .errors import DecodeError, Reason
+from .pluralize import describe_range
 from .protocol import (
     BODY_AT,
     COMMAND_AT,
@@ -20,7 +21,6 @@ from .protocol import (
     read_length,
 )
 from .verdict import Verdict
-from .wording import describe_range
 
 TYPE_CHECKING = False  # typing alone would double the time that the import takes
 if TYPE_CHECKING:

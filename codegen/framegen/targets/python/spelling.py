@@ -1,4 +1,4 @@
-"""What has one spelling in Python wherever it is named: ranges, byte orders, directions."""
+"""The Python spelling of ranges, byte orders and directions."""
 
 from __future__ import annotations
 
@@ -9,17 +9,17 @@ if TYPE_CHECKING:
 
 
 def range_expression(numbers: range) -> str:
-    """A range as Python writes it, with nothing that goes without saying."""
+    """Return a range as Python code, in its shortest form."""
     if numbers.step != 1:
         return f"range({numbers.start}, {numbers.stop}, {numbers.step})"
     return f"range({numbers.start}, {numbers.stop})" if numbers.start else f"range({numbers.stop})"
 
 
 def struct_order(byte_order: str) -> str:
-    """The byte order as `struct` writes it."""
+    """Return the byte order as `struct` writes it."""
     return "<" if byte_order == "little" else ">"
 
 
 def direction_member(direction: Direction) -> str:
-    """The name of a direction in the enumeration: `HOST_TO_CONTROLLER`."""
+    """Return the name of a direction in the enumeration: `HOST_TO_CONTROLLER`."""
     return direction.key.upper()

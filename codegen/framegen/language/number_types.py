@@ -9,7 +9,7 @@ from dataclasses import dataclass
 
 
 @dataclass(frozen=True, slots=True)
-class WireType:
+class NumberType:
     """A number on the wire: its name, size in bytes, range, and letter in Python's struct."""
 
     name: str
@@ -20,18 +20,18 @@ class WireType:
 
     @property
     def is_byte(self) -> bool:
-        """Whether it is a byte as it stands on the wire: of one, and not below zero."""
+        """Whether it is an unsigned byte."""
         return self.size == 1 and self.low == 0
 
 
-WIRE_TYPES = {
-    wire.name: wire
-    for wire in (
-        WireType("u8", 1, 0, 0xFF, "B"),
-        WireType("u16", 2, 0, 0xFFFF, "H"),
-        WireType("u32", 4, 0, 0xFFFF_FFFF, "I"),
-        WireType("i8", 1, -0x80, 0x7F, "b"),
-        WireType("i16", 2, -0x8000, 0x7FFF, "h"),
-        WireType("i32", 4, -0x8000_0000, 0x7FFF_FFFF, "i"),
+NUMBER_TYPES = {
+    number_type.name: number_type
+    for number_type in (
+        NumberType("u8", 1, 0, 0xFF, "B"),
+        NumberType("u16", 2, 0, 0xFFFF, "H"),
+        NumberType("u32", 4, 0, 0xFFFF_FFFF, "I"),
+        NumberType("i8", 1, -0x80, 0x7F, "b"),
+        NumberType("i16", 2, -0x8000, 0x7FFF, "h"),
+        NumberType("i32", 4, -0x8000_0000, 0x7FFF_FFFF, "i"),
     )
 }

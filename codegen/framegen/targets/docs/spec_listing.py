@@ -1,4 +1,4 @@
-"""The spec to the letter, each of its keys an anchor."""
+"""The text of the spec, with an anchor for each key."""
 
 from __future__ import annotations
 
@@ -15,40 +15,40 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, slots=True)
 class Piece:
-    """Some text of a line, which a key begins. `anchor` is empty where it begins none."""
+    """Some text of a line, from a key on. `anchor` is empty where no key begins."""
 
     anchor: str
     text: str
 
 
 @dataclass(frozen=True, slots=True)
-class Line:
-    """One line of the spec: `anchor` names what begins first on it, if anything does."""
+class SpecLine:
+    """One line of the spec; `anchor` is that of the first key on it, if there is any."""
 
     number: int
     anchor: str
     pieces: list[Piece]
 
 
-def listing(source: Source, tree: Tree) -> list[Line]:
-    """Every line, but for the blank one at the end."""
+def listing(source: Source, tree: Tree) -> list[SpecLine]:
+    """Return every line, except the blank one at the end."""
     begins = _begins(tree)
     lines = source.text.rstrip("\n").split("\n")
     return [_line(number, text, begins.get(number, [])) for number, text in enumerate(lines, 1)]
 
 
-def _line(number: int, text: str, begins: list[tuple[int, str]]) -> Line:
+def _line(number: int, text: str, begins: list[tuple[int, str]]) -> SpecLine:
     if not begins:
-        return Line(number, "", [Piece("", text)])
+        return SpecLine(number, "", [Piece("", text)])
     (_, anchor), *others = begins
     starts = [(0, ""), *others]
     ends = [*(start for start, _ in others), len(text)]
     pieces = [Piece(name, text[start:end]) for (start, name), end in zip(starts, ends, strict=True)]
-    return Line(number, anchor, pieces)
+    return SpecLine(number, anchor, pieces)
 
 
 def _begins(tree: Tree) -> dict[int, list[tuple[int, str]]]:
-    """What begins on each line: columns, counted from 0, with anchors; what is around first."""
+    """Return the keys that begin on each line: columns from 0, with anchors, outermost first."""
     found: dict[int, list[tuple[int, str]]] = {}
     for keys in sorted({*tree.keys, *tree.values} - {()}, key=len):
         if all(map(_plain, keys)):
@@ -58,5 +58,5 @@ def _begins(tree: Tree) -> dict[int, list[tuple[int, str]]]:
 
 
 def _plain(step: str | int) -> bool:
-    """Whether a key can be part of an anchor: a word or a number, and no text of the author's."""
+    """Tell whether a key can be part of an anchor: a number or a word, and no free text."""
     return isinstance(step, int) or re.fullmatch(r"\w+", step, re.ASCII) is not None

@@ -1,4 +1,4 @@
-"""Words for numbers: how many there are of something, and which.
+"""Numbers in words: how many there are of something, and which.
 
 The Python target copies this file into each library, so it imports nothing of ours.
 """
@@ -6,13 +6,13 @@ The Python target copies this file into each library, so it imports nothing of o
 from __future__ import annotations
 
 
-def counted(number: int, noun: str, plural: str = "") -> str:
+def pluralize(number: int, noun: str, plural: str = "") -> str:
     """Count things: `1 finding`, `2 findings`; `plural` for a noun that takes no s."""
     return f"{number} {noun if number == 1 else plural or noun + 's'}"
 
 
 def describe_range(values: range) -> str:
-    """Put a range in words: `5`, `4..255`, or `8, 11, 14 .. 254`."""
+    """Describe a range: `5`, `4..255`, or `8, 11, 14 .. 254`."""
     if len(values) <= 4:
         return ", ".join(str(value) for value in values)
     if values.step == 1:

@@ -18,14 +18,14 @@ _TEMPLATES = Path(__file__).parent / "templates"
 
 
 def markdown_files(site: SiteView) -> dict[str, str]:
-    """Every page that has a twin, by path below the root of the reference."""
+    """Render every page that is there in Markdown, by path below the root."""
     templates = _environment()
     return {
         page.markdown: templates.get_template(f"{page.template}.md.jinja").render(
             site=site, page=page, message=page.message
         )
         for page in [*site.pages, *site.message_pages]
-        if page.twin
+        if page.in_markdown
     }
 
 

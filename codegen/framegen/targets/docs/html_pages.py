@@ -1,4 +1,4 @@
-"""The reference as static pages: no network, no server, each page whole by itself."""
+"""The reference as static HTML pages, each complete by itself: no network, no server."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ _HERE = Path(__file__).parent
 
 
 def render_site(specs: Iterable[Compiled], snippets: Snippets) -> dict[str, str]:
-    """The references of several protocols, each in a folder of its name, and the way to them."""
+    """Render the references of several protocols, each in a folder of its name, with an index."""
     sites = [SiteView(compiled, snippets) for compiled in specs]
     files = {f"{site.folder}/{path}": text for site in sites for path, text in _pages(site).items()}
     style = _static("style.css")
@@ -43,7 +43,7 @@ def render_site(specs: Iterable[Compiled], snippets: Snippets) -> dict[str, str]
 
 
 def _pages(site: SiteView) -> dict[str, str]:
-    """Every page of a reference, by path below its root."""
+    """Render every page of a reference, by path below its root."""
     templates = _environment()
     data = script_json(protocol_data(site.model))
     style = _static("style.css")
@@ -71,12 +71,12 @@ def _environment() -> Environment:
 
 
 def _static(name: str) -> Markup:
-    """A file that goes into pages as it is."""
+    """Return a file that goes into pages as it is."""
     return Markup((_HERE / "static" / name).read_text(encoding="utf-8"))  # noqa: S704 - our own
 
 
 def _allowed(style: str, scripts: list[Markup]) -> dict[str, str]:
-    """What the pages' own policy lets run: these very texts, told by their digests."""
+    """Return the digests of the scripts and styles that the pages' own policy allows."""
     return {
         "style": _digest(style),
         "script": " ".join(_digest(script) for script in scripts) or "'none'",

@@ -1,6 +1,6 @@
-"""A stream decoded step by step: what can be told of each byte, and when a header is given up.
+"""A walk-through of stream decoding: what each byte shows, and where a header is given up.
 
-What it comes to is what the reference says; here it is put in words.
+The events are the reference's; here they are explained in words.
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ from framegen.language.values import to_hex
 from framegen.model.slots import Number
 from framegen.model.stream import ReferenceDecoder
 from framegen.model.verdict import BAD_HEADER, COUNT_MISMATCH, LENGTH_MISMATCH, TOO_SHORT
-from framegen.wording import counted, describe_range
+from framegen.pluralize import describe_range, pluralize
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -28,7 +28,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, slots=True)
 class Step:
-    """Some bytes, and what they tell. `ok` is whether a frame is still possible after them."""
+    """Some bytes, and what they show. `ok` says whether a frame is still possible after them."""
 
     offset: int
     bytes: str
@@ -38,7 +38,7 @@ class Step:
 
 @dataclass(frozen=True, slots=True)
 class EventView:
-    """What the decoder gives: a message by name; or no name, and why it is none."""
+    """An event of the decoder: the name of a message; or none, and the reason."""
 
     data: bytes
     message: str
@@ -51,8 +51,8 @@ class EventView:
 
 
 @dataclass(frozen=True, slots=True)
-class Walk:
-    """One stretch of the line, from its first byte to silence."""
+class Walkthrough:
+    """The steps and events of one stretch of the line, from its first byte to silence."""
 
     data: bytes
     direction: Direction
@@ -66,17 +66,17 @@ class Walk:
 
     @property
     def way(self) -> str:
-        """Who sends it to whom."""
+        """The sender and the receiver."""
         return f"{self.direction.sender} to {self.direction.receiver}"
 
     @property
     def query(self) -> str:
-        """What opens the decoder on these bytes."""
+        """The query string that opens the decoder with these bytes."""
         return f"hex={self.data.hex()}&direction={self.direction.key}"
 
 
-def walk(model: Model, direction: Direction, data: bytes) -> Walk:
-    """Decode `data`, after which the line stays quiet."""
+def walkthrough(model: Model, direction: Direction, data: bytes) -> Walkthrough:
+    """Decode `data` step by step; the line stays quiet after it."""
     line = ReferenceDecoder(model, [direction])
     events = [piece for event in line.decode(data) for piece in _pieces(model, event)]
     steps = [step for event in events for step in _steps(line, event, data[event.at :])]
@@ -84,11 +84,11 @@ def walk(model: Model, direction: Direction, data: bytes) -> Walk:
         EventView(event.data, "" if event.message is None else event.message.name, event.reason)
         for event in events
     ]
-    return Walk(data, direction, steps, told)
+    return Walkthrough(data, direction, steps, told)
 
 
 def _pieces(model: Model, event: Event) -> Iterator[Event]:
-    """Cut noise where headers stand in it, or begin at its end; all else is one piece."""
+    """Cut noise where headers occur in it, or begin at its end; leave all else whole."""
     header = model.frame.header
     inside = range(1, len(event.data) if event.kind == "noise" else 1)
     starts = [at for at in inside if header.startswith(event.data[at : at + len(header)])]
@@ -97,7 +97,7 @@ def _pieces(model: Model, event: Event) -> Iterator[Event]:
 
 
 def _steps(line: ReferenceDecoder, event: Event, rest: bytes) -> Iterator[Step]:
-    """Tell one piece of the line slot by slot, until a frame is whole or there is no hope of it."""
+    """Yield the steps of one event slot by slot, until a frame is whole or impossible."""
     verdict = line.weigh(rest)
     if verdict.reason == BAD_HEADER:
         text = "no frame begins so: noise up to the next header"
@@ -108,18 +108,18 @@ def _steps(line: ReferenceDecoder, event: Event, rest: bytes) -> Iterator[Step]:
         yield Step(event.at + at, to_hex(rest[at:end]), text, ok=True)
         at = end
     if verdict.message is not None:
-        size = counted(verdict.offset, "byte")
+        size = pluralize(verdict.offset, "byte")
         yield Step(event.at, "", f"{verdict.message.name}, whole: {size} from here", ok=True)
         return
     piece, text = _refusal(line.model, verdict, rest, at)
     yield Step(event.at + at, to_hex(piece), text, ok=False)
-    size = counted(len(event.data), "byte")
+    size = pluralize(len(event.data), "byte")
     told = f"{size} of noise: {event.reason}" if event.kind == "noise" else f"{size}: unknown frame"
     yield Step(event.at, to_hex(event.data), told, ok=False)
 
 
 def _agreed(model: Model, verdict: Verdict, data: bytes) -> Iterator[tuple[str, int]]:
-    """What the slots tell that agreed with a frame, and where each telling ends."""
+    """Yield what the slots show that agreed with a frame, and where each piece ends."""
     groups = [(kind, list(slots)) for kind, slots in groupby(verdict.seen, _kind)]
     if groups and groups[-1][0] == "values" and verdict.reason == TOO_SHORT:
         groups.pop()  # they end in the silence
@@ -131,7 +131,7 @@ def _agreed(model: Model, verdict: Verdict, data: bytes) -> Iterator[tuple[str, 
             case "constant":
                 text = "a header: a frame may begin here"
             case "length":
-                size = counted(value + model.frame.uncounted, "byte")
+                size = pluralize(value + model.frame.uncounted, "byte")
                 text = f"{name} {value}: the frame would have {size}"
             case "id" if verdict.likely is not None:
                 text = f"{name} {value}: {verdict.likely.name}, {_rule(verdict.likely)}"
@@ -144,13 +144,13 @@ def _agreed(model: Model, verdict: Verdict, data: bytes) -> Iterator[tuple[str, 
 
 
 def _kind(placed: Placed) -> str:
-    """What is told together: each number of the head and the count alone, all else as one."""
+    """Return what is shown together: each number of the head and the count alone, else all."""
     role = placed.slot.role
     return role if role in ("constant", "length", "id", "count") else "values"
 
 
 def _refusal(model: Model, verdict: Verdict, data: bytes, at: int) -> tuple[bytes, str]:
-    """The bytes that end the hope of a frame, which stand at `at`, and why."""
+    """Return the bytes at `at` that rule out a frame, and why."""
     frame, message, rest = model.frame, verdict.likely, data[at:]
     if verdict.reason == TOO_SHORT:
         return rest, "the line goes quiet before the frame is whole"

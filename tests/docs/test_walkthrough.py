@@ -4,8 +4,8 @@ import pytest
 from framegen.cases.invalid import spoilt
 from framegen.model.model import derive
 from framegen.targets.docs.drawing import interruption
-from framegen.targets.docs.lessons import lessons
-from framegen.targets.docs.walk import Walk, walk
+from framegen.targets.docs.stream_examples import stream_examples
+from framegen.targets.docs.walkthrough import Walkthrough, walkthrough
 
 from tests.docs.peers import Event, joined, noisy_lines, reference_events
 from tests.docs.reference import SPECS, reference
@@ -14,7 +14,7 @@ from tests.factories import DEMO, compiled_of, data_of, layout_of
 BUSSERVO = reference("busservo").model
 
 
-def events_of(shown: Walk) -> list[Event]:
+def events_of(shown: Walkthrough) -> list[Event]:
     return [
         ["message", event.data.hex(), event.message]
         if event.message
@@ -26,16 +26,21 @@ def events_of(shown: Walk) -> list[Event]:
 @pytest.mark.parametrize("name", SPECS)
 def test_what_is_shown_is_what_the_reference_says(name: str) -> None:
     model = reference(name).model
-    shown = lessons(model)
+    shown = stream_examples(model)
     assert len(shown) >= 3
-    for lesson in shown:
-        data, way = lesson.walk.data, lesson.walk.direction
-        assert joined(events_of(lesson.walk)) == reference_events(model, data, way), lesson.id
+    for example in shown:
+        data, way = example.walkthrough.data, example.walkthrough.direction
+        assert joined(events_of(example.walkthrough)) == reference_events(model, data, way), (
+            example.id
+        )
 
 
 def test_the_reference_shows_every_way_to_refuse_that_noise_meets() -> None:
     reasons = {
-        event.reason for lesson in lessons(BUSSERVO) for event in lesson.walk.events if event.reason
+        event.reason
+        for example in stream_examples(BUSSERVO)
+        for event in example.walkthrough.events
+        if event.reason
     }
     assert reasons == {"unknown command", "count mismatch", "too short"}
 
@@ -44,7 +49,7 @@ def test_the_reference_shows_every_way_to_refuse_that_noise_meets() -> None:
 def test_no_byte_is_lost_and_every_step_shows_bytes_of_the_line(name: str) -> None:
     layout = reference(name).model
     for line in noisy_lines(layout, 4, 200):
-        shown = walk(layout, layout.directions[0], line)
+        shown = walkthrough(layout, layout.directions[0], line)
         assert b"".join(event.data for event in shown.events) == line
         for step in shown.steps:
             data = bytes.fromhex(step.bytes)
@@ -52,7 +57,7 @@ def test_no_byte_is_lost_and_every_step_shows_bytes_of_the_line(name: str) -> No
 
 
 def test_a_stray_byte_costs_one_byte() -> None:
-    shown = walk(BUSSERVO, BUSSERVO.directions[0], bytes.fromhex("55 55 55 02 07"))
+    shown = walkthrough(BUSSERVO, BUSSERVO.directions[0], bytes.fromhex("55 55 55 02 07"))
     assert events_of(shown) == [
         ["noise", "55", "unknown command"],
         ["message", "55550207", "ActionGroupStop"],
@@ -79,7 +84,7 @@ def test_where_every_code_has_a_meaning_no_lesson_is_about_one_that_has_none() -
     spec = compiled_of(data).read
     assert spec is not None
     layout = derive(spec)
-    assert "unknown" not in [lesson.id for lesson in lessons(layout)]
+    assert "unknown" not in [example.id for example in stream_examples(layout)]
     message = layout.messages["StationRead"]
     frame = message.message.examples[0].hex
     told = [said for said, _ in spoilt(layout, message, frame)]
@@ -113,9 +118,11 @@ def test_a_list_whose_example_is_empty_takes_no_lesson_away() -> None:
     }
     spec = compiled_of(data).read
     assert spec is not None
-    told = lessons(derive(spec))
-    assert [each.id for each in told] == [each.id for each in lessons(layout_of(data_of(DEMO)))]
-    assert told[0].walk.data.hex() == "c35aa5100003000000"
+    told = stream_examples(derive(spec))
+    assert [each.id for each in told] == [
+        each.id for each in stream_examples(layout_of(data_of(DEMO)))
+    ]
+    assert told[0].walkthrough.data.hex() == "c35aa5100003000000"
 
 
 def test_a_report_of_another_end_comes_between_no_request_and_its_reply() -> None:

@@ -35,7 +35,7 @@ class ExampleView:
 
     @property
     def page(self) -> str:
-        """The page of its message."""
+        """The page of the message."""
         return message_page(self.message)
 
     @property
@@ -50,13 +50,13 @@ class ExampleView:
 
     @property
     def query(self) -> str:
-        """What opens the decoder on these bytes."""
+        """The query string that opens the decoder with these bytes."""
         return f"hex={self.data.hex()}&direction={self.key}"
 
 
 @dataclass(frozen=True, slots=True)
-class Exchange:
-    """A frame, and those that its message leads to: its reply, or reports that may follow."""
+class ExampleSequence:
+    """A frame and those that follow it: its reply, or reports that may come."""
 
     request: ExampleView
     replies: list[ExampleView]
@@ -64,7 +64,7 @@ class Exchange:
 
 
 def example_views(model: Model, message: MessageLayout) -> list[ExampleView]:
-    """Every example of a message."""
+    """Return every example of a message."""
     return [
         ExampleView(
             message.name,
@@ -82,11 +82,11 @@ def example_views(model: Model, message: MessageLayout) -> list[ExampleView]:
     ]
 
 
-def exchanges(model: Model) -> list[Exchange]:
-    """Every documented frame once: requests with what answers them, then what is left over."""
+def example_sequences(model: Model) -> list[ExampleSequence]:
+    """Return every documented frame once: requests with what follows them, then the rest."""
     views = {name: example_views(model, message) for name, message in model.messages.items()}
     told: set[tuple[str, int]] = set()
-    found: list[Exchange] = []
+    found: list[ExampleSequence] = []
     for name, message in model.messages.items():
         said = message.message
         follow = [said.reply] if said.reply is not None else said.reports
@@ -95,14 +95,14 @@ def exchanges(model: Model) -> list[Exchange]:
                 continue
             replies = list(_answers(model, view, follow, views))
             told |= {(reply.message, reply.number) for reply in replies}
-            found.append(Exchange(view, replies, certain=said.reply is not None))
+            found.append(ExampleSequence(view, replies, certain=said.reply is not None))
     return found
 
 
 def _answers(
     model: Model, request: ExampleView, follow: list[str], views: dict[str, list[ExampleView]]
 ) -> Iterator[ExampleView]:
-    """Of each message that follows, the example that goes with the request, if there is one."""
+    """Yield the example that belongs to the request, of each message that may follow."""
     asked = _example(model, request)
     for name in follow:
         for view in views[name]:

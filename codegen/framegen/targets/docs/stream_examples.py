@@ -1,4 +1,4 @@
-"""What the page about stream decoding shows: real bytes, made from the examples of the spec."""
+"""Examples for the page about stream decoding: real bytes, made from those of the spec."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 from framegen.model.codec import Unencodable, encode
 from framegen.model.slots import Constant
 from framegen.model.verdict import COUNT_MISMATCH
-from framegen.targets.docs.walk import Walk, walk
+from framegen.targets.docs.walkthrough import Walkthrough, walkthrough
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -22,16 +22,16 @@ _LONGEST_LIST = 8
 
 
 @dataclass(frozen=True, slots=True)
-class Lesson:
-    """One walk, and what it teaches."""
+class StreamExample:
+    """One walk-through, and what it shows."""
 
     id: str
     title: str
     text: str
-    walk: Walk
+    walkthrough: Walkthrough
 
 
-# What each lesson is called, and what it teaches.
+# What each example is called, and what it teaches.
 _SAID = {
     "whole": (
         "A frame, as it arrives",
@@ -61,10 +61,12 @@ _SAID = {
 }
 
 
-def lessons(model: Model) -> list[Lesson]:
-    """The lessons that this protocol can give, from the easiest on."""
+def stream_examples(model: Model) -> list[StreamExample]:
+    """Return the examples that this protocol allows, the easiest first."""
     return [
-        Lesson(id_, _SAID[id_][0], " ".join(_SAID[id_][1].split()), walk(model, way, data))
+        StreamExample(
+            id_, _SAID[id_][0], " ".join(_SAID[id_][1].split()), walkthrough(model, way, data)
+        )
         for id_, way, data in _materials(model)
         if data is not None
     ]
@@ -90,18 +92,18 @@ def _frames(model: Model, way: Direction) -> list[bytes]:
 
 
 def _misread(model: Model, way: Direction) -> bytes | None:
-    """Find a frame that, behind a stray header byte, begins like a frame of another length."""
+    """Find a frame that, behind a false header byte, begins like a frame of another length."""
     for message in model.sent(way).values():
         for frame in _lengthened(message):
             data = model.frame.header[-1:] + frame
-            events = walk(model, way, data).events
+            events = walkthrough(model, way, data).events
             if [event.reason for event in events] == [COUNT_MISMATCH, ""]:
                 return data
     return None
 
 
 def _lengthened(message: MessageLayout) -> Iterator[bytes]:
-    """The first example of a message, with lists of other lengths."""
+    """Yield the first example of a message, with lists of other lengths."""
     items, examples = message.items, message.message.examples
     if items is None or not examples:
         return
@@ -115,7 +117,7 @@ def _lengthened(message: MessageLayout) -> Iterator[bytes]:
 
 
 def _unknown_head(model: Model, way: Direction) -> bytes | None:
-    """Make the head of a frame whose command has no meaning, and whose length is the longest."""
+    """Make the head of a frame with an unknown id and the largest length."""
     frame, sent = model.frame, model.sent(way)
     code = next((code for code in frame.legal_ids if code not in sent and code), None)
     if code is None:
