@@ -24,12 +24,12 @@ if TYPE_CHECKING:
 
 
 def add_arguments(parser: ArgumentParser) -> None:
-    """Declares the arguments of the verb."""
+    """Declare the arguments of the verb."""
     parser.add_argument("--json", action="store_true", help="print each port as a line of JSON")
 
 
 def run(arguments: Namespace) -> int:
-    """Prints a line for each port: its name, VID:PID where it has them, what it is."""
+    """Print a line for each port: its name, VID:PID if it has them, what it is."""
     serial = [(each.name, each.usb, each.product) for each in serial_ports()]
     devices = hid_devices_at_hand()
     for name, usb, about in [*serial, *_by_hid(devices or [])]:
@@ -47,7 +47,7 @@ def run(arguments: Namespace) -> int:
 
 
 def _by_hid(devices: list[HidDevice]) -> Iterator[Row]:
-    """Devices without a serial port, each by an address that opens it."""
+    """Yield each device without a serial port, by an address that opens it."""
     for each in devices:
         alone = len([other for other in devices if other.ids == each.ids]) == 1
         about = f"{each.product}, USB HID, no serial port ({UNSEEN})".removeprefix(", ")

@@ -1,4 +1,4 @@
-"""What a shell needs to complete the command line, made by shtab, an extra."""
+"""Shell completion of the command line, made by shtab, an extra."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ _FILES = {"FILE", "HEX|FILE", "PORT"}
 
 
 def script(shell: str) -> str:
-    """The script for a shell. Raises UsageError where shtab is not installed or too old."""
+    """Return the script for a shell. Raises UsageError if shtab is missing or too old."""
     try:
         shtab = import_module("shtab")
     except ModuleNotFoundError:
@@ -29,7 +29,7 @@ def script(shell: str) -> str:
             "completion is made by shtab, which is not installed here: "
             f"pip install '{PROGRAM}[completion]', or pip install shtab"
         ) from None
-    # All verbs in one parser; the command itself imports only the one that is asked for.
+    # All verbs in one parser; the command itself imports only the one that is called.
     parser = _Parser(prog=PROGRAM, description=SUMMARY)
     parser.add_argument("--version", action="store_true", help="show the version")
     parts = parser.add_subparsers()
@@ -48,19 +48,19 @@ def script(shell: str) -> str:
 
 
 class _Parser(ArgumentParser):
-    """Notes what stands where, as far as help says it in words: files, ports, messages."""
+    """A parser that notes which arguments are files, ports or messages, by their help."""
 
     def add_argument(self, *names: Any, **about: Any) -> Action:
-        """As ever."""
+        """Add an argument, and note what completes it."""
         metavar = about.get("metavar")
         if metavar == "MESSAGE":
-            # Anything can be encoded; what has to do with a port is for what is sent from here.
+            # Any message can be encoded; a verb with a port completes those that this end sends.
             kinds = MESSAGES if self.prog.endswith(" encode") else tuple(EXCHANGES)
             about["choices"] = [kind.__name__ for kind in kinds]
         elif metavar == "NAME":
             about["choices"] = [*KINDS, *(kind.__name__ for kind in MESSAGES)]
         action = super().add_argument(*names, **about)
         if metavar in _FILES:
-            # A port is a file where it has no other name: /dev/ttyUSB0.
+            # A port is a file unless it has another name: /dev/ttyUSB0.
             vars(action)["complete"] = import_module("shtab").FILE
         return action

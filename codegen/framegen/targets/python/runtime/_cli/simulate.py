@@ -1,4 +1,4 @@
-"""The verb `simulate`: hands over to the virtual device, which is a package of its own."""
+"""The verb `simulate`: runs the virtual device, which is a package of its own."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 
 
 def hand_over(words: Sequence[str]) -> int:
-    """Runs the simulator's own command line."""
+    """Run the simulator's own command line."""
     module = f"{SIMULATOR}.cli"
     try:
         simulator = import_module(module)
