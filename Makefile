@@ -16,7 +16,7 @@ TO_DOCUMENT := $(VENV)/.ready-docs
 TO_TEST := $(VENV)/.ready-test
 TO_LINT := $(VENV)/.ready-lint
 # All of ours in one command, so that pip looks for none of them elsewhere.
-OURS := --editable '.[completion]' --editable './codegen[completion,port]' --editable ./simulator
+OURS := --editable . --editable ./codegen --editable ./simulator
 PINS := --constraint constraints.txt
 BENCH_VENV := .tools/bench
 MUTATION_VENV := .tools/mutation
