@@ -438,7 +438,7 @@ def test_a_missing_package_is_named_with_its_cure() -> None:
     assert result.returncode == 2
     assert result.stderr.decode().splitlines() == [
         "framegen: error: the generator needs `yaml`, which is not installed",
-        "  hint: pip install 'busservo[codegen]'",
+        "  hint: in a clone of its repository: pip install ./codegen",
     ]
 
 

@@ -67,4 +67,4 @@ def test_of_a_newer_edition_nothing_else_is_said() -> None:
     [finding] = compile_spec(Source("spec.yaml", text)).findings
     assert finding.rule == "edition"
     assert "edition 3 of the language" in finding.message
-    assert "a newer framegen is needed: pip install --upgrade" in finding.hint
+    assert "a newer framegen is needed: git pull in its clone, then" in finding.hint

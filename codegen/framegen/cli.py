@@ -61,7 +61,7 @@ def _run_or_tell(words: Sequence[str]) -> int:
             raise
         _complain(
             f"the generator needs `{error.name}`, which is not installed",
-            "pip install 'busservo[codegen]'",
+            "in a clone of its repository: pip install ./codegen",
         )
         return UNUSABLE
 

@@ -67,7 +67,7 @@ def test_without_shtab_there_is_a_hint(
     assert output == ""
     assert errors == (
         "busservo: error: completion is made by shtab, which is not installed here: "
-        "pip install 'busservo[completion]', or pip install shtab\n"
+        "pip install shtab\n"
     )
 
 

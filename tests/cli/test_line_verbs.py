@@ -249,8 +249,8 @@ def test_where_nobody_can_list_such_boards_it_says_so(
     assert capsys.readouterr().err.splitlines() == [
         "no serial port is plugged in",
         (
-            "USB HID devices (0483:5750) have no serial port, and are not listed without an "
-            "extra: pip install 'busservo[hid]'"
+            "USB HID devices (0483:5750) have no serial port, and are not listed without "
+            "hidapi: pip install hidapi"
         ),
     ]
 

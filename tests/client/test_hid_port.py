@@ -316,7 +316,7 @@ def test_without_the_extra_it_says_how_to_get_it(
         monkeypatch.setitem(sys.modules, name, module)
     told = (
         "hid://: USB HID needs the package hidapi, which is not installed "
-        r"\(not seen on hardware yet\); pip install 'busservo\[hid\]'"
+        r"\(not seen on hardware yet\); pip install hidapi"
     )
     with pytest.raises(TransportError, match=told):
         open_controller("hid://")

@@ -76,7 +76,7 @@ def test_the_port_is_found_or_it_is_said_where_to_look(
     ("port", "hid", "state", "seen", "advice"),
     [
         ("COM7", [], PASSED, "no USB HID device (0483:5750) is plugged in", ""),
-        ("COM7", None, UNKNOWN, "nobody here can tell", "pip install 'busservo[hid]'"),
+        ("COM7", None, UNKNOWN, "nobody here can tell", "pip install hidapi"),
         ("COM7", [BOARD], UNKNOWN, "0483:5750 LOBOT is plugged in", "and --port hid://"),
         ("hid://", [BOARD], PASSED, "0483:5750 LOBOT is plugged in", ""),
     ],

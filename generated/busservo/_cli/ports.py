@@ -10,7 +10,6 @@ from .._frame.protocol import HID_DEVICES
 from .._serial.hid_devices import UNSEEN, hid_devices_at_hand
 from .._serial.serial_port import serial_ports
 from .console import visible
-from .examples import PROGRAM
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
@@ -41,8 +40,8 @@ def run(arguments: Namespace) -> int:
         print("no serial port is plugged in", file=sys.stderr)
     if devices is None and HID_DEVICES and not any(usb for _, usb, _ in serial):
         known = ", ".join(f"{vendor:04X}:{product:04X}" for vendor, product, _ in HID_DEVICES)
-        told = f"USB HID devices ({known}) have no serial port, and are not listed without an"
-        print(f"{told} extra: pip install '{PROGRAM}[hid]'", file=sys.stderr)
+        told = f"USB HID devices ({known}) have no serial port, and are not listed without"
+        print(f"{told} hidapi: pip install hidapi", file=sys.stderr)
     return 0
 
 

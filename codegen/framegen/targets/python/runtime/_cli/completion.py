@@ -26,8 +26,7 @@ def script(shell: str) -> str:
         shtab = import_module("shtab")
     except ModuleNotFoundError:
         raise UsageError(
-            "completion is made by shtab, which is not installed here: "
-            f"pip install '{PROGRAM}[completion]', or pip install shtab"
+            "completion is made by shtab, which is not installed here: pip install shtab"
         ) from None
     # All verbs in one parser; the command itself imports only the one that is called.
     parser = _Parser(prog=PROGRAM, description=SUMMARY)

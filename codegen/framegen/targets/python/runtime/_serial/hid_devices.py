@@ -1,4 +1,4 @@
-"""The USB HID devices that are plugged in: found by the extra `hid`, on Linux without it too.
+"""The USB HID devices that are plugged in: found by the package hidapi, on Linux without it too.
 
 A device of this kind has no serial port. This library has not been tried with such hardware yet.
 """
@@ -17,7 +17,6 @@ if TYPE_CHECKING:
     from typing import Any
 
 UNSEEN = "not seen on hardware yet"
-_EXTRA = f"{__name__.partition('.')[0]}[hid]"
 _LINUX = Path("/sys/bus/hid/devices")
 
 
@@ -54,7 +53,7 @@ def hid_library(port: str) -> Any:
         if hasattr(found, "device") and hasattr(found, "enumerate"):
             return found
     happened = f"USB HID needs the package hidapi, which is not installed ({UNSEEN})"
-    raise TransportError(port, happened, f"pip install '{_EXTRA}'")
+    raise TransportError(port, happened, "pip install hidapi")
 
 
 def hid_devices(library: Any) -> list[HidDevice]:
