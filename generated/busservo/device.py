@@ -42,9 +42,8 @@ if TYPE_CHECKING:
 class Device:
     """The controller's end of the line: override a handler to say what it does.
 
-    Bytes of the host go in by `receive`, and what there is to send comes back. A handler that is
-    not overridden does nothing and answers nothing. What is no message is counted in `rejects`,
-    by reason.
+    `receive` takes the bytes of the host, and returns the bytes to send. A handler that is not
+    overridden does nothing and sends no reply. `rejects` counts rejected input by reason.
     """
 
     def __init__(self) -> None:
@@ -108,7 +107,7 @@ class Device:
     def on_battery_voltage_read(self, message: BatteryVoltageRead) -> BatteryVoltage | None:
         """Ask for the voltage of the battery.
 
-        Return the BatteryVoltage that answers it, or None to stay silent.
+        Return the BatteryVoltage as the reply, or None to stay silent.
         """
 
     def on_servo_unload(self, message: ServoUnload) -> None:
@@ -117,7 +116,7 @@ class Device:
     def on_servo_positions_read(self, message: ServoPositionsRead) -> ServoPositions | None:
         """Ask where one or more servos are.
 
-        Return the ServoPositions that answers it, or None to stay silent.
+        Return the ServoPositions as the reply, or None to stay silent.
         """
 
     def _hear(self, events: list[Message | Noise]) -> None:

@@ -53,12 +53,12 @@ class AsyncController(AsyncClient):
         ms. (Client code in public repositories) Zero means "as fast as possible" to many; the
         vendor's own library refuses it. (Client code in public repositories)
 
-        `latest`: Does not wait for the line, and gives way to a newer one that is about the
-        same, as `send_latest` does.
+        `latest`: Do not wait for the line, and let a newer one of the same replace it, as
+        `send_latest` does.
 
-        Returns once the frame is handed over; `delay` of the result is in how many seconds it
-        will be on the wire. `lasts` of the result is how long it goes on, and its `wait()`
-        returns once it is over, by calculation.
+        Returns once the frame is handed to the port; `delay` of the result is the number of
+        seconds until it is on the wire. `lasts` of the result is the duration, and its `wait()`
+        returns once that is over, by calculation.
 
         Raises EncodeError for what no frame can carry, and TransportError.
 
@@ -76,9 +76,10 @@ class AsyncController(AsyncClient):
 
         `times`: How many times to run it. 0..65535. 0 (unlimited): Run until it is stopped.
 
-        Returns once the frame is handed over; `delay` of the result is in how many seconds it
-        will be on the wire. `started` of the result says whether ActionGroupStarted has come for
-        it: False once it has not in time, on a line on which such reports have come before.
+        Returns once the frame is handed to the port; `delay` of the result is the number of
+        seconds until it is on the wire. `started` of the result says whether ActionGroupStarted
+        has confirmed it: False once that is overdue, on a line that has carried such reports
+        before.
 
         Raises EncodeError for what no frame can carry, and TransportError.
 
@@ -92,8 +93,8 @@ class AsyncController(AsyncClient):
         Reported by ActionGroupStopped when there was something to stop; otherwise nothing comes
         back.
 
-        Returns once the frame is handed over; `delay` of the result is in how many seconds it
-        will be on the wire.
+        Returns once the frame is handed to the port; `delay` of the result is the number of
+        seconds until it is on the wire.
 
         Raises EncodeError for what no frame can carry, and TransportError.
 
@@ -113,8 +114,8 @@ class AsyncController(AsyncClient):
 
         `percent`: The speed, where 100 is the speed at which the group was recorded. 0..65535 %.
 
-        Returns once the frame is handed over; `delay` of the result is in how many seconds it
-        will be on the wire.
+        Returns once the frame is handed to the port; `delay` of the result is the number of
+        seconds until it is on the wire.
 
         Raises EncodeError for what no frame can carry, and TransportError.
 
@@ -130,7 +131,7 @@ class AsyncController(AsyncClient):
         Returns `voltage_mv` of the BatteryVoltage: The voltage at the controller's supply
         terminals. 0..65535 mV, a step being 0.001 V.
 
-        Raises EncodeError for what no frame can carry, NoReplyError where no reply comes in
+        Raises EncodeError for what no frame can carry, NoReplyError where no reply arrives in
         time, and TransportError.
 
         >>> await controller.read_battery_voltage()
@@ -147,8 +148,8 @@ class AsyncController(AsyncClient):
 
         `servo_ids`: The servos to switch off. 1..252 of them.
 
-        Returns once the frame is handed over; `delay` of the result is in how many seconds it
-        will be on the wire.
+        Returns once the frame is handed to the port; `delay` of the result is the number of
+        seconds until it is on the wire.
 
         Raises EncodeError for what no frame can carry, and TransportError.
 
@@ -168,11 +169,11 @@ class AsyncController(AsyncClient):
         in the order of the frame. 0..84 of them. Servos that did not answer may be missing from
         the list. (Client code in public repositories)
 
-        A reply has room for 84: more are asked for in several requests, one after the other.
+        A reply has room for 84: more are requested in several requests, one after the other.
 
-        Raises EncodeError for what no frame can carry, NoReplyError where no reply comes in
-        time, and TransportError. IncompleteReplyError where the reply leaves something out: it
-        says what, and keeps the rest.
+        Raises EncodeError for what no frame can carry, NoReplyError where no reply arrives in
+        time, and TransportError. IncompleteReplyError where the reply omits some: it names them,
+        and keeps the rest.
 
         >>> answer = await controller.read_servo_positions([1, 2, 3, 4, 5, 6])
         """
@@ -180,12 +181,12 @@ class AsyncController(AsyncClient):
         return tuple(each for reply in replies for each in reply.positions)
 
     async def present_servos(self, servo_ids: Iterable[int] | None = None) -> tuple[int, ...]:
-        """Find out who is there, and not absent.
+        """Find out which ids report a position.
 
-        `servo_ids`: Those to look for; without it, 1..253. They are asked about in as many
-        requests as replies have room for.
+        `servo_ids`: The ids to look for; without it, 1..253. They go in as many requests as
+        replies have room for.
 
-        Returns their numbers, in the order asked. Silence is no answer: NoReplyError where no
+        Returns these ids, in the order given. No reply at all is an error: NoReplyError where no
         reply comes in time, and TransportError.
         """
         if servo_ids is None:
@@ -194,31 +195,31 @@ class AsyncController(AsyncClient):
         return POSE.present_in(reply for _, reply in exchanged)
 
     async def hold_servos(self, servo_ids: Iterable[int], time_ms: int = HOLD_MS) -> AsyncMotion:
-        """Command the positions that are read at this moment.
+        """Read the present positions, and command them.
 
-        The nearest there is to stopping a motion where no message does that: what moves goes
-        back to where it was when it was read, a reply and a command ago.
+        This is as close as it gets to stopping a motion where no message stops one: whatever
+        moves goes back to where it was when it was read, a reply and a command ago.
 
-        `servo_ids`: Those to hold; all of them must be there. `time_ms`: How long the way back
-        may take, in ms.
+        `servo_ids`: The ids to hold; all of them must report a position. `time_ms`: The time for
+        the way back, in ms.
 
         Returns what `move_servos` does.
 
-        Raises, with nothing sent, AbsentError where one is off or missing, LimitError where one
-        is far out; NoReplyError where no reply comes in time, and TransportError.
+        Raises, with nothing sent, AbsentError where one is absent or missing, LimitError where
+        one is outside the limits; NoReplyError where no reply comes in time, and TransportError.
         """
         exchanged = await self._exchanged(ServoPositionsRead, servo_ids)
         targets = POSE.held(exchanged, self._limits)
         return await self.move_servos(targets=targets, time_ms=time_ms)
 
     def targets_of(self, positions: Iterable[ServoPosition]) -> list[tuple[int, int]]:
-        """Make targets of positions that were read, to go back there.
+        """Make targets of positions that were read, to move back to them.
 
-        What is absent is left out. What is read a little below zero, or a little outside the
-        limits of this client, is taken to the nearest position inside.
+        Absent ones are left out. A position a little below zero, or a little outside the limits
+        of this client, becomes the nearest position inside.
 
         Returns what `move_servos` takes as `targets`.
 
-        Raises LimitError for what is further out, and would be sent somewhere else.
+        Raises LimitError for a position that is further outside.
         """
         return POSE.targets_of(positions, self._limits)

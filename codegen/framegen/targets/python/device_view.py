@@ -46,7 +46,7 @@ class HandlerView:
         message = self.layout.message
         found = [message.summary]
         if message.reply:
-            found.append(f"Return the {message.reply} that answers it, or None to stay silent.")
+            found.append(f"Return the {message.reply} as the reply, or None to stay silent.")
         if message.reports:
             found.append(f"May be followed, by `send`: {', '.join(message.reports)}.")
         return found
@@ -73,9 +73,9 @@ class DeviceView:
         """The docstring of the class."""
         roles = self.model.roles
         use = (
-            f"Bytes of the {roles.client} go in by `receive`, and what there is to send comes "
-            "back. A handler that is not overridden does nothing and answers nothing. "
-            "What is no message is counted in `rejects`, by reason."
+            f"`receive` takes the bytes of the {roles.client}, and returns the bytes to send. A "
+            "handler that is not overridden does nothing and sends no reply. `rejects` counts "
+            "rejected input by reason."
         )
         what = f"The {roles.device}'s end of the line: override a handler to say what it does."
         return [what, use]

@@ -15,27 +15,25 @@ if TYPE_CHECKING:
     from framegen.model.model import Model
 
 _HANDED_OVER = (
-    "Returns once the frame is handed over; `delay` of the result is in how many seconds it will "
-    "be on the wire."
+    "Returns once the frame is handed to the port; `delay` of the result is the number of seconds "
+    "until it is on the wire."
 )
 _LASTS = (
-    "`lasts` of the result is how long it goes on, and its `wait()` returns once it is over, by "
+    "`lasts` of the result is the duration, and its `wait()` returns once that is over, by "
     "calculation."
 )
 _LATEST = (
-    "`latest`: Does not wait for the line, and gives way to a newer one that is about the same, as "
+    "`latest`: Do not wait for the line, and let a newer one of the same replace it, as "
     "`send_latest` does."
 )
 _ACKNOWLEDGED = (
-    "`started` of the result says whether {} has come for it: False once it has not in time, on a "
-    "line on which such reports have come before."
+    "`started` of the result says whether {} has confirmed it: False once that is overdue, on a "
+    "line that has carried such reports before."
 )
 _REFUSED = "Raises EncodeError for what no frame can carry"
-_LATE = "NoReplyError where no reply comes in time, and TransportError."
-_SPLIT = "more are asked for in several requests, one after the other."
-_PARTLY = (
-    " IncompleteReplyError where the reply leaves something out: it says what, and keeps the rest."
-)
+_LATE = "NoReplyError where no reply arrives in time, and TransportError."
+_SPLIT = "more are requested in several requests, one after the other."
+_PARTLY = " IncompleteReplyError where the reply omits some: it names them, and keeps the rest."
 
 
 @dataclass(frozen=True, slots=True)
@@ -106,11 +104,11 @@ class MethodView:
         reply, result = self.exchange.reply, self._result
         if reply is None:
             return [*self._handed_over, f"{_REFUSED}, and TransportError."]
-        told = f"Returns the {reply.name}."
+        returned = f"Returns the {reply.name}."
         if result is not None:
             about, *rest = self._shown(result).argument_doc
-            told = " ".join([f"Returns `{result.name}` of the {reply.name}: {about}", *rest])
-        lines = [told]
+            returned = " ".join([f"Returns `{result.name}` of the {reply.name}: {about}", *rest])
+        lines = [returned]
         if self.exchange.split is not None:
             lines.append(f"A reply has room for {self.exchange.most}: {_SPLIT}")
         partly = any("." in path for _, path in self.exchange.echoed)
@@ -148,7 +146,7 @@ class MethodView:
         return self.exchange.method.result
 
     @property
-    def asked(self) -> str:
+    def query(self) -> str:
         """What a question is asked with; empty for a command."""
         reply, split = self.exchange.reply, self.exchange.split
         if reply is None:
