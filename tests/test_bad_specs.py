@@ -33,7 +33,14 @@ def said_of(source: Source) -> tuple[list[Finding], str]:
 @pytest.mark.parametrize("name", bad_specs.names())
 def test_a_bad_spec_gives_exactly_its_findings(name: str) -> None:
     bad = bad_spec(name)
-    assert said_of(bad.source) == (bad.findings, bad.refusal)
+    found, refusal = said_of(bad.source)
+    # As a person reads them first, which shows best what differs.
+    assert rendered(found, bad.source) == rendered(bad.findings, bad.source)
+    assert (found, refusal) == (bad.findings, bad.refusal)
+
+
+def rendered(findings: list[Finding], source: Source) -> str:
+    return "\n".join(finding.render(source) for finding in findings)
 
 
 @pytest.mark.parametrize("rule", RULES, ids=lambda rule: rule.id)
