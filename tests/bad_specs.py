@@ -11,7 +11,8 @@ edits, a case may have a whole `text`; and what is no spec at all has a `refusal
 
 The mark «» is around the place of a finding, to the column, and ⟦⟧ around another place to `see`.
 Marks and findings have the same order. One mark can serve for all findings, and where the places
-to see have another order, `see` is a mapping with the number of each.
+to see have another order, `see` is a mapping with the number of each. `{version}` in a message is
+that of framegen.
 """
 
 from __future__ import annotations
@@ -26,6 +27,7 @@ from pathlib import Path
 from typing import Any, TypeAlias
 
 import yaml
+from framegen import __version__
 from framegen.reading.findings import Finding, Related, did_you_mean
 from framegen.reading.source import Source, Span
 
@@ -97,7 +99,7 @@ def made(rule: str, case: Case) -> BadSpec:
             rule=each.get("rule", rule),
             span=span,
             path=each.get("path", ""),
-            message=each["message"],
+            message=each["message"].replace("{version}", __version__),
             hint=each.get("hint", ""),
             related=tuple(Related(others[number - 1], text) for number, text in seen.items()),
         )
