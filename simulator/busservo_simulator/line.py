@@ -108,7 +108,7 @@ class Line:
             self._to_board.put(piece, start, seconds_per_byte)
 
     def read(self, moment: float) -> list[bytes]:
-        """Advance to a moment, and return what reached the host, in pieces; `hung_up` may follow."""
+        """Advance to a moment, and return the pieces that reached the host."""
         while (event := self._next_inside) is not None and event <= moment:
             self._live(event)
         self._live(moment)
@@ -208,7 +208,7 @@ class Line:
         self.send(waiting, moment)
 
     def _sampled(self, data: bytes, sent_at: float, read_at: float) -> tuple[bytes, float]:
-        """Return the bytes that are read for those sent, and the seconds that each of them takes."""
+        """Return the bytes that are read for those sent, and the seconds that each takes."""
         if sent_at == read_at:
             return data, BITS_PER_BYTE / read_at
         read = sampled(data, sent_at, read_at, self._phase)

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from collections.abc import Mapping
 
 PROGRAM = "busservo-simulator"
-# What a TCP port and a battery's millivolts are sent as.
+# The highest TCP port, and the most millivolts that a frame carries.
 _MOST = 65535
 
 
