@@ -1,4 +1,4 @@
-"""`framegen generate`: what it writes and what it says, for real specs."""
+"""`framegen generate`: the files that it writes and the text that it prints, for real specs."""
 
 from __future__ import annotations
 
@@ -43,7 +43,7 @@ _RENDERED: dict[tuple[str, str, str], dict[str, str]] = {}
 
 @pytest.fixture(autouse=True)
 def the_same_is_rendered_once(monkeypatch: pytest.MonkeyPatch) -> None:
-    """The same text gives the same files, as tests/test_deterministic.py has it."""
+    """Render the same text once: it gives the same files, see tests/test_deterministic.py."""
 
     def remembered(target: Target, compiled: Compiled) -> dict[str, str]:
         key = target.name, compiled.source.path, compiled.source.text
@@ -56,7 +56,7 @@ def the_same_is_rendered_once(monkeypatch: pytest.MonkeyPatch) -> None:
 
 @pytest.fixture
 def project(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
-    """A project with a spec and its output, all of it in step; tests run in it."""
+    """Return a project with a spec and its output, all of it up to date; tests run in it."""
     put(tmp_path, "spec/demo.yaml", TEXT)
     write(tmp_path, [OUTPUT, SHARED])
     monkeypatch.chdir(tmp_path)
@@ -64,7 +64,7 @@ def project(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 
 
 def changed(before: str, after: str) -> str:
-    """The spec with one thing changed."""
+    """Return the spec with one thing changed."""
     assert before in TEXT
     return TEXT.replace(before, after)
 

@@ -15,26 +15,26 @@ if TYPE_CHECKING:
     from framegen.model.model import Model
 
 _HANDED_OVER = (
-    "Returns once the frame is handed over; `delay` of the result is in how many seconds it will "
-    "be on the wire."
+    "Returns once the frame is handed over; `delay` of the result is how many seconds later it is "
+    "on the wire."
 )
 _LASTS = (
-    "`lasts` of the result is how long it goes on, and its `wait()` returns once it is over, by "
-    "calculation."
+    "`lasts` of the result is how many seconds its effect lasts, and its `wait()` returns once "
+    "that is over, by calculation."
 )
 _LATEST = (
-    "`latest`: Does not wait for the line, and gives way to a newer one that is about the same, as "
-    "`send_latest` does."
+    "`latest`: Do not wait for the line, and let a newer command for the same ids replace this "
+    "one, as `send_latest` does."
 )
 _ACKNOWLEDGED = (
-    "`started` of the result says whether {} has come for it: False once it has not in time, on a "
-    "line on which such reports have come before."
+    "`started` of the result is True once {} acknowledges it, and False if none comes in time, on "
+    "a line that has carried such reports before."
 )
-_REFUSED = "Raises EncodeError for what no frame can carry"
-_LATE = "NoReplyError where no reply comes in time, and TransportError."
-_SPLIT = "more are asked for in several requests, one after the other."
+_REFUSED = "Raises EncodeError for values that no frame can carry"
+_LATE = "NoReplyError if no reply comes in time, and TransportError."
+_SPLIT = "longer lists take several requests, one after the other."
 _PARTLY = (
-    " IncompleteReplyError where the reply leaves something out: it says what, and keeps the rest."
+    " IncompleteReplyError if the reply leaves something out: it says what, and holds the rest."
 )
 
 

@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from framegen.model.slots import Items
     from framegen.targets.python.method_view import Flavour
 
-_RAISED = "NoReplyError where no reply comes in time, and TransportError."
+_RAISED = "NoReplyError if no reply comes in time, and TransportError."
 
 
 @dataclass(frozen=True, slots=True)
@@ -148,16 +148,16 @@ class PoseView:
     @property
     def hold_doc(self) -> list[str]:
         nearest = (
-            "The nearest there is to stopping a motion where no message does that: what moves goes "
-            "back to where it was when it was read, a reply and a command ago."
+            "This is the nearest to stopping a motion if the protocol has no message for that: "
+            "whatever moves goes back to where it was when it was read, a reply and a command ago."
         )
         given = (
-            f"`{self.asked}`: Those to hold; all of them must be there. `{self.time}`: How long "
+            f"`{self.asked}`: Those to hold; all of them must be present. `{self.time}`: How long "
             "the way back may take, in ms."
         )
-        raised = "AbsentError where one is off or missing, LimitError where one is far out"
+        raised = "AbsentError if one is off or missing, LimitError if one is far outside the limits"
         return [
-            "Command the positions that are read at this moment.",
+            "Read the current positions, and command them.",
             nearest,
             given,
             f"Returns what `{self.move_method}` does.",
@@ -167,26 +167,26 @@ class PoseView:
     @property
     def present_doc(self) -> list[str]:
         given = (
-            f"`{self.asked}`: Those to look for; without it, {self.pose.ids}. They are asked "
-            "about in as many requests as replies have room for."
+            f"`{self.asked}`: Those to look for; by default {self.pose.ids}. It takes several "
+            "requests if one reply has no room for all."
         )
         return [
-            "Find out who is there, and not absent.",
+            "Return the numbers of those that are present.",
             given,
-            f"Returns their numbers, in the order asked. Silence is no answer: {_RAISED}",
+            f"They are in the order requested. Raises {_RAISED}",
         ]
 
     @property
     def targets_doc(self) -> list[str]:
         taken = (
-            "What is absent is left out. What is read a little below zero, or a little outside the "
-            "limits of this client, is taken to the nearest position inside."
+            "Those that are absent are left out. For a position a little below zero, or a little "
+            "outside the limits of this client, the target is the nearest position inside."
         )
         return [
             "Make targets of positions that were read, to go back there.",
             taken,
             f"Returns what `{self.move_method}` takes as `{self._moved.name}`.",
-            "Raises LimitError for what is further out, and would be sent somewhere else.",
+            "Raises LimitError for a position that is further out.",
         ]
 
     @property
