@@ -108,7 +108,7 @@ class Device:
     def on_battery_voltage_read(self, message: BatteryVoltageRead) -> BatteryVoltage | None:
         """Ask for the voltage of the battery.
 
-        Return the BatteryVoltage that answers it, or None to stay silent.
+        Return the BatteryVoltage as the reply, or None to stay silent.
         """
 
     def on_servo_unload(self, message: ServoUnload) -> None:
@@ -117,7 +117,7 @@ class Device:
     def on_servo_positions_read(self, message: ServoPositionsRead) -> ServoPositions | None:
         """Ask where one or more servos are.
 
-        Return the ServoPositions that answers it, or None to stay silent.
+        Return the ServoPositions as the reply, or None to stay silent.
         """
 
     def _hear(self, events: list[Message | Noise]) -> None:

@@ -200,7 +200,7 @@ def test_nothing_is_written_where_nothing_differs(read_only: Path) -> None:
 def test_a_second_run_waits_and_says_who_is_at_work(root: Path) -> None:
     before = snapshot(root)
     with workshop(root, 0), pytest.raises(Unusable) as told:
-        write(root, [AFTER], patience=0.2)
+        write(root, [AFTER], timeout=0.2)
     message = f"another run of framegen (process {os.getpid()}) is writing in {root}"
     assert str(told.value) == message
     assert told.value.hint == "wait until it has ended, and run this again; nothing was changed"
@@ -222,7 +222,7 @@ from tests.writing.killed import EDITIONS
 
 for _ in range(10):
     for name in sys.argv[2:]:
-        write(Path(sys.argv[1]), EDITIONS[name], all_of="spec", patience=600)
+        write(Path(sys.argv[1]), EDITIONS[name], all_of="spec", timeout=600)
 """
 
 
@@ -248,5 +248,5 @@ def test_runs_at_once_take_turns(root: Path) -> None:
 def test_a_lock_that_nobody_holds_keeps_nobody_out(root: Path) -> None:
     """Of a run that was killed, or on a system that has lost its power."""
     put(root, f"{NAME}/lock", "1\n")
-    write(root, [AFTER], patience=0)
+    write(root, [AFTER], timeout=0)
     assert not (root / NAME).exists()

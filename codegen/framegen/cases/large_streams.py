@@ -40,7 +40,7 @@ def _largest(sender: Sender, frame: bytes) -> Iterator[tuple[str, Parts]]:
     yield title, (largest, QUIET)
     pieces = chunks(sender.noise(2) + largest + frame, _REPORT)
     yield f"{title}, in pieces of {_REPORT} bytes", (*pieces, QUIET)
-    yield f"{title}, behind a stray byte of the header", (sender.header[:1] + largest, QUIET)
+    yield f"{title}, behind a single header byte", (sender.header[:1] + largest, QUIET)
     short = largest[:-1]
     yield f"{title}, without its last byte, then another", (short + frame, QUIET)
     yield f"{title}, without its last byte, then quiet", (short, QUIET, frame, QUIET)

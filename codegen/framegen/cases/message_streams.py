@@ -25,9 +25,9 @@ def message_streams(sender: Sender) -> Iterator[StreamCase]:
 def _lines(sender: Sender, message: MessageLayout, frame: bytes) -> Iterator[tuple[str, Parts]]:
     half = len(frame) // 2
     yield "byte by byte", (*single_bytes(frame), QUIET)
-    told = "told before the line goes quiet"
-    yield f"behind noise, {told}", (sender.noise(3) + frame,)
-    yield f"behind a stray byte of the header, {told}", (sender.header[:1] + frame,)
+    early = "reported before the line goes quiet"
+    yield f"behind noise, {early}", (sender.noise(3) + frame,)
+    yield f"behind a single header byte, {early}", (sender.header[:1] + frame,)
     yield "without its last byte, held before the line goes quiet", (frame + frame[:-1],)
     twice = (frame[:half], frame[half:] + frame[:half], frame[half:], QUIET)
     yield "twice, in pieces that end inside of a frame", twice

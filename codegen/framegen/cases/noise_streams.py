@@ -47,9 +47,9 @@ def _headers(sender: Sender, frame: bytes) -> Iterator[tuple[str, Parts]]:
     yield "a header alone", (header, QUIET)
     yield "a header at the end of noise", (noise(3) + header, QUIET)
     yield "a header twice, then quiet", (header * 2, QUIET)
-    yield "a stray header in front of a frame", (header + frame, QUIET)
-    yield "two stray headers in front of a frame", (header * 2 + frame, QUIET)
-    yield "a stray header, noise, then a frame", (header + noise(4) + frame, QUIET)
+    yield "a false header in front of a frame", (header + frame, QUIET)
+    yield "two false headers in front of a frame", (header * 2 + frame, QUIET)
+    yield "a false header, noise, then a frame", (header + noise(4) + frame, QUIET)
     yield "the first byte of a header seven times, then a frame", (header[:1] * 7 + frame, QUIET)
     if len(header) > 1:
         yield "a header that is cut in two by quiet", (header[:1], QUIET, frame[1:], QUIET)
@@ -93,9 +93,9 @@ def _together(frames: list[bytes]) -> Iterator[tuple[str, Parts]]:
 def _mixed(sender: Sender, frame: bytes, other: bytes) -> Iterator[tuple[str, Parts]]:
     """Yield mixtures of frames, noise and parts of both, in a pseudo-random order."""
     header = sender.header
-    told = sender.unknown(sender.noise(2)) or header
+    unknown = sender.unknown(sender.noise(2)) or header
     pieces = [
-        *(frame, other, header, header[:1], told, told[:-1], told + header[:1]),
+        *(frame, other, header, header[:1], unknown, unknown[:-1], unknown + header[:1]),
         *(frame[:-1], frame[1:], other[: len(header) + 1], sender.noise(2), frame + other),
     ]
     state = 1

@@ -39,18 +39,18 @@ def _filled(sender: Sender) -> bytes | None:
 def _whole(
     sender: Sender, frame: bytes, empty: bytes, filled: bytes
 ) -> Iterator[tuple[str, Parts]]:
-    noise, stray = sender.noise, sender.header[:1]
+    noise, single = sender.noise, sender.header[:1]
     yield "an unknown frame without fields", (empty, QUIET)
     yield "an unknown frame between frames", (frame + filled + frame, QUIET)
     yield "an unknown frame between noise", (noise(2) + filled + noise(3), QUIET)
-    yield "an unknown frame, told before the line goes quiet", (filled + frame,)
+    yield "an unknown frame, reported before the line goes quiet", (filled + frame,)
     known = sender.model.frame.id.at + sender.model.frame.id.size
     held = "held before the line goes quiet"
     yield f"an unknown frame without its last byte, {held}", (frame + filled[:-1],)
     yield f"an unknown frame cut behind its id, {held}", (frame + filled[:known],)
     yield "an unknown frame byte by byte, then another", (*single_bytes(filled), frame, QUIET)
     yield "two unknown frames", (filled + empty, QUIET)
-    yield "an unknown frame behind a stray byte of the header", (stray + filled, QUIET)
+    yield "an unknown frame behind a single header byte", (single + filled, QUIET)
     yield "an unknown frame without its last byte, then quiet", (filled[:-1], QUIET)
     yield "an unknown frame without its last byte, then a frame", (filled[:-1] + frame, QUIET)
     yield "an unknown frame with a pause in it", (filled[:-1], QUIET, filled[-1:], QUIET)
@@ -65,7 +65,7 @@ def _holding(
         "a frame": (frame, b""),
         "the beginning of a frame": (calm + frame[:-1], frame[-1:]),
         "the first byte of a frame": (calm + frame[:1], frame[1:]),
-        "a stray byte of the header": (calm + header[:1], frame),
+        "a single header byte": (calm + header[:1], frame),
         "a header": (calm + header, b""),
         "an unknown frame": (empty, frame),
         "the beginning of an unknown frame": (calm + filled[:-1], filled[-1:] + frame),
@@ -88,7 +88,7 @@ def _unfinished(sender: Sender, frame: bytes, empty: bytes) -> Iterator[tuple[st
     title = "an unknown frame that does not end"
     yield f"{title}, then quiet", (claim + calm, QUIET, frame, QUIET)
     yield f"{title}, with a frame in it", (claim + calm + frame, QUIET)
-    yield f"{title}, with a frame told before the line goes quiet", (claim + frame,)
+    yield f"{title}, with a frame reported before the line goes quiet", (claim + frame,)
     frames = single_bytes(claim + frame + calm + frame)
     yield f"{title}, with two frames in it, byte by byte", (*frames, QUIET)
     yield f"{title}, with an unknown frame in it", (claim + empty + calm, QUIET)

@@ -49,9 +49,9 @@ def _directions(model: Model) -> Iterator[Problem]:
         key, text = direction.key, str(direction)
         there, other = first.setdefault(key, (path, text))
         if other != text:
-            told = f"`{text}` and `{other}` would both be the constant {key.upper()}"
+            what = f"`{text}` and `{other}` would both be the constant {key.upper()}"
             also = (there, "the other is here")
-            yield Problem(path, told, "rename an endpoint", path[0] == "endpoints", also)
+            yield Problem(path, what, "rename an endpoint", path[0] == "endpoints", also)
 
 
 def _ways(model: Model) -> Iterator[tuple[KeyPath, Direction]]:

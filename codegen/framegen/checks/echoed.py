@@ -26,38 +26,38 @@ def _look(spec: Spec) -> Iterator[Problem]:
             continue
         reply = None if message.reply is None else spec.messages.get(message.reply)
         if reply is not None:
-            for asked, told in message.echoed.items():
-                yield from _pair((*path, asked), (name, message, asked), (reply, told))
+            for requested, reported in message.echoed.items():
+                yield from _pair((*path, requested), (name, message, requested), (reply, reported))
 
 
 def _pair(
     path: KeyPath, request: tuple[str, Message, str], answer: tuple[Message, str]
 ) -> Iterator[Problem]:
-    name, message, asked = request
-    reply, told = answer
+    name, message, requested = request
+    reply, reported = answer
     ours, theirs = paths_of(message), paths_of(reply)
-    if asked not in ours:
-        what = f"{name} is not given `{asked}`"
-        yield Problem(path, what, did_you_mean(asked, list(ours)), on_key=True)
-    elif told not in theirs:
-        what = f"{message.reply} does not tell `{told}`"
-        yield Problem(path, what, did_you_mean(told, list(theirs)))
-    elif ours[asked] != theirs[told]:
-        listed, single = (asked, told) if ours[asked] else (told, asked)
+    if requested not in ours:
+        what = f"{name} is not given `{requested}`"
+        yield Problem(path, what, did_you_mean(requested, list(ours)), on_key=True)
+    elif reported not in theirs:
+        what = f"{message.reply} does not tell `{reported}`"
+        yield Problem(path, what, did_you_mean(reported, list(theirs)))
+    elif ours[requested] != theirs[reported]:
+        listed, single = (requested, reported) if ours[requested] else (reported, requested)
         what = f"`{listed}` is in a list and `{single}` is not"
         yield Problem(path, what, "a list can repeat a list, and a number a number")
     else:
-        yield from _room(path, (message, asked), (reply, told))
+        yield from _room(path, (message, requested), (reply, reported))
 
 
 def _room(
     path: KeyPath, request: tuple[Message, str], answer: tuple[Message, str]
 ) -> Iterator[Problem]:
     """Find values that can be requested but not reported: such a request never gets a reply."""
-    asked, told = _values(*request), _values(*answer)
-    if asked is None or told is None:
+    requested, reported = _values(*request), _values(*answer)
+    if requested is None or reported is None:
         return
-    (low, high), (lowest, highest) = asked, told
+    (low, high), (lowest, highest) = requested, reported
     if low < lowest or high > highest:
         what = (
             f"`{request[1]}` may be {low}..{high}, "

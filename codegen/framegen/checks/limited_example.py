@@ -24,8 +24,8 @@ def _look(model: Model) -> Iterator[Problem]:
                 continue
             for path, limits in message.limited.items():
                 outer, _, inner = path.partition(".")
-                told = values[outer]
-                for item in told if isinstance(told, list) else [told]:
+                given = values[outer]
+                for item in given if isinstance(given, list) else [given]:
                     value = item[inner] if inner else item
                     if not _inside(limits, value):
                         here = ("messages", name, "examples", number, "values", outer)

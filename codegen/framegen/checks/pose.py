@@ -28,22 +28,22 @@ def _look(model: Model) -> Iterator[Problem]:
     read, move, release = (
         spec.messages[name] for name in (spec.pose.read, spec.pose.move, spec.pose.release)
     )
-    asked = _lone_list(read)
-    told = None if asked is None else _told(spec, read, asked)
-    if asked is None or told is None:
+    requested = _lone_list(read)
+    reported = None if requested is None else _reported(spec, read, requested)
+    if requested is None or reported is None:
         what = f"{spec.pose.read} does not ask for a list of numbers alone, each with its position"
         hint = "its reply repeats the list (`echoed`), in elements of a number and a position"
         yield Problem(("pose", "read"), what, hint)
         return
-    yield from _ids(spec.pose, read.fields[asked])
-    yield from _move(spec.pose.move, move, told)
-    if asked in arguments_of(move) and move.fields[asked].counted_by is None:
-        what = f"`{spec.pose.hold}` would be given two things called `{asked}`"
+    yield from _ids(spec.pose, read.fields[requested])
+    yield from _move(spec.pose.move, move, reported)
+    if requested in arguments_of(move) and move.fields[requested].counted_by is None:
+        what = f"`{spec.pose.hold}` would be given two things called `{requested}`"
         hint = f"call them by different names in {spec.pose.read} and {spec.pose.move}"
         yield Problem(("pose", "hold"), what, hint)
-    if _lone_list(release) != asked:
-        what = f"{spec.pose.release} does not let go of a list `{asked}` alone"
-        yield Problem(("pose", "release"), what, f"{spec.pose.read} is given `{asked}`")
+    if _lone_list(release) != requested:
+        what = f"{spec.pose.release} does not let go of a list `{requested}` alone"
+        yield Problem(("pose", "release"), what, f"{spec.pose.read} is given `{requested}`")
 
 
 def _messages(model: Model, pose: Pose) -> Iterator[Problem]:
@@ -68,14 +68,14 @@ def _lone_list(message: Message) -> str | None:
     return names[0] if listed else None
 
 
-def _told(spec: Spec, read: Message, asked: str) -> list[str] | None:
+def _reported(spec: Spec, read: Message, requested: str) -> list[str] | None:
     """Return the fields of an element of the reply: the requested number, and its position."""
     reply = None if read.reply is None else spec.messages.get(read.reply)
-    name, _, inner = read.echoed.get(asked, "").partition(".")
-    group = None if reply is None else reply.fields.get(name)
-    if not isinstance(group, ListField):
+    name, _, inner = read.echoed.get(requested, "").partition(".")
+    items = None if reply is None else reply.fields.get(name)
+    if not isinstance(items, ListField):
         return None
-    fields = list(group.fields)
+    fields = list(items.fields)
     return fields if len(fields) == 2 and fields[0] == inner else None
 
 
@@ -90,11 +90,11 @@ def _ids(pose: Pose, field: NumberField | ListField) -> Iterator[Problem]:
         yield Problem(("pose", "ids"), what, "keep them inside the type")
 
 
-def _move(name: str, move: Message, told: list[str]) -> Iterator[Problem]:
+def _move(name: str, move: Message, reported: list[str]) -> Iterator[Problem]:
     given = {key: move.fields[key] for key in arguments_of(move)}
-    groups = [field for field in given.values() if isinstance(field, ListField)]
-    if [list(group.fields) for group in groups] != [told]:
-        what = f"{name} has no list of elements with the fields {' and '.join(told)}"
+    lists = [field for field in given.values() if isinstance(field, ListField)]
+    if [list(items.fields) for items in lists] != [reported]:
+        what = f"{name} has no list of elements with the fields {' and '.join(reported)}"
         yield Problem(("pose", "move"), what, "name them as the reply has them")
     numbers = [field for field in given.values() if isinstance(field, NumberField)]
     if len(numbers) != 1 or numbers[0].counted_by is not None:

@@ -64,16 +64,16 @@ class Program:
             self._running = _Running(self.command)
         reply = self._running.ask(question, timeout or self.timeout)
         if reply.failure:
-            self._end(patience=0)
+            self._end(timeout=0)
         return reply
 
     def close(self) -> None:
         """End the program with its children; the next question starts it again."""
-        self._end(patience=_ENDING)
+        self._end(timeout=_ENDING)
 
-    def _end(self, patience: float) -> None:
+    def _end(self, timeout: float) -> None:
         if self._running is not None:
-            self._running.end(patience)
+            self._running.end(timeout)
             self.last_words = self._running.last_words
             self._running = None
 
@@ -97,7 +97,7 @@ class _Running:
             hint = "name a program that is on the path, or give its path, like ./codec"
             raise Unusable(f"`{command[0]}` cannot be started: {why}", hint=hint) from None
         self._questions: SimpleQueue[bytes | None] = SimpleQueue()
-        self._heard = _Heard()
+        self._output = _Output()
         self._said: bytes = b""
         self._threads = [
             Thread(target=work, args=[pipe], daemon=True)
@@ -112,13 +112,13 @@ class _Running:
 
     def ask(self, question: str, timeout: float) -> Reply:
         deadline = time.monotonic() + timeout
-        self._heard.allow(_ROOM + _ROOM_EACH * len(question))
+        self._output.allow(_ROOM + _ROOM_EACH * len(question))
         self._questions.put(f"{question}\n".encode())
         lines: list[str] = []
         while True:
-            line = self._heard.line(deadline)
+            line = self._output.line(deadline)
             if line is None:
-                hangs = not (self._heard.closed or self._heard.too_much)
+                hangs = not (self._output.closed or self._output.too_much)
                 return Reply(tuple(lines), self._why(timeout, len(lines), hangs=hangs), hangs)
             text = line.decode("utf-8", "backslashreplace").strip()
             if text == END:
@@ -128,8 +128,8 @@ class _Running:
     def _why(self, timeout: float, lines: int, *, hangs: bool) -> str:
         """Return why no `end` came."""
         after = f"after {pluralize(lines, 'line')}" if lines else "before it printed a line"
-        if self._heard.too_much:
-            return f"it prints on and on: {self._heard.room} bytes without an `end`"
+        if self._output.too_much:
+            return f"it prints on and on: {self._output.room} bytes without an `end`"
         if hangs:
             hint = "" if lines else "; does it flush its output behind each `end`?"
             return f"no `end` came within {timeout:g} s, {after}{hint}"
@@ -147,12 +147,12 @@ class _Running:
     def last_words(self) -> str:
         return self._said.decode("utf-8", "backslashreplace").strip()
 
-    def end(self, patience: float) -> None:
+    def end(self, timeout: float) -> None:
         """Let it end by itself once there are no more questions, or end it by force."""
         self._questions.put(None)
-        if patience:
+        if timeout:
             with suppress(subprocess.TimeoutExpired):
-                self._process.wait(patience)
+                self._process.wait(timeout)
         self._kill()
         self._process.wait()
         for thread in self._threads:
@@ -194,8 +194,8 @@ class _Running:
     def _read(self, pipe: IO[bytes]) -> None:
         with suppress(OSError, ValueError):
             while piece := pipe.read(_PIECE):
-                self._heard.add(piece)
-        self._heard.close()
+                self._output.add(piece)
+        self._output.close()
 
     def _listen(self, pipe: IO[bytes]) -> None:
         with suppress(OSError, ValueError):
@@ -203,7 +203,7 @@ class _Running:
                 self._said = (self._said + piece)[-_LAST_WORDS:]
 
 
-class _Heard:
+class _Output:
     """The output of a program: one thread adds to it, and another takes the lines."""
 
     def __init__(self) -> None:

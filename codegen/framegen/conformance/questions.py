@@ -23,8 +23,8 @@ def questions(model: Model) -> Iterator[tuple[str, Question]]:
         title = f"{frame.message.name}: {frame.title}"
         yield title, Decode(frame.message.direction, frame.data)
         yield title, Encode(frame.message, frame.values)
-    for asked in unencodable(model):
-        yield asked.title, Encode(asked.message, asked.values)
+    for unfit in unencodable(model):
+        yield unfit.title, Encode(unfit.message, unfit.values)
     for wrong in invalid_frames(model):
         yield wrong.title, Decode(wrong.direction, wrong.data)
     for case in streams(model):

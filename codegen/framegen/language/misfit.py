@@ -49,8 +49,8 @@ def misfits(
     Hints are worked out only for the findings that are shown.
     """
     placed = sorted((_Misfit.of(tree, problem) for problem in problems), key=lambda each: each.span)
-    told = [misfit for misfit in placed if misfit.span not in doubtful]
-    for number, misfit in enumerate(told):
+    shown = [misfit for misfit in placed if misfit.span not in doubtful]
+    for number, misfit in enumerate(shown):
         yield misfit.finding(source, tree, hinted=number < MOST_FINDINGS)
 
 
@@ -161,13 +161,13 @@ def _keys_at(tree: Tree, path: KeyPath) -> list[str]:
 
 def _described(path: KeyPath, key: str) -> str:
     """Describe a missing key, with the description that editors show."""
-    told = [
+    descriptions = [
         info.description
         for model in _models_at(path[:-1])
         for name, info in model.model_fields.items()
         if key in (name, info.alias)
     ]
-    return next(filter(None, told), "")
+    return next(filter(None, descriptions), "")
 
 
 def _models_at(path: KeyPath) -> list[type[BaseModel]]:

@@ -46,8 +46,8 @@ class Notation:
         try:
             return self.parse(value)
         except ValueError as error:
-            told = {"message": str(error), "part": getattr(error, "part", "")}
-            raise PydanticCustomError("notation", "{message}", told) from None
+            context = {"message": str(error), "part": getattr(error, "part", "")}
+            raise PydanticCustomError("notation", "{message}", context) from None
 
 
 class OneOf:

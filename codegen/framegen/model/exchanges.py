@@ -45,24 +45,24 @@ class Exchange:
         Only a request that is a single list, and returns a list, can be split; and only where the
         reply repeats it is it known which elements were answered.
         """
-        asked, reply = self.request.items, self.reply
-        if asked is None or reply is None or reply.items is None or not self.most:
+        requested, reply = self.request.items, self.reply
+        if requested is None or reply is None or reply.items is None or not self.most:
             return None
         whole = len(self.request.arguments) == 1 and self.method.result == reply.items.name
-        return asked if whole and self.most < asked.high else None
+        return requested if whole and self.most < requested.high else None
 
     @property
     def most(self) -> int:
         """The number of elements of the request that a reply can answer; 0 for no limit."""
-        asked = self.request.items
-        told = None if self.reply is None else self.reply.items
-        if asked is None or told is None:
+        requested = self.request.items
+        reported = None if self.reply is None else self.reply.items
+        if requested is None or reported is None:
             return 0
         paired = any(
-            (one.partition(".")[0], other.partition(".")[0]) == (asked.name, told.name)
+            (one.partition(".")[0], other.partition(".")[0]) == (requested.name, reported.name)
             for one, other in self.echoed
         )
-        return told.high if paired else 0
+        return reported.high if paired else 0
 
 
 def exchanges(messages: Mapping[str, MessageLayout], roles: Roles) -> list[Exchange]:

@@ -66,12 +66,12 @@ class Finding:
 def in_order(findings: Iterable[Finding]) -> list[Finding]:
     """Sort the findings from the top of the file down, without duplicates, up to a limit."""
     unique = sorted(dict.fromkeys(findings), key=lambda f: (f.span, f.rule, f.message))
-    told, more = unique[:MOST_FINDINGS], unique[MOST_FINDINGS:]
+    shown, more = unique[:MOST_FINDINGS], unique[MOST_FINDINGS:]
     if more:
         message = f"not shown: {pluralize(len(more), 'finding')} from here down"
         hint = "mend those above, and check again"
-        told.append(Finding("many-findings", more[0].span, more[0].path, message, hint))
-    return told
+        shown.append(Finding("many-findings", more[0].span, more[0].path, message, hint))
+    return shown
 
 
 def did_you_mean(word: str, known: Iterable[str], *, otherwise: str = "") -> str:

@@ -101,10 +101,10 @@ def read_tree(source: Source) -> tuple[Tree, list[Finding]]:
 
 def _hidden(source: Source, known: list[Finding]) -> Iterator[Finding]:
     """Find invisible characters outside of values: in comments, or between tokens."""
-    told = {finding.span.line for finding in known if finding.rule == "invisible-character"}
+    reported = {finding.span.line for finding in known if finding.rule == "invisible-character"}
     for number, line in enumerate(source.lines, start=1):
         character = first_invisible(line.replace("\t", " "))
-        if character is not None and number not in told:
+        if character is not None and number not in reported:
             span = Span(number, line.index(character) + 1)
             message = f"U+{ord(character):04X} stands here, which no reader can see"
             yield Finding("invisible-character", span, "", message, "remove it")

@@ -244,10 +244,10 @@ class _Surveyor:
                     adopted.append(path)
         return adopted
 
-    def _adopt(self, path: str, told: Callable[[bytes], bool]) -> bool:
+    def _adopt(self, path: str, is_own: Callable[[bytes], bool]) -> bool:
         """Treat an unlisted file as an orphan if its text shows that framegen wrote it."""
         standing = self._places.look(path)
-        if standing is None or standing.kind or not told(standing.data):
+        if standing is None or standing.kind or not is_own(standing.data):
             return False
         self._own(path, standing)
         self._found.left.add(path)

@@ -73,12 +73,12 @@ def is_left_over(root: Path) -> bool:
 
 
 @contextmanager
-def workshop(root: Path, patience: float) -> Iterator[Workshop]:
+def workshop(root: Path, timeout: float) -> Iterator[Workshop]:
     """Lock the root for one run. Raises Unusable where another run goes on for long."""
     missing = [folder for folder in (root, *root.parents) if not folder.exists()]
     for folder in reversed(missing):
         disk.make_folder(folder)
-    lock = _locked(root / NAME, patience)
+    lock = _locked(root / NAME, timeout)
     made = Workshop(root)
     try:
         _sweep_staged(root / NAME)
@@ -122,9 +122,9 @@ def _sweep(folder: Path) -> None:
             folder.rmdir()
 
 
-def _locked(folder: Path, patience: float) -> int:
+def _locked(folder: Path, timeout: float) -> int:
     """Return a descriptor that holds the lock, which the system releases when the process ends."""
-    until = time.monotonic() + patience
+    until = time.monotonic() + timeout
     while (lock := _attempt(folder)) is None:
         if time.monotonic() > until:
             raise Unusable(

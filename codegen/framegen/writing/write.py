@@ -40,7 +40,7 @@ _STAYS = (
     errno.EBUSY,
 )
 # How long a run waits for another one to end, in seconds.
-PATIENCE = 10.0
+LOCK_TIMEOUT = 10.0
 
 
 @dataclass(slots=True)
@@ -60,7 +60,7 @@ def write(
     all_of: str | None = None,
     shared: bool = False,
     force: bool = False,
-    patience: float = PATIENCE,
+    timeout: float = LOCK_TIMEOUT,
 ) -> Written:
     """Write the output, and return what was changed. `all_of` and `shared` are as for `survey`.
 
@@ -73,7 +73,7 @@ def write(
         return Written(strangers=found.strangers, notices=found.notices)
     writer: _Writer | None = None
     try:
-        with workshop(root, patience) as at:
+        with workshop(root, timeout) as at:
             found = survey(root, outputs, all_of=all_of, shared=shared, force=force)
             if not force:
                 _expect_no_obstacle(found)

@@ -8,33 +8,33 @@ SUMMARY = "Send, read and replay frames of: Hiwonder bus servo controller."
 
 VERBS = {
     "answer": "Answer questions on standard input: a codec for programs in any language.",
-    "bench-line": "Measure how long questions take on a line, against what it allows.",
-    "decode": "Tell what bytes mean: messages, noise, and why noise is noise.",
-    "doctor": "Find out what is wrong with a port, a line or a device.",
+    "bench-line": "Measure how long queries take on a line, compared with what it allows.",
+    "decode": "Decode bytes: messages, and noise with the reason.",
+    "doctor": "Diagnose a port, a line or a device.",
     "encode": "Make the frame of a message.",
-    "monitor": "Show what a line carries, as it comes.",
-    "play": "Move through poses that were recorded.",
-    "ports": "List what is plugged in: serial ports, and devices that have none.",
-    "replay": "Send once more what was recorded of a line.",
+    "monitor": "Show the traffic of a line as it arrives.",
+    "play": "Play recorded poses.",
+    "ports": "List the serial ports, and devices that have none.",
+    "replay": "Send a recording again.",
     "send": "Send a message to a port, and print the reply.",
     "simulate": "Run a virtual device to talk to.",
-    "teach": "Let go, and record poses by hand.",
+    "teach": "Release the device, and record poses set by hand.",
 }
 
 EXAMPLES = {
-    "answer": (("busservo answer", "what is asked on standard input, until that ends"),),
+    "answer": (("busservo answer", "questions on standard input, until it ends"),),
     "bench-line": (
         (
             "busservo bench-line --port COM7 BatteryVoltageRead",
-            "how long BatteryVoltage takes to come",
+            "how long BatteryVoltage takes to arrive",
         ),
         (
             "busservo bench-line --port COM7 ServoPositionsRead servo_ids=1,2,3,4,5,6 -n 20",
-            "how long ServoPositions takes to come",
+            "how long ServoPositions takes to arrive",
         ),
     ),
     "decode": (
-        ("busservo decode 55 55 08 03 01 E8 03 01 20 03", "bytes in hex, however they are written"),
+        ("busservo decode 55 55 08 03 01 E8 03 01 20 03", "bytes in hex, in any notation"),
         ("busservo decode line.bin", "a recording, hex or raw bytes"),
         ("busservo decode --direction host -", "what arrives on standard input"),
         ("busservo decode --json line.bin", "a line of JSON for each message and noise"),
@@ -42,11 +42,11 @@ EXAMPLES = {
         ("busservo decode --csv line.hex", "a row for each, for a spreadsheet"),
     ),
     "doctor": (
-        ("busservo doctor", "the port that is plugged in, and the device behind it"),
+        ("busservo doctor", "the only port, and the device behind it"),
         ("busservo doctor --port COM7", "this port"),
-        ('busservo doctor --port COM7 --model "V1.3" --report line.hex', "a report to be sent in"),
+        ('busservo doctor --port COM7 --model "V1.3" --report line.hex', "a report to send in"),
         ("busservo doctor --port COM7 --json", "for a program to read"),
-        ("busservo doctor --port COM7 --move 1", "also whether that moves; asks first"),
+        ("busservo doctor --port COM7 --move 1", "also move that id, after asking"),
     ),
     "encode": (
         (
@@ -67,7 +67,7 @@ EXAMPLES = {
         ("busservo monitor --port COM7", "every frame and all noise"),
         ("busservo monitor --port COM7 -t delta -n 5", "five, and their distances"),
         ("busservo monitor --port COM7 --only noise", "what is no frame"),
-        ("busservo monitor --port COM7 --log line.hex", "kept for `decode`"),
+        ("busservo monitor --port COM7 --log line.hex", "recorded for `decode`"),
         (
             "busservo monitor --port COM7 --direction any -t absolute",
             "both ends of a line, the time of day",
@@ -79,7 +79,7 @@ EXAMPLES = {
         ("busservo play poses.json --port COM7", "from pose to pose, each in a second"),
         (
             "busservo play poses.json --port COM7 --time-ms 500 --pause 1 --repeat 3",
-            "faster, and thrice",
+            "faster, and three times",
         ),
     ),
     "ports": (
@@ -88,12 +88,9 @@ EXAMPLES = {
     ),
     "replay": (
         ("busservo replay line.hex --dry-run", "what would be sent, and when"),
-        ("busservo replay line.hex --port COM7", "what was recorded, once more"),
-        ("busservo replay line.hex --port COM7 --speed 0.5", "at half the pace"),
-        (
-            "busservo replay line.bin --port COM7 --skip-noise",
-            "raw bytes, of which some are no frames",
-        ),
+        ("busservo replay line.hex --port COM7", "the recording again"),
+        ("busservo replay line.hex --port COM7 --speed 0.5", "at half the speed"),
+        ("busservo replay line.bin --port COM7 --skip-noise", "raw bytes, without the noise"),
     ),
     "send": (
         (
@@ -117,13 +114,13 @@ EXAMPLES = {
     ),
     "simulate": (
         ("busservo simulate", "a device behind a port, whose name is printed first"),
-        ("busservo simulate --help", "what else it can do"),
+        ("busservo simulate --help", "all its options"),
     ),
     "teach": (
-        ("busservo teach poses.json --port COM7", "all that are there, at each Enter"),
+        ("busservo teach poses.json --port COM7", "all ids that answer, at each Enter"),
         (
             "busservo teach poses.json --port COM7 --ids 1-3 --append",
-            "three, behind what is recorded",
+            "three ids, added to the file",
         ),
     ),
 }

@@ -212,7 +212,7 @@ class Controller(Client):
         return self.move_servos(targets=targets, time_ms=time_ms)
 
     def targets_of(self, positions: Iterable[ServoPosition]) -> list[tuple[int, int]]:
-        """Make targets of positions that were read, to go back there.
+        """Make targets of positions that were read, to move back to them.
 
         Those that are absent are left out. For a position a little below zero, or a little
         outside the limits of this client, the target is the nearest position inside.

@@ -61,7 +61,7 @@ class _Judge:
         self.transcript = transcript
         self.found = Judgement()
         requests = requests_of(transcript.burst)
-        self.asked = [each for each in requests if each.reply is not None]
+        self.queries = [each for each in requests if each.reply is not None]
         limits = zip(requests, transcript.limits, strict=True)
         self.pending = [(each, limit) for each, limit in limits if each.reply is not None]
         # The request that was answered last, of those that have been answered.
@@ -115,23 +115,25 @@ class _Judge:
         latest = self.latest
         if latest is not None and self._place(request) < self._place(latest):
             later = latest.message.name
-            self._fault("wrong order", f"{name} came behind the reply to {later}, asked after it")
+            self._fault(
+                "wrong order", f"{name} came after the reply to {later}, which was requested later"
+            )
         else:
             self.latest = request
 
     def _place(self, request: Request) -> int:
-        return next(at for at, each in enumerate(self.asked) if each is request)
+        return next(at for at, each in enumerate(self.queries) if each is request)
 
     def _wrong(self, request: Request, received: Received) -> None:
         message = received.event.message
         if message is None:
             return
         values = values_of(message, received.event.data)
-        for asked, told in request.exchange.echoed:
-            beyond = excess(request, asked, told, values)
+        for requested, reported in request.exchange.echoed:
+            beyond = excess(request, requested, reported, values)
             if beyond:
                 these = ", ".join(map(str, beyond[:_SHOWN]))
-                what = f"{message.name} tells of {told} {these}, which was not asked"
+                what = f"{message.name} reports {reported} {these}, which was not requested"
                 self._fault("wrong reply", what)
 
     def _left_out(self, request: Request, received: Received) -> None:
@@ -141,17 +143,17 @@ class _Judge:
         if message is None or message.items is None or items is None or not request.exchange.most:
             return
         values = values_of(message, received.event.data)
-        told, asked = len(values[message.items.name]), len(request.values[items.name])
-        if told < asked:
-            self.found.notes.append(f"{message.name} tells of {told} of {asked}")
+        reported, requested = len(values[message.items.name]), len(request.values[items.name])
+        if reported < requested:
+            self.found.notes.append(f"{message.name} reports {reported} of {requested}")
 
     def _unsolicited(self, received: Received) -> None:
         message = received.event.message
         if message is None:
             return
-        what = f"{message.name} came once more than it was asked"
-        if message not in [each.reply for each in self.asked]:
-            what = f"{message.name} came, which nothing had asked for"
+        what = f"{message.name} came once more than it was requested"
+        if message not in [each.reply for each in self.queries]:
+            what = f"{message.name} came unsolicited"
         if any(isinstance(piece, Malformed) for piece in self.transcript.burst):
             what += ": does it answer what is no frame?"
         self._fault("unsolicited reply", what)

@@ -59,10 +59,10 @@ def _is_fit(permission: Permission, data: bytes, reason: str, after: Request) ->
     around = after.frame + data + after.frame
     if permission.objection(around + after.frame):
         return False
-    heard = [
+    received = [
         event.data for event in ReferenceDecoder(model, sent).decode_so_far(around) if event.message
     ]
-    return heard == [after.frame, after.frame]
+    return received == [after.frame, after.frame]
 
 
 def _cut_in_fields(permission: Permission, request: Request) -> Iterator[bytes]:

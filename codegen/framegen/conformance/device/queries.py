@@ -22,10 +22,10 @@ _MOST_ELEMENTS = 255
 
 def query_steps(permission: Permission) -> Iterator[Step]:
     """Yield a step for every way of sending each query."""
-    asked = requests(permission)
-    for request in asked:
+    queries = requests(permission)
+    for request in queries:
         yield Step(_titled(request), ((request,),))
-    firsts = list({request.message.name: request for request in reversed(asked)}.values())[::-1]
+    firsts = list({request.message.name: request for request in reversed(queries)}.values())[::-1]
     for request in firsts:
         yield Step(f"{_titled(request)}, twice in a row", ((request,), (request,)))
     for one, other in _pairs(firsts):

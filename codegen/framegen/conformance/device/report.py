@@ -61,15 +61,15 @@ class Report:
     port: str
     baud: int
     permission: Permission
-    unasked: list[Received] = field(default_factory=list)
+    unsolicited: list[Received] = field(default_factory=list)
     results: list[Result] = field(default_factory=list)
     stopped: str = ""
 
     @property
     def has_passed(self) -> bool:
         """Whether the device passed every step."""
-        asked = any(result.bursts for result in self.results)
-        return asked and not self.stopped and all(result.has_passed for result in self.results)
+        tried = any(result.bursts for result in self.results)
+        return tried and not self.stopped and all(result.has_passed for result in self.results)
 
 
 def opening(report: Report, steps: Iterable[Step]) -> Iterator[str]:
@@ -90,10 +90,10 @@ def opening(report: Report, steps: Iterable[Step]) -> Iterator[str]:
         yield f"will not send: {_listed(permission.refused)} (--allow NAME sends its examples)"
 
 
-def unasked(report: Report) -> Iterator[str]:
+def unsolicited(report: Report) -> Iterator[str]:
     """Yield what the device sent before anything was sent to it."""
-    for received in report.unasked:
-        yield f"before anything was asked came {_event(report.model, received)}"
+    for received in report.unsolicited:
+        yield f"before anything was sent came {_event(report.model, received)}"
 
 
 def line_of(result: Result) -> Iterator[str]:
@@ -184,7 +184,7 @@ def as_json(report: Report) -> dict[str, Any]:
         "will_not_send": permission.refused,
         "passed": report.has_passed,
         "stopped": report.stopped or None,
-        "unasked": [_received_json(model, each) for each in report.unasked],
+        "unsolicited": [_received_json(model, each) for each in report.unsolicited],
         "steps": [_step_json(model, result) for result in report.results],
     }
 

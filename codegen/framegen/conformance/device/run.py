@@ -14,7 +14,7 @@ from framegen.conformance.device.report import (
     closing,
     line_of,
     opening,
-    unasked,
+    unsolicited,
 )
 from framegen.conformance.device.step import requests_of
 
@@ -45,8 +45,8 @@ class Run:
 
     def go(self, steps: Sequence[Step], progress: Progress) -> None:
         """Try all steps, or stop where going on is useless. Raises OSError."""
-        self._report.unasked = self._session.listen()
-        progress.say(unasked(self._report))
+        self._report.unsolicited = self._session.listen()
+        progress.say(unsolicited(self._report))
         for step in steps:
             self._recording.note(step.title)
             result = self._try(step)

@@ -41,7 +41,7 @@ class Request:
     def answered_by(self, message: MessageLayout, values: Mapping[str, Any]) -> bool:
         """Tell whether a message can be its reply: it reports only what was requested."""
         return message == self.reply and not any(
-            excess(self, path, told, values) for path, told in self.exchange.echoed
+            excess(self, path, reported, values) for path, reported in self.exchange.echoed
         )
 
     @property
@@ -50,9 +50,9 @@ class Request:
         if self.reply is None:
             return 0
         items = self.reply.items
-        for asked, told in self.exchange.echoed:
-            if items is not None and told.partition(".")[0] == items.name:
-                count = len(column(self.values, asked))
+        for requested, reported in self.exchange.echoed:
+            if items is not None and reported.partition(".")[0] == items.name:
+                count = len(column(self.values, requested))
                 if count in self.reply.counts:
                     return self.reply.size_at(count)
         return self.reply.largest
@@ -104,14 +104,14 @@ def column(values: Mapping[str, Any], path: str) -> list[int]:
     return list(value) if isinstance(value, list) else [value]
 
 
-def excess(request: Request, asked: str, told: str, values: Mapping[str, Any]) -> list[int]:
+def excess(request: Request, requested: str, reported: str, values: Mapping[str, Any]) -> list[int]:
     """Return what a reply with these values reports beyond the request, with how often.
 
     What it omits does not count: a device may have nothing to report of it.
     """
-    left = column(request.values, asked)
+    left = column(request.values, requested)
     found = []
-    for value in column(values, told):
+    for value in column(values, reported):
         if value in left:
             left.remove(value)
         else:

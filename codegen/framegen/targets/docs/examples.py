@@ -85,16 +85,16 @@ def example_views(model: Model, message: MessageLayout) -> list[ExampleView]:
 def example_sequences(model: Model) -> list[ExampleSequence]:
     """Return every documented frame once: requests with what follows them, then the rest."""
     views = {name: example_views(model, message) for name, message in model.messages.items()}
-    told: set[tuple[str, int]] = set()
+    shown: set[tuple[str, int]] = set()
     found: list[ExampleSequence] = []
     for name, message in model.messages.items():
         said = message.message
         follow = [said.reply] if said.reply is not None else said.reports
         for view in views[name]:
-            if (view.message, view.number) in told:
+            if (view.message, view.number) in shown:
                 continue
             replies = list(_answers(model, view, follow, views))
-            told |= {(reply.message, reply.number) for reply in replies}
+            shown |= {(reply.message, reply.number) for reply in replies}
             found.append(ExampleSequence(view, replies, certain=said.reply is not None))
     return found
 
@@ -103,12 +103,12 @@ def _answers(
     model: Model, request: ExampleView, follow: list[str], views: dict[str, list[ExampleView]]
 ) -> Iterator[ExampleView]:
     """Yield the example that belongs to the request, of each message that may follow."""
-    asked = _example(model, request)
+    requested = _example(model, request)
     for name in follow:
         for view in views[name]:
             answer = _example(model, view).values
-            shared = asked.values.keys() & answer.keys()
-            agree = all(asked.values[key] == answer[key] for key in shared)
+            shared = requested.values.keys() & answer.keys()
+            agree = all(requested.values[key] == answer[key] for key in shared)
             if agree if shared else view.number == request.number:
                 yield view
                 break

@@ -153,8 +153,8 @@ def _beside(name: str, field: NumberField | ListField) -> list[str]:
     found: list[str] = []
     if field.limits is not None:
         others = [f"{who} take {range_}" for who, range_ in field.limits.others.items()]
-        told = "; ".join(["unless told otherwise", *others])
-        found.append(f"A client sends {field.limits.usual} {told}.")
+        limits = "; ".join(["unless told otherwise", *others])
+        found.append(f"A client sends {field.limits.usual} {limits}.")
     if field.signed_as is not None:
         found.append(f"The property signed_{name} has it as {field.signed_as}.")
     marked = [str(value.value) for value in field.values.values() if value.absent]

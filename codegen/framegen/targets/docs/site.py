@@ -73,8 +73,8 @@ class HidBoardView:
     @property
     def text(self) -> str:
         """The ids and report size, and a description."""
-        told = f"{self.said.ids}, a frame in each report of {self.said.report_size} bytes"
-        return f"{told}. {self.said.about}" if self.said.about else told
+        text = f"{self.said.ids}, a frame in each report of {self.said.report_size} bytes"
+        return f"{text}. {self.said.about}" if self.said.about else text
 
 
 @dataclass(frozen=True, slots=True)
@@ -216,9 +216,9 @@ class SiteView:
     def drawings(self) -> list[Drawing]:
         """Every sequence that has more than one message, and a report that interrupts one."""
         found = [message.drawing for message in self.messages]
-        told = [drawing for drawing in found if drawing and len(drawing.arrows) > 1]
+        shown = [drawing for drawing in found if drawing and len(drawing.arrows) > 1]
         between = interruption(self.model)
-        return [*told, between] if between else told
+        return [*shown, between] if between else shown
 
     @property
     def silent(self) -> list[str]:

@@ -38,9 +38,9 @@ _SAID = {
         """Every byte either agrees with those before it or ends the hope of a frame. What is left
         at the end is as sure as it can be without a checksum.""",
     ),
-    "stray-byte": (
-        "A stray header byte before a frame",
-        """The stray byte makes a header of itself and the next, so length and command are read one
+    "extra-byte": (
+        "A single header byte before a frame",
+        """The extra byte makes a header of itself and the next, so length and command are read one
         byte too early. They disagree, the false header costs one byte, and the frame is found.""",
     ),
     "count": (
@@ -80,7 +80,7 @@ def _materials(model: Model) -> Iterator[tuple[str, Direction, bytes | None]]:
     first, short = frames[0], min(frames, key=len)
     head = _unknown_head(model, way)
     yield "whole", way, first
-    yield "stray-byte", way, model.frame.header[-1:] + first
+    yield "extra-byte", way, model.frame.header[-1:] + first
     yield "count", way, _misread(model, way)
     yield "unknown", way, None if head is None else head + short
     yield "cut-short", way, first[:-1]

@@ -80,11 +80,11 @@ def walkthrough(model: Model, direction: Direction, data: bytes) -> Walkthrough:
     line = ReferenceDecoder(model, [direction])
     events = [piece for event in line.decode(data) for piece in _pieces(model, event)]
     steps = [step for event in events for step in _steps(line, event, data[event.at :])]
-    told = [
+    views = [
         EventView(event.data, "" if event.message is None else event.message.name, event.reason)
         for event in events
     ]
-    return Walkthrough(data, direction, steps, told)
+    return Walkthrough(data, direction, steps, views)
 
 
 def _pieces(model: Model, event: Event) -> Iterator[Event]:
@@ -114,8 +114,8 @@ def _steps(line: ReferenceDecoder, event: Event, rest: bytes) -> Iterator[Step]:
     piece, text = _refusal(line.model, verdict, rest, at)
     yield Step(event.at + at, to_hex(piece), text, ok=False)
     size = pluralize(len(event.data), "byte")
-    told = f"{size} of noise: {event.reason}" if event.kind == "noise" else f"{size}: unknown frame"
-    yield Step(event.at, to_hex(event.data), told, ok=False)
+    text = f"{size} of noise: {event.reason}" if event.kind == "noise" else f"{size}: unknown frame"
+    yield Step(event.at, to_hex(event.data), text, ok=False)
 
 
 def _agreed(model: Model, verdict: Verdict, data: bytes) -> Iterator[tuple[str, int]]:

@@ -19,17 +19,17 @@ _Line: TypeAlias = tuple[str, str]
 # What each verb is for.
 _ABOUT = {
     "answer": "Answer questions on standard input: a codec for programs in any language.",
-    "bench-line": "Measure how long questions take on a line, against what it allows.",
-    "decode": "Tell what bytes mean: messages, noise, and why noise is noise.",
-    "doctor": "Find out what is wrong with a port, a line or a device.",
+    "bench-line": "Measure how long queries take on a line, compared with what it allows.",
+    "decode": "Decode bytes: messages, and noise with the reason.",
+    "doctor": "Diagnose a port, a line or a device.",
     "encode": "Make the frame of a message.",
-    "monitor": "Show what a line carries, as it comes.",
-    "play": "Move through poses that were recorded.",
-    "ports": "List what is plugged in: serial ports, and devices that have none.",
-    "replay": "Send once more what was recorded of a line.",
+    "monitor": "Show the traffic of a line as it arrives.",
+    "play": "Play recorded poses.",
+    "ports": "List the serial ports, and devices that have none.",
+    "replay": "Send a recording again.",
     "send": "Send a message to a port, and print the reply.",
     "simulate": "Run a virtual device to talk to.",
-    "teach": "Let go, and record poses by hand.",
+    "teach": "Release the device, and record poses set by hand.",
 }
 
 
@@ -61,12 +61,12 @@ def _examples(model: Model) -> dict[str, list[_Line]]:
     """Return the example arguments of each verb, and what they do."""
     commands, questions = _commands(model), _questions(model)
     found = {
-        "answer": [("", "what is asked on standard input, until that ends")],
+        "answer": [("", "questions on standard input, until it ends")],
         "decode": _decode_lines(model),
         "doctor": [
-            ("", "the port that is plugged in, and the device behind it"),
+            ("", "the only port, and the device behind it"),
             ("--port COM7", "this port"),
-            ('--port COM7 --model "V1.3" --report line.hex', "a report to be sent in"),
+            ('--port COM7 --model "V1.3" --report line.hex', "a report to send in"),
             ("--port COM7 --json", "for a program to read"),
         ],
         "encode": _encode_lines(model),
@@ -74,7 +74,7 @@ def _examples(model: Model) -> dict[str, list[_Line]]:
             ("--port COM7", "every frame and all noise"),
             ("--port COM7 -t delta -n 5", "five, and their distances"),
             ("--port COM7 --only noise", "what is no frame"),
-            ("--port COM7 --log line.hex", "kept for `decode`"),
+            ("--port COM7 --log line.hex", "recorded for `decode`"),
             ("--port COM7 --direction any -t absolute", "both ends of a line, the time of day"),
             ("--port COM7 --hide noise --json", "messages, for a program to read"),
         ],
@@ -84,32 +84,35 @@ def _examples(model: Model) -> dict[str, list[_Line]]:
         ],
         "simulate": [
             ("", "a device behind a port, whose name is printed first"),
-            ("--help", "what else it can do"),
+            ("--help", "all its options"),
         ],
     }
     if commands or questions:
         found["send"] = [*commands[:4], *((words, about) for words, about, _ in questions)]
         found["replay"] = [
             ("line.hex --dry-run", "what would be sent, and when"),
-            ("line.hex --port COM7", "what was recorded, once more"),
-            ("line.hex --port COM7 --speed 0.5", "at half the pace"),
-            ("line.bin --port COM7 --skip-noise", "raw bytes, of which some are no frames"),
+            ("line.hex --port COM7", "the recording again"),
+            ("line.hex --port COM7 --speed 0.5", "at half the speed"),
+            ("line.bin --port COM7 --skip-noise", "raw bytes, without the noise"),
         ]
     if questions:
         found["bench-line"] = [
-            (f"{words} -n 20" if at else words, f"how long {reply} takes to come")
+            (f"{words} -n 20" if at else words, f"how long {reply} takes to arrive")
             for at, (words, _, reply) in enumerate(questions)
         ]
     if model.spec.pose is not None:
-        found["doctor"].append(("--port COM7 --move 1", "also whether that moves; asks first"))
+        found["doctor"].append(("--port COM7 --move 1", "also move that id, after asking"))
         found["play"] = [
             ("poses.json --dry-run", "what would be sent, and when"),
             ("poses.json --port COM7", "from pose to pose, each in a second"),
-            ("poses.json --port COM7 --time-ms 500 --pause 1 --repeat 3", "faster, and thrice"),
+            (
+                "poses.json --port COM7 --time-ms 500 --pause 1 --repeat 3",
+                "faster, and three times",
+            ),
         ]
         found["teach"] = [
-            ("poses.json --port COM7", "all that are there, at each Enter"),
-            ("poses.json --port COM7 --ids 1-3 --append", "three, behind what is recorded"),
+            ("poses.json --port COM7", "all ids that answer, at each Enter"),
+            ("poses.json --port COM7 --ids 1-3 --append", "three ids, added to the file"),
         ]
     return found
 
@@ -118,7 +121,7 @@ def _decode_lines(model: Model) -> list[_Line]:
     """Return the ways to pass bytes."""
     frame = _messages(model)[0].example.hex
     return [
-        (frame.hex(" ").upper(), "bytes in hex, however they are written"),
+        (frame.hex(" ").upper(), "bytes in hex, in any notation"),
         ("line.bin", "a recording, hex or raw bytes"),
         (f"--direction {model.directions[0].sender} -", "what arrives on standard input"),
         ("--json line.bin", "a line of JSON for each message and noise"),

@@ -46,7 +46,7 @@ class HandlerView:
         message = self.layout.message
         found = [message.summary]
         if message.reply:
-            found.append(f"Return the {message.reply} that answers it, or None to stay silent.")
+            found.append(f"Return the {message.reply} as the reply, or None to stay silent.")
         if message.reports:
             found.append(f"`send` may follow with: {', '.join(message.reports)}.")
         return found

@@ -106,11 +106,11 @@ class MethodView:
         reply, result = self.exchange.reply, self._result
         if reply is None:
             return [*self._handed_over, f"{_REFUSED}, and TransportError."]
-        told = f"Returns the {reply.name}."
+        returned = f"Returns the {reply.name}."
         if result is not None:
             about, *rest = self._shown(result).argument_doc
-            told = " ".join([f"Returns `{result.name}` of the {reply.name}: {about}", *rest])
-        lines = [told]
+            returned = " ".join([f"Returns `{result.name}` of the {reply.name}: {about}", *rest])
+        lines = [returned]
         if self.exchange.split is not None:
             lines.append(f"A reply has room for {self.exchange.most}: {_SPLIT}")
         partly = any("." in path for _, path in self.exchange.echoed)
@@ -148,7 +148,7 @@ class MethodView:
         return self.exchange.method.result
 
     @property
-    def asked(self) -> str:
+    def query(self) -> str:
         """What a question is asked with; empty for a command."""
         reply, split = self.exchange.reply, self.exchange.split
         if reply is None:

@@ -232,7 +232,7 @@ class Names:
                 "acknowledged": message.acknowledged and self.of("message", message.acknowledged),
                 "lasts": message.lasts and self.of("field", message.lasts),
                 "echoed": {
-                    self._path(asked): self._path(told) for asked, told in message.echoed.items()
+                    self._path(own): self._path(echo) for own, echo in message.echoed.items()
                 },
                 "method": self._method(name, message) if sent else None,
                 "fields": {self.of("field", n): self._field(f) for n, f in message.fields.items()},

@@ -86,8 +86,8 @@ class NumberView:
         if limits is None:
             return []
         others = [f"{name} take {range_}" for name, range_ in limits.others.items()]
-        told = f" ({', '.join(others)})" if others else ""
-        return [f"A client sends {limits.usual} unless its `limits` say otherwise{told}."]
+        devices = f" ({', '.join(others)})" if others else ""
+        return [f"A client sends {limits.usual} unless its `limits` say otherwise{devices}."]
 
     @property
     def type(self) -> str:

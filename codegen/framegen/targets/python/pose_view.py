@@ -41,8 +41,8 @@ class PoseView:
             f"ids={self._ids}",
         ]
         names = {
-            "asked": self.asked,
-            "told": self.told.name,
+            "asked": self.requested,
+            "told": self.reported.name,
             "position": self._position,
             "moved": self._moved.name,
             "time": self.time,
@@ -57,13 +57,13 @@ class PoseView:
         return self.pose.read
 
     @property
-    def asked(self) -> str:
+    def requested(self) -> str:
         """The numbers that are asked about."""
         [name] = arguments_of(self._message(self.pose.read).message)
         return name
 
     @property
-    def told(self) -> Items:
+    def reported(self) -> Items:
         """The list of positions in the reply."""
         found = self._message(self._exchange(self.pose.read).request.message.reply or "").items
         if found is None:
@@ -73,7 +73,7 @@ class PoseView:
     @property
     def element(self) -> str:
         """The class of one position."""
-        return self.told.element or ""
+        return self.reported.element or ""
 
     @property
     def time(self) -> str:
@@ -113,27 +113,27 @@ class PoseView:
     def exchanged(self) -> str:
         """The expression that sends all requests and returns the replies."""
         before = f"exchanged = {self.flavour.wait}self._exchanged("
-        return Bracketed(before, [self.pose.read, self.asked], ")").fitted(8)
+        return Bracketed(before, [self.pose.read, self.requested], ")").fitted(8)
 
     @property
     def hold(self) -> str:
         """The declaration of the method that commands the positions that it reads."""
-        given = ["self", f"{self.asked}: Iterable[int]", f"{self.time}: int = HOLD_MS"]
+        given = ["self", f"{self.requested}: Iterable[int]", f"{self.time}: int = HOLD_MS"]
         before = f"{self.flavour.define}{self.pose.hold}("
         return Bracketed(before, given, f") -> {self.moves}:").fitted(4)
 
     @property
     def present(self) -> str:
         """The declaration of the method that finds which ids answer."""
-        given = ["self", f"{self.asked}: Iterable[int] | None = None"]
+        given = ["self", f"{self.requested}: Iterable[int] | None = None"]
         before = f"{self.flavour.define}{self.pose.present}("
         return Bracketed(before, given, ") -> tuple[int, ...]:").fitted(4)
 
     @property
     def targets(self) -> str:
         """The declaration of the method that makes targets of positions."""
-        told = Bracketed(f"{self.told.name}: Iterable[", [self.element], "]", comma="")
-        given: list[Part] = ["self", told]
+        positions = Bracketed(f"{self.reported.name}: Iterable[", [self.element], "]", comma="")
+        given: list[Part] = ["self", positions]
         return Bracketed(f"def {self.pose.targets}(", given, ") -> list[tuple[int, int]]:").fitted(
             4
         )
@@ -142,7 +142,7 @@ class PoseView:
     def limited(self) -> str:
         """The arguments that targets are made from: the positions, and the client's limits."""
         call = "return POSE.targets_of("
-        given = [self.told.name, "self._limits"]
+        given = [self.reported.name, "self._limits"]
         return Bracketed(call, given, ")").fitted(8).removeprefix(call).removesuffix(")")
 
     @property
@@ -152,8 +152,8 @@ class PoseView:
             "whatever moves goes back to where it was when it was read, a reply and a command ago."
         )
         given = (
-            f"`{self.asked}`: Those to hold; all of them must be present. `{self.time}`: How long "
-            "the way back may take, in ms."
+            f"`{self.requested}`: Those to hold; all of them must be present. `{self.time}`: "
+            "How long the way back may take, in ms."
         )
         raised = "AbsentError if one is off or missing, LimitError if one is far outside the limits"
         return [
@@ -167,7 +167,7 @@ class PoseView:
     @property
     def present_doc(self) -> list[str]:
         given = (
-            f"`{self.asked}`: Those to look for; by default {self.pose.ids}. It takes several "
+            f"`{self.requested}`: Those to look for; by default {self.pose.ids}. It takes several "
             "requests if one reply has no room for all."
         )
         return [
@@ -183,7 +183,7 @@ class PoseView:
             "outside the limits of this client, the target is the nearest position inside."
         )
         return [
-            "Make targets of positions that were read, to go back there.",
+            "Make targets of positions that were read, to move back to them.",
             taken,
             f"Returns what `{self.move_method}` takes as `{self._moved.name}`.",
             "Raises LimitError for a position that is further out.",
@@ -196,7 +196,7 @@ class PoseView:
 
     @property
     def _position(self) -> str:
-        field = self.told.fields[1]
+        field = self.reported.fields[1]
         return signed_name(field.name) if field.field.signed_as else field.name
 
     @property

@@ -40,7 +40,7 @@ def render(compiled: Compiled, _snippets: Snippets) -> dict[str, str]:
         "protocol": protocol.name,
         "version": protocol.version,
         "valid": [_valid(frame) for frame in valid_frames(model)],
-        "unencodable": [_unencodable(asked) for asked in unencodable(model)],
+        "unencodable": [_unencodable(values) for values in unencodable(model)],
         "invalid": [_invalid(frame) for frame in invalid_frames(model)],
         "streams": [_stream(model, case) for case in streams(model)],
     }
@@ -68,8 +68,8 @@ def _valid(frame: ValidFrame) -> dict[str, Any]:
     }
 
 
-def _unencodable(asked: UnencodableValues) -> dict[str, Any]:
-    return {"title": asked.title, "message": asked.message.name, "fields": asked.values}
+def _unencodable(values: UnencodableValues) -> dict[str, Any]:
+    return {"title": values.title, "message": values.message.name, "fields": values.values}
 
 
 def _invalid(frame: InvalidFrame) -> dict[str, Any]:
