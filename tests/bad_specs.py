@@ -1,18 +1,18 @@
-"""Specs with a mistake: good ones of a few lines, and tables of what is changed in them.
+"""Specs with a mistake: good ones of a few lines, and tables of edits to them.
 
     python -m tests.bad_specs           lists them
     python -m tests.bad_specs NAME      prints one as a file
 
 A file in tests/specs/bad has the cases of the rule that it is named after. A case begins with a
-spec of tests/specs/bad/base (`lamps`, where it names no other as its `base`), changes it by
-`edits` (see tests/spec_edits.py), and says what must be found: `message`, `path`, `hint` and
-`see`; or that several times, as `findings`, with its `rule` where that is another. Instead of
-edits, a case may have a whole `text`; and what is no spec at all has a `refusal`.
+spec of tests/specs/bad/base (`lamps`, unless it names another as its `base`), changes it by `edits`
+(see tests/spec_edits.py), and says what must be found: `message`, `path`, `hint` and `see`; or that
+several times, as `findings`, each with its `rule` if that is another. Instead of edits, a case may
+have a whole `text`; and a text that is no spec at all has a `refusal`.
 
 The mark «» is around the place of a finding, to the column, and ⟦⟧ around another place to `see`.
-Marks and findings have the same order. One mark can serve for all findings, and where the places
-to see have another order, `see` is a mapping with the number of each. `{version}` in a message is
-that of framegen.
+Marks and findings have the same order. One mark can serve for all findings, and if the places to
+see have another order, `see` is a mapping with the number of each. `{version}` in a message is that
+of framegen.
 """
 
 from __future__ import annotations
@@ -46,7 +46,7 @@ _KEYS = {"name", "base", "edits", "text", "refusal", "findings"}
 
 @dataclass(frozen=True)
 class BadSpec:
-    """A spec with a mistake, and what must be said of it."""
+    """A spec with a mistake, and the findings that it must have."""
 
     name: str
     source: Source
@@ -55,18 +55,18 @@ class BadSpec:
 
 
 def tables() -> list[str]:
-    """Name the tables: the rules, and `unusable` for what is no spec at all."""
+    """List the tables: the rules, and `unusable` for texts that are no spec at all."""
     return sorted(file.stem for file in FOLDER.glob("*.yaml"))
 
 
 def names(table: str = "") -> list[str]:
-    """Name the cases of a table, or of all."""
+    """List the names of the cases of a table, or of all."""
     return [case["name"] for each in [table] * bool(table) or tables() for case in _cases(each)]
 
 
 @cache
 def bad_spec(name: str) -> BadSpec:
-    """Make one. Raises EditError where its edits do not apply, or its marks do not suffice."""
+    """Make a bad spec by its name. Raises EditError if its edits or marks do not fit."""
     [(table, case)] = [
         (table, case) for table in tables() for case in _cases(table) if case["name"] == name
     ]
@@ -77,7 +77,7 @@ def bad_spec(name: str) -> BadSpec:
 
 
 def made(rule: str, case: Case) -> BadSpec:
-    """Make a bad spec of what a table says. Raises EditError as bad_spec does."""
+    """Make a bad spec of an entry of a table. Raises EditError as bad_spec does."""
     if unknown := case.keys() - _KEYS - _SAID:
         raise EditError(f"a case has no `{min(unknown)}`")
     marked = _text(case)
@@ -109,14 +109,14 @@ def made(rule: str, case: Case) -> BadSpec:
 
 
 def base_names() -> list[str]:
-    """Name the good specs that cases begin with."""
+    """List the good specs that cases begin with."""
     whole = {file.stem for file in BASES.glob("*.yaml") if file != VARIANTS}
     return sorted(whole | {str(variant["name"]) for variant in _load(VARIANTS)})
 
 
 @cache
 def base(name: str) -> str:
-    """Give the text of a good spec that cases begin with."""
+    """Return the text of a good spec that cases begin with."""
     for variant in _load(VARIANTS):
         if variant["name"] == name:
             return _text(variant)
@@ -148,7 +148,7 @@ def _repeated(said: Case) -> list[Case]:
 
 
 def _numbered(said: list[Case]) -> list[dict[int, str]]:
-    """Number the places to see, where the case does not do so itself."""
+    """Give numbers to the places to see, unless the case does so itself."""
     numbers = itertools.count(1)
     return [
         see if isinstance(see, dict) else {next(numbers): text for text in see}

@@ -1,4 +1,4 @@
-"""The tables of truth: what a frame says, which frames are none, and which values no frame carries.
+"""The tables of truth: frames and their meaning, bytes that are none, values that none carries.
 
 Every frame was typed in from the protocol document or follows from its rules; none was produced by
 the library. Whatever reads or writes frames is held to these tables.
@@ -34,7 +34,7 @@ EITHER = None
 
 
 class Case(NamedTuple):
-    """A message, its frame, who sends it, and where that is known from."""
+    """A message, its frame, who sends it, and the source of it if there is one."""
 
     message: Message
     hex: str
@@ -164,7 +164,7 @@ each_case = pytest.mark.parametrize("case", CASES, ids=lambda case: case.source)
 
 
 class BadFrame(NamedTuple):
-    """Bytes that are no frame of a direction, why not, and from which byte on."""
+    """Bytes that are no frame of a direction, the reason, and the first byte that shows it."""
 
     hex: str
     direction: Direction | None
@@ -244,7 +244,7 @@ each_bad_frame = pytest.mark.parametrize(
 
 
 class BadValue(NamedTuple):
-    """A message that cannot be, where and what its first wrong value is, and what is said of it."""
+    """A message that cannot exist, the place of its first wrong value, and the error's text."""
 
     make: Callable[..., Message]
     fields: dict[str, Any]

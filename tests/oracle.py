@@ -165,7 +165,7 @@ def scan(
 
 
 def may_become_frame(data: bytes, direction: str | None) -> bool:
-    """Whether this is the beginning of some legal frame, one or more bytes short of its end."""
+    """Return whether this begins some legal frame, one or more bytes short of its end."""
     return any(
         len(data) < len(frame) and data[: len(beginning)] == beginning[: len(data)]
         for each in (MESSAGES if direction is None else (direction,))

@@ -23,16 +23,16 @@ _KEYS = {"under", "replace", "with", "mark", "instead", "before", "after", "remo
 
 
 class EditError(ValueError):
-    """What is to be changed is not there, or more than once."""
+    """The text to be changed is not there, or more than once."""
 
 
 def unmarked(text: str) -> str:
-    """Take the marks out of a text."""
+    """Remove the marks from a text."""
     return _MARKS.sub("", text)
 
 
 def edited(text: str, edit: dict[str, Any]) -> str:
-    """Change a text. Raises EditError where the edit does not apply."""
+    """Change a text. Raises EditError if the edit does not apply."""
     if unknown := edit.keys() - _KEYS:
         raise EditError(f"an edit has no `{min(unknown)}`")
     lines = text.split("\n")

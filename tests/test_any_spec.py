@@ -1,4 +1,4 @@
-"""Whatever a spec holds, it is checked without a crash, and told in our words."""
+"""Any spec, however wrong, is checked without a crash, and refused in plain words."""
 
 from __future__ import annotations
 
@@ -83,7 +83,7 @@ def copied(tree: Any) -> Any:
 
 
 def survives(text: str) -> None:
-    """Checks `text`, shows what is found, and derives what is clean: no step may raise."""
+    """Check `text`, show the findings, and derive a clean spec: no step may raise."""
     source = Source("spec.yaml", text)
     try:
         compiled = compile_spec(source)
@@ -103,7 +103,7 @@ KILN = kiln()
 
 
 def keys_of_the_language(value: Any) -> Iterator[Steps]:
-    """The path of one value under each key that the guide's spec shows."""
+    """Yield the path of one value under each key that the guide's spec shows."""
     seen: set[object] = set()
     for here in paths(value)[1:]:
         key = here[-1] if isinstance(here[-1], str) else (here[-2], "[0]")
@@ -139,7 +139,7 @@ def test_any_structure_is_checked_without_a_crash(tree: dict[str, Any]) -> None:
 
 @st.composite
 def mutated(draw: st.DrawFn) -> str:
-    """The spec of busservo with one to three of its values replaced, removed or put in twice."""
+    """Return the spec of busservo with one to three of its values replaced, removed or doubled."""
     tree = copied(TREE)
     for _ in range(draw(st.integers(1, 3))):
         path = draw(st.sampled_from(PATHS))

@@ -1,4 +1,4 @@
-"""`framegen check`: every rule finds what it is there for, at its place, and nothing else."""
+"""`framegen check`: every rule finds what it is for, at its place, and nothing else."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 
 
 def said_of(source: Source) -> tuple[list[Finding], str]:
-    """What is found, and why it is refused."""
+    """Return the findings of a bad spec, and the reason for a refusal."""
     try:
         return compile_spec(source).findings, ""
     except Unusable as refusal:

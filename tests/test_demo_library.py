@@ -1,4 +1,4 @@
-"""The library of another protocol: all that the language can say, held to the reference codec."""
+"""The library of another protocol, with all features of the language, against the reference."""
 
 import doctest
 import importlib
@@ -52,13 +52,13 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 @pytest.fixture(scope="module", autouse=True)
 def greenhouse(folder: Path) -> Iterator[ModuleType]:
-    """The library, imported under its own name."""
+    """Return the library, imported under its own name."""
     with library(files_of(SPEC), folder) as made:
         yield made
 
 
 def lib() -> Any:
-    """The same, for Hypothesis, which takes no fixtures."""
+    """Return the same, for Hypothesis, which takes no fixtures."""
     return importlib.import_module("greenhouse")
 
 
@@ -98,7 +98,7 @@ def frames(model: Model = LAYOUT) -> st.SearchStrategy[tuple[MessageLayout, dict
 
 
 def arguments(values: dict[str, Any]) -> dict[str, Any]:
-    """Values of the reference codec as arguments of the library: elements as tuples."""
+    """Return values of the reference codec as arguments of the library: elements as tuples."""
     return {
         name: [tuple(item.values()) if isinstance(item, dict) else item for item in value]
         if isinstance(value, list)
@@ -108,7 +108,7 @@ def arguments(values: dict[str, Any]) -> dict[str, Any]:
 
 
 def said_by(message: Any) -> dict[str, Any]:
-    """The fields of a message, comparable with `arguments`."""
+    """Return the fields of a message, comparable with `arguments`."""
     fields = {name: getattr(message, name) for name in message.__match_args__}
     return {
         name: [tuple(item) if isinstance(item, tuple) else item for item in value]
@@ -386,7 +386,7 @@ def test_the_docstrings_of_the_library_run(greenhouse: ModuleType) -> None:
 
 @st.composite
 def lines(draw: st.DrawFn) -> tuple[bytes, list[Any]]:
-    """Frames of stations with noise between that holds no whole header, and their messages."""
+    """Return frames of stations with noise between that holds no header, and their messages."""
     line, sent = b"", []
     kinds = [m for m in LAYOUT.messages.values() if m.direction.sender == "station"]
     for _ in range(draw(st.integers(0, 5))):
@@ -474,7 +474,7 @@ def message_of(number: int, fields: dict[str, Any], *examples: tuple[dict[str, A
 
 
 def spec_with(name: str, message: Data, length: str | int, **frame: Any) -> Data:
-    """A small protocol of one message."""
+    """Return a small protocol of one message."""
     spec = {key: SPEC[key] for key in ("framegen", "sources", "endpoints", "link")}
     part = {"preamble": {"is": "constant", "bytes": "AA"}, **frame}
     return {
@@ -494,7 +494,7 @@ FRAME: dict[str, Any] = {
 
 
 def holds(data: Data, folder: Path) -> None:
-    """A library agrees with the reference codec on each of its messages, ends included."""
+    """Check that a library agrees with the reference codec on each message, ends included."""
     compiled = compiled_of(data)
     layout = compiled.model
     with library(library_files(compiled), folder) as made:
@@ -811,7 +811,7 @@ OTHERS = ("blinds", "lamp", "weather")
 
 @pytest.fixture(scope="module")
 def many(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """The libraries of the demo spec and the guide, of all the shapes above, of hardly anything."""
+    """Return the libraries of the demo, the guide, all the shapes above, and a minimal spec."""
     folder = tmp_path_factory.mktemp("many")
     specs = [SPEC, kiln(), *(data_of(DEMO.with_name(f"{name}.yaml")) for name in OTHERS)]
     for name, shapes in {"shapes": list(SHAPES), "bare": ["no fields at all"]}.items():

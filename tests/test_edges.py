@@ -1,4 +1,4 @@
-"""Edges that mutation of the code has shown to be unguarded; docs/testing.md tells how."""
+"""Edges that mutation of the code has shown to be unguarded; see docs/testing.md."""
 
 import busservo
 import pytest

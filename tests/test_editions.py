@@ -1,6 +1,6 @@
 """Editions of the language: old ones are read for ever, newer ones refused before all else.
 
-What stands in `specs/editions/N` was right in edition N, and is never edited.
+The specs in `specs/editions/N` were right in edition N, and are never edited.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""Findings: how they are shown, how many, and what they guess."""
+"""Findings: their text, their number, and their guesses."""
 
 from __future__ import annotations
 

@@ -39,7 +39,7 @@ UNFINISHED = re.compile(r"\b(?:TODO|FIXME|XXX)\b|^(?:<{7}|>{7}|={7}$)", re.MULTI
 
 
 def our_files() -> list[Path]:
-    """What belongs to the project: what git would keep, or else everything but litter."""
+    """Return the project's files: what git would keep, or else everything but litter."""
     git = shutil.which("git")
     if git is not None and (ROOT / ".git").exists():
         listed = subprocess.run(
@@ -60,7 +60,7 @@ def our_files() -> list[Path]:
 
 
 def text_of(file: Path) -> str | None:
-    """The text of a file; None for bytes that are no text."""
+    """Return the text of a file; None for bytes that are no text."""
     try:
         return file.read_text(encoding="utf-8")
     except UnicodeDecodeError:
@@ -142,7 +142,7 @@ HOOKS = TEXTS[".pre-commit-config.yaml"]
 
 
 def recipe(target: str) -> list[str]:
-    """The commands of a target, without the environment's folder."""
+    """Return the commands of a target, without the environment's folder."""
     found = re.search(rf"^{target}:.*\n((?:\t.*\n)+)", MAKEFILE, flags=re.MULTILINE)
     assert found is not None
     return found[1].replace("\t", "").replace("$(IN)/", "").splitlines()

@@ -1,4 +1,4 @@
-"""What follows from a spec: offsets, lengths and times, against numbers worked out by hand."""
+"""The layout of a spec: offsets, lengths and times, against numbers calculated by hand."""
 
 from typing import Any, NamedTuple
 

@@ -1,4 +1,4 @@
-"""What does not fit the language is told in its words."""
+"""Errors of values that do not fit the language, in the language's words."""
 
 from __future__ import annotations
 

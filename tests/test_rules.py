@@ -1,4 +1,4 @@
-"""The rules of `framegen check`: what each says of itself, and what no bad spec shows."""
+"""The rules of `framegen check`: their descriptions, and findings that no bad spec shows."""
 
 from __future__ import annotations
 

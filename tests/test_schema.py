@@ -1,4 +1,4 @@
-"""The schema of the spec language: it takes every good spec, refuses typos, and never wavers."""
+"""The schema of the spec language: it accepts every good spec, and refuses typos."""
 
 import copy
 import json
@@ -24,17 +24,17 @@ VALIDATOR = Draft202012Validator(SCHEMA)
 
 
 def data_of(file: Path) -> dict[str, Any]:
-    """What a spec file says, as editors hand it to a schema: keys are text."""
+    """Return the values of a spec file, as editors hand it to a schema: keys are text."""
     return read_tree(read_source(file))[0].data
 
 
 def complaints(data: object) -> list[str]:
-    """The paths at which the schema refuses `data`."""
+    """Return the paths at which the schema refuses `data`."""
     return sorted("/".join(map(str, error.absolute_path)) for error in VALIDATOR.iter_errors(data))
 
 
 def schemas_in(schema: dict[str, Any]) -> Iterator[dict[str, Any]]:
-    """The schema itself and every schema within it."""
+    """Yield the schema itself and every schema within it."""
     yield schema
     for keyword, value in schema.items():
         if keyword in ("properties", "$defs"):

@@ -1,4 +1,4 @@
-"""The file of a spec: what is read of it, and what is refused."""
+"""Spec files: how they are read, and what is refused."""
 
 from __future__ import annotations
 

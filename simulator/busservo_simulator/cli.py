@@ -1,4 +1,4 @@
-"""The command `busservo-simulator`: a virtual board that waits behind a port."""
+"""The command `busservo-simulator`: a virtual board behind a port."""
 
 from __future__ import annotations
 
@@ -23,10 +23,10 @@ if TYPE_CHECKING:
 
 
 def main(argv: Sequence[str] | None = None, *, program: str = PROGRAM) -> int:
-    """Runs the command line. 0: ended by Ctrl-C; 2: unusable; 141: whoever read along has gone.
+    """Run the command line. 0: ended by Ctrl-C; 2: usage error; 141: the reader of its output left.
 
-    `program` is how the command was called: it is a verb of another one, too. With --quiet, nobody
-    reads along: whoever has read the name of the port may go.
+    `program` is how the command was called: it is a verb of another one, too. With --quiet, nothing
+    follows the name of the port, so its reader may leave.
     """
     return console.run(program, lambda: _run_or_tell(argv, program))
 
@@ -63,7 +63,7 @@ def _run(arguments: argparse.Namespace, program: str) -> int:
 
 
 def _reader_has_gone() -> bool:
-    """Whether nobody can read what is printed. On Windows only the next line tells."""
+    """Return whether nobody can read the output. On Windows only the next line shows."""
     if sys.platform == "win32":
         return False
     try:
@@ -76,7 +76,7 @@ def _reader_has_gone() -> bool:
 
 
 def _printer(named: threading.Event, ended: threading.Event) -> Callable[[str], None]:
-    """Prints lines as they come, but none in front of the name of the port, and loses none."""
+    """Return a function that prints all lines, the name of the port first."""
 
     def show(line: str) -> None:
         named.wait()
@@ -90,7 +90,7 @@ def _printer(named: threading.Event, ended: threading.Event) -> Callable[[str], 
 
 @contextmanager
 def _opened(arguments: argparse.Namespace) -> Iterator[VirtualController]:
-    """The board behind its port. Raises ValueError where there cannot be such a port."""
+    """Open the port of a board. Raises ValueError if there cannot be such a port."""
     board = _board(arguments)
     with ExitStack() as port:
         try:
@@ -135,7 +135,7 @@ def _board(arguments: argparse.Namespace) -> VirtualController:
 
 @contextmanager
 def _ended_by_signals() -> Iterator[threading.Event]:
-    """An event that SIGINT and SIGTERM set, so that links and ports are always given back."""
+    """Return an event that SIGINT and SIGTERM set, so that links and ports are always removed."""
     ended = threading.Event()
     kinds = (signal.SIGINT, signal.SIGTERM)
     before = [signal.signal(kind, lambda *_: ended.set()) for kind in kinds]

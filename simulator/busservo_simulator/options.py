@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from collections.abc import Mapping
 
 PROGRAM = "busservo-simulator"
-# What a TCP port and a battery's millivolts are sent as.
+# The highest TCP port, and the most millivolts that a frame carries.
 _MOST = 65535
 
 
@@ -47,7 +47,7 @@ What happens is printed line by line: the seconds since the start, who, and what
 
 
 def parser_of(program: str) -> argparse.ArgumentParser:
-    """The parser of the command, whatever it is called as."""
+    """Return the parser of the command, under the name that it was called by."""
     parser = console.Parser(
         prog=program,
         description="A virtual bus servo controller: talk to it as to a real one.",
@@ -201,12 +201,12 @@ def _fault(text: str) -> tuple[str, float]:
 
 
 def _decimal(text: str) -> float | None:
-    """A number of 0 or more, None for whatever else."""
+    """Return a number of 0 or more; None for any other text."""
     written = re.fullmatch(r"[0-9]{1,9}(\.[0-9]{0,9})?|\.[0-9]{1,9}", text)
     return float(text) if written else None
 
 
 def faults_of(arguments: argparse.Namespace) -> Faults:
-    """The faults that were asked for."""
+    """Return the faults that the arguments choose."""
     durations = {name: getattr(arguments, name) for name in DURATIONS}
     return Faults(seed=arguments.seed, **dict(arguments.faults), **durations)

@@ -28,7 +28,7 @@ def test_a_shell_learns_the_verbs_their_options_and_the_messages(
 
 
 def completed(script: str, line: str) -> list[str]:
-    """What bash offers for a line whose last word is begun, or empty."""
+    """Return the words that bash offers for a line whose last word is begun, or empty."""
     words = line.split(" ")
     quoted = " ".join(f"'{word}'" for word in words)
     program = f"""{script}

@@ -1,4 +1,4 @@
-"""The pages of the reference: whole, joined, without a network, and true to the spec."""
+"""The pages of the reference: complete, linked, without a network, and true to the spec."""
 
 import json
 import re

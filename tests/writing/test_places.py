@@ -1,4 +1,4 @@
-"""Odd things where output goes: links, pipes, folders, read-only folders; two runs at once."""
+"""Odd places for output: links, pipes, folders, read-only folders; two runs at once."""
 
 from __future__ import annotations
 
@@ -159,7 +159,7 @@ def test_a_file_where_a_folder_should_be_is_told(tmp_path: Path, name: str) -> N
 
 @pytest.fixture
 def read_only(root: Path) -> Iterator[Path]:
-    """A root whose library cannot be written, even by a superuser."""
+    """Return a root whose library cannot be written, even by a superuser."""
     folder = root / LIBRARY
     here = Path.cwd()
     # Relative, since the folders above may be closed to anybody else.

@@ -32,7 +32,7 @@ ENDS = {NOT_ALL: "there was noise, and --strict was given"}
 ABOUT = """\
 FILE is what `monitor --log` or the `trace` of a client recorded, or hex, or raw bytes. A recording
 says who has sent what, and when: each of its lines is decoded as its sender's."""
-# Bytes enough to recognize another protocol by.
+# Bytes enough to recognise another protocol by.
 _KEPT = 16384
 
 

@@ -12,7 +12,7 @@ NAMED = "name a port, such as /dev/ttyUSB0 or COM7, or a URL, such as socket://h
 _NETWORK = ("socket", "rfc2217")
 _LOGGING = r"logging=(?:debug|info|warning|error)"
 # The addresses that pyserial opens: their options, the character before the first (the others
-# follow an &), and how they are recognized.
+# follow an &), and how they are recognised.
 ADDRESSES = {
     "hwgrep": (r"n=0*(?:[2-9]|[1-9][0-9]+)|skip_busy", "&", "n=2 for the second, and skip_busy"),
     "loop": (_LOGGING, "?", "logging=debug"),

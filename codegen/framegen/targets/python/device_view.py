@@ -48,7 +48,7 @@ class HandlerView:
         if message.reply:
             found.append(f"Return the {message.reply} as the reply, or None to stay silent.")
         if message.reports:
-            found.append(f"May be followed, by `send`: {', '.join(message.reports)}.")
+            found.append(f"`send` may follow with: {', '.join(message.reports)}.")
         return found
 
 
@@ -73,9 +73,9 @@ class DeviceView:
         """The docstring of the class."""
         roles = self.model.roles
         use = (
-            f"`receive` takes the bytes of the {roles.client}, and returns the bytes to send. A "
-            "handler that is not overridden does nothing and sends no reply. `rejects` counts "
-            "rejected input by reason."
+            f"`receive` takes bytes of the {roles.client}, and returns the bytes to send back. "
+            "A handler that is not overridden does nothing and answers nothing. "
+            "Rejected input is counted in `rejects`, by reason."
         )
         what = f"The {roles.device}'s end of the line: override a handler to say what it does."
         return [what, use]

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 from framegen.model.slots import Items, Number
 from framegen.targets.python.element_view import ElementView
 from framegen.targets.python.escape import WIDTH, Bracketed, Part
-from framegen.targets.python.number_view import RETURN, NumberView
+from framegen.targets.python.number_view import RETURN, NumberView, bounded
 
 if TYPE_CHECKING:
     from typing import Any
@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from framegen.language.spec import Spec
     from framegen.targets.python.number_view import Constant
 
-_COLUMNS_FOR = "For arrays and plots of a recording: several times as fast as"
+_COLUMNS_FOR = "For arrays and plots of a recording: several times as fast as reading"
 
 
 def given(argument: Number | Items, value: Any, before: str = "") -> Part:
@@ -82,8 +82,8 @@ class ListView:
     @property
     def argument_doc(self) -> list[str]:
         """The description as an argument of a method, with the bounds of its count."""
-        bounds = f"{self.slot.low}..{self.slot.high} of them."
-        return [self.slot.field.about, bounds, *self._notes]
+        about = bounded(self.slot.field.about, f"{self.slot.low}..{self.slot.high} items")
+        return [about, *self._notes]
 
     @property
     def _notes(self) -> list[str]:
@@ -142,7 +142,7 @@ class ListView:
         *others, last = [field.name for field in self.fields]
         fields = f"{', '.join(others)} and {last}" if others else last
         return [
-            f"The {self.name} as columns of plain numbers.",
+            f"Return the {self.name} as columns of plain numbers.",
             f"One for each field: {fields}. {_COLUMNS_FOR} `{self.name}`.",
         ]
 

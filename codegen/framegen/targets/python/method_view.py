@@ -15,25 +15,27 @@ if TYPE_CHECKING:
     from framegen.model.model import Model
 
 _HANDED_OVER = (
-    "Returns once the frame is handed to the port; `delay` of the result is the number of seconds "
-    "until it is on the wire."
+    "Returns once the frame is handed over; `delay` of the result is how many seconds later it is "
+    "on the wire."
 )
 _LASTS = (
-    "`lasts` of the result is the duration, and its `wait()` returns once that is over, by "
-    "calculation."
+    "`lasts` of the result is how many seconds its effect lasts, and its `wait()` returns once "
+    "that is over, by calculation."
 )
 _LATEST = (
-    "`latest`: Do not wait for the line, and let a newer one of the same replace it, as "
-    "`send_latest` does."
+    "`latest`: Do not wait for the line, and let a newer command for the same ids replace this "
+    "one, as `send_latest` does."
 )
 _ACKNOWLEDGED = (
-    "`started` of the result says whether {} has confirmed it: False once that is overdue, on a "
-    "line that has carried such reports before."
+    "`started` of the result is True once {} acknowledges it, and False if none comes in time, on "
+    "a line that has carried such reports before."
 )
-_REFUSED = "Raises EncodeError for what no frame can carry"
-_LATE = "NoReplyError where no reply arrives in time, and TransportError."
-_SPLIT = "more are requested in several requests, one after the other."
-_PARTLY = " IncompleteReplyError where the reply omits some: it names them, and keeps the rest."
+_REFUSED = "Raises EncodeError for values that no frame can carry"
+_LATE = "NoReplyError if no reply comes in time, and TransportError."
+_SPLIT = "longer lists take several requests, one after the other."
+_PARTLY = (
+    " IncompleteReplyError if the reply leaves something out: it says what, and holds the rest."
+)
 
 
 @dataclass(frozen=True, slots=True)

@@ -67,10 +67,10 @@ class NumberView:
         """The description as an argument of a method, with its range and unit."""
         field = self.slot.field
         unit = f" {field.unit}" if field.unit else ""
-        scale = f", a step being {field.scale}" if field.scale else ""
-        range_ = f"{self.slot.low}..{self.slot.high}{unit}{scale}."
+        scale = f", in steps of {field.scale}" if field.scale else ""
+        about = bounded(field.about, f"{self.slot.low}..{self.slot.high}{unit}{scale}")
         named = [f"{value.value} ({name}): {value.about}" for name, value in field.values.items()]
-        return [field.about, range_, *self._sent, *named, *self._notes]
+        return [about, *self._sent, *named, *self._notes]
 
     @property
     def _notes(self) -> list[str]:
@@ -139,13 +139,17 @@ class NumberView:
         return [each.value for each in self.slot.field.values.values() if each.absent]
 
 
+def bounded(about: str, bounds: str) -> str:
+    """Return a description with its bounds before the full stop: `How long it takes (0..9 s).`."""
+    return f"{about.removesuffix('.')} ({bounds})."
+
+
 def absent_view(fields: list[NumberView]) -> AbsentView | None:
     """Return the property that tells whether an element or a message is absent."""
     for field in fields:
         values = field.absent_values
         if values:
-            named = field.slot.field.values
-            about = [each.about for each in named.values() if each.absent]
+            names = [each.name for each in field.constants if each.value in values]
             whole = f"self.{field.name}"
             test = (
                 f"{whole} == {values[0]}"
@@ -154,10 +158,7 @@ def absent_view(fields: list[NumberView]) -> AbsentView | None:
                     8, last=RETURN
                 )
             )
-            return AbsentView(
-                [f"Whether `{field.name}` says that there is nothing to tell of.", *about],
-                test,
-            )
+            return AbsentView([f"Whether `{field.name}` is {' or '.join(names)}."], test)
     return None
 
 

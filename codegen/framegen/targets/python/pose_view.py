@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from framegen.model.slots import Items
     from framegen.targets.python.method_view import Flavour
 
-_RAISED = "NoReplyError where no reply comes in time, and TransportError."
+_RAISED = "NoReplyError if no reply comes in time, and TransportError."
 
 
 @dataclass(frozen=True, slots=True)
@@ -148,18 +148,16 @@ class PoseView:
     @property
     def hold_doc(self) -> list[str]:
         nearest = (
-            "This is as close as it gets to stopping a motion where no message stops one: whatever "
-            "moves goes back to where it was when it was read, a reply and a command ago."
+            "This is the nearest to stopping a motion if the protocol has no message for that: "
+            "whatever moves goes back to where it was when it was read, a reply and a command ago."
         )
         given = (
-            f"`{self.requested}`: The ids to hold; all of them must report a position. "
-            f"`{self.time}`: The time for the way back, in ms."
+            f"`{self.requested}`: Those to hold; all of them must be present. `{self.time}`: "
+            "How long the way back may take, in ms."
         )
-        raised = (
-            "AbsentError where one is absent or missing, LimitError where one is outside the limits"
-        )
+        raised = "AbsentError if one is off or missing, LimitError if one is far outside the limits"
         return [
-            "Read the present positions, and command them.",
+            "Read the current positions, and command them.",
             nearest,
             given,
             f"Returns what `{self.move_method}` does.",
@@ -169,26 +167,26 @@ class PoseView:
     @property
     def present_doc(self) -> list[str]:
         given = (
-            f"`{self.requested}`: The ids to look for; without it, {self.pose.ids}. They go in "
-            "as many requests as replies have room for."
+            f"`{self.requested}`: Those to look for; by default {self.pose.ids}. It takes several "
+            "requests if one reply has no room for all."
         )
         return [
-            "Find out which ids report a position.",
+            "Return the numbers of those that are present.",
             given,
-            f"Returns these ids, in the order given. No reply at all is an error: {_RAISED}",
+            f"They are in the order requested. Raises {_RAISED}",
         ]
 
     @property
     def targets_doc(self) -> list[str]:
         taken = (
-            "Absent ones are left out. A position a little below zero, or a little outside the "
-            "limits of this client, becomes the nearest position inside."
+            "Those that are absent are left out. For a position a little below zero, or a little "
+            "outside the limits of this client, the target is the nearest position inside."
         )
         return [
             "Make targets of positions that were read, to move back to them.",
             taken,
             f"Returns what `{self.move_method}` takes as `{self._moved.name}`.",
-            "Raises LimitError for a position that is further outside.",
+            "Raises LimitError for a position that is further out.",
         ]
 
     @property

@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 
 # The rates that devices and adapters mostly use, the likeliest first.
 _RATES = (115200, 57600, 38400, 19200, 9600, 4800)
-# How much longer than a program waits, so that a late reply is recognized as late.
+# How much longer than a program waits, so that a late reply is recognised as late.
 EXTRA_TIME = 1.0
 _NO_RATE = ("socket", "loop", "hid")
 _PSEUDO_TERMINALS = ("/dev/pts/", "/dev/ttys")

@@ -4,7 +4,7 @@ Its driver hands in the bytes that arrive and the time, and takes out the bytes 
 that has a reply is a question. One question is in progress at a time; commands, which nothing
 answers, do not wait for it.
 
-How a reply is recognized. It has the class that answers the question, and holds nothing that was
+How a reply is recognised. It has the class that answers the question, and holds nothing that was
 not requested. A message of such a class that is no reply to the question in progress is
 unsolicited: it is counted and dropped, and never taken for anything else. All others are reports.
 

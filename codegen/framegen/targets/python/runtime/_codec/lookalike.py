@@ -1,4 +1,4 @@
-"""Recognize frames of a protocol that is easily taken for this one, in bytes of any origin."""
+"""Recognise frames of a protocol that is easily taken for this one, in bytes of any origin."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ TYPE_CHECKING = False  # typing alone would double the time that the import take
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator
 
-# Bytes enough to recognize one; a search through more would only take longer.
+# Bytes enough to recognise one; a search through more would only take longer.
 _SEARCHED = 16384
 
 
