@@ -230,7 +230,7 @@ def test_what_differs_is_told_and_mended(
         assert out == ""
         assert err.startswith("framegen: error: somebody's work would be lost, so nothing was")
         assert f"\n  edited by hand: {path}\n" in err
-        assert err.endswith("kept beside its place, as NAME.mine: --force\n")
+        assert err.endswith("keeps it beside its place, as NAME.mine\n")
         assert snapshot(project) == spoilt
     assert main(["generate", "--force"]) == 0
     out, err = capsys.readouterr()
@@ -260,11 +260,11 @@ def test_a_lost_manifest_is_made_anew_with_a_notice(project: Path, capsys: Captu
     before = snapshot(project)
     (project / OUTPUT.manifest).unlink()
     assert main(["generate", "--check"]) == 1
-    assert f"{OUTPUT.manifest} is not there: own files are told" in capsys.readouterr().err
+    assert f"{OUTPUT.manifest} is not there: files are recognised" in capsys.readouterr().err
     assert main(["generate"]) == 0
     out, err = capsys.readouterr()
     assert out == f"wrote {OUTPUT.manifest}\n"
-    assert f"{OUTPUT.manifest} is not there: own files are told" in err
+    assert f"{OUTPUT.manifest} is not there: files are recognised" in err
     assert snapshot(project) == before
 
 
