@@ -20,11 +20,13 @@ import signal
 import subprocess
 import sys
 import tempfile
+import time
 from pathlib import Path
 from typing import NamedTuple
 
 ROOT = Path(__file__).resolve().parent.parent
 PORT = "COM5"
+BEGUN = time.monotonic()
 WAITS = "busservo simulate"
 # Programs and sessions of a page share one Python, as a reader's do: a line of JSON each.
 INTERPRETER = r"""
@@ -63,10 +65,12 @@ class WrongError(Exception):
 
 
 class Reader:
-    """Somebody who has this clone, a shell, and nothing of ours on the path."""
+    """Somebody who has this clone, a shell, an empty home, and nothing of ours on the path."""
 
-    def __init__(self) -> None:
-        self.environment = dict(os.environ)
+    def __init__(self, home: Path) -> None:
+        # What was downloaded once is not downloaded again.
+        cache = str(home.parent / "cache")
+        self.environment = {**os.environ, "HOME": str(home), "XDG_CACHE_HOME": cache}
         self.folder = str(ROOT)
         self._python: subprocess.Popen[str] | None = None
         self._board: subprocess.Popen[str] | None = None
@@ -153,11 +157,17 @@ def blocks_of(page: Path) -> list[Block]:
 
 def follow(page: Path) -> None:
     """Do what a page says. Raises WrongError where that does not work."""
-    reader = Reader()
+    home = Path.home() / page.stem
+    home.mkdir()
+    reader = Reader(home)
     shown = ""
     try:
         for block in blocks_of(page):
-            print(f"{page.relative_to(ROOT)}:{block.line}: {block.text.splitlines()[0]}", flush=True)
+            place = f"{page.relative_to(ROOT)}:{block.line}"
+            print(
+                f"{time.monotonic() - BEGUN:4.0f} s  {place}: {block.text.splitlines()[0]}",
+                flush=True,
+            )
             try:
                 shown = _do(reader, block, shown)
             except WrongError as error:
