@@ -21,7 +21,7 @@ STOREYS = [
     {"targets.target", "targets.templates", "targets.filenames"},
     {"targets.python", "targets.docs", "targets.vectors", "targets.schema"},
     {"targets.table"},
-    {"render"},
+    {"render", "skeleton"},
     {"writing"},
     {"commands"},
     {"cli"},

@@ -16,6 +16,7 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
 VERBS = (
+    "new",
     "check",
     "generate",
     "diff",
