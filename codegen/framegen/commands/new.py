@@ -66,7 +66,10 @@ def _accepted(name: str, spec: str) -> Model:
     from framegen.reading.yamltree import Unusable  # noqa: PLC0415
     from framegen.targets.table import TARGETS  # noqa: PLC0415
 
-    compiled = compile_spec(Source("spec", spec))
+    try:
+        compiled = compile_spec(Source("spec", spec))
+    except Unusable:
+        raise Unusable(f"no protocol can be called so: `{visible(name)}` is no text") from None
     for finding in compiled.findings:
         raise Unusable(f"no protocol can be called so: {finding.message}", hint=finding.hint)
     hint = f"choose another name, such as `{name}_protocol`"
