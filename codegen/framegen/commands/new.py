@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from framegen.console import visible
-from framegen.wording import counted
+from framegen.pluralize import pluralize
 
 if TYPE_CHECKING:
     from argparse import ArgumentParser, Namespace
@@ -46,7 +46,7 @@ def run(arguments: Namespace) -> int:
     for path in written:
         print(f"wrote {visible(Path(root, path).as_posix())}")
     if not written:
-        print(f"{counted(len(files), 'file')} are there already: nothing was written")
+        print(f"{pluralize(len(files), 'file')} are there already: nothing was written")
     frame = next(each.reply.message.examples[0].hex for each in model.exchanges if each.reply)
     print(
         f"""
