@@ -10,7 +10,15 @@ GENERATOR = Path(__file__).parent.parent / "codegen" / "framegen"
 
 # From the ground up. What shares a line knows nothing of each other.
 STOREYS = [
-    {"__version__", "colour", "console", "hextext", "recording_file", "pluralize"},
+    {
+        "__version__",
+        "colour",
+        "console",
+        "hextext",
+        "recording_file",
+        "shell_completion",
+        "pluralize",
+    },
     {"reading"},
     {"project", "language"},
     {"model"},
@@ -21,9 +29,10 @@ STOREYS = [
     {"targets.target", "targets.templates", "targets.filenames"},
     {"targets.python", "targets.docs", "targets.vectors", "targets.schema"},
     {"targets.table"},
-    {"render"},
+    {"render", "skeleton"},
     {"writing"},
     {"commands"},
+    {"completion"},
     {"cli"},
     {"__main__"},
 ]
