@@ -18,6 +18,7 @@ if TYPE_CHECKING:
 VERBS = (
     "check",
     "generate",
+    "missing",
     "diff",
     "docs",
     "explain",
