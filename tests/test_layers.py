@@ -23,7 +23,7 @@ STOREYS = [
     {"project", "language"},
     {"model"},
     {"checks", "cases"},
-    {"compile", "explain"},
+    {"compile", "explain", "witnesses"},
     {"explain_text", "comparison", "output"},
     {"conformance"},
     {"targets.target", "targets.templates", "targets.filenames"},
@@ -45,7 +45,7 @@ ALONE = {
     "framegen.model.model.derive": {"compile"},
     "framegen.checks.check_model": {"compile"},
     "framegen.checks.check_structure": {"compile"},
-    "framegen.reading.yamltree.read_tree": {"language"},
+    "framegen.reading.yamltree.read_tree": {"language", "witnesses"},
     "framegen.model.roles.settle": {"model"},
 }
 

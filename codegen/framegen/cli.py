@@ -20,6 +20,7 @@ VERBS = (
     "new",
     "check",
     "generate",
+    "missing",
     "diff",
     "docs",
     "explain",
