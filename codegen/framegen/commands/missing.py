@@ -7,7 +7,7 @@ import sys
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from framegen.wording import counted
+from framegen.pluralize import pluralize
 
 if TYPE_CHECKING:
     from argparse import ArgumentParser, Namespace
@@ -90,8 +90,8 @@ def _json(spec: Compiled, missing: Missing) -> str:
 
 def _summary(spec: Compiled, witnesses: Sequence[Witness], found: Sequence[Missing]) -> str:
     looked = {each.of: len([*each.subjects(spec.model)]) for each in witnesses}
-    what = ", ".join(counted(number, of.removesuffix("s")) for of, number in looked.items())
-    files = counted(len({each.file for each in witnesses}), "file")
+    what = ", ".join(pluralize(number, of.removesuffix("s")) for of, number in looked.items())
+    files = pluralize(len({each.file for each in witnesses}), "file")
     result = f"{len(found)} missing" if found else "nothing is missing"
     return f"{spec.source.name}: {what or 'nothing'} looked up in {files}: {result}"
 
@@ -99,7 +99,7 @@ def _summary(spec: Compiled, witnesses: Sequence[Witness], found: Sequence[Missi
 def _complain(spec: Compiled) -> None:
     from framegen.witnesses import HOW_TO_DECLARE  # noqa: PLC0415
 
-    name, messages = spec.spec.protocol.name, counted(len(spec.model.messages), "message")
+    name, messages = spec.spec.protocol.name, pluralize(len(spec.model.messages), "message")
     print(
         f"framegen: error: {spec.source.name} has {messages}, and no witness is declared for it: "
         f"nothing was looked for\n"
