@@ -23,11 +23,15 @@ MUTATION_VENV := .tools/mutation
 PINS_VENV := .tools/pins
 # How many tests run at once. Many only wait, so more than there are cores; 0 is one after another.
 WORKERS = 4
+# Where the pages of the reference go.
+REFERENCE = build/reference
 # Which mutants: make mutants ONLY='busservo.octets.*'
 ONLY =
 
 .DEFAULT_GOAL := all
-.PHONY: all test quick coverage lint format fuzz soak mutants bench docs docs-tools wheel pins venv clean help
+# Two that add to one environment at once would spoil it.
+.NOTPARALLEL:
+.PHONY: all test quick coverage lint style types current format fuzz soak mutants bench docs reference docs-tools wheel packages pins venv clean help
 
 all: $(READY)  ## Check the spec, generate everything, decode a recorded noisy line (plain `make`)
 	$(IN)/framegen check
@@ -47,11 +51,17 @@ coverage: $(TO_TEST)  ## Measure which lines and branches the quick tests reach,
 	$(IN)/coverage combine -q
 	$(IN)/coverage report
 
-lint: $(TO_LINT)  ## Lint, look at the format, check types, and that the output is up to date
+lint: style types current  ## Lint, look at the format, check types, and that the output is up to date
+
+style: $(TO_LINT)  ## Lint, and look at the format
 	$(IN)/ruff check
 	$(IN)/ruff format --check
+
+types: $(TO_LINT) $(TO_TEST)  ## Check types, those of the tests included
 	$(IN)/mypy
 	$(IN)/pyright --pythonpath $(IN)/python
+
+current: $(READY)  ## See that what is generated is up to date
 	$(IN)/framegen generate --check
 
 format: $(TO_LINT)  ## Mend what ruff can mend
@@ -72,6 +82,10 @@ docs: $(TO_DOCUMENT)  ## Build build/site: the reference and the guides, ready t
 	$(IN)/framegen docs --out build/site/reference
 	$(IN)/python docs/site.py build/site
 	@echo "Open build/site/index.html"
+
+reference: $(READY)  ## Build the pages of the reference alone: make reference REFERENCE=html
+	rm -rf $(REFERENCE)
+	$(IN)/framegen docs --out $(REFERENCE)
 
 docs-tools:  ## Install what the tests of the reference need of Node.js: a validator, axe-core
 	@mkdir -p .tools/node
@@ -94,9 +108,12 @@ mutants:  ## Change the code in many small ways, and list the changes that no te
 
 wheel: $(TO_BUILD)  ## Build dist/: a wheel and a source distribution of each package
 	rm -rf dist
-	$(IN)/python -m build --outdir dist .
-	$(IN)/python -m build --outdir dist codegen
-	$(IN)/python -m build --outdir dist simulator
+	$(IN)/python -m build --no-isolation --outdir dist .
+	$(IN)/python -m build --no-isolation --outdir dist codegen
+	$(IN)/python -m build --no-isolation --outdir dist simulator
+
+packages: $(TO_TEST)  ## Build the packages, and try them in empty environments
+	$(IN)/python -m pytest tests/all/test_packages.py
 
 # The oldest Python makes them: what it can install, all others can.
 pins:  ## Renew constraints.txt: make pins PYTHON=python3.10

@@ -98,6 +98,12 @@ CASES = (
         "1.7 reply",
     ),
     Case(ActionGroupStarted(group=8, times=1), "55 55 05 06 08 01 00", CONTROLLER, "2.1 report"),
+    Case(
+        ActionGroupStarted(group=2, times=ActionGroupStarted.TIMES_UNLIMITED),
+        "55 55 05 06 02 00 00",
+        CONTROLLER,
+        "report of 1.2 example 2",
+    ),
     # From elsewhere: a real board, and the two reports that the document only hints at.
     Case(BatteryVoltage(voltage_mv=7881), "55 55 04 0F C9 1E", CONTROLLER, "captured reply"),
     Case(ActionGroupStopped(), "55 55 02 07", CONTROLLER, "report of a stop"),

@@ -10,20 +10,29 @@ GENERATOR = Path(__file__).parent.parent / "codegen" / "framegen"
 
 # From the ground up. What shares a line knows nothing of each other.
 STOREYS = [
-    {"__version__", "colour", "console", "hextext", "recording_file", "pluralize"},
+    {
+        "__version__",
+        "colour",
+        "console",
+        "hextext",
+        "recording_file",
+        "shell_completion",
+        "pluralize",
+    },
     {"reading"},
     {"project", "language"},
     {"model"},
     {"checks", "cases"},
-    {"compile", "explain"},
+    {"compile", "explain", "witnesses"},
     {"explain_text", "comparison", "output"},
     {"conformance"},
     {"targets.target", "targets.templates", "targets.filenames"},
     {"targets.python", "targets.docs", "targets.vectors", "targets.schema"},
     {"targets.table"},
-    {"render"},
+    {"render", "skeleton"},
     {"writing"},
     {"commands"},
+    {"completion"},
     {"cli"},
     {"__main__"},
 ]
@@ -36,7 +45,7 @@ ALONE = {
     "framegen.model.model.derive": {"compile"},
     "framegen.checks.check_model": {"compile"},
     "framegen.checks.check_structure": {"compile"},
-    "framegen.reading.yamltree.read_tree": {"language"},
+    "framegen.reading.yamltree.read_tree": {"language", "witnesses"},
     "framegen.model.roles.settle": {"model"},
 }
 

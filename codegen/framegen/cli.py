@@ -9,15 +9,18 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Protocol, cast
 
 from framegen import __version__, console
-from framegen.console import UNUSABLE, visible
+from framegen.console import DONE, UNUSABLE, visible
 from framegen.reading.findings import did_you_mean
+from framegen.shell_completion import CompletionError, add_option
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
 VERBS = (
+    "new",
     "check",
     "generate",
+    "missing",
     "diff",
     "docs",
     "explain",
@@ -75,10 +78,13 @@ def _run(words: Sequence[str]) -> int:
         description="Check a protocol spec, generate everything from it, explain its frames.",
     )
     parser.add_argument("--version", action="version", version=f"framegen {__version__}")
+    add_option(parser)
     parser.add_argument("verb", nargs="?", metavar="VERB", help=argparse.SUPPRESS)
     if {"-h", "--help"} & set(words):
         parser.epilog = _overview()
     known, unknown = parser.parse_known_args(words)
+    if known.print_completion is not None:
+        return _print_completion(known.print_completion)
     if known.verb is None and unknown:
         parser.error(f"there is no option `{unknown[0]}`")
     if known.verb is None:
@@ -87,6 +93,23 @@ def _run(words: Sequence[str]) -> int:
         return UNUSABLE
     _complain(f"there is no verb `{visible(known.verb)}`", did_you_mean(known.verb, VERBS))
     return UNUSABLE
+
+
+def _print_completion(shell: str) -> int:
+    from framegen.completion import completion  # noqa: PLC0415
+
+    parser = argparse.ArgumentParser(prog="framegen")
+    parser.add_argument("--version", action="store_true", help="show the version")
+    parts = parser.add_subparsers()
+    for name in VERBS:
+        verb = _verb(name)
+        verb.add_arguments(parts.add_parser(name, help=verb.SUMMARY))
+    try:
+        print(completion(parser, shell))
+    except CompletionError as error:
+        _complain(str(error))
+        return UNUSABLE
+    return DONE
 
 
 def _run_verb(name: str, words: Sequence[str]) -> int:

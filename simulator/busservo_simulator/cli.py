@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 from busservo._cli import console
 from busservo._frame.pluralize import pluralize
 
-from busservo_simulator.options import PROGRAM, faults_of, parser_of
+from busservo_simulator.options import PROGRAM, add_arguments, completion, faults_of, parser_of
 from busservo_simulator.tcp_end import LOOPBACK
 
 if TYPE_CHECKING:
@@ -20,6 +20,9 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Sequence
 
     from busservo_simulator.virtual_controller import VirtualController
+
+# What `busservo simulate` asks for.
+__all__ = ["add_arguments", "main"]
 
 
 def main(argv: Sequence[str] | None = None, *, program: str = PROGRAM) -> int:
@@ -34,6 +37,9 @@ def main(argv: Sequence[str] | None = None, *, program: str = PROGRAM) -> int:
 def _run_or_tell(argv: Sequence[str] | None, program: str) -> int:
     arguments = parser_of(program).parse_args(argv)
     try:
+        if getattr(arguments, "print_completion", None) is not None:
+            print(completion(arguments.print_completion))
+            return console.DONE
         return _run(arguments, program)
     except ValueError as error:
         console.complain(program, str(error))

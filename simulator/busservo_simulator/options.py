@@ -7,7 +7,7 @@ import re
 from typing import TYPE_CHECKING
 
 from busservo import __version__
-from busservo._cli import console
+from busservo._cli import console, shell_completion
 from busservo._frame.protocol import BAUD
 
 from busservo_simulator.faults import CHANCES, DURATIONS, Faults
@@ -53,6 +53,28 @@ def parser_of(program: str) -> argparse.ArgumentParser:
         description="A virtual bus servo controller: talk to it as to a real one.",
         epilog=_EXAMPLES.replace(PROGRAM, program),
     )
+    add_arguments(parser)
+    if program == PROGRAM:
+        shell_completion.add_option(parser)
+    return parser
+
+
+def completion(shell: str) -> str:
+    """Return what a shell needs to complete the command. Raises ValueError where none is made."""
+    try:
+        return shell_completion.script(parser_of(PROGRAM), shell, _candidates)
+    except shell_completion.CompletionError as error:
+        raise ValueError(str(error)) from None
+
+
+def _candidates(_command: str, action: argparse.Action) -> shell_completion.Candidates | None:
+    if action.metavar == "NAME=CHANCE":
+        return shell_completion.Words([f"{name}=" for name in CHANCES])
+    return shell_completion.Files() if action.metavar == "PATH" else None
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Declare the options of the command."""
     where = parser.add_argument_group("where it is")
     where.add_argument("--link", metavar="PATH", help="a name for the pty, a symlink")
     where.add_argument(
@@ -141,7 +163,6 @@ def parser_of(program: str) -> argparse.ArgumentParser:
     )
     parser.add_argument("--quiet", action="store_true", help="print the port and nothing else")
     parser.add_argument("--version", action="version", version=f"{PROGRAM} {__version__}")
-    return parser
 
 
 def _servos(text: str) -> list[int]:

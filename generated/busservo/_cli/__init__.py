@@ -12,6 +12,7 @@ from .._frame.protocol import SPEC_VERSION
 from . import console
 from .examples import EXAMPLES, PROGRAM, SUMMARY, VERBS
 from .exit_codes import DONE, MEANINGS, UNUSABLE
+from .shell_completion import add_option
 from .usage_error import UsageError
 from .verbs import verbs
 
@@ -19,8 +20,6 @@ TYPE_CHECKING = False
 if TYPE_CHECKING:
     from collections.abc import Sequence
     from typing import Any
-
-_SHELLS = ("bash", "zsh", "tcsh", "fish")
 
 
 def main(argv: Sequence[str] | None = None) -> int:
@@ -90,12 +89,7 @@ def _run_none(words: Sequence[str]) -> int:
     parser.add_argument(
         "--version", action="store_true", help="show program's version number and exit"
     )
-    parser.add_argument(
-        "--print-completion",
-        choices=_SHELLS,
-        metavar="SHELL",
-        help=f"print what a shell needs to complete this command ({', '.join(_SHELLS)})",
-    )
+    add_option(parser)
     parser.add_argument("verb", nargs="?", metavar="VERB", help=argparse.SUPPRESS)
     known, _ = parser.parse_known_args(words)
     if known.version:
@@ -103,7 +97,7 @@ def _run_none(words: Sequence[str]) -> int:
         print(f"{PROGRAM} {version}, spec {SPEC_VERSION}")
         return DONE
     if known.print_completion is not None:
-        print(_module("completion").script(known.print_completion))
+        print(_module("completion").completion(known.print_completion))
         return DONE
     if known.verb is None:
         parser.print_help(sys.stderr)

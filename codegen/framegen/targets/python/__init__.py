@@ -29,6 +29,7 @@ _HERE = Path(__file__).parent
 _SHARED = {
     "_cli/colour.py": "colour.py",
     "_cli/console.py": "console.py",
+    "_cli/shell_completion.py": "shell_completion.py",
     "_codec/hextext.py": "hextext.py",
     "_recording/file.py": "recording_file.py",
     "_frame/pluralize.py": "pluralize.py",
