@@ -38,7 +38,7 @@ FIELDS = [f"{name}=" for name in ServoMove.__match_args__]
 
 @pytest.fixture
 def scripts(capsys: Capture) -> Callable[[str, str], str]:
-    """What a program prints for a shell."""
+    """Return the completion script that a program prints for a shell."""
     pytest.importorskip("shtab")
 
     def script(program: str, shell: str) -> str:
@@ -106,7 +106,7 @@ def run(*words: str) -> list[str]:
 
 
 def in_bash(script: str, line: str) -> list[str]:
-    """What bash offers for a line whose last word is begun, or empty, and the options it sets."""
+    """Return the words and options of bash for a line whose last word is begun, or empty."""
     words = line.split(" ")
     quoted = " ".join(f"'{word}'" for word in words)
     function = f"_complete_{words[0].replace('-', '_')}"
