@@ -225,7 +225,7 @@ def test_an_empty_spec_gets_a_hint(tmp_path: Path, capsys: Capture) -> None:
     assert main(["check", str(file)]) == 2
     error, hint = capsys.readouterr().err.splitlines()
     assert error == (
-        f"framegen: error: {file.as_posix()}: the file is empty, where a spec is a mapping of keys"
+        f"framegen: error: {file.as_posix()}: the file is empty, but a spec is a mapping of keys"
     )
     assert hint.startswith("  hint: begin with `framegen: 2`")
 

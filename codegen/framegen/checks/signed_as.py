@@ -39,7 +39,7 @@ def _type(path: KeyPath, field: NumberField, signed_as: str) -> Iterator[Problem
 
 def _listed(path: KeyPath, field: NumberField) -> Iterator[Problem]:
     if field.counted_by is not None:
-        what = "numbers in a list have no properties that could tell them as signed"
+        what = "numbers in a list have no properties that could read them as signed"
         yield Problem(path, what, "give the list an `element` with fields", on_key=True)
 
 

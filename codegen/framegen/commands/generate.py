@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 
 SUMMARY = "Write the libraries, the reference, the test vectors and the editor schema of all specs."
 EXAMPLES = (
-    ("framegen generate", "write what spec/*.yaml asks for; only what differs is touched"),
+    ("framegen generate", "write the files of spec/*.yaml; only those that differ are touched"),
     ("framegen generate spec/busservo.yaml", "what this spec asks for, and no other"),
     ("framegen generate --target python", "the libraries alone"),
     ("framegen generate --diff", "show what that would change, and change nothing"),
@@ -40,9 +40,7 @@ def add_arguments(parser: ArgumentParser) -> None:
     how.add_argument("--check", action="store_true", help="write nothing; 1 if anything differs")
     how.add_argument("--diff", action="store_true", help="write nothing; show what would change")
     add_force(how)
-    parser.add_argument(
-        "--target", metavar="NAME", help="write this target's files, and leave all others"
-    )
+    parser.add_argument("--target", metavar="NAME", help="write the files of this target alone")
     parser.add_argument(
         "--out",
         type=Path,
@@ -115,7 +113,7 @@ def _remark(found: Survey | Written) -> None:
     for notice in found.notices:
         _tell(visible(notice))
     for path in found.strangers[:_NAMED]:
-        _tell(f"left alone, for framegen did not write it: {visible(path)}")
+        _tell(f"left alone, because framegen did not write it: {visible(path)}")
     if len(found.strangers) > _NAMED:
         _tell(f"left alone, too: {pluralize(len(found.strangers) - _NAMED, 'more file')}")
 

@@ -158,7 +158,7 @@ class _Surveyor:
         if rebuilt and (manifest is not None or adopted or any(there)):
             state = "is not there" if manifest is None else "is damaged"
             self._found.notices.append(
-                f"{output.manifest} {state}: own files are told by what stands in them"
+                f"{output.manifest} {state}: files are recognised by their contents"
             )
 
     def _look_at_file(self, path: str, text: str, *, rebuilt: bool) -> bool:

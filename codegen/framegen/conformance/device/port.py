@@ -114,7 +114,7 @@ def _see_to_name(name: str, scheme: str) -> None:
     """Refuse what cannot be the name of a port. Raises Unusable."""
     # spy:// would write to any file that it names.
     if not name.strip() or scheme in ("spy", "hid"):
-        raise Unusable(f"{name!r} is no port that can be asked", hint=_NAMED)
+        raise Unusable(f"{name!r} is no port that can be tested", hint=_NAMED)
     if scheme in ("socket", "rfc2217"):
         try:
             parts = urlsplit(name)
