@@ -31,7 +31,7 @@ ONLY =
 .DEFAULT_GOAL := all
 # Two that add to one environment at once would spoil it.
 .NOTPARALLEL:
-.PHONY: all test quick coverage lint style types current format fuzz soak mutants bench docs reference docs-tools wheel packages pins venv clean help
+.PHONY: all test quick coverage lint style types current format fuzz soak mutants bench docs reference docs-tools wheel packages newcomer pins venv clean help
 
 all: $(READY)  ## Check the spec, generate everything, decode a recorded noisy line (plain `make`)
 	$(IN)/framegen check
@@ -114,6 +114,9 @@ wheel: $(TO_BUILD)  ## Build dist/: a wheel and a source distribution of each pa
 
 packages: $(TO_TEST)  ## Build the packages, and try them in empty environments
 	$(IN)/python -m pytest tests/all/test_packages.py
+
+newcomer:  ## Follow README and getting-started in a new clone, with the system's own Python
+	.ci/newcomer
 
 # The oldest Python makes them: what it can install, all others can.
 pins:  ## Renew constraints.txt: make pins PYTHON=python3.10
