@@ -80,10 +80,10 @@ class Reader:
         """Run a command; what it leaves behind in the environment lasts."""
         with tempfile.TemporaryDirectory() as scratch:
             left = Path(scratch, "left")
-            keep = f'status=$?; env -0 >"{left}"; pwd >>"{left}"; exit $status'
+            keep = """trap 'env -u LEFT -0 >"$LEFT"; pwd >>"$LEFT"' EXIT"""
             done = subprocess.run(
-                ["bash", "-c", f"{self._with_port(command)}\n{keep}"],
-                env=self.environment,
+                ["bash", "-c", f"{keep}\n{self._with_port(command)}"],
+                env={**self.environment, "LEFT": str(left)},
                 cwd=self.folder,
                 stdout=subprocess.PIPE,
                 stderr=subprocess.STDOUT,
@@ -155,15 +155,14 @@ def blocks_of(page: Path) -> list[Block]:
     return [Block(each[1], each[2], text.count("\n", 0, each.start()) + 1) for each in found]
 
 
-def follow(page: Path) -> None:
+def follow(page: Path, home: Path) -> None:
     """Follow a page. Raises WrongError if it does not work."""
-    home = Path.home() / page.stem
     home.mkdir()
     reader = Reader(home)
     shown = ""
     try:
         for block in blocks_of(page):
-            place = f"{page.relative_to(ROOT)}:{block.line}"
+            place = f"{page.name}:{block.line}"
             print(
                 f"{time.monotonic() - BEGUN:4.0f} s  {place}: {block.text.splitlines()[0]}",
                 flush=True,
@@ -171,7 +170,7 @@ def follow(page: Path) -> None:
             try:
                 shown = _do(reader, block, shown)
             except WrongError as error:
-                raise WrongError(f"{page}:{block.line}: {error}") from None
+                raise WrongError(f"{page.name}:{block.line}: {error}") from None
     finally:
         reader.leave()
 
@@ -208,7 +207,7 @@ def main() -> int:
     """Follow the named pages; return 1 if one of them does not work."""
     try:
         for name in sys.argv[1:]:
-            follow(ROOT / name)
+            follow(ROOT / name, Path.home() / Path(name).stem)
     except WrongError as error:
         print(error, file=sys.stderr)
         return 1
