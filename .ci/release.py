@@ -30,7 +30,7 @@ class RefusedError(Exception):
 
 
 def git(*words: str) -> str:
-    """What git prints."""
+    """Return what git prints."""
     done = subprocess.run(["git", *words], cwd=ROOT, capture_output=True, text=True, check=False)
     if done.returncode != 0:
         raise RefusedError(f"git {words[0]}: {done.stderr.strip()}")
@@ -38,7 +38,7 @@ def git(*words: str) -> str:
 
 
 def numbers(version: str) -> tuple[int, ...]:
-    """A version to be compared. Raises RefusedError for what is none."""
+    """Return a version to be compared. Raises RefusedError for what is none."""
     if not re.fullmatch(r"(?:0|[1-9]\d*)(?:\.(?:0|[1-9]\d*)){2}", version, re.ASCII):
         raise RefusedError(
             f"`{version}` is no version: name three numbers, as in make release VERSION=0.2.0"
