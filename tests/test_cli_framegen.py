@@ -17,10 +17,11 @@ from framegen.cli import VERBS, main
 from framegen.console import INTERRUPTED, READER_GONE
 from framegen.project import default_spec, project_root
 from framegen.reading.yamltree import Unusable
+from framegen.render import render, render_shared
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from tests.factories import BUSSERVO, DEMO
+from tests.factories import BUSSERVO, DEMO, compiled_of, data_of
 from tests.timeouts import GENEROUS
 
 Capture: TypeAlias = "pytest.CaptureFixture[str]"
@@ -142,6 +143,19 @@ def test_help_of_a_verb_teaches_by_example(verb: str, capsys: Capture) -> None:
     shown = capsys.readouterr().out
     assert shown.startswith(f"usage: framegen {verb} ")
     assert f"\nexamples:\n  framegen {verb}" in shown
+
+
+@pytest.mark.parametrize("words", [["--help"], ["generate", "--help"]])
+def test_help_says_what_is_written_where(words: list[str], capsys: Capture) -> None:
+    assert main(words) == 0
+    table = capsys.readouterr().out.partition("`framegen generate` writes:\n")[2]
+    listed = [line.split()[0] for line in table.partition("\n\n")[0].splitlines()]
+    compiled = compiled_of(data_of(DEMO))
+    for output in (render(compiled), render_shared(compiled)):
+        for path in (output.manifest, *output.files):
+            place = path.replace("greenhouse", "NAME")
+            assert any(place.startswith(each) for each in [*listed, "spec/framegen.manifest"]), path
+    assert "folder that holds spec/, or for a spec that lies elsewhere below its own\n" in table
 
 
 def test_a_mistyped_verb_is_guessed(capsys: Capture) -> None:

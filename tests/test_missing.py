@@ -1,4 +1,4 @@
-"""What a change of the spec leaves to be written by hand is named, and nothing else is."""
+"""A change of the spec: everything that has to be written by hand is named, and nothing else."""
 
 from __future__ import annotations
 
@@ -77,7 +77,7 @@ NAMED = """\
 
 @pytest.fixture
 def project(tmp_path: Path) -> Path:
-    """A copy of the spec, of what is written by hand beside it, and of what says so."""
+    """Return a copy of the spec, of the files written by hand beside it, and of their list."""
     for path in ("spec/busservo.yaml", "tests/witnesses.yaml", CASES, ORACLE, CONTRACT):
         (tmp_path / path).parent.mkdir(exist_ok=True)
         shutil.copy(ROOT / path, tmp_path / path)
@@ -93,7 +93,7 @@ def edit(file: Path, *edits: tuple[str, str]) -> None:
 
 
 def missing(project: Path, capsys: Capture) -> list[Lack]:
-    """What the command finds in a project."""
+    """Return the findings of the command in a project."""
     status = main(["missing", "--json", str(project / "spec" / "busservo.yaml")])
     found = [json.loads(line) for line in capsys.readouterr().out.splitlines()]
     assert status == bool(found)

@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from framegen.commands.output_arguments import add_force, add_spec
-from framegen.console import visible
+from framegen.console import table, visible
 from framegen.pluralize import pluralize
 
 if TYPE_CHECKING:
@@ -29,6 +29,17 @@ EXAMPLES = (
     ("framegen generate --check", "fail if anything would change: for CI"),
     ("framegen generate --out build", "write below another folder"),
 )
+_WRITES = (
+    ("generated/NAME/", "the library of the spec with this `name`, and its test vectors"),
+    ("generated/NAME.manifest", "by what framegen knows its own files from those of others"),
+    ("docs/reference/NAME/", "the reference, in Markdown"),
+    ("spec/framegen.schema.json", "the schema for editors, with spec/framegen.manifest beside it"),
+)
+ABOUT = f"""\
+{table("what `framegen generate` writes", _WRITES)}
+
+These paths are below the folder that holds spec/, or for a spec that lies elsewhere below its own
+folder, or below --out. Only what framegen wrote is replaced or removed."""
 # Of many files that are in nobody's way, as many are named.
 _NAMED = 3
 
