@@ -152,6 +152,35 @@ def test_only_what_can_work_is_offered(folder: Path, name: str, verbs: list[str]
         assert f"\nexamples:\n  {name} {verb}" in shown
 
 
+LOOKING = ["port", "hid", "permission", "busy", "opening", "silence"]
+ASKING = ["rate", "echo", "reply", "round-trip"]
+
+
+@pytest.mark.parametrize(
+    ("name", "checks"),
+    [
+        ("greenhouse", [*LOOKING, *ASKING, "look-alike"]),
+        ("blinds", [*LOOKING, "present", "look-alike"]),
+        ("weather", [*LOOKING, "look-alike"]),
+        ("stage_lamp", [*LOOKING, "look-alike"]),
+    ],
+)
+def test_the_doctor_makes_only_checks_that_can_find_something(
+    folder: Path, name: str, checks: list[str]
+) -> None:
+    _, shown, _ = command(folder, name, "doctor", "--help")
+    listed = shown.partition("Makes these checks, one after the other:\n")[2].partition(".\n")[0]
+    assert listed.split(", ") == checks
+    _, shown, _ = command(folder, name, "doctor", "--port", "no-such-port")
+    assert [line.split()[1] for line in shown.splitlines() if line[0] != " "] == checks
+
+
+def test_help_speaks_of_no_verb_and_no_reply_that_there_is_not(folder: Path) -> None:
+    assert "replay" not in command(folder, "weather", "monitor", "--help")[1]
+    assert "reply" not in command(folder, "stage_lamp", "--help")[1]
+    assert "print the reply" in command(folder, "greenhouse", "--help")[1]
+
+
 MISSING = (
     "greenhouse: error: the package greenhouse_simulator is not installed here: install it, or "
     "else make a virtual device of greenhouse.Device\n"
