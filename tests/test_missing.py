@@ -184,7 +184,7 @@ def test_it_is_told_where_to_write_what_and_why(
     assert first[:3] == [
         "tests/cases.py: BuzzerBeep has no case",
         f"    = see: spec/busservo.yaml:{line}:3",
-        '    = write: Case(BuzzerBeep(times, pause_ms), "55 55 ...", HOST, "section and example"),',
+        '    = write: Case(BuzzerBeep(times=..., pause_ms=...), "55 55 ...", HOST, "section"),',
     ]
     assert first[3].startswith("    = why: ")
     assert printed.err.startswith("spec/busservo.yaml: 13 messages, 16 fields, 4 values, ")
@@ -223,7 +223,7 @@ def declare(project: Path, of: str, text: str) -> None:
         ("messages", "[{MESSAGE}] {SENDER}", "[SERVO_MOVE] HOST", True),
         ("messages", "[{MESSAGE}] {SENDER}", "[SERVOMOVE] HOST", False),
         ("messages", ".{message}.", "xServoMovex", False),
-        ("messages", "x{message}: {fields}", "xServoMove: time_ms, targets", True),
+        ("messages", "x{message}: {fields}", "xServoMove: time_ms=..., targets=...", True),
         ("requests", "Case({message}, {method})", "Case(ServoMove, move_servos)", True),
         ("fields", "Case({message}(...{field}=", "Case(ServoMove(f(1, (2,)), time_ms=1))", True),
         ("fields", "Case({message}(...{field}=", "Case(ServoMove(1)), Case(X(time_ms=1))", False),

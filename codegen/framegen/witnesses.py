@@ -169,7 +169,7 @@ def _words(layout: MessageLayout, **others: str) -> dict[str, str]:
         "snake": snake_case(layout.name),
         "sender": layout.direction.sender,
         "receiver": layout.direction.receiver,
-        "fields": ", ".join(field.name for field in layout.arguments),
+        "fields": ", ".join(f"{field.name}=..." for field in layout.arguments),
         **others,
     }
     return words | {key.upper(): snake_case(word).upper() for key, word in words.items()}
