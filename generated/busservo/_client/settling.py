@@ -20,26 +20,26 @@ class Settling:
         self.begin(opened_at)
 
     def begin(self, opened_at: float) -> None:
-        """Says that the line was opened, for the first time or once more."""
+        """Note that the line was opened, for the first time or once more."""
         self._opened_at = opened_at
         self._question_first: bool | None = None
-        self._heard = self._over = False
+        self._received = self._over = False
 
     def submitted(self, *, question: bool) -> None:
-        """Says what there is to be sent."""
+        """Note what there is to be sent."""
         if self._question_first is None:
             self._question_first = question
 
-    def heard(self) -> None:
-        """Says that something has come."""
-        self._heard = True
+    def received(self) -> None:
+        """Note that something has come."""
+        self._received = True
 
-    def asked(self) -> None:
-        """Says that a question has been sent: nothing settles behind it."""
+    def question_sent(self) -> None:
+        """Note that a question has been sent: nothing settles behind it."""
         self._over = True
 
     def until(self, reply_time: float) -> float:
-        """Until when a question must wait whose reply takes at most so long."""
-        if self._over or not (self._question_first or self._heard):
+        """Return until when a question must wait whose reply takes at most so long."""
+        if self._over or not (self._question_first or self._received):
             return _NEVER
         return self._opened_at + (reply_time if self._seconds is None else self._seconds)

@@ -7,9 +7,12 @@ from collections import deque
 from .._codec.codec import decode
 from .._frame.direction import RECEIVED
 from .._frame.errors import DecodeError
+from .._log import log
+from .._serial.link_errors import EchoError
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
+    from .._codec.counters import LineCounters
     from .request import Request
 
 
@@ -31,15 +34,15 @@ class LocalEcho:
         return self._expected[0][2] if self._expected else None
 
     def expects(self, request: Request) -> bool:
-        """Whether the echo of a request is still to come."""
+        """Tell whether the echo of a request is still to come."""
         return any(each is request for each, _, _ in self._expected)
 
     def sent(self, request: Request, frame: bytes, until: float) -> None:
-        """Takes note that a frame has been sent, whose echo may come up to a time."""
+        """Note that a frame has been sent, whose echo may come up to a time."""
         self._expected.append((request, frame, until))
 
     def take_out(self, data: bytes) -> tuple[bytes, list[Request], list[Request]]:
-        """What of `data` the other end has sent, whose echoes came, and whose should have before.
+        """Return what of `data` the other end has sent, whose echoes came, and whose are lost.
 
         Frames come back in order: where the echo of a later one comes, those before it are lost.
         """
@@ -67,11 +70,11 @@ class LocalEcho:
         return others + data, came, lost
 
     def forget(self, request: Request) -> None:
-        """No longer expects the echo of a request."""
+        """Expect the echo of a request no longer."""
         self._expected = deque(each for each in self._expected if each[0] is not request)
 
     def expire(self, now: float) -> tuple[bytes, list[Request]]:
-        """What was held back in vain, and the requests whose echo should have come by now."""
+        """Return what was held back in vain, and the requests whose echo should have come."""
         lost: list[Request] = []
         while self._expected and self._expected[0][2] <= now:
             lost.append(self._expected.popleft()[0])
@@ -81,7 +84,7 @@ class LocalEcho:
         return held, lost
 
     def clear(self) -> list[Request]:
-        """Forgets what was expected, and gives whose echoes those were."""
+        """Forget what was expected, and return whose echoes those were."""
         waiting = [request for request, _, _ in self._expected]
         self._expected.clear()
         self._held = b""
@@ -95,13 +98,15 @@ class EchoWatch:
     its reports.
     """
 
-    def __init__(self) -> None:
+    def __init__(self, name: str, counters: LineCounters) -> None:
+        self._name = name
+        self._counters = counters
         # What was sent last, and what of it would be a sign: all, or nothing.
         self._sent = self._sign = b""
         self._noise = b""
 
     def sent(self, frame: bytes) -> None:
-        """Takes note that a frame has been sent."""
+        """Note that a frame has been sent."""
         self._noise = b""
         if frame == self._sent:
             return  # the same question, again and again
@@ -113,18 +118,30 @@ class EchoWatch:
         else:
             self._sign = b""
 
-    def comes_back(self, noise: bytes) -> bool:
-        """Whether the frame that was sent last is in the noise that has come since."""
+    def look_at(self, noise: bytes) -> None:
+        """See whether the frame that was sent last is in the noise that has come since."""
         if not self._sign:
-            return False
+            return
         self._noise = (self._noise + noise)[-4 * len(self._sign) :]
         if self._sign not in self._noise:
-            return False
+            return
         self._noise = b""
-        return True
+        self._counters.echoes += 1
+        if self._counters.echoes == 1:  # said once
+            log().warning(
+                "%s gives back what is sent: say so (local_echo=True, or --local-echo), or else "
+                "commands that come back look like reports",
+                self._name,
+            )
+
+
+def echo_error(name: str, happened: str, request: Request) -> EchoError:
+    """Return what tells that the echo of a request is missing."""
+    advice = "see whether the adapter gives back what is sent; if not, leave out local_echo"
+    return EchoError(name, f"{happened} ({request.message!r})", advice)
 
 
 def _overlap(data: bytes, frame: bytes) -> int:
-    """How many of the last bytes of `data` are the first of `frame`, and not the whole of it."""
+    """Count the last bytes of `data` that are the first of `frame`, and not the whole of it."""
     longest = min(len(data), len(frame) - 1)
     return next((size for size in range(longest, 0, -1) if frame.startswith(data[-size:])), 0)
