@@ -37,7 +37,7 @@ def _in_the_project(monkeypatch: pytest.MonkeyPatch) -> None:
 
 @pytest.fixture
 def misspelt(tmp_path: Path) -> Path:
-    """A spec with one type that there is not, on a known line."""
+    """Return a spec with one type that does not exist, on a known line."""
     file = tmp_path / "misspelt.yaml"
     text = SPEC.read_text(encoding="utf-8")
     file.write_text(text.replace("type: u16\n", "type: u17\n", 1), encoding="utf-8")
@@ -45,13 +45,13 @@ def misspelt(tmp_path: Path) -> Path:
 
 
 def line_of(file: Path, text: str) -> int:
-    """The number of the first line that holds `text`."""
+    """Return the number of the first line that holds `text`."""
     lines = file.read_text(encoding="utf-8").splitlines()
     return next(number for number, line in enumerate(lines, 1) if text in line)
 
 
 def run(*words: str) -> tuple[int, str, str]:
-    """The exit code and both outputs of a real process."""
+    """Return the exit code and both outputs of a real process."""
     result = subprocess.run(
         [sys.executable, "-m", "framegen", *words],
         capture_output=True,
@@ -253,7 +253,7 @@ def test_a_rule_says_why_and_shows_both_sides(capsys: Capture) -> None:
     assert capsys.readouterr().out == (
         "unknown-type: Every type is one that the language has\n"
         "\n"
-        "A misspelt type has no size, and nothing after it would have a place.\n"
+        "A type that does not exist has no size, so no later field would have a place.\n"
         "\n"
         "refused:\n"
         "  time_ms: {type: u17}\n"
@@ -283,7 +283,7 @@ def test_an_unknown_rule_is_guessed(capsys: Capture) -> None:
 
 
 def project(folder: Path, *specs: str) -> Path:
-    """Makes a project with these specs, empty."""
+    """Make a project with these specs, empty."""
     (folder / "spec").mkdir(parents=True)
     for name in specs:
         (folder / "spec" / name).write_text("")
@@ -438,7 +438,7 @@ def test_a_missing_package_is_named_with_its_cure() -> None:
     assert result.returncode == 2
     assert result.stderr.decode().splitlines() == [
         "framegen: error: the generator needs `yaml`, which is not installed",
-        "  hint: pip install 'busservo[codegen]'",
+        "  hint: in a clone of its repository: pip install ./codegen",
     ]
 
 

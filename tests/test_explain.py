@@ -1,4 +1,4 @@
-"""What framegen explain says of frames, and of bytes that are none."""
+"""`framegen explain`: its text for frames, and for bytes that are none."""
 
 import json
 from pathlib import Path
@@ -219,7 +219,7 @@ def test_of_a_long_paste_the_bytes_around_the_place_are_shown() -> None:
 
 
 def rows_cover(rows: tuple[Row, ...], data: bytes) -> bool:
-    """Whether the rows, in order, are the first bytes of `data`, none left out."""
+    """Return whether the rows, in order, are the first bytes of `data`, none left out."""
     shown = b"".join(row.data for row in rows)
     ends = [0, *(row.end for row in rows)]
     return data.startswith(shown) and [row.offset for row in rows] == ends[:-1]

@@ -19,7 +19,7 @@ def blinds(tmp_path_factory: pytest.TempPathFactory) -> Iterator[ModuleType]:
 
 
 def motor(blinds: Any, heights: dict[int, int]) -> Any:
-    """A device with blinds at these heights, which go where they are sent."""
+    """Return a device with blinds at these heights, which go where they are sent."""
 
     class Motor(blinds.Device):  # type: ignore[misc]
         def on_blinds_read(self, message: Any) -> Any:

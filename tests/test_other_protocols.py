@@ -44,7 +44,7 @@ SAID = (
 
 
 def names_in(value: Any) -> Iterator[str]:
-    """The names that a spec gives: of messages, fields, elements, values, methods."""
+    """Yield the names that a spec gives: of messages, fields, elements, values, methods."""
     for name, message in value["messages"].items():
         yield from (name, message.get("vendor_name", name))
         yield from re.findall(r"\w+", message.get("method", ""))
@@ -61,7 +61,7 @@ def _fields_in(fields: Data) -> Iterator[str]:
 
 
 def forbidden(spec: Data) -> re.Pattern[str]:
-    """The words of busservo that another spec does not say itself."""
+    """Return the words of busservo that another spec does not say itself."""
     own = " ".join(text for _, text in leaves(spec)) + " ".join(names_in(spec))
     names = {*names_in(data_of(BUSSERVO))} - PLAIN - {"controller"}
     words = [word for word in [*names, *SAID] if not re.search(rf"(?i)\b(?:{word})\b", own)]
@@ -71,7 +71,7 @@ def forbidden(spec: Data) -> re.Pattern[str]:
 
 
 def prose(text: str) -> Iterator[str]:
-    """Every line of the docstrings, other text and comments of a module."""
+    """Yield every line of the docstrings, other text and comments of a module."""
     for node in ast.walk(ast.parse(text)):
         # What is a name is code, such as that of a module in a table of modules.
         if isinstance(node, ast.Constant) and isinstance(node.value, str):
@@ -83,7 +83,7 @@ def prose(text: str) -> Iterator[str]:
 
 
 def told(files: dict[str, str], words: re.Pattern[str]) -> list[str]:
-    """Where one of the words stands."""
+    """Return where one of the words stands."""
     return [
         f"{path}: {line.strip()}"
         for path, text in files.items()
@@ -111,7 +111,7 @@ def test_what_is_looked_for_is_found_where_it_belongs() -> None:
 
 @pytest.fixture(scope="module")
 def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """Where the libraries of the others stand side by side."""
+    """Return where the libraries of the others stand side by side."""
     made = tmp_path_factory.mktemp("others")
     for file in OTHERS.values():
         write_files(files_of(data_of(file)), made)
@@ -179,7 +179,7 @@ def test_there_is_a_simulator_where_one_is_installed(folder: Path, tmp_path: Pat
 
 
 def install(folder: Path, version: str, origin: str = "") -> None:
-    """Has it that a distribution of the greenhouse is installed in a folder."""
+    """Write the metadata of an installed distribution of the greenhouse to a folder."""
     info = folder / f"greenhouse-{version}.dist-info"
     info.mkdir(parents=True)
     text = f"Metadata-Version: 2.1\nName: greenhouse\nVersion: {version}\n"

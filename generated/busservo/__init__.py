@@ -66,7 +66,7 @@ if TYPE_CHECKING:
         ServoUnload,
     )
 else:
-    # Each is imported when it is first asked for: nobody waits for what is not used.
+    # Each is imported when it is first used: unused names cost no time.
     _HOMES = {
         "MESSAGES": "messages",
         "AbsentError": "_serial.link_errors",

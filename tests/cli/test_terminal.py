@@ -27,7 +27,7 @@ BATTERY = "BatteryVoltage voltage_mv=7500 mV | 55 55 04 0F 4C 1D"
 
 @pytest.fixture
 def board() -> Iterator[VirtualController]:
-    """A board behind a pty, that is there from the first moment on."""
+    """Yield a board behind a pty, present from the first moment on."""
     with VirtualController("pty") as board:
         yield board
 
@@ -52,7 +52,7 @@ def test_ctrl_c_ends_a_monitor_with_its_totals(board: VirtualController) -> None
 def test_sigterm_ends_a_monitor_as_cleanly(board: VirtualController) -> None:
     monitor = start("monitor", "--port", board.port)
     assert monitor.stdout is not None
-    board.babble(BatteryVoltage(7500).encode())
+    board.spurious_output(BatteryVoltage(7500).encode())
     monitor.stdout.readline()
     monitor.terminate()
     _, told = monitor.communicate(timeout=GENEROUS)
@@ -75,7 +75,7 @@ def test_a_pipe_that_is_closed_ends_a_monitor(board: VirtualController, tmp_path
     monitor = start("monitor", "--port", board.port, "--log", str(log))
     # Opening a port throws away what has come before, in the middle of a frame or not.
     await_that(log.exists)
-    board.babble(BatteryVoltage(7500).encode())
+    board.spurious_output(BatteryVoltage(7500).encode())
     head = subprocess.run(
         ["/usr/bin/env", "head", "-n", "1"],
         stdin=monitor.stdout,

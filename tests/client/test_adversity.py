@@ -1,7 +1,7 @@
-"""What a live line can do to a client: pulled, reset, stolen, flooded, rebooted, told nonsense.
+"""Faults of a live line: pulled, reset, stolen, flooded, rebooted, answered with nonsense.
 
-Over pseudo-terminals and TCP. Whatever happens, a call ends with the right value or with an error
-that is declared, in bounded time; and where the line lives on, so does the client.
+Over pseudo-terminals and TCP. Whatever happens, a call ends with the right value or with a declared
+error, in bounded time; and if the line lives on, so does the client.
 """
 
 from __future__ import annotations
@@ -58,7 +58,7 @@ SHORT, OFTEN = 0.1, 200
 
 @pytest.fixture(params=WAYS)
 def board(request: pytest.FixtureRequest, tmp_path: Path) -> Iterator[VirtualController]:
-    """A board behind a port whose name stays the same when it is plugged in again."""
+    """Yield a board behind a port whose name stays the same when it is plugged in again."""
     link = tmp_path / "COM7" if request.param == "pty" else None
     with VirtualController(request.param, link=link) as board:
         yield board
@@ -72,7 +72,7 @@ def bounded(seconds: float = BOUND) -> Iterator[None]:
 
 
 def again(controller: Controller) -> None:
-    """Reconnects, as often as it takes."""
+    """Reconnect, as often as it takes."""
     end = time.monotonic() + BOUND
     while True:
         try:
@@ -250,7 +250,7 @@ def test_a_board_whose_port_goes_away_while_it_reboots(board: VirtualController)
 def flooded(
     board: VirtualController, controller: Controller | AsyncController
 ) -> Iterator[list[int]]:
-    """Reports all the while, as many as the line takes; gives a list whose sum is their number."""
+    """Flood the line with reports, as many as it takes; yield a list whose sum is their number."""
     said: list[int] = []
     over = threading.Event()
 
@@ -307,11 +307,11 @@ def test_a_board_that_sends_nonsense_alone_ends_in_an_error(
     board: VirtualController, nonsense: bytes
 ) -> None:
     with open_controller(board.port, reply_timeout=SHORT) as controller:
-        board.babble(nonsense, per_second=500)
+        board.spurious_output(nonsense, per_second=500)
         for _ in range(2):
             with bounded(), pytest.raises(NoReplyError):
                 controller.read_battery_voltage()
-        board.babble(None)
+        board.spurious_output(None)
         assert controller.request(BatteryVoltageRead(), retries=OFTEN) == BatteryVoltage(7500)
         assert controller.counters.noise
 
@@ -321,10 +321,10 @@ def test_a_board_that_sends_nonsense_alone_ends_in_an_error_with_asyncio(
 ) -> None:
     async def work() -> None:
         async with open_async_controller(board.port, reply_timeout=SHORT) as controller:
-            board.babble(b"\x55", per_second=500)
+            board.spurious_output(b"\x55", per_second=500)
             with bounded(), pytest.raises(NoReplyError):
                 await controller.read_battery_voltage()
-            board.babble(None)
+            board.spurious_output(None)
             answer = await controller.request(BatteryVoltageRead(), retries=OFTEN)
             assert answer == BatteryVoltage(7500)
 

@@ -41,7 +41,7 @@ for line in sys.stdin:
 
 
 def told(capsys: pytest.CaptureFixture[str], *words: str) -> tuple[int, str, str]:
-    """Status, output and errors."""
+    """Run the command, and return status, output and errors."""
     status = main(["conform", *words])
     printed = capsys.readouterr()
     assert "Traceback" not in printed.out + printed.err
@@ -288,7 +288,7 @@ GUIDE = (ROOT / "docs" / "conformance.md").read_text(encoding="utf-8")
 
 
 def shown(command: str) -> list[str]:
-    """What the guide shows of a command, in pieces, between which it leaves lines out."""
+    """Return the output that the guide shows for a command, in pieces between omitted lines."""
     (block,) = re.findall(rf"```text\n\$ {re.escape(command)}\n(.*?)```", GUIDE, flags=re.DOTALL)
     return re.split(r"^\.\.\.\n", block, flags=re.MULTILINE)
 

@@ -1,4 +1,4 @@
-"""What the doctor says of each fault of the virtual board, in virtual time."""
+"""The doctor's results for each fault of the virtual board, in virtual time."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 
 @dataclass
 class Case:
-    """A fault, and the checks that do not pass, each with its state and what is said."""
+    """A fault, and the checks that do not pass, each with its state and text."""
 
     faults: Faults = field(default_factory=Faults)
     board: dict[str, Any] = field(default_factory=dict)
@@ -141,15 +141,15 @@ CASES = {
         },
     ),
     "as fast as can be, and said to be": Case(board={"baud": None}, given={"baud": math.inf}),
-    "babble": Case(
-        before=lambda board: board.babble(b"\x00\xf8", 20, deaf=False),
+    "spurious output": Case(
+        before=lambda board: board.spurious_output(b"\x00\xf8", 20, ignore_input=False),
         told={
             "silence": (FAILED, "bytes that are no frame came unasked", "see that the rate"),
             "reply": (FAILED, "answered with noise around it", "grounds"),
         },
     ),
-    "babble and nothing else": Case(
-        before=lambda board: board.babble(b"\x00\xf8", 20),
+    "spurious output and nothing else": Case(
+        before=lambda board: board.spurious_output(b"\x00\xf8", 20),
         told=NO_REPLY
         | {
             "silence": (FAILED, "bytes that are no frame came unasked", "see that the rate"),

@@ -1,4 +1,4 @@
-"""The port that firmware is asked through, and what is said of one that does not open."""
+"""The port of a firmware test, and the error if it does not open."""
 
 import errno
 import json
@@ -25,7 +25,7 @@ unix = pytest.mark.skipif(sys.platform == "win32", reason="Windows has no pseudo
 
 
 def ask(port: str, *words: str, timeout: float = 0.25) -> int:
-    """A run in real time."""
+    """Return a run in real time."""
     parser = ArgumentParser()
     firmware.add_arguments(parser)
     arguments = parser.parse_args(["--port", port, *words])

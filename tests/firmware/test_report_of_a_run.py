@@ -1,4 +1,4 @@
-"""How a run is told: in text, step by step and the first failure with its bytes; and as JSON."""
+"""The report of a run: in text, step by step and the first failure with its bytes; and as JSON."""
 
 import json
 from argparse import ArgumentParser

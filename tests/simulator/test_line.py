@@ -161,19 +161,19 @@ def test_there_are_three_ways_to_a_board() -> None:
         VirtualController("usb")  # type: ignore[arg-type]
 
 
-def test_a_board_that_babbles_hears_nothing(board: VirtualController, host: Host) -> None:
-    board.babble(b"\x55", per_second=100)
+def test_a_board_with_spurious_output_takes_no_input(board: VirtualController, host: Host) -> None:
+    board.spurious_output(b"\x55", per_second=100)
     host.say(BatteryVoltageRead())
     assert host.hear(1.0) is None
     assert set(host.bytes) == {0x55}
     assert len(host.bytes) == pytest.approx(100, abs=2)
-    board.babble(None)
+    board.spurious_output(None)
     assert board.accepted == 0
     assert host.ask(BatteryVoltageRead()) == BatteryVoltage(7500)
 
 
 def test_a_board_that_floods_reports_still_answers(board: VirtualController, host: Host) -> None:
-    board.babble(ActionGroupStarted(8, 1).encode(), per_second=1000, deaf=False)
+    board.spurious_output(ActionGroupStarted(8, 1).encode(), per_second=1000, ignore_input=False)
     host.say(BatteryVoltageRead())
     heard = [host.hear() for _ in range(50)]
     assert heard.count(BatteryVoltage(7500)) == 1

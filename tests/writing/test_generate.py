@@ -1,4 +1,4 @@
-"""`framegen generate`: what it writes and what it says, for real specs."""
+"""`framegen generate`: the files that it writes and the text that it prints, for real specs."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ FILES = {**OUTPUT.files, **SHARED.files}
 MANIFESTS = {OUTPUT.manifest, SHARED.manifest}
 GIT = shutil.which("git")
 LIBRARY = "generated/greenhouse"
-CODEC = f"{LIBRARY}/codec.py"
+CODEC = f"{LIBRARY}/_codec/codec.py"
 SCHEMA = "spec/framegen.schema.json"
 
 
@@ -43,7 +43,7 @@ _RENDERED: dict[tuple[str, str, str], dict[str, str]] = {}
 
 @pytest.fixture(autouse=True)
 def the_same_is_rendered_once(monkeypatch: pytest.MonkeyPatch) -> None:
-    """The same text gives the same files, as tests/test_deterministic.py has it."""
+    """Render the same text once: it gives the same files, see tests/test_deterministic.py."""
 
     def remembered(target: Target, compiled: Compiled) -> dict[str, str]:
         key = target.name, compiled.source.path, compiled.source.text
@@ -56,7 +56,7 @@ def the_same_is_rendered_once(monkeypatch: pytest.MonkeyPatch) -> None:
 
 @pytest.fixture
 def project(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
-    """A project with a spec and its output, all of it in step; tests run in it."""
+    """Return a project with a spec and its output, all of it up to date; tests run in it."""
     put(tmp_path, "spec/demo.yaml", TEXT)
     write(tmp_path, [OUTPUT, SHARED])
     monkeypatch.chdir(tmp_path)
@@ -64,7 +64,7 @@ def project(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 
 
 def changed(before: str, after: str) -> str:
-    """The spec with one thing changed."""
+    """Return the spec with one thing changed."""
     assert before in TEXT
     return TEXT.replace(before, after)
 
@@ -341,7 +341,7 @@ def test_all_specs_of_a_root_are_written_side_by_side(three: Path, capsys: Captu
     files = 3 * (len(OUTPUT.files) + 1) + len(SHARED.files) + 1
     assert capsys.readouterr().err == f"{files} files from 3 specs: none would change\n"
     for name in ("greenhouse", "glasshouse", "shed"):
-        assert (three / "generated" / name / "codec.py").exists()
+        assert (three / "generated" / name / "_codec/codec.py").exists()
         assert (three / "generated" / f"{name}.manifest").exists()
     assert main(["check"]) == 0
     for verb in (["explain", "C3"], ["diff", "spec/demo.yaml"]):
@@ -353,9 +353,9 @@ def test_all_specs_of_a_root_are_written_side_by_side(three: Path, capsys: Captu
 def test_one_spec_of_several_is_written_alone(three: Path) -> None:
     before = snapshot(three)
     for name in ("glasshouse", "shed"):
-        (three / "generated" / name / "codec.py").unlink()
+        (three / "generated" / name / "_codec/codec.py").unlink()
     assert main(["generate", "spec/shed.yaml"]) == 0
-    del before["generated/glasshouse/codec.py"]
+    del before["generated/glasshouse/_codec/codec.py"]
     assert snapshot(three) == before
 
 
@@ -364,7 +364,7 @@ def test_a_spec_that_is_gone_takes_its_output_along(three: Path, capsys: Capture
     capsys.readouterr()
     assert main(["generate", "spec/demo.yaml", "--check"]) == 0
     assert main(["generate", "--check"]) == 1
-    assert "orphaned: generated/shed/codec.py\n" in capsys.readouterr().err
+    assert "orphaned: generated/shed/_codec/codec.py\n" in capsys.readouterr().err
     assert main(["generate"]) == 0
     assert [path for path in snapshot(three) if "shed" in path] == []
     assert main(["generate", "--check"]) == 0
@@ -377,7 +377,7 @@ def test_below_another_folder_no_output_of_other_projects_goes(
     assert main(["generate", "--out", str(out)]) == 0
     (three / "spec" / "shed.yaml").unlink()
     assert main(["generate", "--out", str(out)]) == 0
-    assert (out / "generated" / "shed" / "codec.py").exists()
+    assert (out / "generated" / "shed" / "_codec/codec.py").exists()
 
 
 def test_a_finding_in_one_spec_keeps_all_of_them_from_being_written(three: Path) -> None:

@@ -1,4 +1,4 @@
-"""Rule: who is told to be absent by a value is told so by one field."""
+"""Rule: absence is marked by the values of one field."""
 
 from __future__ import annotations
 
@@ -35,9 +35,8 @@ def _look(spec: Spec) -> Iterator[Problem]:
 
 RULE = StructureRule(
     id="absent",
-    title="Who is told to be absent by a value is told so by one field",
-    why="Users ask an element, or a message, whether it is `absent`: one question, which has one "
-    "answer.",
+    title="Absence is marked by the values of one field",
+    why="An element or a message has one property `absent`, so one field has to decide it.",
     bad="fade: {values: {off: {absent: true, ...}}}, level: {values: {off: {absent: true, ...}}}",
     good="fade: {values: {off: {...}}}, level: {values: {off: {absent: true, ...}}}",
     look=_look,

@@ -36,7 +36,8 @@ def _directions(spec: Spec) -> Iterator[tuple[KeyPath, Direction]]:
 RULE = StructureRule(
     id="direction",
     title="Every direction leads from one endpoint to another",
-    why="The direction is half of what a message is known by; a misspelt one makes it another.",
+    why="The direction identifies a message together with its id; a misspelt one makes it another "
+    "message.",
     bad="direction: hots -> lamp",
     good="direction: host -> lamp",
     look=_look,

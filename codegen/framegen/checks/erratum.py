@@ -1,4 +1,4 @@
-"""Rule: every erratum still tells a difference between the document and the frames."""
+"""Rule: every erratum names a difference between the document and the frames."""
 
 from __future__ import annotations
 
@@ -36,9 +36,9 @@ def _look(model: Model) -> Iterator[Problem]:
 
 RULE = ModelRule(
     id="erratum",
-    title="Every erratum still tells a difference between the document and the frames",
-    why="An erratum is a claim about bytes, and is held to them like an example. Once the spec "
-    "says what the document says, it is out of date.",
+    title="Every erratum names a difference between the document and the frames",
+    why="An erratum is a claim about bytes, and is checked like an example. Once the spec agrees "
+    "with the document, it is out of date.",
     bad="{document: 11, bytes: 11}",
     good="{document: 11, bytes: 15}",
     look=_look,

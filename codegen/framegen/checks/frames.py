@@ -1,12 +1,12 @@
-"""What is asked of the parts of any frame, the protocol's own or a look-alike's."""
+"""Requirements on the parts of any frame, the protocol's own or a look-alike's."""
 
 from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
 from framegen.checks.rule import Problem
+from framegen.language.number_types import NUMBER_TYPES
 from framegen.language.spec import BodyPart, ChecksumPart, ConstantPart, LengthPart
-from framegen.language.wiretypes import WIRE_TYPES
 from framegen.reading.findings import did_you_mean
 
 if TYPE_CHECKING:
@@ -27,7 +27,7 @@ _WITHOUT = {
 
 
 def part_problems(path: KeyPath, frame: dict[str, FramePart]) -> Iterator[Problem]:
-    """Find what keeps the parts of the frame at `path` from fitting together."""
+    """Find what is wrong with the parts of the frame at `path`."""
     for kind in ("length", "id", "body"):
         names = [name for name, part in frame.items() if part.is_ == kind]
         if not names:
@@ -62,12 +62,12 @@ def part_problems(path: KeyPath, frame: dict[str, FramePart]) -> Iterator[Proble
 
 
 def _type(path: KeyPath, name: str, part: FramePart) -> Iterator[Problem]:
-    wire = WIRE_TYPES.get(getattr(part, "type", ""))
-    if wire is not None and wire.low < 0:
+    type_ = NUMBER_TYPES.get(getattr(part, "type", ""))
+    if type_ is not None and type_.low < 0:
         yield Problem(
             (*path, name, "type"),
-            f"a part of the frame is never negative, and `{wire.name}` is signed",
-            f"write u{wire.name[1:]}",
+            f"a part of the frame is never negative, and `{type_.name}` is signed",
+            f"write u{type_.name[1:]}",
         )
 
 

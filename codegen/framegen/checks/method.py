@@ -1,4 +1,4 @@
-"""Rule: every message that a client sends can be a method of it."""
+"""Rule: every message that a client sends can be a method of the client."""
 
 from __future__ import annotations
 
@@ -77,9 +77,9 @@ def _result(path: KeyPath, name: str, message: Message, spec: Spec) -> Iterator[
 
 RULE = ModelRule(
     id="method",
-    title="Every message that a client sends can be a method of it",
-    why="A client has one method for each message, with the fields as arguments: of two with one "
-    "name, one would vanish, and a field that is left out cannot be sent.",
+    title="Every message that a client sends can be a method of the client",
+    why="A client has one method for each message, with the fields as arguments: one of two equal "
+    "names would be lost, and a field that is left out could not be sent.",
     bad="LampsSet: {method: set_lamps(lamps)}",
     good="LampsSet: {method: set_lamps(lamps, fade_ms)}",
     look=_look,

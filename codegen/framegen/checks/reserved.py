@@ -1,4 +1,4 @@
-"""Rule: what is reserved is not used."""
+"""Rule: reserved ids and names are not used."""
 
 from __future__ import annotations
 
@@ -39,9 +39,9 @@ def _look(spec: Spec) -> Iterator[Problem]:
 
 RULE = StructureRule(
     id="reserved",
-    title="What is reserved is not used",
-    why="A code or a name that once meant something still means it to devices and programs in use.",
-    bad="reserved: [{id: 7, why: It was LampFade until 2.0.}]  # and a message with the code 7",
-    good="reserved: [{id: 7, why: It was LampFade until 2.0.}]  # and no message with that code",
+    title="Reserved ids and names are not used",
+    why="Devices and programs in use still know the former meaning of an id or a name.",
+    bad="reserved: [{id: 7, why: It was LampFade until 2.0.}]  # and a message with the id 7",
+    good="reserved: [{id: 7, why: It was LampFade until 2.0.}]  # and no message with that id",
     look=_look,
 )

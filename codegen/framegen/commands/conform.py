@@ -1,4 +1,4 @@
-"""`framegen conform`: whether a codec in any language does what the spec says."""
+"""`framegen conform`: tests a codec in any language, or a device, against the spec."""
 
 from __future__ import annotations
 
@@ -84,7 +84,7 @@ def _seconds(text: str) -> float:
 
 
 def run(arguments: Namespace) -> int:
-    """Ask, compare and tell. 0 where all answers agree, 1 where one does not. Raises Unusable."""
+    """Ask, compare and report. 0 where all answers agree, 1 where one does not. Raises Unusable."""
     from framegen.commands.spec_argument import compiled  # noqa: PLC0415
     from framegen.conformance import firmware  # noqa: PLC0415
     from framegen.reading.yamltree import Unusable  # noqa: PLC0415
@@ -137,7 +137,7 @@ def _questions(model: Model, arguments: Namespace) -> Iterator[tuple[str, Questi
 
 
 def _answer(model: Model) -> int:
-    """Answer what comes on the input; what is no question is told, and the next one answered."""
+    """Answer the questions on the input; report a line that is no question, and go on."""
     from framegen.conformance.language import END, answer  # noqa: PLC0415
     from framegen.conformance.question_reader import NotAQuestion, read_question  # noqa: PLC0415
     from framegen.console import UNUSABLE, visible  # noqa: PLC0415

@@ -1,4 +1,4 @@
-"""`framegen docs`: the reference of a spec as pages."""
+"""`framegen docs`: builds the reference of a spec as HTML pages."""
 
 from __future__ import annotations
 
@@ -38,7 +38,7 @@ def run(arguments: Namespace) -> int:
     from framegen.output import Output  # noqa: PLC0415
     from framegen.project import all_specs  # noqa: PLC0415
     from framegen.render import snippets  # noqa: PLC0415
-    from framegen.targets.docs.pages import render_site  # noqa: PLC0415
+    from framegen.targets.docs.html_pages import render_site  # noqa: PLC0415
     from framegen.targets.filenames import file_stem  # noqa: PLC0415
     from framegen.writing import write  # noqa: PLC0415
 

@@ -1,4 +1,4 @@
-"""`framegen explain`: what some bytes say."""
+"""`framegen explain`: explains the bytes of a frame."""
 
 from __future__ import annotations
 
@@ -64,7 +64,7 @@ def run(arguments: Namespace) -> int:
 
 
 def _pointed(text: str, error: HexError) -> str:
-    """Tell what is no hex, and show the place in the text, with a caret under it."""
+    """Report text that is no hex, and show the place with a caret under it."""
     start = max(0, error.at - _SHOWN)
     line = shown(text[start : error.at + _SHOWN])
     place = error.at - start
@@ -84,7 +84,7 @@ def _is_spec(word: str) -> bool:
 
 
 def _directions(model: Model, sender: str | None) -> list[Direction]:
-    """Pick the directions of one sender, or all of them. Raises Unusable."""
+    """Return the directions of one sender, or all of them. Raises Unusable."""
     from framegen.reading.yamltree import Unusable  # noqa: PLC0415
 
     if sender is None:

@@ -1,4 +1,4 @@
-"""`framegen generate`: everything that follows from the specs, written, compared or shown."""
+"""`framegen generate`: writes, compares or shows everything that follows from the specs."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 from framegen.commands.output_arguments import add_force, add_spec
 from framegen.console import visible
-from framegen.wording import counted
+from framegen.pluralize import pluralize
 
 if TYPE_CHECKING:
     from argparse import ArgumentParser, Namespace
@@ -53,7 +53,7 @@ def add_arguments(parser: ArgumentParser) -> None:
 
 
 def run(arguments: Namespace) -> int:
-    """Check the specs, render them, and bring the disk to agree. 1: findings, or with --check."""
+    """Check the specs, render them, and update the disk. 1: findings, or changes with --check."""
     from framegen.commands.spec_argument import compiled, print_findings  # noqa: PLC0415
     from framegen.project import FOLDER, all_specs, project_root  # noqa: PLC0415
     from framegen.render import render, render_shared  # noqa: PLC0415
@@ -82,7 +82,7 @@ def run(arguments: Namespace) -> int:
 
 
 def _target(name: str) -> Target:
-    """Find a target by its name. Raises Unusable where there is none."""
+    """Find a target by its name. Raises Unusable."""
     from framegen.reading.findings import did_you_mean  # noqa: PLC0415
     from framegen.reading.yamltree import Unusable  # noqa: PLC0415
     from framegen.targets.table import TARGETS  # noqa: PLC0415
@@ -111,25 +111,25 @@ def _report(done: Written) -> None:
 
 
 def _remark(found: Survey | Written) -> None:
-    """Say what a reader may want to know, and need do nothing about."""
+    """Print a remark on the output that calls for no action."""
     for notice in found.notices:
         _tell(visible(notice))
     for path in found.strangers[:_NAMED]:
         _tell(f"left alone, for framegen did not write it: {visible(path)}")
     if len(found.strangers) > _NAMED:
-        _tell(f"left alone, too: {counted(len(found.strangers) - _NAMED, 'more file')}")
+        _tell(f"left alone, too: {pluralize(len(found.strangers) - _NAMED, 'more file')}")
 
 
 def _sum_up(outputs: Sequence[Output], specs: Sequence[Compiled], root: Path, what: str) -> None:
-    files = counted(sum(len(output.files) + 1 for output in outputs), "file")
-    source = specs[0].source.name if len(specs) == 1 else counted(len(specs), "spec")
+    files = pluralize(sum(len(output.files) + 1 for output in outputs), "file")
+    source = specs[0].source.name if len(specs) == 1 else pluralize(len(specs), "spec")
     # Paths are shown as they are below the root: so it is told where that is another folder.
     below = "" if os.path.realpath(root) == os.path.realpath(Path()) else f" below {_near(root)}"
     _tell(f"{files} from {source}{below}: {what}")
 
 
 def _near(root: Path) -> str:
-    """Name a folder as it is seen from here, where that is shorter."""
+    """Name a folder relative to the current one, where that is shorter."""
     try:
         relative = os.path.relpath(root)
     except ValueError:  # on another drive

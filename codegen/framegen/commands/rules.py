@@ -1,4 +1,4 @@
-"""`framegen rules`: what `framegen check` looks for, and why."""
+"""`framegen rules`: lists the rules of `framegen check`, with their reasons."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ def add_arguments(parser: ArgumentParser) -> None:
 
 
 def run(arguments: Namespace) -> int:
-    """Print the rules, or one of them. Raises Unusable for a rule that there is not."""
+    """Print the rules, or one of them. Raises Unusable for an unknown rule."""
     from framegen.checks import RULES  # noqa: PLC0415
     from framegen.reading.findings import did_you_mean  # noqa: PLC0415
     from framegen.reading.yamltree import Unusable  # noqa: PLC0415

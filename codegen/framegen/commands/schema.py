@@ -1,4 +1,4 @@
-"""`framegen schema`: the spec language, for editors."""
+"""`framegen schema`: prints the JSON Schema of the spec language, for editors."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ EXAMPLES = (
 
 
 def add_arguments(parser: ArgumentParser) -> None:
-    """Declare the arguments of the verb: none."""
+    """Declare no arguments: the verb has none."""
 
 
 def run(_arguments: Namespace) -> int:

@@ -1,11 +1,11 @@
-"""`framegen targets`: what can be made of a spec, and the words that each target has taken."""
+"""`framegen targets`: lists the targets, and the names that each of them reserves."""
 
 from __future__ import annotations
 
 from textwrap import wrap
 from typing import TYPE_CHECKING
 
-from framegen.wording import counted
+from framegen.pluralize import pluralize
 
 if TYPE_CHECKING:
     from argparse import ArgumentParser, Namespace
@@ -28,7 +28,7 @@ def add_arguments(parser: ArgumentParser) -> None:
 
 
 def run(arguments: Namespace) -> int:
-    """Print the targets, or one of them. Raises Unusable for a target that there is not."""
+    """Print the targets, or one of them. Raises Unusable for an unknown target."""
     from framegen.reading.findings import did_you_mean  # noqa: PLC0415
     from framegen.reading.yamltree import Unusable  # noqa: PLC0415
     from framegen.targets.table import TARGETS  # noqa: PLC0415
@@ -45,7 +45,7 @@ def run(arguments: Namespace) -> int:
 
 
 def _models() -> list[Model]:
-    """What the specs at hand mean; nothing, where there are none or one has findings."""
+    """Return the models of the specs at hand; none where one has findings."""
     from framegen.commands.spec_argument import compiled  # noqa: PLC0415
     from framegen.project import all_specs  # noqa: PLC0415
     from framegen.reading.yamltree import Unusable  # noqa: PLC0415
@@ -65,7 +65,7 @@ def _listed(targets: list[Target], models: list[Model]) -> Iterator[str]:
         if folders:
             yield f"{'':<{width}}  all of {', '.join(f'{folder}/' for folder in folders)}"
         if taken:
-            yield f"{'':<{width}}  {counted(len(taken), 'word')} taken"
+            yield f"{'':<{width}}  {pluralize(len(taken), 'word')} taken"
 
 
 def _described(target: Target) -> Iterator[str]:

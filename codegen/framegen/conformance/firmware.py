@@ -1,4 +1,4 @@
-"""Asks real firmware over a port whether it does what the spec says: safely, and on the record."""
+"""Conformance tests of real firmware over a port: safe by default, and recorded."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ _LOST = "see to the cable and the power, then run this again"
 
 
 def add_arguments(parser: ArgumentParser) -> None:
-    """Declare what is said of a port, and of what may be sent to it."""
+    """Declare the options about a port, and about what may be sent to it."""
     parser.add_argument(
         "--port",
         metavar="PORT",
@@ -70,7 +70,7 @@ def _rate(text: str) -> int:
 
 
 def refuse_without_port(arguments: Namespace) -> None:
-    """Refuse what is said of a port where none is named. Raises Unusable."""
+    """Refuse options about a port where none is named. Raises Unusable."""
     for name in ("baud", "malformed", "allow", "log"):
         if getattr(arguments, name):
             raise Unusable(f"--{name} is for firmware", hint="name its port, as by --port COM5")
@@ -83,9 +83,9 @@ def run(
     connect: Callable[[str, Link, int], Transport] = open_port,
     clock: Callable[[], float] = time.monotonic,
 ) -> int:
-    """Ask, and tell what came of it. 0: all as it should be; 1: something is not. Raises Unusable.
+    """Run the tests and report. 0: all passed; 1: something failed. Raises Unusable.
 
-    `connect` opens the port, and `clock` tells the time that its reads take.
+    `connect` opens the port, and `clock` is the time that its reads take.
     """
     if arguments.format not in ("text", "json"):
         raise Unusable(f"there is no {arguments.format} of firmware", hint="--format text or json")

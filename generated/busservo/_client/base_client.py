@@ -49,9 +49,9 @@ if TYPE_CHECKING:
 PACKAGE = __name__.partition(".")[0]
 REPLY_TIMEOUT = 0.25
 REPORT_LIMIT = 1024
-# How long one read may take, so that whoever waits for something else is not forgotten.
+# How long one read may take, so that whoever waits for something else is not delayed.
 POLL_INTERVAL = 0.02
-# How long a line may take to be drained, beyond what its bytes take by calculation.
+# How long draining may take, beyond the calculated time of the bytes.
 DRAIN_TIMEOUT = 1.0
 _NEVER_CLOSED = "use the client in a `with`, or call close()"
 
@@ -102,7 +102,7 @@ class BaseClient:
         return f"<{type(self).__name__} on {self._name}, {state}>"
 
     def __del__(self, warn: Callable[..., None] = warnings.warn) -> None:
-        # One that could not be made has nothing to give back.
+        # A client whose construction failed has nothing to close.
         if getattr(self, "_closing", True):
             return
         self._closing = True
@@ -124,11 +124,11 @@ class BaseClient:
         return self._session.counters
 
     def send_latest(self, message: Message) -> None:
-        """Send a command when the line is free, unless a newer one overtakes it; do not wait.
+        """Send a command when the line is free, unless a newer one replaces it; do not wait.
 
-        It takes the place of what waits here of the same class for the same ids, or for fewer.
-        So a stream of commands faster than the line is thinned out instead of falling behind.
-        Raises LimitError for what is outside the limits.
+        It replaces a waiting command of the same class for the same ids, or for fewer. So a stream
+        of commands faster than the line is thinned out instead of falling behind. Raises LimitError
+        for values outside the limits.
         """
         self._submit_latest(message)
 

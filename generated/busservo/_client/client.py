@@ -35,28 +35,27 @@ if TYPE_CHECKING:
 
 
 class Client(SharedLine):
-    """Sends messages over a transport, matches replies, and keeps reports.
+    """A client that sends messages over a transport, matches replies, and keeps reports.
 
-    Safe to share between threads. Nothing blocks for ever: every call ends with what it is for, or
-    with an error, in a time that its arguments and `reply_timeout` bound. Better used in a `with`;
-    `close` waits until the last byte is out. What nobody holds any more is closed with a
-    ResourceWarning.
+    Safe to share between threads. Nothing blocks for ever: every call ends with its result, or with
+    an error, in a time that its arguments and `reply_timeout` bound. Better used in a `with`;
+    `close` waits until the last byte is out. A client that is dropped without `close` is closed
+    with a ResourceWarning.
 
     `transport` is anything with the methods of Transport. `baud` is the rate that deadlines and
-    pacing are worked out from (math.inf for a line that takes no time), `reply_timeout` the seconds
-    that a reply may take besides, `retries` how often a question is asked again that was not
-    answered, `trace` a file that every frame is recorded in, for `recordings` and `decode` to read
-    (what it holds already is never overwritten: FileExistsError), `report_limit` how many reports
-    are kept,
-    `limits` the lowest and the highest value that is sent of what has limits, None for any.
-    With `background`, a thread listens while nobody waits; without, only calls read the line, and
-    `clock` may be of any kind.
+    pacing are calculated from (math.inf for a line that takes no time), `reply_timeout` the seconds
+    that a reply may take beyond its time on the wire, `retries` how often a request without a reply
+    is sent again, `trace` a file that every frame is recorded in, for `recordings` and `decode` to
+    read (an existing recording is never overwritten: FileExistsError), `report_limit` how many
+    reports are kept, `limits` the lowest and the highest value that is sent in fields that have
+    limits, None for any. With `background`, a thread listens while nobody waits; without, only
+    calls read the line, and `clock` may be of any kind.
 
-    `local_echo` says that the line gives back what is sent, as half-duplex adapters do: it is then
-    expected, compared and dropped, and EchoError raised where it does not come. `settle` is for how
-    many seconds after opening nothing is asked, so that no reply to a program before this one is
-    taken for ours: None for one reply time, where the first request is a question or something was
-    heard before it; 0 for not at all.
+    `local_echo` says that the line returns what is sent, as half-duplex adapters do: the echo is
+    then expected, compared and dropped, and EchoError raised if it does not come. `settle` is for
+    how many seconds after opening no request is sent, so that no reply to an earlier program is
+    taken for ours: None for one reply time, if the first message is a request or bytes came before
+    it; 0 for not at all.
     """
 
     def __init__(
@@ -87,7 +86,7 @@ class Client(SharedLine):
             settle=settle,
             background=background,
         )
-        # Held while the line is opened again: the port is one, whoever wants it back.
+        # Held while the line is reopened: there is one port, so one thread does it for all.
         self._reopening = threading.Lock()
         # Which thread closes it, and whether that has been done.
         self._closer: threading.Thread | None = None
@@ -110,19 +109,19 @@ class Client(SharedLine):
 
         Returns when it has been handed over; `delay` of the result is when it will be on the wire.
         The result is a Motion for a command that lasts, and a Run for one that is acknowledged.
-        Raises LimitError for what is outside the limits, and TransportError.
+        Raises LimitError for values outside the limits, and TransportError.
         """
         return self._sent(self._finish(self._command(message)))
 
     def request(self, message: Message, *, retries: int | None = None) -> Message:
-        """Send a question and return the reply, which may tell less than was asked.
+        """Send a request and return the reply, which may hold less than was requested.
 
         Raises NoReplyError where none came in time, and TransportError.
         """
         return self._finish(self._question(message, retries))
 
     def reports(self, timeout: float | None = None) -> Iterator[Message]:
-        """Give the reports, as they come: each to one iterator, and first those already here.
+        """Yield the reports as they come, those kept so far first; each goes to one iterator.
 
         The iterator ends when none has come for `timeout` seconds; without one, when this is
         closed. Reports that nobody takes are kept up to the limit; then the oldest are dropped, and
@@ -132,11 +131,11 @@ class Client(SharedLine):
             yield report
 
     def on_report(self, callback: Callable[[Message], object]) -> Callable[[], None]:
-        """Have `callback` called with every report from now on; return what ends that.
+        """Call `callback` with every report from now on; return a function that ends that.
 
         It is called in order, one at a time, in whichever thread has read the report, and may use
-        this client. What it raises is logged, and hurts nobody else. As many reports as are kept
-        wait for a callback that is slow; then the oldest of them are dropped.
+        this client. Its exceptions are logged, and do not reach anybody else. As many reports as
+        are kept wait for a callback that is slow; then the oldest of them are dropped.
         """
         return self._add_callback(callback)
 
@@ -168,22 +167,22 @@ class Client(SharedLine):
         def wait_for(self, kind: Kinds, *, timeout: float, **fields: int) -> Message: ...
 
     def wait_for(self, kind: Kinds, *, timeout: float, **fields: int) -> Message:
-        """Wait for a report of a class, with these fields, and return it.
+        """Wait for a report of a class, with these field values, and return it.
 
         `kind` may be a tuple of classes: the first report of any of them is returned, and a field
-        is not asked of a class that lacks it.
+        that a class lacks is not compared.
 
         A report that has already come counts, if it came after the latest command that causes such
-        reports (with these fields, if any) and no earlier wait was satisfied by it. It is still
-        there for reports(). Raises NoReportError after `timeout` seconds, which says what came
-        instead, and TransportError.
+        reports (with these values, if any) and satisfied no earlier wait. It remains available to
+        reports(). Raises NoReportError after `timeout` seconds, which says what came instead, and
+        TransportError.
         """
         return self._finish(self._report(kind, timeout, fields))
 
     def close(self) -> None:
-        """Send what is still to be sent, wait until the last byte is out, and close the line.
+        """Send what still waits to be sent, wait until the last byte is out, and close the line.
 
-        Questions of other threads end with ClosedError. May be called again, and by several threads
+        Requests of other threads end with ClosedError. May be called again, and by several threads
         at once: each of them returns once the line is closed.
         """
         with self._lock:
@@ -191,7 +190,7 @@ class Client(SharedLine):
             if closer is None:
                 self._closer = threading.current_thread()
         if closer is not None:
-            # Whoever closes waits for the listener, and for itself nobody can wait.
+            # Whoever closes waits for the listener, and no thread can wait for itself.
             if threading.current_thread() not in (closer, self._listener):
                 self._closed_now.wait()
             return
@@ -201,11 +200,11 @@ class Client(SharedLine):
             self._closed_now.set()
 
     def reconnect(self) -> None:
-        """Open the same port again, after the line was lost; what was under way has failed.
+        """Open the same port again after the line was lost; all that was in progress has failed.
 
-        Reports and counters are kept, and so are callbacks. Where several threads ask for it at
-        the same time, it is done once. A transport of your own needs a method `reopen()`, which
-        returns the next one. Raises TransportError where that fails, and may then be called again.
+        Reports, callbacks and counters are kept. If several threads call it at the same time, it is
+        done once. A transport of your own needs a method `reopen()`, which returns the next one.
+        Raises TransportError if that fails, and may then be called again.
         """
         before = self._transport
         with self._reopening:
@@ -244,19 +243,19 @@ class Client(SharedLine):
         return self._finish(self._acknowledged(message))
 
     def _ask(self, message: Message, kind: type[_Reply]) -> _Reply:
-        """Return the reply to a question, whole. Raises IncompleteReplyError."""
+        """Return the reply to a request, complete. Raises IncompleteReplyError."""
         return self._finish(self._whole_reply(message, kind))
 
     def _ask_in_parts(
         self, kind: type[Message], reply: type[_Reply], items: Iterable[Any]
     ) -> list[_Reply]:
-        """Return the replies to a question that is too long for one."""
+        """Return the replies to a request that is too long for one. Raises IncompleteReplyError."""
         return self._finish(self._replies(kind, reply, items))
 
     def _exchanged(
         self, kind: type[Message], items: Iterable[Any]
     ) -> list[tuple[Message, Message]]:
-        """Return each request that a question about a list takes, with its reply."""
+        """Return the requests for a long list, each with its reply, complete or not."""
         return self._finish(self._exchanges(kind, items))
 
     def _end(self) -> None:
@@ -271,10 +270,10 @@ class Client(SharedLine):
         except TransportError as error:
             log().debug("%s could not be drained: %s", self._name, error)
         finally:
-            # Whatever interrupts the wait, the port is given back.
+            # Whatever interrupts the wait, the port is closed.
             self._transport.close()
             self._stop_listening()
-            # Whoever is opening the line again finds it closed, and gives the port back.
+            # A reconnection in progress finds the client closed, and closes the port.
             if self._reopening.acquire(timeout=DRAIN_TIMEOUT):
                 self._reopening.release()
             with self._lock:
@@ -283,10 +282,10 @@ class Client(SharedLine):
             self._trace.close()
 
     def _drain(self) -> None:
-        """Send all commands that wait, and let the time pass that they take on the wire."""
+        """Send all commands that wait, and let their time on the wire pass."""
         until = self._clock() + DRAIN_TIMEOUT
         while self._failure is None:
-            # What is due goes first, even where the machine has paused for longer than that.
+            # What is due goes first, even if the machine has paused for longer than that.
             self._send_due()
             now = self._clock()
             free_at = self._session.wire_time.free_at

@@ -96,14 +96,14 @@ class RequestQueue:
         return None
 
     def _settled_at(self, request: Request) -> float:
-        """Return until when a question waits, because replies to others may come first."""
+        """Return until when a question is held back, because replies to others may come first."""
         if request.exchange.reply is None:
             return float("-inf")
         size = len(request.message.encode()) + request.reply_size
         return self._settling.until(self._wire_time.seconds(size) + self._latency)
 
     def _undone_by(self, message: Message) -> list[Request]:
-        """Return what would be undone by `message`: the same, for no others."""
+        """Return the waiting commands of the same class, for the same ids or fewer."""
         covered = _subjects(message)
         return [
             each
@@ -115,7 +115,7 @@ class RequestQueue:
 
 
 def _subjects(message: Message) -> frozenset[int]:
-    """Return what a message is about: of each element of its list, or of all it has, the first."""
+    """Return the ids in a message: the first number of each list element, or of all it has."""
     items = message.SHAPE.items
     if items is None:
         return frozenset(getattr(message, name) for name in message.__match_args__[:1])

@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 
     _Result = TypeVar("_Result")
 
-# How long to wait for another thread's word, though it always comes: so that a mistake costs no
+# How long to wait for another thread's notification, which always comes: so that a mistake costs no
 # more than this.
 _LONGEST_WAIT = 0.25
 
@@ -33,9 +33,9 @@ class SharedLine(BaseClient):
 
     def __init__(self, transport: Transport, *, background: bool, **settings: Any) -> None:
         super().__init__(transport, **settings)
-        # Held for every touch of the session, never for a read; again by a handler of signals that
-        # closes this in the middle of anything. Entered itself, not by one of the conditions:
-        # Ctrl-C between getting it and being told so would keep it for ever.
+        # Held for every access to the session, never for a read; acquired again by a signal handler
+        # that closes this in the middle of anything. Entered itself, not by one of the conditions:
+        # Ctrl-C between acquiring it and returning from that would keep it for ever.
         self._lock = threading.RLock()
         # Notified whenever anything changed.
         self._changed = threading.Condition(self._lock)
@@ -67,7 +67,7 @@ class SharedLine(BaseClient):
         with self._lock:
             self._check()
             request = self._session.submit(message, question=False, latest=True)
-            # Whoever waits for it must hear that it has been sent or replaced.
+            # Whoever waits for it must learn that it has been sent or replaced.
             request.notify = self._wake
             self._send_due()
             self._wake()
@@ -93,7 +93,7 @@ class SharedLine(BaseClient):
 
     @contextmanager
     def _waiting(self) -> Iterator[None]:
-        """Stand around whatever calls `_wait`: in the end somebody else must read. Locked."""
+        """Enclose calls of `_wait`: at the end another waiter must read. Needs the lock."""
         self._waiters += 1
         try:
             yield
@@ -102,15 +102,15 @@ class SharedLine(BaseClient):
             self._hand_over()
 
     def _hand_over(self) -> None:
-        """Wake one of those who wait, to read for all, unless somebody does."""
+        """Wake one of the waiting threads, to read for all, unless one reads already."""
         if not self._reading:
             next(iter(self._asking), self._changed).notify()
 
     def _wait(self, until: float | None, answered: threading.Condition | None = None) -> None:
         """Let something happen: send what is due, then read or let another thread read.
 
-        Comes back soon, whether or not anything did. The lock is held, and let go meanwhile.
-        `answered` is notified when the question that is waited for is over.
+        Returns soon, whether or not anything happened. The lock is held, and released meanwhile.
+        `answered` is notified when the request that is waited for is done.
         """
         if self._send_due():
             return
@@ -138,7 +138,7 @@ class SharedLine(BaseClient):
         transport, began = self._transport, self._clock()
         failure: TransportError | None = None
         data, arrived = b"", began
-        # Bytes that come one by one are not worth waking up for, each by itself.
+        # Single bytes are not worth waking up for, each by itself.
         rest = self._session.resting_until(began) - began if self._real_time else 0.0
         self._reading = True
         self._lock.release()
@@ -165,7 +165,7 @@ class SharedLine(BaseClient):
         if self._session.counters.reports != reports:
             self._changed.notify_all()
             self._idle.notify()
-        # Whoever asks next need not be waited for.
+        # The next request of this thread need not be waited for.
         self._send_due()
 
     def _send_due(self) -> bool:
@@ -231,6 +231,6 @@ class SharedLine(BaseClient):
 
 
 def repeat(step: weakref.WeakMethod[Callable[..., bool]], *arguments: object) -> None:
-    """Call a method until it gives False, or until nobody but this holds its object any more."""
+    """Call a method until it returns False, or until only this still refers to its object."""
     while (call := step()) is not None and call(*arguments):
         del call

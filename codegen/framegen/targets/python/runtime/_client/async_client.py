@@ -46,13 +46,13 @@ _Third = TypeVar("_Third", bound="Message")
 
 
 class AsyncClient(BaseClient):
-    """Sends messages over a transport, matches replies, and keeps reports.
+    """A client that sends messages over a transport, matches replies, and keeps reports.
 
     Safe to share between the tasks of one event loop: that in which it is first used. A call that
     is cancelled leaves the line usable for the others. Nothing waits for ever: every call ends with
-    what it is for, or with an error, in a time that its arguments and `reply_timeout` bound. Better
-    used in an `async with`; `close` waits until the last byte is out. What nobody holds any more is
-    closed with a ResourceWarning.
+    its result, or with an error, in a time that its arguments and `reply_timeout` bound. Better
+    used in an `async with`; `close` waits until the last byte is out. A client that is dropped
+    without `close` is closed with a ResourceWarning.
 
     `transport` is anything with the methods of Transport; it may block, since threads of its own
     read and write it. Without `background` there are none: the loop reads, when the transport says
@@ -93,7 +93,7 @@ class AsyncClient(BaseClient):
         self._loop: asyncio.AbstractEventLoop | None = None
         self._timer: asyncio.TimerHandle | None = None
         self._watchers: set[asyncio.Future[None]] = set()
-        # Whether the line is being opened again: the port is one, whoever wants it back.
+        # Whether the line is being reopened: there is one port, so one task does it for all.
         self._reopening = asyncio.Lock()
         self._ending: asyncio.Future[None] | None = None
 
@@ -115,19 +115,19 @@ class AsyncClient(BaseClient):
 
         Returns when it has been handed over; `delay` of the result is when it will be on the wire.
         The result is an AsyncMotion for a command that lasts, and a Run for one that is
-        acknowledged. Raises LimitError for what is outside the limits, and TransportError.
+        acknowledged. Raises LimitError for values outside the limits, and TransportError.
         """
         return self._sent(await self._finish(self._command(message)))
 
     async def request(self, message: Message, *, retries: int | None = None) -> Message:
-        """Send a question and return the reply, which may tell less than was asked.
+        """Send a request and return the reply, which may hold less than was requested.
 
         Raises NoReplyError where none came in time, and TransportError.
         """
         return await self._finish(self._question(message, retries))
 
     async def reports(self, timeout: float | None = None) -> AsyncIterator[Message]:
-        """Give the reports, as they come: each to one iterator, and first those already here.
+        """Yield the reports as they come, those kept so far first; each goes to one iterator.
 
         The iterator ends when none has come for `timeout` seconds; without one, when this is
         closed. Reports that nobody takes are kept up to the limit; then the oldest are dropped, and
@@ -137,10 +137,10 @@ class AsyncClient(BaseClient):
             yield report
 
     def on_report(self, callback: Callable[[Message], object]) -> Callable[[], None]:
-        """Have `callback` called with every report from now on; return what ends that.
+        """Call `callback` with every report from now on; return a function that ends that.
 
-        It is called in the event loop, in order, and must not block. What it raises is logged, and
-        hurts nobody else.
+        It is called in the event loop, in order, and must not block. Its exceptions are logged, and
+        do not reach anybody else.
         """
         return self._add_callback(callback)
 
@@ -170,39 +170,39 @@ class AsyncClient(BaseClient):
     async def wait_for(self, kind: Kinds, *, timeout: float, **fields: int) -> Message: ...
 
     async def wait_for(self, kind: Kinds, *, timeout: float, **fields: int) -> Message:
-        """Wait for a report of a class, with these fields, and return it.
+        """Wait for a report of a class, with these field values, and return it.
 
         `kind` may be a tuple of classes: the first report of any of them is returned, and a field
-        is not asked of a class that lacks it.
+        that a class lacks is not compared.
 
         A report that has already come counts, if it came after the latest command that causes such
-        reports (with these fields, if any) and no earlier wait was satisfied by it. It is still
-        there for reports(). Raises NoReportError after `timeout` seconds, which says what came
-        instead, and TransportError.
+        reports (with these values, if any) and satisfied no earlier wait. It remains available to
+        reports(). Raises NoReportError after `timeout` seconds, which says what came instead, and
+        TransportError.
         """
         return await self._finish(self._report(kind, timeout, fields))
 
     async def close(self) -> None:
-        """Send what is still to be sent, wait until the last byte is out, and close the line.
+        """Send what still waits to be sent, wait until the last byte is out, and close the line.
 
-        Questions of other tasks end with ClosedError. May be called again, and by several tasks at
-        once: each of them returns once the line is closed. Where the loop that it was used in has
-        ended, it may be closed in another.
+        Requests of other tasks end with ClosedError. May be called again, and by several tasks at
+        once: each of them returns once the line is closed. If the event loop in which it was used
+        has ended, it may be closed in another.
         """
         if self._ending is None:
             self._closing = True
             self._ending = asyncio.ensure_future(self._end())
-        # It is closed as well where the loop ended in the middle of that.
+        # It is closed as well if the loop ended in the middle of closing it.
         if not self._ending.cancelled():
-            # Once begun, it is done in full: half a frame on the line would spoil the next one.
+            # Once begun, it is completed: half a frame on the line would spoil the next one.
             await asyncio.shield(self._ending)
 
     async def reconnect(self) -> None:
-        """Open the same port again, after the line was lost; what was under way has failed.
+        """Open the same port again after the line was lost; all that was in progress has failed.
 
-        Reports and counters are kept, and so are callbacks. Where several tasks ask for it at the
-        same time, it is done once. A transport of your own needs a method `reopen()`, which
-        returns the next one. Raises TransportError where that fails, and may then be called again.
+        Reports, callbacks and counters are kept. If several tasks call it at the same time, it is
+        done once. A transport of your own needs a method `reopen()`, which returns the next one.
+        Raises TransportError if that fails, and may then be called again.
         """
         before = self._transport
         async with self._reopening:
@@ -240,26 +240,26 @@ class AsyncClient(BaseClient):
         return await self._finish(self._acknowledged(message))
 
     async def _ask(self, message: Message, kind: type[_Reply]) -> _Reply:
-        """Return the reply to a question, whole. Raises IncompleteReplyError."""
+        """Return the reply to a request, complete. Raises IncompleteReplyError."""
         return await self._finish(self._whole_reply(message, kind))
 
     async def _ask_in_parts(
         self, kind: type[Message], reply: type[_Reply], items: Iterable[Any]
     ) -> list[_Reply]:
-        """Return the replies to a question that is too long for one."""
+        """Return the replies to a request that is too long for one. Raises IncompleteReplyError."""
         return await self._finish(self._replies(kind, reply, items))
 
     async def _exchanged(
         self, kind: type[Message], items: Iterable[Any]
     ) -> list[tuple[Message, Message]]:
-        """Return each request that a question about a list takes, with its reply."""
+        """Return the requests for a long list, each with its reply, complete or not."""
         return await self._finish(self._exchanges(kind, items))
 
     def _submit_latest(self, message: Message) -> Request:
         self._check()
         self._bind()
         request = self._session.submit(message, question=False, latest=True)
-        # Whoever waits for it must hear that it has been sent or replaced.
+        # Whoever waits for it must learn that it has been sent or replaced.
         request.notify = self._wake
         self._advance()
         return request
@@ -385,7 +385,7 @@ class AsyncClient(BaseClient):
             await self._line.call(partial(self._line.shut, longest))
             await self._given_back()
         except asyncio.CancelledError:
-            # The loop is about to end; the port is given back all the same.
+            # The loop is about to end; the port is closed all the same.
             self._line.shut(0.0)
             raise
         finally:
@@ -401,7 +401,7 @@ class AsyncClient(BaseClient):
         """Wait until all commands have been sent, and have had their time on the wire."""
         until = self._clock() + DRAIN_TIMEOUT
         while self._failure is None:
-            # What is due goes first, even where the machine has paused for longer than that.
+            # What is due goes first, even if the machine has paused for longer than that.
             self._advance()
             now, free_at = self._clock(), self._session.wire_time.free_at
             sent = self._session.idle and now >= free_at
@@ -410,7 +410,7 @@ class AsyncClient(BaseClient):
             await asyncio.sleep(min(POLL_INTERVAL, max(0.001, free_at - now)))
 
     async def _given_back(self) -> None:
-        """Wait for whoever is opening the line again, finds it closed, and gives the port back."""
+        """Wait until a reconnection in progress finds the client closed, and closes the port."""
         until = self._clock() + DRAIN_TIMEOUT
         while self._reopening.locked() and self._clock() < until:
             await asyncio.sleep(POLL_INTERVAL)

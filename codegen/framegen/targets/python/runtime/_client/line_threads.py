@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable
     from typing import Any, Protocol, TypeAlias
 
-    # Frames to write, who is to hear that those before are written, and None for the end.
+    # Frames to write, a future to resolve once those before it are written, and None for the end.
     _Outbox: TypeAlias = SimpleQueue[bytes | Request | asyncio.Future[None] | None]
 
     class _Closable(Protocol):
@@ -26,7 +26,7 @@ if TYPE_CHECKING:
 
 _Result = TypeVar("_Result")
 _Opened = TypeVar("_Opened", bound="_Closable")
-# While the loop is busy, what is due may stay so: the reading thread is not to spin meanwhile.
+# While the loop is busy, work that is due stays due: the reading thread must not spin meanwhile.
 _SHORTEST_READ = 0.002
 
 
@@ -40,11 +40,12 @@ class LineThreads(AsyncLine):
         super().__init__(*line, **told)
         self._outbox: _Outbox = SimpleQueue()
         self._threads: list[threading.Thread] = []
-        # When the reading thread should say, at the latest, that time has passed and nothing come.
+        # When the reading thread should report, at the latest, that time has passed and nothing
+        # come.
         self._tick_at: float | None = None
-        # Until when nothing can be complete that is arriving.
+        # Until when nothing that is arriving can be complete.
         self._resting_until = float("-inf")
-        # What waits until the frames before it have been handed over.
+        # Futures that wait until the frames before them have been handed over.
         self._handing: set[asyncio.Future[None]] = set()
 
     def start(self, loop: asyncio.AbstractEventLoop) -> None:
@@ -113,7 +114,7 @@ class LineThreads(AsyncLine):
 
     def _read(self, loop: asyncio.AbstractEventLoop) -> bool:
         """Carry what arrives to the loop; False once the line, the loop or the client has ended."""
-        # Bytes that come one by one are not worth waking up for, each by itself.
+        # Single bytes are not worth waking up for, each by itself.
         rest = self._resting_until - self._clock()
         if rest > 0:
             time.sleep(min(rest, POLL_INTERVAL))
@@ -169,7 +170,7 @@ def _close_late(opening: asyncio.Future[Any]) -> None:
 def _post(
     loop: asyncio.AbstractEventLoop, call: Callable[..., None] | None, *arguments: object
 ) -> bool:
-    """Have the loop call something; False where that or the loop is no more."""
+    """Schedule a call in the loop; return False where that or the loop is no more."""
     if call is None:
         return False
     try:

@@ -1,23 +1,24 @@
 """Which of the replies that come is the answer, which is held, late, or unsolicited.
 
-No frame says which request it answers. A reply has the class that answers the pending request, and
-reports nothing that was not requested. One that is no reply to what is pending is **unsolicited**:
-it is counted, dropped, and never taken for anything else.
+No frame says which request it answers. A reply has the class that answers the pending question, and
+holds nothing that was not requested. A message of such a class that is no reply to it is
+**unsolicited**: it is counted, dropped, and never taken for anything else.
 
-A reply must be possible. It cannot be complete before the question and itself have fitted on the
-wire. One that is was meant for somebody else, as where the reply before came twice, or much too
-late; or the line is no wire of the stated rate. It is **held** for one reply time. If a second one
-comes, that is the answer, and the first is unsolicited. If none comes, what is known of the line
-decides: see Pace. Of several replies that are read at once, the last is the answer. And after one
-that is possible, but sooner than is usual on this line, the next question of its kind waits a
-moment, so that the right one, if there is another, is not taken for the reply to that.
+A reply must be possible. It cannot be complete before the question and itself have had their time
+on the wire. A reply that is complete sooner was meant for somebody else, as when the reply before
+came twice, or much too late; or the line is no wire of the stated rate. It is **held** for one
+reply time. If a second one comes, that is the answer, and the first is unsolicited. If none comes,
+what is known of the line decides: see Pace. Of several replies that are read at once, the last is
+the answer. And after a reply that is possible, but sooner than is usual on this line, the next
+question of its kind waits a moment, so that the right one, if there is another, is not taken for
+the reply to that.
 
-After a request has timed out, or was cancelled, or the line was lost, its reply may still come
-**late**, and would look like the reply to the next request of the same kind. So the next waits,
-unsent, until that reply has come and gone, or until it is overdue by as long again as the request
-was given. That time begins when the request is given up, which may be long after its deadline where
-the whole machine has paused, and the reply with it. If it has not come by then, it may come yet, so
-the reply to the next is held, too.
+After a question has timed out, or was cancelled, or the line was lost, its reply may still come
+**late**, and would look like the reply to the next question of the same kind. So the next waits,
+unsent, until that reply has come, or until the time that the question was given has passed once
+more. That time begins when the question is given up, which may be long after its deadline if the
+whole machine has paused, and the reply with it. If it has not come by then, it may come yet, so the
+reply to the next is held, too.
 """
 
 from __future__ import annotations
@@ -74,11 +75,11 @@ class ReplyMatcher:
         reply = request.exchange.reply
         if self.pending is not None:
             return True
-        # A further attempt takes its own late reply gladly.
+        # A further attempt accepts the late reply to an earlier one.
         return reply is not None and not request.attempts and self.late.awaited(reply, now)
 
     def sent(self, request: Request) -> None:
-        """Note that a question has been sent."""
+        """Record that a question has been sent."""
         if request.attempts == 1 and request.exchange.reply is not None:
             request.after_lost = self.late.take_missing(request.exchange.reply)
         self.pending = request
@@ -165,7 +166,8 @@ class ReplyMatcher:
         if held is None:
             self.expect_late(pending, since)
             return
-        # The reply that is held may be its own; if not, that has as long to come as is held for.
+        # The reply that is held may be its own; if not, its own is waited for as long as that is
+        # held.
         reply, _ = held
         self._drop(reply, "what it may answer was given up")
         self.late.expect(type(reply), pending.attempts, held_until, owed=False)
@@ -175,7 +177,7 @@ class ReplyMatcher:
         self.pending = self._held = None
 
     def expect_late(self, request: Request, since: float) -> None:
-        """Note that replies may come for as many attempts as a request has had."""
+        """Record that replies may come for as many attempts as a request has had."""
         self._expect(request, request.attempts, since)
 
     def restart(self) -> None:
@@ -188,11 +190,11 @@ class ReplyMatcher:
             self.late.expect(reply, count, since + (request.deadline - request.left_at))
 
     def _delay(self, request: Request, reply: Message, at: float) -> float:
-        """Give how much later a reply came than the wire can have carried both; below 0: sooner."""
+        """Return how much later than possible a reply came; below 0 if sooner."""
         return at - request.left_soonest - self._wire_time.least(len(reply.encode()))
 
     def _learn(self, request: Request, reply: Message, at: float) -> None:
-        """Learn from a reply; where it is suspiciously early, a right one has time to come yet."""
+        """Learn from the time of a reply; after one that is too early, wait for the right one."""
         step = self._wire_time.seconds(len(request.message.encode())) / 2
         later = self.pace.answered_in_time(type(reply), self._delay(request, reply, at), step)
         if later > 0 and step > 0:
@@ -204,7 +206,7 @@ class ReplyMatcher:
         self.pending = self._held = None
         if self._wire_time.free_at == request.left_at:
             self._wire_time.seen_idle(now)
-        # Which of the attempts it answers, nobody knows: the others may be answered yet.
+        # Which of the attempts it answers is unknown: the others may be answered yet.
         self._expect(request, request.attempts - 1, request.deadline)
         return request, reply
 

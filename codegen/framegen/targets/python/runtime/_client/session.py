@@ -1,8 +1,8 @@
 """The conversation with a device, without a line and without a clock.
 
-Whoever drives it hands in the bytes that arrive and the time, and takes out the bytes to write. One
-question is pending at a time; commands, which nothing answers, do not wait for it. What a request
-goes through (`STATES` in request.py has the same as a table, and nothing else can happen):
+Its driver hands in the bytes that arrive and the time, and takes out the bytes to write. A request
+that has a reply is a question. One question is pending at a time; commands, which nothing answers,
+do not wait for it. A request goes through these states, by these steps and no others (`STATES`):
 
     submit ─▶ WAITING ── SEND ──▶ PENDING ── HOLD ──▶ HELD ─┐ HOLD: another reply
                  ▲                 │   ▲               │ ▲  │ takes its place
@@ -40,19 +40,19 @@ if TYPE_CHECKING:
     from .trace import Trace
 
 # A device that answers at all has begun to do so by then: how long a doubtful reply is held, and
-# how long a line settles, for whoever grants it a longer reply timeout than this.
+# how long a line settles, however long the reply timeout.
 _LATENCY = 0.25
-# How long a port may take to accept a frame: longer than it takes until it is said to be stuck.
+# How long a port may take to accept a frame: longer than a write takes until it fails.
 _WRITING = 1.5
 
 
 class Session:
     """One end of a line. Times are seconds on any clock that never goes back.
 
-    `reply_timeout` is how long the device may take for an answer, besides the time on the wire, and
-    `limits` what may be sent of that which has limits. `local_echo` says that the line gives back
-    what is sent; `settle` is for how many seconds nothing is asked on a line that has been opened,
-    None for one reply time where that may matter.
+    `reply_timeout` is how long the device may take for a reply, beyond the time on the wire, and
+    `limits` the lowest and the highest value that is sent in fields that have limits. `local_echo`
+    says that the line returns what is sent; `settle` is for how many seconds no question is sent on
+    a line that has just been opened, None for one reply time if that may matter.
     """
 
     def __init__(
@@ -74,7 +74,7 @@ class Session:
         self.counters = LineCounters()
         self.reports = ReportLog(report_limit)
         self.acknowledgements = Acknowledgements(self.wire_time, reply_timeout)
-        # Reports for callbacks, to be taken out by whoever drives the session.
+        # Reports for callbacks, to be taken out by the driver of the session.
         self.callback_queue: deque[Message] = deque(maxlen=report_limit)
         # The longest frame that the line carries; None for any.
         self.largest_frame: int | None = None
@@ -108,10 +108,10 @@ class Session:
         retries: int = 0,
         latest: bool = False,
     ) -> Request:
-        """Ask for a message to be sent.
+        """Add a message to the queue, and return its request.
 
-        Raises EncodeError where no reply could answer it, LimitError where the limits forbid it.
-        With `question`, TypeError is raised where it has no reply, or has one against expectation.
+        Raises EncodeError if no reply could answer it, LimitError if the limits forbid it. With
+        `question`, TypeError is raised if that is not whether it has a reply.
         """
         exchange = EXCHANGES.get(type(message))
         if exchange is None:
@@ -131,7 +131,7 @@ class Session:
         return request
 
     def cancel(self, request: Request, error: Exception | None = None) -> None:
-        """Take back what has not been sent, and await no longer the reply of what has."""
+        """Take a request back if it has not been sent, and stop waiting for its reply if it has."""
         if request.done:
             return
         if request is self._matcher.pending:
@@ -156,9 +156,9 @@ class Session:
         return None if pending is None or pending.written else pending
 
     def written(self, request: Request, now: float) -> None:
-        """Take in that the port has the frame of a question only `now`, however long it took.
+        """Record that the port has the frame of a question only at `now`, however long it took.
 
-        The time that the device has for its answer begins then.
+        The time that the device has for its reply begins then.
         """
         if request is not self._matcher.pending or request.written:
             return
@@ -186,10 +186,10 @@ class Session:
         self._read(data, now)
 
     def tick(self, now: float) -> None:
-        """Take in that it is `now`, and that all which arrived before has been received."""
+        """Advance the time to `now`; all that arrived before must have been received."""
         quiet_at = self._reader.quiet_at
         if quiet_at is not None and now >= quiet_at:
-            # The line has gone quiet: half a frame must not grow together with the next one.
+            # The line is quiet: half a frame must not grow together with the next one.
             self._flush()
         if self._echo is not None:
             kept, lost = self._echo.expire(now)
@@ -214,7 +214,7 @@ class Session:
 
     @property
     def tick_at(self) -> float | None:
-        """When to call `tick` again, at the latest."""
+        """The latest time at which to call `tick` again."""
         times: list[float] = []
         pending = self._matcher.pending
         if pending is not None:
@@ -266,14 +266,14 @@ class Session:
         self._flush()
 
     def refuse_questions(self, error: Exception) -> None:
-        """End what waits for replies, and leave the commands that are still to be sent."""
+        """End all questions, and leave the commands that are still to be sent."""
         pending = self._matcher.pending
         questions = [each for each in self._queue if each.exchange.reply is not None]
         for request in [*([] if pending is None else [pending]), *questions]:
             self.cancel(request, error)
 
     def restart(self, now: float) -> None:
-        """Begin anew on another line: half a frame of the old one is forgotten."""
+        """Begin anew on another line: half a frame of the old one is discarded."""
         self._flush()
         self._reader.restart()
         self._matcher.restart()
@@ -312,7 +312,7 @@ class Session:
             return frame
         if request.attempts == 1:
             request.sent_at = now
-            # A further attempt takes its own late reply gladly.
+            # A further attempt accepts the late reply to an earlier one.
             request.left_soonest = self.wire_time.free_soonest
             request.before = self.counters.snapshot()
         answer = self.wire_time.seconds(request.reply_size)
@@ -417,7 +417,7 @@ class Session:
             self._answer(self._matcher.weigh())
 
     def _flush(self) -> None:
-        """Give up the frame that has begun, if one has."""
+        """End the frame in progress, if there is one."""
         if self._reader.pending:
             self._break_off(self._reader.flush())
 

@@ -1,4 +1,4 @@
-"""Reads single frames: from bytes to the message that they are, or the reason why they are none."""
+"""Decode single frames: from bytes to the message that they are, or to the reason why not."""
 
 from __future__ import annotations
 
@@ -15,16 +15,17 @@ if TYPE_CHECKING:
 
 _new = object.__new__
 
-# Made once: to make it takes as long as to use it.
+# Made once: making it takes as long as using it.
 _HEAD = slice(BODY_AT)
 
 _tables: dict[Direction | None, Table] = {}
 
 
 def table_for(direction: Direction | None, max_frame: int | None = None) -> Table:
-    """The messages of one direction, or of both for None, in frames of at most `max_frame` bytes.
+    """Return the messages of one direction, of both for None, in frames up to `max_frame` bytes.
 
-    Raises TypeError for what is no direction or no number, ValueError where no frame is so small.
+    Raises TypeError for a value that is no direction or no number, ValueError if no frame is that
+    small.
     """
     table = _tables.get(direction)
     if table is None:
@@ -42,10 +43,10 @@ def table_for(direction: Direction | None, max_frame: int | None = None) -> Tabl
 
 
 def decode(frame: bytes | bytearray | memoryview, direction: Direction | None) -> Message:
-    """Reads one frame, whole and with nothing after it, sent in `direction`.
+    """Decode one frame, complete and with nothing after it, sent in `direction`.
 
-    With None it may be of either direction; a frame that is legal in both is the first's, which is
-    the one declared first. Raises DecodeError, which tells the reason and the offset.
+    With None it may be of either direction; a frame that is legal in both is read in the direction
+    that is declared first. Raises DecodeError, which gives the reason and the offset.
     """
     try:
         table = _tables[direction]
@@ -64,7 +65,7 @@ def decode(frame: bytes | bytearray | memoryview, direction: Direction | None) -
 
 
 def twins(message: Message) -> list[type[Message]]:
-    """The other messages that the same frame may be, where nobody knows who has sent it."""
+    """Return the other messages that the same frame may be, if its sender is unknown."""
     frame = message.encode()
     table = table_for(None)
     entry = table.get(frame[:BODY_AT])

@@ -1,9 +1,9 @@
-"""What can go wrong on a live line: the port itself, a reply or a report that does not come."""
+"""Errors of a live line: the port itself, a reply or a report that does not come."""
 
 from __future__ import annotations
 
 from .._frame.errors import ProtocolError
-from .._frame.wording import counted
+from .._frame.pluralize import pluralize
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
@@ -18,7 +18,7 @@ _SHOWN = 4
 
 
 class TransportError(ProtocolError, OSError):
-    """The port failed. `port` is which, `happened` what happened, and `advice` what to do now."""
+    """The port failed. `port` is its name, `happened` what happened, `advice` what to do."""
 
     def __init__(self, port: str, happened: str, advice: str) -> None:
         super().__init__(port, happened, advice)
@@ -30,7 +30,7 @@ class TransportError(ProtocolError, OSError):
         return f"{self.port}: {self.happened}; {self.advice}"
 
     def again(self) -> Self:
-        """The same error, to be raised once more, with no traceback of its own yet."""
+        """Return a copy of the error, to be raised once more, with no traceback of its own yet."""
         return type(self)(self.port, self.happened, self.advice)
 
 
@@ -47,7 +47,7 @@ class PortPermissionError(TransportError):
 
 
 class PortAddressError(TransportError, ValueError):
-    """What was given is the name of no port, nor a URL of any known kind."""
+    """The given name is neither a port's, nor a URL of any known kind."""
 
 
 class DisconnectedError(TransportError):
@@ -63,11 +63,11 @@ class ClosedError(TransportError):
 
 
 class EchoError(TransportError):
-    """What was sent has not come back, on a line that was said to give it back."""
+    """The echo of a frame has not come, on a line that was said to have a local echo."""
 
 
 class NoReplyError(ProtocolError, TimeoutError):
-    """No reply came in time. `request` is what was asked, `waited` the seconds spent on it.
+    """No reply came in time. `request` is the message sent, `waited` the seconds spent on it.
 
     What came instead meanwhile: `noise` bytes that are no frame, `reports`, and `unsolicited`
     replies, which cannot be the answer.
@@ -102,23 +102,23 @@ class NoReplyError(ProtocolError, TimeoutError):
         if self.noise:
             verb = "is" if self.noise == 1 else "are"
             came.append(
-                f"{counted(self.noise, 'byte')} came that {verb} no frame: wrong baud rate?"
+                f"{pluralize(self.noise, 'byte')} came that {verb} no frame: wrong baud rate?"
             )
         if self.unsolicited:
-            replies = counted(self.unsolicited, "reply", "replies")
+            replies = pluralize(self.unsolicited, "reply", "replies")
             came.append(f"{replies} came that cannot be the answer: late, or sent twice")
         if self.reports:
-            came.append(f"{counted(self.reports, 'report')} came, so the device can be heard")
+            came.append(f"{pluralize(self.reports, 'report')} came, so the device can be heard")
         return "; ".join(came) or (
             "nothing came at all: is the device switched on, and is this its port?"
         )
 
 
 class IncompleteReplyError(ProtocolError):
-    """A reply told less than was asked.
+    """A reply held less than was requested.
 
-    `missing` is what was asked about and not told, `arrived` what was told (such as positions), and
-    `replies` the messages that told it.
+    `missing` is what was requested and not received, `arrived` what was received (such as
+    positions), and `replies` the messages that held it.
     """
 
     def __init__(
@@ -154,7 +154,7 @@ class AbsentError(IncompleteReplyError):
 
 
 class NoReportError(ProtocolError, TimeoutError):
-    """A report did not come. `report` is what was waited for, `waited` how many seconds.
+    """A report did not come. `report` is the expected one, `waited` how many seconds.
 
     `instead` has the reports that came in its place, and how often each of them did.
     """
@@ -172,7 +172,7 @@ class NoReportError(ProtocolError, TimeoutError):
             f"{message!r}" if count == 1 else f"{count} times {message!r}"
             for message, count in self.instead.items()
         ]
-        # The latest tell most of what goes on now.
+        # The latest ones say most about what goes on now.
         more = [f"{len(came) - _SHOWN} others"] if len(came) > _SHOWN else []
         what = ", ".join([*more, *came[-_SHOWN:]]) or "no report at all"
         return f"no {self.report} came within {self.waited:.3f} s; what came instead: {what}"

@@ -1,4 +1,4 @@
-"""All checks, in the order of the guide to troubleshooting, and how they are gone through."""
+"""All checks, in the order of the guide to troubleshooting, and how they are run."""
 
 from __future__ import annotations
 
@@ -45,7 +45,7 @@ CHECKS: tuple[Check, ...] = (
 
 
 def examine(diagnosis: Diagnosis, checks: Iterable[Check]) -> Iterator[tuple[Check, Result]]:
-    """Makes one check after the other, and gives each with what it has found, as it is found.
+    """Make one check after the other, and yield each with its result.
 
     The port is closed when this ends, however it does.
     """
@@ -71,7 +71,7 @@ def _looked(check: Check, diagnosis: Diagnosis) -> Result:
     try:
         return check.look(diagnosis)
     except TransportError as error:
-        # The library would say `reconnect()`, which is nothing that can be done here.
+        # The library would say `reconnect()`, which cannot be done here.
         diagnosis.lost = True
         advice = "see to the cable and the power, then run this again"
         return failed(f"{error.port}: {error.happened}", advice)
