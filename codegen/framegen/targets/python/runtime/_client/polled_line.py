@@ -5,7 +5,6 @@ For transports that never block, such as a board in the same process, on virtual
 
 from __future__ import annotations
 
-from functools import partial
 from typing import TYPE_CHECKING, Any
 
 from .._serial.link_errors import TransportError
@@ -30,7 +29,7 @@ class PolledLine(AsyncLine):
         """Begin to carry bytes."""
         self._loop = loop
         if self.transport.on_readable is not None:
-            self.transport.on_readable(partial(loop.call_soon_threadsafe, self._read))
+            self.transport.on_readable(self._wake)
         loop.call_soon(self._read)
 
     def write(self, frames: list[bytes], question: Request | None) -> None:
@@ -63,6 +62,11 @@ class PolledLine(AsyncLine):
         self._loop = None
         if self._timer is not None:
             self._timer.cancel()
+
+    def _wake(self) -> None:
+        """Have the loop read soon, in whichever thread this is called."""
+        if self._loop is not None and not self._loop.is_closed():
+            self._loop.call_soon_threadsafe(self._read)
 
     def _read(self) -> None:
         arrived, lost, began = self._arrived(), self._lost(), self._clock()
