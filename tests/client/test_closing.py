@@ -49,7 +49,7 @@ def no_thread_is_of_another_test() -> Iterator[None]:
 
 
 def close_in_a_hurry(monkeypatch: pytest.MonkeyPatch) -> None:
-    for module in ("client", "shared_line", "async_client", "line_threads"):
+    for module in ("client", "thread_client", "async_client", "line_threads"):
         monkeypatch.setattr(f"busservo._client.{module}.DRAIN_TIMEOUT", 0.02)
 
 

@@ -10,15 +10,14 @@ from .._log import log
 from .._serial.link_errors import TransportError
 from .base_client import DRAIN_TIMEOUT, REPLY_TIMEOUT, REPORT_LIMIT
 from .exchanges import LIMITS
-from .motion import Motion
-from .shared_line import SharedLine
+from .thread_client import ThreadClient
 
 TYPE_CHECKING = False  # typing alone would double the time that the import takes
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable, Iterator
+    from collections.abc import Callable, Iterator
     from os import PathLike
     from types import TracebackType
-    from typing import Any, TypeVar, overload
+    from typing import TypeVar, overload
 
     from typing_extensions import Self
 
@@ -26,14 +25,14 @@ if TYPE_CHECKING:
     from .._serial.transport import Transport
     from .limits import Bounds
     from .report_filter import Kinds
-    from .request import Request, Run, Sent
+    from .request import Sent
 
     _Reply = TypeVar("_Reply", bound=Message)
     _Second = TypeVar("_Second", bound=Message)
     _Third = TypeVar("_Third", bound=Message)
 
 
-class Client(SharedLine):
+class Client(ThreadClient):
     """A client that sends messages over a transport, matches replies, and keeps reports.
 
     Safe to share between threads. Nothing blocks for ever: every call ends with its result, or with
@@ -224,38 +223,6 @@ class Client(SharedLine):
                     raise self._closed()
                 self._take_line(transport)
             self._listen()
-
-    # ------------------------------------------------------------------ what the methods are of
-
-    def _move(self, message: Message, *, latest: bool) -> Motion:
-        """Send a command that lasts."""
-        if latest:
-            return self._motion(self._submit_latest(message))
-        return self._motion(self._finish(self._command(message)))
-
-    def _motion(self, request: Request) -> Motion:
-        what = request, self._session.wire_time, self._clock, self._check
-        return Motion(*what, finish=self._finish)
-
-    def _run(self, message: Message) -> Run:
-        """Send a command that is acknowledged."""
-        return self._finish(self._acknowledged(message))
-
-    def _ask(self, message: Message, kind: type[_Reply]) -> _Reply:
-        """Return the reply to a request, complete. Raises IncompleteReplyError."""
-        return self._finish(self._whole_reply(message, kind))
-
-    def _ask_in_parts(
-        self, kind: type[Message], reply: type[_Reply], items: Iterable[Any]
-    ) -> list[_Reply]:
-        """Return the replies to a request that is too long for one. Raises IncompleteReplyError."""
-        return self._finish(self._replies(kind, reply, items))
-
-    def _exchanged(
-        self, kind: type[Message], items: Iterable[Any]
-    ) -> list[tuple[Message, Message]]:
-        """Return the requests for a long list, each with its reply, complete or not."""
-        return self._finish(self._exchanges(kind, items))
 
     def _end(self) -> None:
         try:

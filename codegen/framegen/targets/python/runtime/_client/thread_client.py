@@ -1,4 +1,4 @@
-"""A line that threads share: whoever waits also reads, for itself and for all others."""
+"""A client whose calls wait in their own threads: whoever waits also reads, for all others too."""
 
 from __future__ import annotations
 
@@ -9,26 +9,29 @@ from contextlib import contextmanager
 
 from .._serial.link_errors import TransportError
 from .base_client import DRAIN_TIMEOUT, PACKAGE, POLL_INTERVAL, BaseClient
+from .motion import Motion
 from .request import Request
 
 TYPE_CHECKING = False  # typing alone would double the time that the import takes
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator
+    from collections.abc import Callable, Iterable, Iterator
     from typing import Any, TypeVar
 
     from .._frame.message import Message
     from .._serial.transport import Transport
     from .base_client import Steps, Wait
+    from .request import Run
 
     _Result = TypeVar("_Result")
+    _Reply = TypeVar("_Reply", bound=Message)
 
 # How long to wait for another thread's notification, which always comes: so that a mistake costs no
 # more than this.
 _LONGEST_WAIT = 0.25
 
 
-class SharedLine(BaseClient):
-    """A client whose calls wait in the thread that makes them, and take turns in reading."""
+class ThreadClient(BaseClient):
+    """A client of any number of threads, which take turns in reading the line."""
 
     def __init__(self, transport: Transport, *, background: bool, **settings: Any) -> None:
         super().__init__(transport, **settings)
@@ -48,7 +51,39 @@ class SharedLine(BaseClient):
         self._background = background
         self._listener: threading.Thread | None = None
 
-    # ------------------------------------------------------------------ calls
+    # ------------------------------------------------------------------ what methods are made of
+
+    def _move(self, message: Message, *, latest: bool) -> Motion:
+        """Send a command that lasts."""
+        if latest:
+            return self._motion(self._submit_latest(message))
+        return self._motion(self._finish(self._command(message)))
+
+    def _motion(self, request: Request) -> Motion:
+        what = request, self._session.wire_time, self._clock, self._check
+        return Motion(*what, finish=self._finish)
+
+    def _run(self, message: Message) -> Run:
+        """Send a command that is acknowledged."""
+        return self._finish(self._acknowledged(message))
+
+    def _ask(self, message: Message, kind: type[_Reply]) -> _Reply:
+        """Return the reply to a request, complete. Raises IncompleteReplyError."""
+        return self._finish(self._whole_reply(message, kind))
+
+    def _ask_in_parts(
+        self, kind: type[Message], reply: type[_Reply], items: Iterable[Any]
+    ) -> list[_Reply]:
+        """Return the replies to a request that is too long for one. Raises IncompleteReplyError."""
+        return self._finish(self._replies(kind, reply, items))
+
+    def _exchanged(
+        self, kind: type[Message], items: Iterable[Any]
+    ) -> list[tuple[Message, Message]]:
+        """Return the requests for a long list, each with its reply, complete or not."""
+        return self._finish(self._exchanges(kind, items))
+
+    # ------------------------------------------------------------------ waiting
 
     def _finish(self, steps: Steps[_Result]) -> _Result:
         """Take the steps of a call, one after the other, and wait between them."""
