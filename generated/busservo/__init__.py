@@ -29,6 +29,7 @@ if TYPE_CHECKING:
     from ._frame.direction import Direction
     from ._frame.errors import DecodeError, EncodeError, LimitError, ProtocolError, Reason
     from ._frame.message import Message
+    from ._frame.protocol import PROTOCOL_VERSION
     from ._serial.link_errors import (
         AbsentError,
         ClosedError,
@@ -69,6 +70,7 @@ else:
     # Each is imported when it is first asked for: nobody waits for what is not used.
     _HOMES = {
         "MESSAGES": "messages",
+        "PROTOCOL_VERSION": "_frame.protocol",
         "AbsentError": "_serial.link_errors",
         "ActionGroupCompleted": "messages",
         "ActionGroupRun": "messages",
@@ -138,6 +140,7 @@ else:
 
 __all__ = [
     "MESSAGES",
+    "PROTOCOL_VERSION",
     "AbsentError",
     "ActionGroupCompleted",
     "ActionGroupRun",

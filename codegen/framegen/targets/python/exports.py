@@ -17,6 +17,7 @@ _NUMBERED = re.compile(r"(?=.)(\D*)(\d*)")
 # What every library exports besides its messages, and the module that each is in.
 HOMES = {
     "MESSAGES": "messages",
+    "PROTOCOL_VERSION": "_frame.protocol",
     "AbsentError": "_serial.link_errors",
     "AsyncController": "_client.async_controller",
     "AsyncMotion": "_client.motion",

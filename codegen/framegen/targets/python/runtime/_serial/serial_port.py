@@ -15,7 +15,13 @@ from functools import partial
 from typing import TYPE_CHECKING, NamedTuple
 
 from .._frame.protocol import BAUD, DATA_BITS, PARITY, STOP_BITS
-from .link_errors import ClosedError, DisconnectedError, TransportError, WriteStuckError
+from .link_errors import (
+    ClosedError,
+    DisconnectedError,
+    TransportError,
+    WriteStuckError,
+    errno_of,
+)
 from .port_errors import not_opened
 from .port_names import refused_name
 
@@ -260,6 +266,7 @@ class SerialPort:
             self.name,
             f"the line was lost ({error})",
             "see to the cable and the power, then reconnect()",
+            errno_of(error),
         )
 
 
