@@ -64,7 +64,7 @@ def export_order(name: str) -> _Order:
     return _kind(name), _natural(name), ""
 
 
-def _import_order(name: str) -> _Order:
+def import_order(name: str) -> _Order:
     """The place of a name among those that are imported from a module."""
     return _kind(name), _natural(name.lower()), name
 
@@ -84,7 +84,7 @@ def _natural(name: str) -> tuple[tuple[str, int, str], ...]:
 
 def relative_import(module: str, names: Iterable[str], indent: int = 0) -> str:
     """An import, indented but for its first line, an item a line where it needs to."""
-    names = sorted(names, key=_import_order)
+    names = sorted(names, key=import_order)
     line = f"from .{module} import {', '.join(names)}"
     if indent + len(line) <= WIDTH:
         return line

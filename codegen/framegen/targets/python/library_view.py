@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 from framegen.model.slots import Number
 from framegen.targets.python.command_lines import verbs
 from framegen.targets.python.escape import Bracketed, byte_literal, literal
-from framegen.targets.python.exports import HOMES, export_order, relative_import
+from framegen.targets.python.exports import HOMES, export_order, import_order, relative_import
 from framegen.targets.python.list_view import ListView
 from framegen.targets.python.lookalike_view import LookalikeView
 from framegen.targets.python.message_view import MessageView
@@ -136,11 +136,9 @@ class LibraryView:
 
     @property
     def exports(self) -> list[str]:
-        """The imports of all of those."""
-        modules: dict[str, list[str]] = {}
-        for name, module in self._homes.items():
-            modules.setdefault(module, []).append(name)
-        return [relative_import(module, names, 4) for module, names in sorted(modules.items())]
+        """The imports of all of those, each under its own name: to stubs, that is to export it."""
+        homes = sorted(self._homes.items(), key=lambda home: (home[1], import_order(home[0])))
+        return [relative_import(module, [f"{name} as {name}"]) for name, module in homes]
 
     @property
     def doc(self) -> list[str]:
