@@ -94,8 +94,8 @@ def read(
 ) -> list[Event]:
     """All that a new decoder tells of these chunks, and, with `quiet`, when they are over."""
     decoder = StreamDecoder(direction)
-    events = [event for chunk in chunks for event in decoder.feed(chunk)]
-    return events + decoder.flush() if quiet else events
+    events: list[Event] = [event for chunk in chunks for event in decoder.feed(chunk)]
+    return [*events, *decoder.flush()] if quiet else events
 
 
 def messages_in(events: Iterable[Event]) -> list[Message]:

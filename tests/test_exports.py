@@ -4,9 +4,19 @@ import ast
 from collections.abc import Iterator
 from importlib import import_module
 from pathlib import Path
+from typing import get_args
 
 import busservo
 import pytest
+from busservo import (
+    MESSAGES,
+    ActionGroupStop,
+    ActionGroupStopped,
+    Direction,
+    Noise,
+    Reason,
+    UnknownFrame,
+)
 
 STUB = Path(busservo.__file__).with_suffix(".pyi")
 
@@ -42,3 +52,24 @@ def test_a_name_of_the_stub_is_that_of_the_package(module: str, alias: ast.alias
 def test_the_version_of_the_protocol_is_that_of_the_specification() -> None:
     spec = Path(__file__).parent.parent / "spec" / "busservo.yaml"
     assert f'version: "{busservo.PROTOCOL_VERSION}"' in spec.read_text(encoding="utf-8")
+
+
+# ------------------------------------------------------------------ closed unions
+
+UNIONS = {
+    "HostMessage": [kind for kind in MESSAGES if kind.DIRECTION is Direction.HOST_TO_CONTROLLER],
+    "ControllerMessage": [
+        kind for kind in MESSAGES if kind.DIRECTION is Direction.CONTROLLER_TO_HOST
+    ],
+    "Event": [*MESSAGES, Noise],
+}
+
+
+@pytest.mark.parametrize("name", UNIONS)
+def test_a_union_holds_all_that_can_come_and_no_more(name: str) -> None:
+    union = getattr(busservo, name)
+    assert set(get_args(union)) == set(UNIONS[name])
+    for message in (ActionGroupStop(), ActionGroupStopped()):
+        assert isinstance(message, union) == (type(message) in UNIONS[name])
+    assert isinstance(UnknownFrame(b"UU\x02c", Reason.UNKNOWN_COMMAND), union) == (name == "Event")
+    assert not isinstance(b"UU\x02\x07", union)

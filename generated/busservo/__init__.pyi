@@ -12,6 +12,7 @@ from ._client.request import Sent as Sent
 from ._codec.codec import decode as decode
 from ._codec.counters import Counters as Counters
 from ._codec.counters import LineCounters as LineCounters
+from ._codec.decoder import Event as Event
 from ._codec.decoder import StreamDecoder as StreamDecoder
 from ._codec.noise import Noise as Noise
 from ._codec.noise import UnknownFrame as UnknownFrame
@@ -49,6 +50,8 @@ from .messages import ActionGroupStop as ActionGroupStop
 from .messages import ActionGroupStopped as ActionGroupStopped
 from .messages import BatteryVoltage as BatteryVoltage
 from .messages import BatteryVoltageRead as BatteryVoltageRead
+from .messages import ControllerMessage as ControllerMessage
+from .messages import HostMessage as HostMessage
 from .messages import ServoMove as ServoMove
 from .messages import ServoPosition as ServoPosition
 from .messages import ServoPositions as ServoPositions
@@ -72,6 +75,7 @@ __all__ = [
     "BatteryVoltageRead",
     "ClosedError",
     "Controller",
+    "ControllerMessage",
     "Counters",
     "DecodeError",
     "Device",
@@ -79,6 +83,8 @@ __all__ = [
     "DisconnectedError",
     "EchoError",
     "EncodeError",
+    "Event",
+    "HostMessage",
     "IncompleteReplyError",
     "LimitError",
     "LineCounters",

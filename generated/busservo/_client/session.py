@@ -51,6 +51,8 @@ from .wire_time import WireTime
 
 TYPE_CHECKING = False  # typing alone would double the time that the import takes
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     from .._frame.message import Message
     from .limits import Bounds
     from .trace import Trace
@@ -431,7 +433,7 @@ class Session:
             self._doubted_at = now
         self._take_in(events, now)
 
-    def _take_in(self, events: list[Message | Noise], now: float) -> None:
+    def _take_in(self, events: Sequence[Message | Noise], now: float) -> None:
         for event in events:
             if self._trace is not None:
                 self._trace.received(event, now)

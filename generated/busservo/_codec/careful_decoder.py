@@ -24,7 +24,8 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from .._frame.direction import Direction
-    from .._frame.message import Message
+    from ..messages import AnyMessage
+    from .decoder import Event
 
 
 class CarefulDecoder:
@@ -39,15 +40,15 @@ class CarefulDecoder:
         self._direction = direction
         self._decoder = StreamDecoder(direction)
         # The message that is held, and the bytes that have come since.
-        self._doubted: Message | None = None
+        self._doubted: AnyMessage | None = None
         self._later = b""
         # The decoder of what may begin inside it, at which of its bytes, and what that has told.
         self._rival = self._decoder
         self._rival_at = 0
-        self._told: list[Message | Noise] = []
+        self._told: list[Event] = []
 
     @property
-    def doubted(self) -> Message | None:
+    def doubted(self) -> AnyMessage | None:
         """The message that is held back, if there is one."""
         return self._doubted
 
@@ -63,7 +64,7 @@ class CarefulDecoder:
         """How many bytes must come at the least before anything is told."""
         return 1 if self._doubted is not None else self._decoder.missing
 
-    def feed(self, data: bytes) -> list[Message | Noise]:
+    def feed(self, data: bytes) -> list[Event]:
         """Takes in bytes, and returns what can be told now."""
         doubted = self._doubted
         if doubted is None:
@@ -77,7 +78,7 @@ class CarefulDecoder:
         self._believe()
         return [doubted, *self.feed(later)]
 
-    def flush(self) -> list[Message | Noise]:
+    def flush(self) -> list[Event]:
         """Says that the line has gone quiet: what is held is no frame, but may hide one.
 
         A message that is in doubt is one if nothing has come behind it. Else it cannot be told from
@@ -104,7 +105,7 @@ class CarefulDecoder:
         other._later, other._told = self._later, [*self._told]
         return other
 
-    def _sifted(self, events: list[Message | Noise]) -> list[Message | Noise]:
+    def _sifted(self, events: list[Event]) -> list[Event]:
         """The events, up to a message that is in doubt; what follows that is looked at again."""
         for number, event in enumerate(events):
             if isinstance(event, Noise) or not (self._is_torn(event) or self._doubt(event)):
@@ -118,14 +119,14 @@ class CarefulDecoder:
             return [*events[:number], *found, *(self.feed(rest) if rest else ())]
         return events
 
-    def _is_torn(self, message: Message) -> bool:
+    def _is_torn(self, message: AnyMessage) -> bool:
         """Whether a message ends in whole frames, which have filled its hole."""
         return any(
             self._told and not any(isinstance(event, Noise) for event in self._told)
             for _ in self._rivals(message)
         )
 
-    def _doubt(self, message: Message) -> bool:
+    def _doubt(self, message: AnyMessage) -> bool:
         """Holds a message back if a frame may begin in its last bytes."""
         size = len(message.encode())
         if not any(
@@ -136,7 +137,7 @@ class CarefulDecoder:
         self._doubted, self._later = message, b""
         return True
 
-    def _rivals(self, message: Message) -> Iterator[int]:
+    def _rivals(self, message: AnyMessage) -> Iterator[int]:
         """Reads anew from each place in a message where another may begin, one after the other."""
         frame = message.encode()
         for at in _beginnings(frame):
@@ -159,7 +160,7 @@ class CarefulDecoder:
             at += len(event.data)
         return at + self._rival.scanned
 
-    def _refuted(self, doubted: Message) -> list[Message | Noise]:
+    def _refuted(self, doubted: AnyMessage) -> list[Event]:
         """Takes a message for what it was: the start of one frame, and then another."""
         self._doubted, self._later = None, b""
         self._decoder = self._rival

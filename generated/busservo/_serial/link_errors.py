@@ -3,16 +3,17 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Mapping
+
 from .._frame.errors import ProtocolError
+from .._frame.message import Message
 from .._frame.wording import counted
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Mapping
-
-    from typing_extensions import Self
-
-    from .._frame.message import Message
+    import typing_extensions as typing
+else:
+    from .._frame.typing_later import typing
 
 # How many reports the text of an error names.
 _SHOWN = 4
@@ -44,7 +45,7 @@ class TransportError(ProtocolError, OSError):
         given = self.port, self.happened, self.advice, self.errno
         return type(self), given, vars(self)
 
-    def again(self) -> Self:
+    def again(self) -> typing.Self:
         """Make the same error once more, to be raised with no traceback of its own yet."""
         return type(self)(self.port, self.happened, self.advice, self.errno)
 

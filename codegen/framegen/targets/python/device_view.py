@@ -6,8 +6,9 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from framegen.model.exchanges import snake_case
-from framegen.targets.python.escape import WIDTH, Bracketed
+from framegen.targets.python.escape import Bracketed
 from framegen.targets.python.exports import relative_import
+from framegen.targets.python.union_view import type_alias
 from framegen.targets.python.words import direction_member
 
 if TYPE_CHECKING:
@@ -91,23 +92,13 @@ class DeviceView:
         return sorted(message.name for message in self.model.sent(self.incoming.reversed).values())
 
     @property
-    def import_handled(self) -> str:
-        """The import of the messages that it receives."""
-        return relative_import("messages", [handler.message for handler in self.handlers])
-
-    @property
-    def import_reports(self) -> str:
-        """The import of the messages that it sends."""
-        return relative_import("messages", self.reports, 4)
+    def import_messages(self) -> str:
+        """The import of the messages that it receives, and of those that it sends."""
+        return relative_import(
+            "messages", [*self.reports, *(handler.message for handler in self.handlers)]
+        )
 
     @property
     def report_type(self) -> str:
         """The type of anything that it sends."""
-        names = self.reports or ["Message"]
-        joined = " | ".join(names)
-        line = f"Report: TypeAlias = {joined}"
-        if len(line) + 4 <= WIDTH:
-            return line
-        if len(joined) + 8 > WIDTH:
-            joined = "\n        | ".join(names)
-        return f"Report: TypeAlias = (\n        {joined}\n    )"
+        return type_alias("Report", self.reports or ["Message"])

@@ -30,6 +30,7 @@ HOMES = {
     "DisconnectedError": "_serial.link_errors",
     "EchoError": "_serial.link_errors",
     "EncodeError": "_frame.errors",
+    "Event": "_codec.decoder",
     "IncompleteReplyError": "_serial.link_errors",
     "LimitError": "_frame.errors",
     "LineCounters": "_codec.counters",

@@ -12,6 +12,7 @@ from framegen.targets.python.exports import HOMES, export_order, import_order, r
 from framegen.targets.python.list_view import ListView
 from framegen.targets.python.lookalike_view import LookalikeView
 from framegen.targets.python.message_view import MessageView
+from framegen.targets.python.union_view import UnionView, type_alias, unions
 from framegen.targets.python.words import direction_member, struct_order
 
 if TYPE_CHECKING:
@@ -99,18 +100,20 @@ class LibraryView:
         return relative_import("_frame.number", self.number_types)
 
     @property
-    def typing_imports(self) -> list[str]:
-        """What the annotations of the messages need of the standard library."""
-        named = any(number.constants for number in self._numbers)
-        wanted: dict[str, dict[str, object]] = {
-            "collections.abc": {"Iterable": self.lists},
-            "typing": {"Final": named, "TypeAlias": self.elements},
-        }
-        found = {
-            module: [name for name, needed in names.items() if needed]
-            for module, names in wanted.items()
-        }
-        return [f"from {module} import {', '.join(n)}" for module, n in found.items() if n]
+    def unions(self) -> list[UnionView]:
+        """The types of all that an end sends."""
+        return unions(self.model)
+
+    @property
+    def any_message(self) -> str:
+        """The assignment of the type of whatever is sent at all."""
+        return type_alias("AnyMessage", [union.name for union in self.unions] or ["Message"])
+
+    @property
+    def import_unions(self) -> str:
+        """The import of those types, where they are needed for typing alone."""
+        names = ["AnyMessage", *(union.name for union in self.unions)]
+        return relative_import(".messages", names, 4)
 
     @property
     def import_message_classes(self) -> str:
@@ -121,7 +124,8 @@ class LibraryView:
         """Every name that the package exports from its modules, in the order that linters want."""
         elements = [element.name for element in self.elements]
         classes = [*(message.name for message in self.messages), *elements]
-        homes = {**HOMES, **dict.fromkeys(classes, "messages")}
+        types = [union.name for union in self.unions]
+        homes = {**HOMES, **dict.fromkeys([*classes, *types], "messages")}
         return {name: homes[name] for name in sorted(homes, key=export_order)}
 
     @property
