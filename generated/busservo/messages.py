@@ -509,5 +509,5 @@ ControllerMessage: typing.TypeAlias = (
 )
 """Whatever the controller sends: `isinstance` and `match` take it, too."""
 
-AnyMessage: typing.TypeAlias = HostMessage | ControllerMessage
+Decoded: typing.TypeAlias = HostMessage | ControllerMessage
 """Whatever any end sends."""

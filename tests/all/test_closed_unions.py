@@ -29,14 +29,14 @@ PROGRAM = """\
 from typing_extensions import assert_never, assert_type
 
 from busservo import *
-from busservo.messages import AnyMessage
+from busservo.messages import Decoded
 
 
 def by_direction(frame: bytes, direction: Direction) -> None:
     assert_type(decode(frame, Direction.HOST_TO_CONTROLLER), HostMessage)
     assert_type(decode(frame, Direction.CONTROLLER_TO_HOST), ControllerMessage)
-    assert_type(decode(frame, None), AnyMessage)
-    assert_type(decode(frame, direction), AnyMessage)
+    assert_type(decode(frame, None), Decoded)
+    assert_type(decode(frame, direction), Decoded)
     assert_type(StreamDecoder(None).feed(frame), list[Event])
 
 

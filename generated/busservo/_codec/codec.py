@@ -15,7 +15,7 @@ TYPE_CHECKING = False  # typing alone would double the time that the import take
 if TYPE_CHECKING:
     from typing import Literal, overload
 
-    from ..messages import AnyMessage, ControllerMessage, HostMessage
+    from ..messages import ControllerMessage, Decoded, HostMessage
 
 _new = object.__new__
 
@@ -62,7 +62,7 @@ if TYPE_CHECKING:
     @overload
     def decode(
         frame: bytes | bytearray | memoryview, direction: Direction | None
-    ) -> AnyMessage: ...
+    ) -> Decoded: ...
 
 
 def decode(frame: bytes | bytearray | memoryview, direction: Direction | None) -> Message:

@@ -13,7 +13,7 @@ from __future__ import annotations
 from .._frame.bytes_like import as_bytes
 from .._frame.direction import Direction
 from .._frame.protocol import BODY_AT
-from ..messages import AnyMessage
+from ..messages import Decoded
 from .codec import table_for
 from .counters import Counters
 from .noise import Noise
@@ -25,7 +25,7 @@ if TYPE_CHECKING:
 else:
     from .._frame.typing_later import typing
 
-Event: typing.TypeAlias = AnyMessage | Noise
+Event: typing.TypeAlias = Decoded | Noise
 """Whatever a stream decoder gives: a message or a piece of noise."""
 
 _new = object.__new__

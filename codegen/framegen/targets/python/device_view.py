@@ -93,10 +93,9 @@ class DeviceView:
 
     @property
     def import_messages(self) -> str:
-        """The import of the messages that it receives, and of those that it sends."""
-        return relative_import(
-            "messages", [*self.reports, *(handler.message for handler in self.handlers)]
-        )
+        """The import of what it receives and sends; empty where nothing goes either way."""
+        names = [*self.reports, *(handler.message for handler in self.handlers)]
+        return relative_import("messages", names) if names else ""
 
     @property
     def report_type(self) -> str:

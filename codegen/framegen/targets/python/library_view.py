@@ -107,12 +107,12 @@ class LibraryView:
     @property
     def any_message(self) -> str:
         """The assignment of the type of whatever is sent at all."""
-        return type_alias("AnyMessage", [union.name for union in self.unions] or ["Message"])
+        return type_alias("Decoded", [union.name for union in self.unions] or ["Message"])
 
     @property
     def import_unions(self) -> str:
         """The import of those types, where they are needed for typing alone."""
-        names = ["AnyMessage", *(union.name for union in self.unions)]
+        names = ["Decoded", *(union.name for union in self.unions)]
         return relative_import(".messages", names, 4)
 
     @property

@@ -69,9 +69,7 @@ def signed_name(field: str) -> str:
 
 def union_name(endpoint: str) -> str:
     """Return the name of all messages that an end sends: `HostMessage`."""
-    # Where a name was bent, so is this one: `any` is `any_`, and AnyMessage is whatever is sent.
-    bent = "_" if endpoint.endswith("_") else ""
-    return f"{endpoint.title().replace('_', '')}{bent}Message"
+    return f"{endpoint.title().replace('_', '')}Message"
 
 
 def _plain(name: str) -> str:

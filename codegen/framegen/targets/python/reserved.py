@@ -67,14 +67,13 @@ PYTHON_CLASSES = _words(
 # What the library exports or is built of, whatever the protocol.
 LIBRARY_CLASSES = _words(
     """
-    AbsentError AnyMessage AsyncClient AsyncController AsyncMotion Client ClosedError Column
-    Controller Counters DecodeError Device Direction DisconnectedError EchoError Element
-    EncodeError Event Exchange EXCHANGES Field HEADER I16 I32 I64 I8 IncompleteReplyError Items
-    Kind LimitError LIMITS Limits LineCounters LineError Message MESSAGES Motion Noise
-    NoReplyError NoReportError Number PortAddressError PortBusyError PortNotFoundError
-    PortPermissionError POSE Pose PROTOCOL_VERSION ProtocolError Reason RECEIVED Rejects Report
-    Run SearchStrategy Sent Shape StreamDecoder Table Timed Transport TransportError U16 U32 U64
-    U8 UNFIT UnknownFrame WriteStuckError
+    AbsentError AsyncClient AsyncController AsyncMotion Client ClosedError Column Controller
+    Counters Decoded DecodeError Device Direction DisconnectedError EchoError Element EncodeError
+    Event Exchange EXCHANGES Field HEADER I8 I16 I32 I64 IncompleteReplyError Items Kind LimitError
+    Limits LIMITS LineCounters LineError Message MESSAGES Motion Noise NoReplyError NoReportError
+    Number PortAddressError PortBusyError PortNotFoundError PortPermissionError Pose POSE
+    ProtocolError Reason RECEIVED Rejects Report Run SearchStrategy Sent Shape StreamDecoder Table
+    Timed Transport TransportError U8 U16 U32 U64 UNFIT UnknownFrame WriteStuckError
     """
 )
 

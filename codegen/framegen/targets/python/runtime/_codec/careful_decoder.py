@@ -23,7 +23,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from .._frame.direction import Direction
-    from ..messages import AnyMessage
+    from ..messages import Decoded
     from .decoder import Event
 
 
@@ -39,7 +39,7 @@ class CarefulDecoder:
         self._direction = direction
         self._decoder = StreamDecoder(direction)
         # The message that is held, and the bytes that have come since.
-        self._doubted: AnyMessage | None = None
+        self._doubted: Decoded | None = None
         self._later = b""
         # The decoder of what may begin inside it, at which of its bytes, and what that has told.
         self._rival = self._decoder
@@ -47,7 +47,7 @@ class CarefulDecoder:
         self._told: list[Event] = []
 
     @property
-    def doubted(self) -> AnyMessage | None:
+    def doubted(self) -> Decoded | None:
         """The message that is held back, if there is one."""
         return self._doubted
 
@@ -118,14 +118,14 @@ class CarefulDecoder:
             return [*events[:number], *found, *(self.feed(rest) if rest else ())]
         return events
 
-    def _is_torn(self, message: AnyMessage) -> bool:
+    def _is_torn(self, message: Decoded) -> bool:
         """Whether a message ends in whole frames, which have filled its hole."""
         return any(
             self._told and not any(isinstance(event, Noise) for event in self._told)
             for _ in self._rivals(message)
         )
 
-    def _doubt(self, message: AnyMessage) -> bool:
+    def _doubt(self, message: Decoded) -> bool:
         """Holds a message back if a frame may begin in its last bytes."""
         size = len(message.encode())
         if not any(
@@ -136,7 +136,7 @@ class CarefulDecoder:
         self._doubted, self._later = message, b""
         return True
 
-    def _rivals(self, message: AnyMessage) -> Iterator[int]:
+    def _rivals(self, message: Decoded) -> Iterator[int]:
         """Reads anew from each place in a message where another may begin, one after the other."""
         frame = message.encode()
         for at in _beginnings(frame):
@@ -159,7 +159,7 @@ class CarefulDecoder:
             at += len(event.data)
         return at + self._rival.scanned
 
-    def _refuted(self, doubted: AnyMessage) -> list[Event]:
+    def _refuted(self, doubted: Decoded) -> list[Event]:
         """Takes a message for what it was: the start of one frame, and then another."""
         self._doubted, self._later = None, b""
         self._decoder = self._rival
