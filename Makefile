@@ -2,23 +2,38 @@
 # Where there is no make, as on Windows, README.md has the same commands spelt out.
 
 VENV = .venv
-GROUP = dev
 # The first Python on the path that is new enough, unless one is named: make PYTHON=python3.12
 PYTHON = $(shell for python in python3 python3.13 python3.12 python3.11 python3.10 python; do \
 	"$$python" -c 'import sys; sys.exit(sys.version_info < (3, 10))' 2>/dev/null \
 	&& echo "$$python" && break; done)
 
 IN := $(VENV)/bin
-READY := $(VENV)/.ready-$(GROUP)
+# What decodes and generates is there first, and is light. What builds pages and packages, tests and
+# lints is added to it when it is first called for: each is a group in pyproject.toml.
+READY := $(VENV)/.ready
+TO_BUILD := $(VENV)/.ready-build
+TO_DOCUMENT := $(VENV)/.ready-docs
+TO_TEST := $(VENV)/.ready-test
+TO_LINT := $(VENV)/.ready-lint
+# All of ours in one command, so that pip looks for none of them elsewhere.
+OURS := --editable . --editable ./codegen --editable ./simulator
+PINS := --constraint constraints.txt
 BENCH_VENV := .tools/bench
 MUTATION_VENV := .tools/mutation
+PINS_VENV := .tools/pins
 # How many tests run at once. Many only wait, so more than there are cores; 0 is one after another.
 WORKERS = 4
+# Where the pages of the reference go.
+REFERENCE = build/reference
+# What a release is called.
+VERSION =
 # Which mutants: make mutants ONLY='busservo.octets.*'
 ONLY =
 
 .DEFAULT_GOAL := all
-.PHONY: all venv test quick coverage lint format fuzz soak mutants bench docs docs-tools wheel clean help
+# Two that add to one environment at once would spoil it.
+.NOTPARALLEL:
+.PHONY: all test quick coverage lint style types current format fuzz soak mutants bench docs reference docs-tools wheel packages release newcomer pins venv clean help
 
 all: $(READY)  ## Check the spec, generate everything, decode a recorded noisy line (plain `make`)
 	$(IN)/framegen check
@@ -26,55 +41,65 @@ all: $(READY)  ## Check the spec, generate everything, decode a recorded noisy l
 	$(IN)/busservo decode --direction any tests/captures/noisy_line.bin
 	$(IN)/python examples/virtual_arm.py
 
-test: $(READY)  ## Run every test
+test: $(TO_TEST)  ## Run every test
 	$(IN)/python -m pytest -n $(WORKERS)
 
-quick: $(READY)  ## Run every test with fewer examples, and without a browser
+quick: $(TO_TEST)  ## Run every test with fewer examples, and without a browser
 	HYPOTHESIS_PROFILE=quick $(IN)/python -m pytest -q -n $(WORKERS) --ignore=tests/docs/test_browser.py
 
-coverage: $(READY)  ## Measure which lines and branches the quick tests reach, commands included
+coverage: $(TO_TEST)  ## Measure which lines and branches the quick tests reach, commands included
 	$(IN)/coverage erase
 	HYPOTHESIS_PROFILE=quick $(IN)/coverage run -m pytest -q --ignore=tests/docs/test_browser.py
 	$(IN)/coverage combine -q
 	$(IN)/coverage report
 
-lint: $(READY)  ## Lint, look at the format, check types, and that the output is up to date
+lint: style types current  ## Lint, look at the format, check types, and that the output is up to date
+
+style: $(TO_LINT)  ## Lint, and look at the format
 	$(IN)/ruff check
 	$(IN)/ruff format --check
+
+types: $(TO_LINT) $(TO_TEST)  ## Check types, those of the tests included
 	$(IN)/mypy
 	$(IN)/pyright --pythonpath $(IN)/python
+
+current: $(READY)  ## See that what is generated is up to date
 	$(IN)/framegen generate --check
 
-format: $(READY)  ## Mend what ruff can mend
+format: $(TO_LINT)  ## Mend what ruff can mend
 	$(IN)/ruff check --fix
 	$(IN)/ruff format
 
-fuzz: $(READY)  ## Search for new counterexamples, for long, and change the specs in every way
+fuzz: $(TO_TEST)  ## Search for new counterexamples, for long, and change the specs in every way
 	HYPOTHESIS_PROFILE=fuzz $(IN)/python -m pytest
 	CONTRACT=all $(IN)/python -m pytest tests/contract
 
 bench:  ## Measure the library against its peers
-	@$(MAKE) --no-print-directory venv VENV=$(BENCH_VENV) GROUP=bench
+	@$(MAKE) --no-print-directory $(BENCH_VENV)/.ready-bench VENV=$(BENCH_VENV)
 	@command -v npm >/dev/null && npm install --silent --no-package-lock --prefix benchmarks/peers/kaitai || true
 	$(BENCH_VENV)/bin/python -m benchmarks
 
-docs: $(READY)  ## Build build/site: the reference and the guides, ready to be served
+docs: $(TO_DOCUMENT)  ## Build build/site: the reference and the guides, ready to be served
 	rm -rf build/site
 	$(IN)/framegen docs --out build/site/reference
 	$(IN)/python docs/site.py build/site
 	@echo "Open build/site/index.html"
+
+reference: $(READY)  ## Build the pages of the reference alone: make reference REFERENCE=html
+	rm -rf $(REFERENCE)
+	$(IN)/framegen docs --out $(REFERENCE)
 
 docs-tools:  ## Install what the tests of the reference need of Node.js: a validator, axe-core
 	@mkdir -p .tools/node
 	@cp tests/docs/package.json .tools/node/
 	npm install --prefix .tools/node --silent --no-audit --no-fund --no-package-lock
 
-soak: $(READY)  ## Ask a hundred thousand times, with faults, and see that nothing leaks or is lost
+soak: $(TO_TEST)  ## Ask a hundred thousand times, with faults, and see that nothing leaks or is lost
 	$(IN)/python -m tests.soak
 
 # Set and dict in the names of tests need the same order in every process.
 mutants:  ## Change the code in many small ways, and list the changes that no test sees
-	@$(MAKE) --no-print-directory venv VENV=$(MUTATION_VENV) GROUP=mutation
+	@$(MAKE) --no-print-directory $(MUTATION_VENV)/.ready-mutation VENV=$(MUTATION_VENV)
 	rm -rf mutants
 	mkdir -p mutants/src
 	cp -R generated/busservo codegen/framegen mutants/src
@@ -83,13 +108,37 @@ mutants:  ## Change the code in many small ways, and list the changes that no te
 	cd mutants/mutants && HYPOTHESIS_PROFILE=quick PYTHONHASHSEED=0 \
 		../../$(MUTATION_VENV)/bin/python -m tests.mutants $(if $(ONLY),'$(ONLY)')
 
-wheel: $(READY)  ## Build dist/*.whl and dist/*.tar.gz
-	$(IN)/python -m build
+wheel: $(TO_BUILD)  ## Build dist/: a wheel and a source distribution of each package
+	rm -rf dist
+	$(IN)/python -m build --no-isolation --outdir dist .
+	$(IN)/python -m build --no-isolation --outdir dist codegen
+	$(IN)/python -m build --no-isolation --outdir dist simulator
 
-venv: $(READY)  ## Only make the virtual environment
+# Nothing is published: dist/ holds files that can be handed on.
+release: $(TO_TEST)  ## Check all, set the version, tag it, and build dist/: make release VERSION=0.2.0
+	$(IN)/python .ci/release.py --check '$(VERSION)'
+	$(MAKE) lint test packages
+	$(IN)/python .ci/release.py '$(VERSION)'
+	$(MAKE) wheel
 
-# Made anew only when pyproject.toml has changed. A pip older than 25.1 knows no --group.
-$(READY): pyproject.toml
+packages: $(TO_TEST)  ## Build the packages, and try them in empty environments
+	$(IN)/python -m pytest tests/all/test_packages.py
+
+newcomer:  ## Follow README and getting-started in a new clone, with the system's own Python
+	.ci/newcomer
+
+# The oldest Python makes them: what it can install, all others can.
+pins:  ## Renew constraints.txt: make pins PYTHON=python3.10
+	rm -rf $(PINS_VENV)
+	$(MAKE) --no-print-directory $(PINS_VENV)/.ready-test $(PINS_VENV)/.ready-lint VENV=$(PINS_VENV) PINS=
+	sed '/^[^#]/d' constraints.txt >$(PINS_VENV)/constraints.txt
+	$(PINS_VENV)/bin/python -m pip freeze --exclude-editable >>$(PINS_VENV)/constraints.txt
+	cp $(PINS_VENV)/constraints.txt constraints.txt
+
+venv: $(READY) $(TO_TEST) $(TO_LINT)  ## Only make the virtual environment, with all that tests and lints need
+
+# Made anew only when what it is made of has changed.
+$(READY): pyproject.toml codegen/pyproject.toml simulator/pyproject.toml constraints.txt
 	@test -n "$(PYTHON)" || { \
 		echo "No Python 3.10 or newer is on the path. Install one, or: make PYTHON=/where/it/is"; \
 		exit 1; }
@@ -101,8 +150,14 @@ $(READY): pyproject.toml
 		"$(PYTHON)" -m venv $(VENV); }
 	@$(IN)/python -m pip --version >/dev/null 2>&1 || $(IN)/python -m ensurepip
 	@echo "Installing what $(VENV) needs (only the first time)"
+	@$(IN)/python -m pip install -qq $(PINS) $(OURS)
+	@touch $@
+
+# A group of pyproject.toml. A pip older than 25.1 knows no --group.
+$(VENV)/.ready-%: $(READY)
+	@echo "Installing what \`$*\` needs (only the first time)"
 	@$(IN)/python -m pip install -qq --upgrade "pip>=25.1"
-	@$(IN)/python -m pip install -qq --editable . --group $(GROUP)
+	@$(IN)/python -m pip install -qq $(PINS) --group $*
 	@touch $@
 
 clean:  ## Remove everything that these commands make, the virtual environments included

@@ -38,7 +38,7 @@ _DECODE = [sys.executable, "-m", "busservo", "decode"]
 
 
 def options(arguments: Sequence[str] | None) -> argparse.Namespace:
-    """The command line."""
+    """Return the options of the command line."""
     parser = argparse.ArgumentParser(
         prog="python -m benchmarks",
         description="Measure the generated library and its peers against hand-written struct code.",
@@ -79,7 +79,7 @@ def options(arguments: Sequence[str] | None) -> argparse.Namespace:
 
 
 def load_ours() -> ModuleType | None:
-    """Our side of the rows, when the library can be imported."""
+    """Return the module with our rows; None if the library cannot be imported."""
     try:
         return importlib.import_module("benchmarks.ours")
     except ModuleNotFoundError as error:
@@ -158,7 +158,7 @@ def measure_generators(present: Sequence[Peer], rounds: int, results: Results) -
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
-    """Measure and print; 1 when a contender gave a wrong result."""
+    """Measure and print; return 1 if a contender gave a wrong result."""
     chosen = options(arguments)
     ours = load_ours()
     present, absent = ([], []) if chosen.no_peers else peers.load()

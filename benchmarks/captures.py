@@ -1,4 +1,4 @@
-"""The byte streams that are decoded: what a controller sends, clean and disturbed.
+"""The byte streams to decode: what a controller sends, clean and disturbed.
 
 Every stream is made here from a fixed seed, so that two runs decode the same bytes.
 """
@@ -26,7 +26,7 @@ _QUESTIONS = {
 
 
 def positions_frame(positions: list[tuple[int, int]]) -> bytes:
-    """The position reply that carries these (servo id, position) pairs."""
+    """Return the position reply that carries these (servo id, position) pairs."""
     body = b"".join(
         servo_id.to_bytes(1, "little") + position.to_bytes(2, "little")
         for servo_id, position in positions
@@ -35,17 +35,17 @@ def positions_frame(positions: list[tuple[int, int]]) -> bytes:
 
 
 def battery_frame(voltage_mv: int) -> bytes:
-    """The battery reply that carries this voltage."""
+    """Return the battery reply that carries this voltage."""
     return bytes([0x55, 0x55, 4, floor.BATTERY]) + voltage_mv.to_bytes(2, "little")
 
 
 def report_frame(command: int, group: int, times: int) -> bytes:
-    """The report that an action group started or completed."""
+    """Return the report that an action group started or completed."""
     return bytes([0x55, 0x55, 5, command, group]) + times.to_bytes(2, "little")
 
 
 def _frames(rng: random.Random) -> list[bytes]:
-    """A thousand frames of a host that polls a six-servo arm: eight in ten are positions."""
+    """Return a thousand frames of a polled six-servo arm: eight in ten are positions."""
     frames = []
     for index in range(1000):
         turn = index % 10
@@ -67,7 +67,7 @@ def _garbage(rng: random.Random) -> bytes:
 
 @cache
 def piece(kind: str, number: int) -> bytes:
-    """Piece `number` of the stream of this kind; it begins with a frame and ends where it ends."""
+    """Return piece `number` of the stream of this kind; only its end may cut a frame."""
     rng = random.Random(number)
     frames = _frames(rng)
     parts: list[bytes] = []
@@ -86,7 +86,7 @@ def piece(kind: str, number: int) -> bytes:
 
 
 def conversation() -> bytes:
-    """A megabyte of what a line carries both ways: questions in front of what answers them."""
+    """Return a megabyte of both directions of a line: each question in front of its answer."""
     rng = random.Random(0)
     frames = _frames(rng)
     data = bytearray()
@@ -98,6 +98,6 @@ def conversation() -> bytes:
 
 @lru_cache(maxsize=2)
 def chunks(kind: str, number: int, size: int, chunk: int) -> list[bytes]:
-    """The first `size` bytes of a piece in chunks, as a port or a file would hand them over."""
+    """Return the first `size` bytes of a piece in chunks, as a port or a file returns them."""
     data = piece(kind, number)[:size]
     return [data[start : start + chunk] for start in range(0, size, chunk)]

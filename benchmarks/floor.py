@@ -1,7 +1,7 @@
-"""The floor: the fastest codec that one writes by hand with `struct`, and the unit of every ratio.
+"""The floor: the fastest codec written by hand with `struct`, and the unit of every ratio.
 
 Nothing is validated, nothing is typed: values go in and come out as plain ints and tuples.
-It is what a script would hold that has no library, written with care for speed but without tricks.
+It is what a script without a library would hold, written with care for speed but without tricks.
 """
 
 from __future__ import annotations
@@ -36,7 +36,7 @@ LENGTHS: Mapping[int, Collection[int]] = {
 
 
 def encode_move(time_ms: int, targets: Sequence[tuple[int, int]]) -> bytes:
-    """The MOVE frame of these (servo id, position) pairs."""
+    """Return the MOVE frame of these (servo id, position) pairs."""
     count = len(targets)
     return _pack_move_head(0x55, 0x55, 3 * count + 5, MOVE, count, time_ms) + b"".join(
         [_pack_item(servo_id, position) for servo_id, position in targets]
@@ -44,24 +44,24 @@ def encode_move(time_ms: int, targets: Sequence[tuple[int, int]]) -> bytes:
 
 
 def decode_positions(frame: bytes) -> tuple[tuple[int, int], ...]:
-    """The (servo id, position) pairs of a position reply."""
+    """Return the (servo id, position) pairs of a position reply."""
     return tuple(_iter_items(frame[5:]))
 
 
 def decode_battery(frame: bytes) -> int:
-    """The millivolts of a battery reply."""
+    """Return the millivolts of a battery reply."""
     voltage_mv: int = _unpack_voltage(frame)[0]
     return voltage_mv
 
 
 def decode_group(frame: bytes) -> tuple[int, int]:
-    """The (group, times) of an action group that started or completed."""
+    """Return the (group, times) of an action group that started or completed."""
     group, times = _unpack_group(frame)
     return group, times
 
 
 def decode_stopped(frame: bytes) -> None:
-    """An action group was stopped: the frame carries nothing else."""
+    """Decode the report of a stopped action group: its frame carries nothing else."""
 
 
 Parser = Callable[[bytes], Any]
@@ -76,7 +76,7 @@ PARSERS: Mapping[int, Parser] = {
 
 
 class FramingLoop:
-    """Finds 55 55, tests length and count, and hands every frame to the parser of its command.
+    """A loop that finds 55 55, tests length and count, and hands each frame to its parser.
 
     With the floor's own parsers it is the floor of the stream rows.
     A peer without a stream decoder gets this same loop around its parsers,
@@ -88,7 +88,7 @@ class FramingLoop:
         self._rest = b""
 
     def feed(self, data: bytes) -> list[tuple[int, Any]]:
-        """The (command, parsed frame) pairs that `data` completes."""
+        """Return the (command, parsed frame) pairs that `data` completes."""
         buffer = self._rest + data
         size = len(buffer)
         messages: list[tuple[int, Any]] = []

@@ -1,13 +1,13 @@
-"""How near a client comes to what the line allows: six-servo position reads at 9600 baud.
+"""The speed of clients beside that of the line: six-servo position reads at 9600 baud.
 
     python -m benchmarks.line [--reads N] [--rounds N] [--via pty|tcp]
 
 A virtual controller, in a process of its own, lets bytes through at the pace of the wire, both
-ways. Besides the time of a read, it tells the processor time that it costs. A read is a request of
-11 bytes and a reply of 23, so 34 bytes of ten bits: 35.4 ms at 9600 baud, and no client that asks
-one thing at a time can be faster. The share is of that rate. On a busy
-machine the pacing itself is late: pyserial alone, which decodes nothing, shows by how much. `xarm`,
-from the package index, is a client of the same controller; where it is not installed, that is said.
+ways. Besides the time of a read, its processor time is printed. A read is a request of 11 bytes and
+a reply of 23, so 34 bytes of ten bits: 35.4 ms at 9600 baud, and no client that sends one request
+at a time can be faster. The share is of that rate. On a busy machine the pacing itself is late:
+pyserial alone, which decodes nothing, shows by how much. `xarm`, from the package index, is a
+client of the same controller; if it is not installed, a line says so.
 """
 
 from __future__ import annotations
@@ -49,19 +49,19 @@ class Taken(NamedTuple):
 
 
 class Watch:
-    """Measures from when it is made."""
+    """A stopwatch that starts when it is made."""
 
     def __init__(self) -> None:
         self._time, self._cpu = time.perf_counter(), time.process_time()
 
     def each(self, reads: int) -> Taken:
-        """What each of so many reads has taken."""
+        """Return the time that each of so many reads has taken."""
         taken, cpu = time.perf_counter() - self._time, time.process_time() - self._cpu
         return Taken(taken / reads, cpu / reads)
 
 
 def with_nothing(port: str, reads: int) -> Taken:
-    """A read, by pyserial alone: what this machine allows at this moment."""
+    """Return the time of a read by pyserial alone: what this machine allows at this moment."""
     request = busservo.ServoPositionsRead(SERVOS).encode()
     with serial.serial_for_url(port, BAUD, timeout=1) as line:
         line.write(request)
@@ -74,7 +74,7 @@ def with_nothing(port: str, reads: int) -> Taken:
 
 
 def with_threads(port: str, reads: int, threads: int = 1) -> Taken:
-    """A read, by the client for threads; or by several that share one."""
+    """Return the time of a read by the client for threads; or by several that share one."""
     with busservo.open_controller(port) as controller, ThreadPoolExecutor(threads) as pool:
         controller.read_servo_positions(SERVOS)
         watch = Watch()
@@ -87,7 +87,7 @@ def with_threads(port: str, reads: int, threads: int = 1) -> Taken:
 
 
 def with_asyncio(port: str, reads: int) -> Taken:
-    """A read, by the client for asyncio."""
+    """Return the time of a read by the client for asyncio."""
 
     async def measure() -> Taken:
         async with busservo.open_async_controller(port) as controller:
@@ -101,7 +101,7 @@ def with_asyncio(port: str, reads: int) -> Taken:
 
 
 def with_xarm(port: str, reads: int) -> Taken:
-    """A read, by the client `xarm`, which takes ports by the name of COM alone."""
+    """Return the time of a read by `xarm`, which takes only ports with a name of COM."""
     import xarm  # noqa: PLC0415 - a peer, and not installed by everybody
 
     before = Path.cwd()
@@ -135,7 +135,7 @@ CONTENDERS: dict[str, Callable[[str, int], Taken]] = {
 
 @contextmanager
 def board(via: str) -> Iterator[str]:
-    """A virtual controller in a process of its own: the name of its port."""
+    """Run a virtual controller in a process of its own, and yield the name of its port."""
     command = [sys.executable, "-m", "busservo_simulator", "--baud", "--quiet"]
     command += ["--tcp", "0"] if via == "tcp" else []
     with subprocess.Popen(
@@ -149,7 +149,7 @@ def board(via: str) -> Iterator[str]:
 
 
 def main() -> None:
-    """Measures all in turn, some rounds of it, and prints the median of each."""
+    """Measure all in turn, some rounds of it, and print the median of each."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--reads", type=int, default=60, help="in a round (default: 60)")
     parser.add_argument("--rounds", type=int, default=5, help="default: 5")

@@ -46,17 +46,17 @@ class Case:
     """The result as the floor gives it."""
 
     def outcome(self) -> object:
-        """What this contender arrives at, as the floor would give it."""
+        """Return the contender's result, in the form of the floor."""
         return self.plain(eval(self.result, dict(self.names)))
 
 
 def targets(count: int) -> list[tuple[int, int]]:
-    """What a MOVE of so many servos is encoded from."""
+    """Return the targets from which a MOVE of `count` servos is encoded."""
     return [(servo_id, 500 + servo_id) for servo_id in range(1, count + 1)]
 
 
 def floor_case(row: str) -> Case:
-    """The floor in this row."""
+    """Return the floor's case for this row."""
     if row in ENCODE_ROWS:
         return _encode(FLOOR, floor.encode_move, ENCODE_ROWS[row])
     command = DECODE_ROWS[row]
@@ -64,7 +64,7 @@ def floor_case(row: str) -> Case:
 
 
 def peer_case(row: str, peer: Peer) -> Case:
-    """A peer in this row."""
+    """Return a peer's case for this row."""
     if row in ENCODE_ROWS:
         return _encode(peer.name, peer.encode_move, ENCODE_ROWS[row])
     command = DECODE_ROWS[row]
@@ -86,7 +86,7 @@ def _decode(
 
 
 def measure(row: str, cases: Iterable[Case], rounds: int, seconds: float, into: Results) -> None:
-    """Measure these contenders in this row, by samples of about so many seconds."""
+    """Measure these contenders in this row, by samples of about `seconds`."""
     base = floor_case(row)
     expected = base.outcome()
     floor_sample = sampling.statement_sample(base.statement, base.names, seconds)

@@ -1,4 +1,4 @@
-"""The generated library, and the statements by which its users do the work of each row."""
+"""The generated library, and the statements with which its users do the work of each row."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ IMPORTS = {
     IN_USE: "from busservo import StreamDecoder, decode",
     CLIENT: "from busservo import Controller",
 }
-"""Names are imported when they are asked for, so the import alone tells half of it."""
+"""Names are imported on first use, so the import statement alone shows half of the cost."""
 
 _NAMES: dict[str, Any] = {
     "decode": busservo.decode,
@@ -47,7 +47,7 @@ for chunk in chunks:
 
 
 def message_cases(row: str) -> list[messages.Case]:
-    """Encode or decode one message, by the ways in which one may."""
+    """Return the cases that encode or decode one message, one for each way to do it."""
     if row in messages.ENCODE_ROWS:
         targets = messages.targets(messages.ENCODE_ROWS[row])
         names = {
@@ -83,7 +83,7 @@ def message_cases(row: str) -> list[messages.Case]:
 
 
 def stream_cases() -> list[streams.Case]:
-    """Decode a stream: messages alone, and every field of every event read, in two ways."""
+    """Return the cases that decode a stream: messages alone, and every field, in two ways."""
     plainly = _read_stream(_READ_POSITIONS)
     columns = _read_stream(_READ_COLUMNS)
     return [
@@ -94,17 +94,17 @@ def stream_cases() -> list[streams.Case]:
 
 
 def _read_stream(positions: str) -> str:
-    """What reads a whole stream, with this statement for a reply with positions."""
+    """Return a statement that reads a whole stream, with this one for a reply with positions."""
     return _READ_STREAM.format(positions=indent(positions.format("event"), " " * 12).lstrip())
 
 
 def decoder() -> StreamDecoder:
-    """A decoder of what the controller sends."""
+    """Return a decoder of what the controller sends."""
     return StreamDecoder(Direction.CONTROLLER_TO_HOST)
 
 
 def plain(message: Any) -> object:
-    """A message as the floor's parsers would give it: used to check, never timed."""
+    """Return a message in the form of the floor: used to check, never timed."""
     if isinstance(message, busservo.ServoPositions):
         return tuple((servo.servo_id, servo.position) for servo in message.positions)
     if isinstance(message, busservo.BatteryVoltage):
@@ -115,5 +115,5 @@ def plain(message: Any) -> object:
 
 
 def plain_events(events: list[Any]) -> list[tuple[int, object]]:
-    """The messages among these events as the floor would list them."""
+    """Return the messages among these events in the form of the floor."""
     return [(event.COMMAND, plain(event)) for event in events if not isinstance(event, Noise)]

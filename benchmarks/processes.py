@@ -22,13 +22,13 @@ _BARE = "pass"
 
 
 class FailedError(Exception):
-    """A process that was to be measured ended with an error."""
+    """A measured process ended with an error."""
 
 
 def cpu_seconds(
     command: Sequence[str], path: str | None = None, folder: Path | None = None
 ) -> float:
-    """CPU seconds of a fresh process, system calls included."""
+    """Return the CPU seconds of a fresh process, system calls included."""
     environment = dict(os.environ)
     # Without a cache of bytecode every import would be a compilation.
     environment.pop("PYTHONDONTWRITEBYTECODE", None)
@@ -50,7 +50,7 @@ def cpu_seconds(
 def measure_import(
     contender: str, statement: str, path: str | None, rounds: int, into: Results
 ) -> None:
-    """Milliseconds that an import adds to a bare Python, whose samples lie around it."""
+    """Measure the milliseconds that an import adds to a bare Python, sampled around it."""
 
     def process(code: str) -> float:
         return cpu_seconds([sys.executable, "-c", code], path)
@@ -69,7 +69,7 @@ def measure_import(
 def measure_command(
     row: str, contender: str, command: Sequence[str], rounds: int, into: Results
 ) -> None:
-    """CPU seconds of a fresh process that does all there is to do."""
+    """Measure the CPU seconds of a fresh process that does the whole work."""
     sample = partial(cpu_seconds, command, folder=_ROOT)
     try:
         sample()

@@ -1,4 +1,4 @@
-"""The tables that a run ends with, in Markdown."""
+"""The tables at the end of a run, in Markdown."""
 
 from __future__ import annotations
 
@@ -83,7 +83,7 @@ def everything(
     absent: Sequence[Absent],
     rounds: int,
 ) -> str:
-    """The whole report."""
+    """Return the whole report."""
     titles = {FLOOR: "floor (struct by hand)"}
     titles |= {name: name for name in (OURS, EVERY_FIELD, AS_COLUMNS, IN_USE, CLIENT)}
     titles |= {peer.name: peer.title for peer in present}
@@ -120,7 +120,7 @@ def _comparison(
     titles: Mapping[str, str],
     missing: Sequence[str],
 ) -> str:
-    """Contenders down, rows of the benchmark across, medians in the cells."""
+    """Return a table with contenders down, rows of the benchmark across, medians in the cells."""
     lines = []
     for contender, title in titles.items():
         cells = [_cell(results, row, contender) for row in columns]
@@ -144,7 +144,7 @@ def _cell(results: Results, row: str, contender: str) -> str:
 
 
 def _notes(results: Results, present: Sequence[Peer], absent: Sequence[Absent]) -> Iterator[str]:
-    """What a reader of the tables should know of single contenders."""
+    """Yield remarks on single contenders, for readers of the tables."""
     for peer in present:
         for kind, reason in peer.lacks.items():
             if any(row.startswith(kind) for row, _ in results.outcomes):
@@ -160,7 +160,7 @@ def _notes(results: Results, present: Sequence[Peer], absent: Sequence[Absent]) 
 
 
 def _against_targets(results: Results) -> str:
-    """Our own rows next to bar and goal; the quartiles say how far a median can be trusted."""
+    """Return our rows beside bar and goal; quartiles show how far a median can be trusted."""
     lines = []
     for target in TARGETS:
         spread = results.spread(target.row, target.contender)
@@ -179,14 +179,14 @@ def _against_targets(results: Results) -> str:
 
 
 def _figure(value: float) -> str:
-    """Three significant digits or so."""
+    """Return a number with about three significant digits."""
     if abs(value) < 9.995:
         return f"{value:.2f}"
     return f"{value:.1f}" if abs(value) < 99.95 else f"{value:.0f}"
 
 
 def _table(head: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
-    """A Markdown table whose columns line up: the first to the left, the others to the right."""
+    """Return a Markdown table: the first column aligned to the left, the others to the right."""
     lines = [list(head), *map(list, rows)]
     widths = [max(len(line[column]) for line in lines) for column in range(len(head))]
 

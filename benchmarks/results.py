@@ -1,4 +1,4 @@
-"""What a run has found: one outcome for every row and contender."""
+"""The results of a run: one outcome for every row and contender."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ CLIENT = "busservo, its client in use"
 
 
 class WrongResultError(Exception):
-    """A contender does not give what the floor gives, so its time would say nothing."""
+    """A contender's result differs from the floor's, so its time would mean nothing."""
 
 
 @dataclass
@@ -37,11 +37,11 @@ class Results:
     """A sentence for every contender that was refused."""
 
     def spread(self, row: str, contender: str) -> Spread | None:
-        """What was measured of a contender in a row, if anything was."""
+        """Return the measurement of a contender in a row, if there is one."""
         outcome = self.outcomes.get((row, contender))
         return outcome if isinstance(outcome, Spread) else None
 
     def refuse(self, row: str, contender: str, error: Exception) -> None:
-        """Note that a contender failed, or gave a wrong result, and was not timed."""
+        """Record that a contender failed, or gave a wrong result, and was not timed."""
         self.outcomes[row, contender] = "failed"
         self.wrong.append(f"{contender}, {row}: {error}")

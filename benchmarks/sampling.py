@@ -1,4 +1,4 @@
-"""How a sample is taken: CPU time, and every sample between two samples of the floor."""
+"""Sampling: CPU time, and every sample between two samples of the floor."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ class Spread:
 
 
 def spread(values: list[float]) -> Spread:
-    """Median and quartiles of at least one value."""
+    """Return median and quartiles of at least one value."""
     if len(values) == 1:
         return Spread(values[0], values[0], values[0])
     low, median, high = statistics.quantiles(values, n=4, method="inclusive")
@@ -36,7 +36,7 @@ def spread(values: list[float]) -> Spread:
 
 
 def between(floor: Sample, contender: Sample, rounds: int) -> list[tuple[float, float]]:
-    """For every round the contender's sample, and the mean of the floor's before and after it."""
+    """Return for every round the contender's sample, and the mean of the floor's around it."""
     pairs = []
     for number in range(rounds):
         before = floor(number)
@@ -47,14 +47,14 @@ def between(floor: Sample, contender: Sample, rounds: int) -> list[tuple[float, 
 
 
 def ratio(pairs: list[tuple[float, float]]) -> Spread:
-    """The contender over the floor, taken round by round."""
+    """Return the contender over the floor, taken round by round."""
     return spread([own / floor for own, floor in pairs])
 
 
 def statement_seconds(
     statement: str, names: Mapping[str, Any], number: int, setup: str = ""
 ) -> float:
-    """CPU seconds that `number` runs of a statement take.
+    """Return the CPU seconds that `number` runs of a statement take.
 
     A statement is text, as for `timeit`, so that neither side pays for a call that is not its own.
     """
@@ -68,7 +68,7 @@ def statement_seconds(
 
 
 def statement_sample(statement: str, names: Mapping[str, Any], seconds: float) -> Sample:
-    """A sample of a small statement, repeated so that one sample lasts about `seconds`."""
+    """Return a sample of a small statement, repeated so that one sample lasts about `seconds`."""
     number = 1
     while (taken := statement_seconds(statement, names, number)) < seconds / 4:
         number *= 4

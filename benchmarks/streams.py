@@ -51,7 +51,7 @@ class Case:
     """Whether a sample decodes all that it may, or only what fits its time."""
 
     def messages(self, data: bytes, chunk: int) -> list[tuple[int, object]]:
-        """All messages of a stream, as the floor lists them."""
+        """Return all messages of a stream, in the form of the floor."""
         feed = self.decoder().feed
         events: list[Any] = []
         for start in range(0, len(data), chunk):
@@ -59,19 +59,19 @@ class Case:
         return self.plain(events)
 
     def seconds(self, number: int, *, kind: str, chunk: int, size: int) -> float:
-        """CPU seconds for the first `size` bytes of a piece."""
+        """Return the CPU seconds for the first `size` bytes of a piece."""
         chunks = captures.chunks(kind, number % PIECES, size, chunk)
         names = {**self.names, "decoder": self.decoder, "chunks": chunks}
         return sampling.statement_seconds(self.statement, names, 1, "feed = decoder().feed")
 
 
 def floor_case() -> Case:
-    """The floor: the framing loop with the floor's own parsers."""
+    """Return the floor's case: the framing loop with the floor's own parsers."""
     return Case(FLOOR, floor.FramingLoop, lambda events: events)
 
 
 def peer_case(peer: Peer) -> Case:
-    """A peer: the same framing loop with its parsers."""
+    """Return a peer's case: the same framing loop with its parsers."""
     return Case(
         peer.name,
         partial(floor.FramingLoop, peer.parsers),

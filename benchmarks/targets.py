@@ -1,4 +1,4 @@
-"""What our own rows are held against: the bar that must not be missed, and the goal."""
+"""The targets of our own rows: the bar that must not be missed, and the goal."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from benchmarks.results import AS_COLUMNS, AT_HAND, BY_CLASS, CLIENT, EVERY_FIEL
 
 @dataclass(frozen=True)
 class Target:
-    """One row of ours; a row without bar and goal is only told."""
+    """The target of one of our rows; a row without bar and goal is only reported."""
 
     row: str
     contender: str
@@ -18,7 +18,7 @@ class Target:
     goal: float | None = None
 
     def verdict(self, value: float) -> str:
-        """PASS or over, by the bar; a goal that is reached is named."""
+        """Return PASS or over, by the bar; name a goal that is reached."""
         by_bar = [] if self.bar is None else ["PASS" if value <= self.bar else "over"]
         by_goal = [] if self.goal is None or value > self.goal else ["goal"]
         return ", ".join(by_bar + by_goal)

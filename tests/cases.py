@@ -1,4 +1,4 @@
-"""The tables of truth: what a frame says, which frames are none, and which values no frame carries.
+"""The tables of truth: frames and their meaning, bytes that are none, values that none carries.
 
 Every frame was typed in from the protocol document or follows from its rules; none was produced by
 the library. Whatever reads or writes frames is held to these tables.
@@ -34,7 +34,7 @@ EITHER = None
 
 
 class Case(NamedTuple):
-    """A message, its frame, who sends it, and where that is known from."""
+    """A message, its frame, who sends it, and the source of it if there is one."""
 
     message: Message
     hex: str
@@ -98,6 +98,12 @@ CASES = (
         "1.7 reply",
     ),
     Case(ActionGroupStarted(group=8, times=1), "55 55 05 06 08 01 00", CONTROLLER, "2.1 report"),
+    Case(
+        ActionGroupStarted(group=2, times=ActionGroupStarted.TIMES_UNLIMITED),
+        "55 55 05 06 02 00 00",
+        CONTROLLER,
+        "report of 1.2 example 2",
+    ),
     # From elsewhere: a real board, and the two reports that the document only hints at.
     Case(BatteryVoltage(voltage_mv=7881), "55 55 04 0F C9 1E", CONTROLLER, "captured reply"),
     Case(ActionGroupStopped(), "55 55 02 07", CONTROLLER, "report of a stop"),
@@ -164,7 +170,7 @@ each_case = pytest.mark.parametrize("case", CASES, ids=lambda case: case.source)
 
 
 class BadFrame(NamedTuple):
-    """Bytes that are no frame of a direction, why not, and from which byte on."""
+    """Bytes that are no frame of a direction, the reason, and the first byte that shows it."""
 
     hex: str
     direction: Direction | None
@@ -244,7 +250,7 @@ each_bad_frame = pytest.mark.parametrize(
 
 
 class BadValue(NamedTuple):
-    """A message that cannot be, where and what its first wrong value is, and what is said of it."""
+    """A message that cannot exist, the place of its first wrong value, and the error's text."""
 
     make: Callable[..., Message]
     fields: dict[str, Any]

@@ -1,8 +1,8 @@
-"""What holds for every test: a client sends no malformed frame; and how long Hypothesis searches.
+"""Fixtures for every test: a client sends no malformed frame; and how long Hypothesis searches.
 
 Its profiles are `ci`, the same examples in every run; `quick`, fewer of them; and `fuzz`, a long
 search for others. One is chosen by HYPOTHESIS_PROFILE or --hypothesis-profile. No test sets
-max_examples of its own: that would hold the search back.
+max_examples of its own: that would limit the search.
 """
 
 from __future__ import annotations
@@ -54,7 +54,7 @@ _PASSED = pytest.StashKey[bool]()
 def pytest_runtest_makereport(
     item: pytest.Item, call: pytest.CallInfo[None]
 ) -> Generator[None, pytest.TestReport, pytest.TestReport]:
-    """Note whether the test itself has passed: of one that was skipped, nothing can be asked."""
+    """Note whether the test itself has passed: one that was skipped is not checked further."""
     report = yield
     if call.when == "call":
         item.stash[_PASSED] = report.passed
@@ -65,7 +65,7 @@ def pytest_runtest_makereport(
 def no_board_refuses_anything(
     request: pytest.FixtureRequest, monkeypatch: pytest.MonkeyPatch
 ) -> Iterator[None]:
-    """Every board that a test starts must understand all that it hears.
+    """Check that every board that a test starts understands all that it receives.
 
     Save in a test marked `garbage`, which sends what is no frame on purpose, and then must.
     """

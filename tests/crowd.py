@@ -17,12 +17,12 @@ _FIELDS = 6
 
 
 def taken(kind: str) -> list[str]:
-    """The words that no name of a kind can be, in the order of the alphabet."""
+    """Return the words that no name of a kind can be, in alphabetical order."""
     return sorted({word for row in RESERVED if row.kind == kind for word in row.words})
 
 
 def taken_names() -> Data:
-    """Every taken word but those of elements, as names of what they are taken for."""
+    """Return every taken word but those of elements, as a name of the kind it is taken for."""
     crowd = Crowd("json", "any", "noise")
     for at, words in enumerate(_in_parts(taken("field"))):
         crowd.command(f"Told{at}", words)
@@ -52,7 +52,7 @@ def taken_names() -> Data:
 
 
 def taken_elements() -> Data:
-    """Every taken word of elements as the name of one."""
+    """Return every taken word of elements as the name of one."""
     crowd = Crowd("serial", "host", "either")
     for at, name in enumerate(taken("element")):
         if not _shouted(name):
@@ -61,7 +61,7 @@ def taken_elements() -> Data:
 
 
 def taken_pose() -> Data:
-    """All other messages, and a pose with names that the client has already."""
+    """Return all other messages, and a pose with names that the client has already."""
     crowd = Crowd("pose", "host", "arm")
     crowd.report("Places", [], listed="found", element="Place", of=["id", "position"])
     crowd.command(
@@ -90,7 +90,7 @@ def taken_pose() -> Data:
 
 
 class Crowd:
-    """A spec that grows by a message at a time, each with an example in which all is 1."""
+    """A spec that grows by one message at a time, each with an example of all ones."""
 
     def __init__(self, name: str, client: str, device: str) -> None:
         self._ids = count(1)
@@ -118,11 +118,11 @@ class Crowd:
         }
 
     def command(self, name: str, fields: list[str], **more: Any) -> None:
-        """What the client sends."""
+        """Add a message that the client sends."""
         self._add(name, " -> ".join(self._ends), fields, **more)
 
     def report(self, name: str, fields: list[str], **more: Any) -> None:
-        """What the device sends."""
+        """Add a message that the device sends."""
         self._add(name, " -> ".join(reversed(self._ends)), fields, **more)
 
     def _add(

@@ -32,7 +32,7 @@ class DeviceLine:
 
 
 def client_of(device: Any) -> Any:
-    """A client of the library that the device is of; nothing in it sleeps."""
+    """Return a client of the device's library; nothing in it sleeps."""
     package = next(
         kind.__module__.partition(".")[0]
         for kind in type(device).__mro__

@@ -1,12 +1,12 @@
-"""Plays the examples in our pages: runs what they tell the reader to run, and says what is printed.
+"""Run the examples in our pages as a reader would, and compare what they print.
 
-Fenced blocks are played from the top of a page to its end, in a copy of the project: `console`
+Fenced blocks are run from the top of a page to its end, in a copy of the project: `console`
 (commands after `$`, with what they print), `pycon` (a Python session), `python` (a program),
 `output` (what the last program printed) and `diff`, which is applied to the file that it names.
 A command is a process of its own once a page has changed what it is made of, and runs in this one
 until then, as its entry point does: for most pages, starting it would be most of the work.
 Whatever port a command or a program opens, a virtual board is there.
-What is printed may leave lines out with `...`; all else must agree to the letter.
+Output may leave lines out with `...`; all else must agree to the letter.
 
     python -m tests.documents
 
@@ -67,13 +67,13 @@ _COMMAND = re.compile(r"^\$ (.*)\n", re.MULTILINE)
 
 
 def played(page: str, folder: Path) -> str:
-    """The page as it should be, with what its examples print in `folder`, which they may change."""
+    """Return the page with what its examples really print in `folder`, which they may change."""
     player = _Player(folder)
     return _BLOCK.sub(lambda block: f"```{block[1]}\n{player.play(block[1], block[2])}```", page)
 
 
 def copy_project(folder: Path) -> Path:
-    """A copy of all that the examples work on."""
+    """Copy all that the examples work on, and return the copy."""
     for name in _NEEDED:
         litter = shutil.ignore_patterns("__pycache__")
         shutil.copytree(ROOT / name, folder / name, ignore=litter)
@@ -103,7 +103,7 @@ class _Player:
         return block
 
     def _program(self, source: str) -> str:
-        """What a program prints that opens a port, whichever it names: a virtual board is there."""
+        """Return the output of a program that opens any port: a virtual board is there."""
         output = io.StringIO()
         with VirtualController(via="tcp", groups=GROUPS) as board:
             opening = mock.patch.multiple(
@@ -129,7 +129,7 @@ class _Player:
         return shown
 
     def _run(self, line: str) -> str:
-        """What a terminal shows for a command line, which may hold pipes."""
+        """Return what a terminal shows for a command line, which may hold pipes."""
         output = ""
         for command in line.split(" | "):
             name, *arguments = shlex.split(command)
@@ -140,7 +140,7 @@ class _Player:
         return output
 
     def _start(self, name: str, words: list[str], given: str) -> str:
-        """What a command of the changed project prints."""
+        """Return the output of a command of the changed project."""
         folders = (str(self._folder / each) for each in ("generated", "codegen"))
         return subprocess.run(
             [sys.executable, "-m", name, *words],
@@ -156,7 +156,7 @@ class _Player:
         ).stdout
 
     def _call(self, name: str, words: list[str], given: str) -> str:
-        """What a command of the project prints as it is."""
+        """Return the output of a command of the project as it is."""
         screen = io.TextIOWrapper(io.BytesIO(), encoding="utf-8", newline="\n", write_through=True)
         keys = io.TextIOWrapper(io.BytesIO(given.encode()), encoding="utf-8")
         with (
@@ -183,7 +183,7 @@ class _Player:
         return shown
 
     def _evaluate(self, source: str) -> str:
-        """What an interactive Python prints."""
+        """Return the output of an interactive Python."""
         output = io.StringIO()
         with contextlib.redirect_stdout(output):
             try:
@@ -196,7 +196,7 @@ class _Player:
 
 @contextlib.contextmanager
 def _at(folder: Path) -> Iterator[None]:
-    """contextlib.chdir, which Python 3.10 lacks."""
+    """Change the working directory: contextlib.chdir, which Python 3.10 lacks."""
     before = Path.cwd()
     os.chdir(folder)
     try:
@@ -207,7 +207,7 @@ def _at(folder: Path) -> Iterator[None]:
 
 @contextlib.contextmanager
 def _connected(words: list[str]) -> Iterator[tuple[list[str], Callable[[str], str]]]:
-    """A command line with a virtual board at its port, and how to tell what it then prints."""
+    """Return a command line with a virtual board at its port, and how to read its output."""
     if "--port" not in words:
         yield words, str
         return
@@ -220,16 +220,16 @@ def _connected(words: list[str]) -> Iterator[tuple[list[str], Callable[[str], st
 
 
 def _told(expected: str, actual: str) -> str:
-    """What is expected, where it agrees with what is, save for lines left out; else what is."""
+    """Return the expected text if it agrees with the real one, omissions aside; else the latter."""
     pieces = re.split(r"^\.\.\.\n", expected, flags=re.MULTILINE)
     pattern = r"(?:.*\n)*".join(map(re.escape, pieces))
     return expected if re.fullmatch(pattern, actual) else actual
 
 
 def _apply(diff: str, folder: Path) -> str:
-    """Change a file as a diff says, and tell the folder at the top that it is in.
+    """Change a file as a diff says, and return the folder at the top of its path.
 
-    Lines are found by what they hold, so `@@` has no numbers.
+    Lines are found by their text, so `@@` has no numbers.
     """
     _, target, *hunks = re.split(r"^(?:--- .*\n\+\+\+ (.*)\n|@@\n)", diff, flags=re.MULTILINE)
     file = folder / target

@@ -1,4 +1,4 @@
-"""Specs as data that tests can change, and the files and libraries that follow from them."""
+"""Specs as data that tests can change, and the files and libraries made from them."""
 
 import importlib
 import json
@@ -27,19 +27,19 @@ Steps: TypeAlias = "tuple[str | int, ...]"
 
 
 def data_of(file: Path) -> Data:
-    """What a spec file says."""
+    """Return the values of a spec file."""
     return read_tree(read_source(file))[0].data
 
 
 def kiln() -> Data:
-    """What the spec says that the guide to the language puts together."""
+    """Return the values of the spec that the language guide puts together."""
     guide = (ROOT / "docs" / "write-a-spec.md").read_text(encoding="utf-8")
     blocks = re.findall(r"```yaml\n(.*?)```", guide, re.DOTALL)
     return read_tree(Source("kiln.yaml", "\n".join(blocks)))[0].data
 
 
 def yaml_of(value: object) -> str:
-    """`value` as YAML, every text in double quotes and in ASCII, whatever it holds."""
+    """Return `value` as YAML, every text in double quotes and in ASCII, whatever it holds."""
     if isinstance(value, dict):
         return "{" + ", ".join(f"{yaml_of(k)}: {yaml_of(v)}" for k, v in value.items()) + "}"
     if isinstance(value, list):
@@ -63,12 +63,12 @@ def _escaped(character: str) -> str:
 
 
 def compiled_of(data: Data, name: str = "made_up.yaml") -> Compiled:
-    """The spec that `data` says, by way of its text. Raises Unusable."""
+    """Compile `data`, by way of its text. Raises Unusable."""
     return compile_spec(Source(name, yaml_of(data)))
 
 
 def rules_broken(data: Data) -> list[str]:
-    """The rules that a spec breaks, or `unusable` for one that cannot be read at all."""
+    """Return the rules that a spec breaks, or `unusable` for one that cannot be read at all."""
     try:
         return [finding.rule for finding in compiled_of(data).findings]
     except Unusable:
@@ -76,25 +76,25 @@ def rules_broken(data: Data) -> list[str]:
 
 
 def layout_of(data: Data) -> Model:
-    """What follows from a spec without findings."""
+    """Return the model of a spec without findings."""
     compiled = compiled_of(data)
     assert [finding.message for finding in compiled.findings] == []
     return compiled.model
 
 
 def files_of(data: Data, name: str = "made_up.yaml") -> dict[str, str]:
-    """The library of a spec without findings."""
+    """Return the library of a spec without findings."""
     return library_files(compiled_of(data, name))
 
 
 def library_files(compiled: Compiled) -> dict[str, str]:
-    """The same, of what is compiled already."""
+    """Return the library of a compiled spec."""
     assert [finding.message for finding in compiled.findings] == []
     return render_target(python.TARGET, compiled)
 
 
 def vectors_of(compiled: Compiled) -> dict[str, Any]:
-    """The test vectors of a protocol, as they are published."""
+    """Return the test vectors of a protocol, as they are published."""
     (text,) = render_target(vectors.TARGET, compiled).values()
     assert text.isascii()
     document: dict[str, Any] = json.loads(text)
@@ -102,7 +102,7 @@ def vectors_of(compiled: Compiled) -> dict[str, Any]:
 
 
 def leaves(value: Any, path: Steps = ()) -> Iterator[tuple[Steps, str]]:
-    """Every text in a spec, with the steps to it."""
+    """Yield every text in a spec, with the steps to it."""
     if isinstance(value, dict):
         for key, item in value.items():
             yield from leaves(item, (*path, key))
@@ -114,7 +114,7 @@ def leaves(value: Any, path: Steps = ()) -> Iterator[tuple[Steps, str]]:
 
 
 def changed(value: Any, change: Callable[[Steps, str], str], path: Steps = ()) -> Any:
-    """A copy in which every text is what `change` makes of it."""
+    """Return a copy in which every text is what `change` makes of it."""
     if isinstance(value, dict):
         return {key: changed(item, change, (*path, key)) for key, item in value.items()}
     if isinstance(value, list):
@@ -123,7 +123,7 @@ def changed(value: Any, change: Callable[[Steps, str], str], path: Steps = ()) -
 
 
 def renamed(value: Any, old: str, new: str) -> Any:
-    """A copy in which the name `old` is `new` wherever it stands, keys and formulas included."""
+    """Return a copy with the name `old` replaced by `new`, keys and formulas included."""
     if isinstance(value, dict):
         return {renamed(key, old, new): renamed(item, old, new) for key, item in value.items()}
     if isinstance(value, list):
@@ -142,7 +142,7 @@ def write_files(files: Mapping[str, str], folder: Path) -> None:
 
 @contextmanager
 def library(files: dict[str, str], folder: Path) -> Iterator[ModuleType]:
-    """The library among `files`, written below `folder`, imported, and forgotten again."""
+    """Return the library among `files`, written below `folder`, imported, and forgotten again."""
     write_files(files, folder)
     name = next(path for path in files if path.endswith("/py.typed")).split("/")[1]
     # Another test may have imported a library of the same name.

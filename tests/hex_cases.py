@@ -1,4 +1,4 @@
-"""What is hex, as a table: for the command, for framegen and for the script of the page."""
+"""Hex text, valid or not, as a table: for the command, for framegen and for the page's script."""
 
 import random
 
@@ -60,7 +60,7 @@ NO_HEX = [
 
 
 def random_texts(count: int) -> list[str]:
-    """Text that is nearly hex, the same each time."""
+    """Return texts that are nearly hex, the same each time."""
     pieces = [
         "0x",
         "\\x",

@@ -44,7 +44,7 @@ BYTES = 2 << 30
 
 
 def tried(pattern: str) -> Iterator[tuple[str, str, int]]:
-    """The module and name of each mutant that mutmut has tried, and what became of it."""
+    """Yield the module and name of each mutant that mutmut has tried, and its status."""
     for file in sorted(Path("src").rglob("*.meta")):
         results = json.loads(file.read_text(encoding="utf-8"))["exit_code_by_key"]
         module = file.relative_to("src").as_posix().removesuffix(".py.meta").replace("/", ".")
@@ -54,7 +54,7 @@ def tried(pattern: str) -> Iterator[tuple[str, str, int]]:
 
 
 def verdict(name: str) -> str:
-    """What whole files of tests say: a process of its own, in which nothing of ours is imported."""
+    """Run whole files of tests in a process of its own, and return the result."""
     child = os.fork()
     if child == 0:
         os._exit(_judge(name))
@@ -77,12 +77,12 @@ def _judge(name: str) -> int:
 
 
 def left_out() -> list[str]:
-    """What mutmut leaves out, because its wrappers change what those tests look at, or for time."""
+    """Return what mutmut leaves out, since its wrappers change what tests look at, or for time."""
     return re.findall(r'"(--deselect=[^"]+)"', Path("pyproject.toml").read_text(encoding="utf-8"))
 
 
 def main() -> None:
-    """Judge what is open, and print what became of every mutant, by module."""
+    """Judge the open mutants, and print the status of every mutant, by module."""
     sys.path[:0] = ["src", "."]
     for line in (HERE / "mutation_preload.txt").read_text(encoding="utf-8").splitlines():
         if not line.startswith("#"):

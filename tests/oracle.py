@@ -13,7 +13,7 @@ may hold none; ids, groups and 16-bit values are limited by their width alone.
 
 import functools
 import operator
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from typing import Any
 
 from construct import (
@@ -21,9 +21,12 @@ from construct import (
     Check,
     Const,
     ConstructError,
+    FocusedSeq,
+    FormatField,
     Int16ul,
     Prefixed,
     PrefixedArray,
+    Rebuild,
     Struct,
     Terminated,
     len_,
@@ -52,13 +55,13 @@ _SERVO_AND_POSITION = Struct("servo_id" / Byte, "position" / Int16ul)
 _GROUP_AND_TIMES = ("group" / Byte, "times" / Int16ul)
 _SERVO_IDS = ("servo_ids" / PrefixedArray(Byte, Byte), Check(len_(this.servo_ids) >= 1))
 
-# A move is the one frame whose count does not stand directly before what it counts, so the count
-# is laid out as the field that it is; parse() takes it out again and build() puts it in.
+# A move is the one frame whose count does not stand directly before what it counts. What begins
+# with `_` is no field: parse() leaves it out, and construct works it out again.
 _MOVE = (
-    "servo_count" / Byte,
-    Check(this.servo_count >= 1),
+    "_servo_count" / Rebuild(Byte, len_(this.targets)),
+    Check(this._servo_count >= 1),
     "time_ms" / Int16ul,
-    "targets" / _SERVO_AND_POSITION[this.servo_count],
+    "targets" / _SERVO_AND_POSITION[this._servo_count],
 )
 
 _FRAMES: dict[str, dict[str, Any]] = {
@@ -99,9 +102,7 @@ def parse(frame: bytes, direction: str | None) -> tuple[str, dict[str, Any]]:
                 body = layout.parse(frame).body
             except ConstructError:
                 continue
-            fields = _plain(body)
-            fields.pop("servo_count", None)
-            return name, fields
+            return name, _plain(body)
     raise OracleError(f"not one legal frame ({direction or 'either direction'}): {frame.hex(' ')}")
 
 
@@ -115,8 +116,7 @@ def build(name: str, fields: Mapping[str, Any]) -> bytes:
     if layout is None:
         raise OracleError(f"no message is called {name}")
     try:
-        body = values if name != "ServoMove" else {**values, "servo_count": len(values["targets"])}
-        frame: bytes = layout.build({"body": body})
+        frame: bytes = layout.build({"body": values})
     except (ConstructError, KeyError, TypeError, ValueError) as error:
         raise OracleError(f"{name} cannot be sent with {fields}: {error}") from error
     # construct overlooks a field that it does not know; reading the frame back does not.
@@ -165,7 +165,7 @@ def scan(
 
 
 def may_become_frame(data: bytes, direction: str | None) -> bool:
-    """Whether this is the beginning of some legal frame, one or more bytes short of its end."""
+    """Return whether this begins some legal frame, one or more bytes short of its end."""
     return any(
         len(data) < len(frame) and data[: len(beginning)] == beginning[: len(data)]
         for each in (MESSAGES if direction is None else (direction,))
@@ -207,28 +207,35 @@ def _beginnings(direction: str) -> list[tuple[bytes, bytes]]:
     All fields but the count take any value, so header, length, command and count, the first five
     bytes, decide which beginnings are legal; in a frame without a count, the first four do.
     """
-    one = {"servo_id": 0, "position": 0}
-    bare: list[dict[str, Any]] = [
-        {},
-        {"group": 0, "times": 0},
-        {"group": 0, "percent": 0},
-        {"voltage_mv": 0},
-    ]
-    lists: list[Callable[[int], dict[str, Any]]] = [
-        lambda count: {"time_ms": 0, "targets": [one] * count},
-        lambda count: {"servo_ids": [0] * count},
-        lambda count: {"positions": [one] * count},
-    ]
     pairs = []
     for name in MESSAGES[direction]:
-        pairs += [(frame[:4], frame) for frame in _built(name, bare)]
-        for listed in lists:
-            # A list that is no part of a message is refused whatever its length. More elements
-            # than any frame can hold are tried: build() knows where the limit is.
-            if [*_built(name, [listed(1)])]:
-                frames = _built(name, map(listed, range(256)))
-                pairs += [(frame[:5], frame) for frame in frames]
+        blanks = [*_blanks(_FRAMES[direction][name])]
+        fixed = 4 if len(blanks) == 1 else 5
+        pairs += [(frame[:fixed], frame) for frame in _built(name, blanks)]
     return pairs
+
+
+def _blanks(layout: Any) -> Iterator[dict[str, Any]]:
+    """Give the fields of a layout with every number 0, once for each length of its list.
+
+    More elements than any frame can hold are tried: build() knows where the limit is.
+    """
+    body = layout.body.subcon.subcon
+    fields = [each for each in body.subcons if each.name and not each.name.startswith("_")]
+    numbers = {each.name: 0 for each in fields if isinstance(each.subcon, FormatField)}
+    lists = {each.name: _zero(each.subcon) for each in fields if each.name not in numbers}
+    for count in range(256) if lists else range(1):
+        yield {**numbers, **{name: [element] * count for name, element in lists.items()}}
+
+
+def _zero(layout: Any) -> Any:
+    """Give an element of a list with every number 0."""
+    if isinstance(layout, FormatField):
+        return 0
+    if isinstance(layout, Struct):
+        return {each.name: 0 for each in layout.subcons}
+    # A list with its count in front holds both; any other list holds the layout of its elements.
+    return _zero(layout.subcons[-1] if isinstance(layout, FocusedSeq) else layout.subcon)
 
 
 def _built(name: str, attempts: Iterable[dict[str, Any]]) -> Iterator[bytes]:

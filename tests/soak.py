@@ -1,11 +1,11 @@
-"""A soak: a virtual board is asked a hundred thousand times, with faults all the while.
+"""A soak: a hundred thousand calls to a virtual board, with faults all the while.
 
     python -m tests.soak [--requests N] [--rounds N] [--seed S]
 
 In virtual time; by eight threads over TCP; and by a hundred tasks of asyncio over TCP. Then the
 independent board, as often: see tests/independent/long_run.py. Every value that comes back must be
-the right one, or an error that is declared, in bounded time; every report must be heard, in order;
-and in the end no more memory, threads and waiting messages may be there than after the first fifth.
+the right one, or a declared error, in bounded time; every report must come, in order; and in the
+end no more memory, threads and waiting messages may be there than after the first fifth.
 It is no part of `make test`, which only tries that it runs.
 """
 
@@ -58,7 +58,7 @@ ENOUGH = 50_000
 
 
 class Watch:
-    """Sees that nothing grows from round to round."""
+    """A check that nothing grows from round to round."""
 
     def __init__(self, name: str, ledger: Ledger, client: Controller | AsyncController) -> None:
         self._name = name
@@ -69,7 +69,7 @@ class Watch:
         self._began = time.monotonic()
 
     def round(self, done: int, heard: Sequence[Message]) -> None:
-        """A round is over: so many requests in all, and these reports since the round before."""
+        """End a round: so many requests in all, and these reports since the round before."""
         ledger, session = self._ledger, self._client._session
         assert list(heard) == ledger.reported, "a report was lost"
         ledger.reported.clear()
@@ -87,7 +87,7 @@ class Watch:
             print(f"\r{self._name}: {done} requests", end="", file=sys.stderr, flush=True)
 
     def end(self, requests: int) -> None:
-        """Says what came of it. Raises AssertionError where something has grown."""
+        """Print the result. Raises AssertionError if something has grown."""
         fifth = len(self._blocks) // 5
         grown = min(self._blocks[-3:]) - min(self._blocks[fifth : fifth + 3])
         counters = self._client.counters
@@ -105,7 +105,7 @@ class Watch:
 
 
 def in_virtual_time(requests: int, rounds: int, seed: int) -> None:
-    """One thread, in this process: the board's time is moved on, and nobody sleeps."""
+    """Run one thread, in this process: the board's time is moved on, and nothing sleeps."""
     clock = VirtualClock(follow_reads=True)
     faults = Faults(seed=seed, **VIRTUAL, **BOTH)
     with VirtualController(clock=clock, faults=faults) as board:
@@ -128,7 +128,7 @@ def in_virtual_time(requests: int, rounds: int, seed: int) -> None:
 
 
 def with_threads(requests: int, rounds: int, seed: int) -> None:
-    """Eight threads share a controller."""
+    """Run eight threads that share a controller."""
     faults = Faults(seed=seed, **LIVE, **BOTH)
     with VirtualController("tcp", faults=faults) as board, ThreadPoolExecutor(THREADS) as pool:
         ledger = Ledger(board)
@@ -147,7 +147,7 @@ def with_threads(requests: int, rounds: int, seed: int) -> None:
 
 
 async def with_tasks(requests: int, rounds: int, seed: int) -> None:
-    """A hundred tasks share a controller."""
+    """Run a hundred tasks that share a controller."""
     faults = Faults(seed=seed, **LIVE, **BOTH)
     with VirtualController("tcp", faults=faults) as board:
         ledger = Ledger(board)
@@ -167,7 +167,7 @@ async def with_tasks(requests: int, rounds: int, seed: int) -> None:
 
 
 def main(words: Sequence[str] | None = None) -> None:
-    """Soaks all five ways. Raises AssertionError at the first thing that is wrong."""
+    """Soak all five ways. Raises AssertionError at the first thing that is wrong."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--requests", type=int, default=100_000, help="for each (default: 100000)")
     parser.add_argument("--rounds", type=int, default=50, help="after each, all is looked at")

@@ -1,4 +1,4 @@
-"""Lines to decode, good and bad, cut in all ways; and what was read from them, made comparable."""
+"""Lines to decode, good and bad, in pieces of any size; and their events, made comparable."""
 
 from collections.abc import Iterable
 from itertools import pairwise
@@ -39,7 +39,7 @@ directions = st.sampled_from(DIRECTIONS)
 
 @st.composite
 def damaged_frames(draw: st.DrawFn) -> bytes:
-    """A frame of either direction of which something was lost, changed, repeated or inserted."""
+    """Return a frame of either direction with bytes lost, changed, repeated or inserted."""
     frame = draw(strategies.messages()).encode()
     # Most of what makes a frame one is at its beginning, so that most of the damage belongs there.
     start = draw(st.integers(0, min(6, len(frame)) - 1) | st.integers(0, len(frame) - 1))
@@ -49,7 +49,7 @@ def damaged_frames(draw: st.DrawFn) -> bytes:
 
 @st.composite
 def unknown_frames(draw: st.DrawFn) -> bytes:
-    """The shape of a frame, with a command that neither direction has, and no 55 after it."""
+    """Return the shape of a frame, with a command of neither direction, and no 55 after it."""
     command = draw(st.integers(0, 255).filter(lambda number: number not in _COMMANDS))
     parameters = draw(st.binary(max_size=12)).replace(b"\x55", b"\x56")
     return bytes([0x55, 0x55, len(parameters) + 2, command]) + parameters
@@ -74,7 +74,7 @@ lines = st.lists(
 
 @st.composite
 def pieces(draw: st.DrawFn, line: bytes) -> list[bytes]:
-    """`line`, cut anywhere, also into single bytes, with empty pieces among the others."""
+    """Return `line`, cut anywhere, also into single bytes, with empty pieces among the others."""
     if draw(st.booleans()):
         return single_bytes(line)
     cuts = sorted(draw(st.lists(st.integers(0, len(line)), max_size=12)))
@@ -82,7 +82,7 @@ def pieces(draw: st.DrawFn, line: bytes) -> list[bytes]:
 
 
 def single_bytes(line: bytes) -> list[bytes]:
-    """`line`, byte by byte."""
+    """Return `line`, byte by byte."""
     return [line[at : at + 1] for at in range(len(line))]
 
 
@@ -92,31 +92,31 @@ def single_bytes(line: bytes) -> list[bytes]:
 def read(
     direction: Direction | None, chunks: Iterable[bytes], *, quiet: bool = True
 ) -> list[Event]:
-    """All that a new decoder tells of these chunks, and, with `quiet`, when they are over."""
+    """Return all events of a new decoder for these chunks, and, with `quiet`, of their end."""
     decoder = StreamDecoder(direction)
     events: list[Event] = [event for chunk in chunks for event in decoder.feed(chunk)]
     return [*events, *decoder.flush()] if quiet else events
 
 
 def messages_in(events: Iterable[Event]) -> list[Message]:
-    """The messages alone."""
+    """Return the messages alone."""
     return [event for event in events if isinstance(event, Message)]
 
 
 def unknown_in(events: Iterable[Event]) -> list[UnknownFrame]:
-    """The unknown frames alone."""
+    """Return the unknown frames alone."""
     return [event for event in events if isinstance(event, UnknownFrame)]
 
 
 def bytes_of(events: Iterable[Event]) -> bytes:
-    """The bytes that the events account for, in order."""
+    """Return the bytes that the events account for, in order."""
     return b"".join(
         event.encode() if isinstance(event, Message) else event.data for event in events
     )
 
 
 def joined(events: Iterable[Event]) -> list[Event]:
-    """The events with neighbouring noise of the same reason made one; unknown frames stay whole."""
+    """Return the events with adjacent noise of one reason joined; unknown frames stay whole."""
     whole: list[Event] = []
     for event in events:
         last = whole[-1] if whole else None
@@ -131,13 +131,13 @@ def joined(events: Iterable[Event]) -> list[Event]:
 
 
 def said(message: Message) -> tuple[str, dict[str, Any]]:
-    """A message as its name and its fields, made of plain lists, dicts and numbers."""
+    """Return a message as its name and its fields, made of plain lists, dicts and numbers."""
     fields = {name: _plain(getattr(message, name)) for name in message.__match_args__}
     return type(message).__name__, fields
 
 
 def scanned(events: Iterable[Event]) -> list[tuple[str, dict[str, Any]] | bytes]:
-    """The events as oracle.scan lists them: noise as bytes, all that is adjacent joined."""
+    """Return the events as oracle.scan lists them: noise as bytes, adjacent noise joined."""
     plain: list[tuple[str, dict[str, Any]] | bytes] = []
     for event in events:
         if isinstance(event, Message):
@@ -150,7 +150,7 @@ def scanned(events: Iterable[Event]) -> list[tuple[str, dict[str, Any]] | bytes]
 
 
 def oracles(direction: Direction | None) -> str | None:
-    """The direction, as the oracle names it."""
+    """Return the direction, as the oracle names it."""
     return None if direction is None else direction.value
 
 
@@ -164,5 +164,5 @@ def _plain(value: Any) -> Any:
 
 
 def noise(hex_data: str, reason: Reason) -> Noise:
-    """Noise, from its hex."""
+    """Return noise, from its hex."""
     return Noise(bytes.fromhex(hex_data), reason)

@@ -17,10 +17,11 @@ from framegen.cli import VERBS, main
 from framegen.console import INTERRUPTED, READER_GONE
 from framegen.project import default_spec, project_root
 from framegen.reading.yamltree import Unusable
+from framegen.render import render, render_shared
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from tests.factories import BUSSERVO, DEMO
+from tests.factories import BUSSERVO, DEMO, compiled_of, data_of
 from tests.timeouts import GENEROUS
 
 Capture: TypeAlias = "pytest.CaptureFixture[str]"
@@ -37,7 +38,7 @@ def _in_the_project(monkeypatch: pytest.MonkeyPatch) -> None:
 
 @pytest.fixture
 def misspelt(tmp_path: Path) -> Path:
-    """A spec with one type that there is not, on a known line."""
+    """Return a spec with one type that does not exist, on a known line."""
     file = tmp_path / "misspelt.yaml"
     text = SPEC.read_text(encoding="utf-8")
     file.write_text(text.replace("type: u16\n", "type: u17\n", 1), encoding="utf-8")
@@ -45,13 +46,13 @@ def misspelt(tmp_path: Path) -> Path:
 
 
 def line_of(file: Path, text: str) -> int:
-    """The number of the first line that holds `text`."""
+    """Return the number of the first line that holds `text`."""
     lines = file.read_text(encoding="utf-8").splitlines()
     return next(number for number, line in enumerate(lines, 1) if text in line)
 
 
 def run(*words: str) -> tuple[int, str, str]:
-    """The exit code and both outputs of a real process."""
+    """Return the exit code and both outputs of a real process."""
     result = subprocess.run(
         [sys.executable, "-m", "framegen", *words],
         capture_output=True,
@@ -144,6 +145,19 @@ def test_help_of_a_verb_teaches_by_example(verb: str, capsys: Capture) -> None:
     assert f"\nexamples:\n  framegen {verb}" in shown
 
 
+@pytest.mark.parametrize("words", [["--help"], ["generate", "--help"]])
+def test_help_says_what_is_written_where(words: list[str], capsys: Capture) -> None:
+    assert main(words) == 0
+    table = capsys.readouterr().out.partition("`framegen generate` writes:\n")[2]
+    listed = [line.split()[0] for line in table.partition("\n\n")[0].splitlines()]
+    compiled = compiled_of(data_of(DEMO))
+    for output in (render(compiled), render_shared(compiled)):
+        for path in (output.manifest, *output.files):
+            place = path.replace("greenhouse", "NAME")
+            assert any(place.startswith(each) for each in [*listed, "spec/framegen.manifest"]), path
+    assert "folder that holds spec/, or for a spec that lies elsewhere below its own\n" in table
+
+
 def test_a_mistyped_verb_is_guessed(capsys: Capture) -> None:
     assert main(["expalin", STOP]) == 2
     assert capsys.readouterr().err == (
@@ -225,7 +239,7 @@ def test_an_empty_spec_gets_a_hint(tmp_path: Path, capsys: Capture) -> None:
     assert main(["check", str(file)]) == 2
     error, hint = capsys.readouterr().err.splitlines()
     assert error == (
-        f"framegen: error: {file.as_posix()}: the file is empty, where a spec is a mapping of keys"
+        f"framegen: error: {file.as_posix()}: the file is empty, but a spec is a mapping of keys"
     )
     assert hint.startswith("  hint: begin with `framegen: 2`")
 
@@ -253,7 +267,7 @@ def test_a_rule_says_why_and_shows_both_sides(capsys: Capture) -> None:
     assert capsys.readouterr().out == (
         "unknown-type: Every type is one that the language has\n"
         "\n"
-        "A misspelt type has no size, and nothing after it would have a place.\n"
+        "A type that does not exist has no size, so no later field would have a place.\n"
         "\n"
         "refused:\n"
         "  time_ms: {type: u17}\n"
@@ -283,7 +297,7 @@ def test_an_unknown_rule_is_guessed(capsys: Capture) -> None:
 
 
 def project(folder: Path, *specs: str) -> Path:
-    """Makes a project with these specs, empty."""
+    """Make a project with these specs, empty."""
     (folder / "spec").mkdir(parents=True)
     for name in specs:
         (folder / "spec" / name).write_text("")
@@ -438,7 +452,7 @@ def test_a_missing_package_is_named_with_its_cure() -> None:
     assert result.returncode == 2
     assert result.stderr.decode().splitlines() == [
         "framegen: error: the generator needs `yaml`, which is not installed",
-        "  hint: pip install 'busservo[codegen]'",
+        "  hint: in a clone of its repository: pip install ./codegen",
     ]
 
 

@@ -65,7 +65,7 @@ TREE = data_of(BUSSERVO)
 
 
 def said_by(data: Data) -> dict[str, Row] | None:
-    """What a spec says of its requests; None where `framegen check` objects to it."""
+    """Return the facts of a spec about its requests; None if `framegen check` objects to it."""
     compiled = compile_spec(Source("changed.yaml", json.dumps(data)))
     if compiled.findings or compiled.spec is None:
         return None
@@ -83,7 +83,7 @@ def said_by(data: Data) -> dict[str, Row] | None:
 
 
 def results_of(data: Data) -> dict[str, Any]:
-    """What a spec says of the results of its commands."""
+    """Return the facts of a spec about the results of its commands."""
     return {
         each.request.name: (
             each.acknowledged,

@@ -1,4 +1,4 @@
-"""What commands do with their standard streams, and with text that would command a terminal."""
+"""The standard streams of commands, and text that would control a terminal."""
 
 from __future__ import annotations
 
@@ -64,7 +64,7 @@ EXAMPLE = Command([str(ROOT / "examples" / "virtual_arm.py")])
 
 
 def environments() -> list[dict[str, str]]:
-    """With buffers and bytecode that is written where it is missing; and without either."""
+    """Return environments with and without buffers and cached bytecode."""
     path = os.pathsep.join(filter(None, sys.path))
     switches = ("PYTHONUNBUFFERED", "PYTHONDONTWRITEBYTECODE", "PYTHONPYCACHEPREFIX")
     plain = {name: value for name, value in os.environ.items() if name not in switches}
@@ -78,7 +78,7 @@ def environments() -> list[dict[str, str]]:
 def run(
     command: Command, closed: tuple[int, ...] = (), stdout: int = subprocess.DEVNULL
 ) -> tuple[int, str]:
-    """Run a command in each environment at once; status and errors, which must be the same."""
+    """Run a command in each environment; return status and errors, which must be the same."""
     started = [
         subprocess.Popen(
             [sys.executable, *command.words],
@@ -304,7 +304,7 @@ def test_a_hostile_call_is_refused_in_visible_text(
 
 
 def hidden_in(text: str) -> str:
-    """What a terminal would obey or not show."""
+    """Return the characters that a terminal would obey or not show."""
     return "".join(c for c in text if c != "\n" and unicodedata.category(c) in ("Cc", "Cf", "Cs"))
 
 

@@ -1,4 +1,4 @@
-"""Single frames: what `decode` reads, what it refuses and why, and the way there and back."""
+"""Single frames: what `decode` reads, what it refuses and why, and round trips."""
 
 import re
 from collections.abc import Callable
@@ -26,7 +26,7 @@ each_message = pytest.mark.parametrize("kind", MESSAGES, ids=lambda kind: kind._
 
 
 def strategy_of(kind: type[Message]) -> st.SearchStrategy[Message]:
-    """The strategy that busservo.strategies names after a message."""
+    """Return the strategy that busservo.strategies names after a message."""
     name = re.sub(r"(?<!^)(?=[A-Z])", "_", kind.__name__).lower()
     strategy: st.SearchStrategy[Message] = getattr(strategies, name)()
     return strategy
@@ -54,7 +54,7 @@ def test_a_frame_is_decoded_without_a_direction(case: Case) -> None:
 
 
 class Derived(bytes):
-    """Bytes with an idea of their own of what they are."""
+    """A class of bytes that redefines how it is copied."""
 
     def __bytes__(self) -> bytes:
         return b"other bytes"
@@ -250,7 +250,7 @@ def test_every_message_survives_the_way_there_and_back(
 
 
 def message_or_error(decode: Callable[[bytes], Message], frame: bytes) -> Message | None:
-    """The message that `frame` is; None where a DecodeError points into it."""
+    """Return the message that `frame` is; None where a DecodeError points into it."""
     try:
         return decode(frame)
     except DecodeError as caught:

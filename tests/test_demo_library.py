@@ -1,4 +1,4 @@
-"""The library of another protocol: all that the language can say, held to the reference codec."""
+"""The library of another protocol, with all features of the language, against the reference."""
 
 import doctest
 import importlib
@@ -15,8 +15,8 @@ from typing import Any
 
 import pytest
 from framegen.cases.valid import valid_frames
-from framegen.language import wiretypes
-from framegen.language.wiretypes import WIRE_TYPES, WireType
+from framegen.language import number_types
+from framegen.language.number_types import NUMBER_TYPES, NumberType
 from framegen.model import codec
 from framegen.model.codec import NotAFrame
 from framegen.model.layout import MessageLayout
@@ -52,13 +52,13 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 @pytest.fixture(scope="module", autouse=True)
 def greenhouse(folder: Path) -> Iterator[ModuleType]:
-    """The library, imported under its own name."""
+    """Return the library, imported under its own name."""
     with library(files_of(SPEC), folder) as made:
         yield made
 
 
 def lib() -> Any:
-    """The same, for Hypothesis, which takes no fixtures."""
+    """Return the same, for Hypothesis, which takes no fixtures."""
     return importlib.import_module("greenhouse")
 
 
@@ -98,7 +98,7 @@ def frames(model: Model = LAYOUT) -> st.SearchStrategy[tuple[MessageLayout, dict
 
 
 def arguments(values: dict[str, Any]) -> dict[str, Any]:
-    """Values of the reference codec as arguments of the library: elements as tuples."""
+    """Return values of the reference codec as arguments of the library: elements as tuples."""
     return {
         name: [tuple(item.values()) if isinstance(item, dict) else item for item in value]
         if isinstance(value, list)
@@ -108,7 +108,7 @@ def arguments(values: dict[str, Any]) -> dict[str, Any]:
 
 
 def said_by(message: Any) -> dict[str, Any]:
-    """The fields of a message, comparable with `arguments`."""
+    """Return the fields of a message, comparable with `arguments`."""
     fields = {name: getattr(message, name) for name in message.__match_args__}
     return {
         name: [tuple(item) if isinstance(item, tuple) else item for item in value]
@@ -386,7 +386,7 @@ def test_the_docstrings_of_the_library_run(greenhouse: ModuleType) -> None:
 
 @st.composite
 def lines(draw: st.DrawFn) -> tuple[bytes, list[Any]]:
-    """Frames of stations with noise between that holds no whole header, and their messages."""
+    """Return frames of stations with noise between that holds no header, and their messages."""
     line, sent = b"", []
     kinds = [m for m in LAYOUT.messages.values() if m.direction.sender == "station"]
     for _ in range(draw(st.integers(0, 5))):
@@ -474,7 +474,7 @@ def message_of(number: int, fields: dict[str, Any], *examples: tuple[dict[str, A
 
 
 def spec_with(name: str, message: Data, length: str | int, **frame: Any) -> Data:
-    """A small protocol of one message."""
+    """Return a small protocol of one message."""
     spec = {key: SPEC[key] for key in ("framegen", "sources", "endpoints", "link")}
     part = {"preamble": {"is": "constant", "bytes": "AA"}, **frame}
     return {
@@ -494,7 +494,7 @@ FRAME: dict[str, Any] = {
 
 
 def holds(data: Data, folder: Path) -> None:
-    """A library agrees with the reference codec on each of its messages, ends included."""
+    """Check that a library agrees with the reference codec on each message, ends included."""
     compiled = compiled_of(data)
     layout = compiled.model
     with library(library_files(compiled), folder) as made:
@@ -739,7 +739,7 @@ def test_limits_hold_for_a_number_and_for_numbers_in_a_list(tmp_path: Path) -> N
 def test_a_frame_of_any_layout_works(
     tmp_path: Path, order: str, parts: list[str], size: str, kind: str, counts: list[str]
 ) -> None:
-    widths = {"size": WIRE_TYPES[size].size, "kind": WIRE_TYPES[kind].size, "body": 3}
+    widths = {"size": NUMBER_TYPES[size].size, "kind": NUMBER_TYPES[kind].size, "body": 3}
     length = sum(widths[part] for part in counts)
     values = {"size": length, "kind": 9}
     head = b"".join(
@@ -787,7 +787,7 @@ def test_a_new_field_type_takes_one_new_row(
     )
     data = spec_with("Made", message, "8 * n + 9", **FRAME)
     assert set(rules_broken(data)) == {"unknown-type"}
-    monkeypatch.setitem(wiretypes.WIRE_TYPES, "u64", WireType("u64", 8, 0, 2**64 - 1, "Q"))
+    monkeypatch.setitem(number_types.NUMBER_TYPES, "u64", NumberType("u64", 8, 0, 2**64 - 1, "Q"))
     assert rules_broken(data) == []
     holds(data, tmp_path / "wide")
     data["messages"]["Made"]["fields"]["stamp"]["range"] = f"1..{2**64 - 2}"
@@ -811,7 +811,7 @@ OTHERS = ("blinds", "lamp", "weather")
 
 @pytest.fixture(scope="module")
 def many(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """The libraries of the demo spec and the guide, of all the shapes above, of hardly anything."""
+    """Return the libraries of the demo, the guide, all the shapes above, and a minimal spec."""
     folder = tmp_path_factory.mktemp("many")
     specs = [SPEC, kiln(), *(data_of(DEMO.with_name(f"{name}.yaml")) for name in OTHERS)]
     for name, shapes in {"shapes": list(SHAPES), "bare": ["no fields at all"]}.items():

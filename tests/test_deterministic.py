@@ -27,7 +27,7 @@ from pathlib import Path
 from framegen.compile import compile_spec
 from framegen.language.load import read_source
 from framegen.render import render, render_shared, snippets
-from framegen.targets.docs.pages import render_site
+from framegen.targets.docs.html_pages import render_site
 
 specs = [compile_spec(read_source(Path(name))) for name in sys.argv[1:]]
 files = {f"site/{path}": text for path, text in render_site(specs, snippets()).items()}
@@ -45,7 +45,7 @@ def digests(
     specs: list[Path],
     environment: dict[str, str] | None = None,
 ) -> str:
-    """What that program prints in a fresh interpreter, in that folder and environment."""
+    """Return what that program prints in a fresh interpreter, in that folder and environment."""
     done = subprocess.run(
         [python, "-c", DIGESTS, *map(str, specs)],
         cwd=cwd,
@@ -118,7 +118,7 @@ def test_where_the_project_lies_makes_no_difference(tmp_path: Path) -> None:
 
 
 def other_pythons() -> list[str]:
-    """Every Python from 3.10 on that is at hand, the running one apart."""
+    """Return every Python from 3.10 on that is installed, except the running one."""
     names = [f"python3.{minor}" for minor in range(10, 15)]
     found = [path for name in names if (path := shutil.which(name)) is not None]
     running = Path(sys.executable).resolve()

@@ -1,4 +1,4 @@
-"""`framegen diff`: what changed between two editions of a spec, and what of it breaks."""
+"""`framegen diff`: what changed between two versions of a spec, and what of it breaks."""
 
 import copy
 import json
@@ -18,14 +18,14 @@ GONE = "(gone)"
 
 
 def derived(data: Data) -> Model:
-    """The layout of a spec that need not agree with itself: one fact is changed at a time."""
+    """Return the layout of a spec that may contradict itself: one fact is changed at a time."""
     spec = compiled_of(data).read
     assert spec is not None
     return derive(spec)
 
 
 def with_(data: Data, *path_and_value: Any) -> Data:
-    """A copy with a value at a path, or without what is GONE."""
+    """Return a copy with a value at a path, or without what is GONE."""
     *steps, last, value = path_and_value
     changed = copy.deepcopy(data)
     around = changed
@@ -39,7 +39,7 @@ def with_(data: Data, *path_and_value: Any) -> Data:
 
 
 def told(old: Data, new: Data) -> list[str]:
-    """Each difference as the command has it."""
+    """Return each difference as the command prints it."""
     found = differences(derived(old), derived(new))
     return [f"{each.breaks} {each.path}: {each.kind}: {each}" for each in found]
 
@@ -574,7 +574,7 @@ def _leaves(value: Any, path: Steps = ()) -> Iterator[tuple[Steps, Any]]:
 
 
 def _other(value: Any) -> list[Any]:
-    """What might stand in the place of a value: the spec decides what can."""
+    """Return another value for a place, right or not: the spec decides."""
     if isinstance(value, bool) or value is None:
         return []
     if isinstance(value, int):
@@ -583,7 +583,7 @@ def _other(value: Any) -> list[Any]:
 
 
 def follows(path: Steps) -> bool:
-    """Whether it follows from other facts, and is compared where those are."""
+    """Return whether it follows from other facts, and is compared with those."""
     return path[-1] in {"length", "covers", "counted_by"} or {"examples", "values"} <= {*path}
 
 

@@ -1,4 +1,4 @@
-"""Edges that mutation of the code has shown to be unguarded; docs/testing.md tells how."""
+"""Edges that mutation of the code has shown to be unguarded; see docs/testing.md."""
 
 import busservo
 import pytest
@@ -14,7 +14,7 @@ from busservo import (
 from framegen.language.values import Citation, Direction
 from framegen.model.codec import NotAFrame, decode, encode
 from framegen.model.model import derive
-from framegen.wording import describe_range
+from framegen.pluralize import describe_range
 
 from tests.cases import CASES
 from tests.factories import BUSSERVO, DEMO, compiled_of, data_of, layout_of

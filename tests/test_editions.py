@@ -1,6 +1,6 @@
 """Editions of the language: old ones are read for ever, newer ones refused before all else.
 
-What stands in `specs/editions/N` was right in edition N, and is never edited.
+The specs in `specs/editions/N` were right in edition N, and are never edited.
 """
 
 from __future__ import annotations
@@ -67,4 +67,4 @@ def test_of_a_newer_edition_nothing_else_is_said() -> None:
     [finding] = compile_spec(Source("spec.yaml", text)).findings
     assert finding.rule == "edition"
     assert "edition 3 of the language" in finding.message
-    assert "a newer framegen is needed: pip install --upgrade" in finding.hint
+    assert "a newer framegen is needed: git pull in its clone, then" in finding.hint

@@ -1,4 +1,4 @@
-"""A question whose reply repeats nothing of it is asked whole, by the model and by a client."""
+"""A question whose reply repeats nothing of it is sent whole, by the model and by a client."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 
 
 def long_question(*, echoed: bool) -> Data:
-    """The kiln, whose question for dampers can name more than its reply has room for."""
+    """Return the kiln, whose question for dampers can name more than its reply has room for."""
     data = kiln()
     # A pose is only there where the reply repeats the question.
     del data["pose"]

@@ -1,4 +1,4 @@
-"""What framegen explain says of frames, and of bytes that are none."""
+"""`framegen explain`: its text for frames, and for bytes that are none."""
 
 import json
 from pathlib import Path
@@ -219,7 +219,7 @@ def test_of_a_long_paste_the_bytes_around_the_place_are_shown() -> None:
 
 
 def rows_cover(rows: tuple[Row, ...], data: bytes) -> bool:
-    """Whether the rows, in order, are the first bytes of `data`, none left out."""
+    """Return whether the rows, in order, are the first bytes of `data`, none left out."""
     shown = b"".join(row.data for row in rows)
     ends = [0, *(row.end for row in rows)]
     return data.startswith(shown) and [row.offset for row in rows] == ends[:-1]
@@ -432,7 +432,7 @@ def test_direction_is_chosen_by_sender(
 def test_a_sender_that_there_is_not_is_guessed(capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["explain", str(BUSSERVO), "--direction", "hots", "55"]) == 2
     assert capsys.readouterr().err == (
-        "framegen: error: nothing is sent by 'hots'\n  hint: did you mean `host`?\n"
+        "framegen: error: no endpoint 'hots' sends anything\n  hint: did you mean `host`?\n"
     )
 
 

@@ -156,5 +156,5 @@ def test_any_text_is_a_rule_or_is_refused_in_words(text: str) -> None:
 
 
 def _decimal(code: str) -> str:
-    """Without leading zeros, which Python refuses."""
+    """Return a number without leading zeros, which Python refuses."""
     return " ".join(word.lstrip("0") or "0" if word.isdigit() else word for word in code.split(" "))

@@ -157,7 +157,7 @@ def is_prose(path: Steps) -> bool:
 
 
 def with_prose(data: Data, text: str) -> Data:
-    """The spec with `text` wherever prose stands, and for the place of every citation."""
+    """Return the spec with `text` wherever prose stands, and for the place of every citation."""
 
     def change(path: Steps, old: str) -> str:
         if path[-1] == "cite":
@@ -193,7 +193,7 @@ def python_of(files: dict[str, str]) -> dict[str, str]:
 
 
 def skeleton(text: str) -> str:
-    """A module without its strings: two modules that differ in text alone have the same."""
+    """Return a module without its strings: two modules that differ in text alone have the same."""
     tree = ast.parse(text.encode())
     for node in ast.walk(tree):
         if isinstance(node, ast.Constant) and isinstance(node.value, str):
@@ -207,7 +207,7 @@ def comments(text: str) -> list[str]:
 
 
 def doctests(text: str) -> list[str]:
-    """The code that doctest would run."""
+    """Return the code that doctest would run."""
     parser = doctest.DocTestParser()
     return [
         example.source
@@ -234,7 +234,7 @@ def _traits(text: str) -> Traits:
 
 
 def traits(files: dict[str, str]) -> dict[str, Traits]:
-    """All of the modules that texts must not change; of their heads, all but the digest."""
+    """Return all of the modules that texts must not change; of their heads, all but the digest."""
     return {path: _traits(text) for path, text in python_of(files).items()}
 
 
@@ -244,7 +244,7 @@ def harmless(name: str) -> dict[str, Traits]:
 
 
 def vectors_of_one_frame(title: str, version: str) -> dict[str, Any]:
-    """The vectors of a spec with a single example, of that title."""
+    """Return the vectors of a spec with a single example, of that title."""
     crowd = Crowd("small", "host", "device")
     crowd.command("Only", [])
     crowd.data["protocol"]["version"] = version
@@ -365,7 +365,7 @@ def test_hostile_modules_stay_as_the_formatter_has_them(tmp_path: Path) -> None:
 
 
 def test_what_is_no_prose_is_a_finding_or_inert() -> None:
-    """Types, ids, formulas, citations, versions: each with text that belongs in none of them."""
+    """Type, ids, formulas, citations, versions: each with text that belongs in none of them."""
     data = SPECS["greenhouse"]
     places = [path for path, _ in leaves(data) if not is_prose(path)]
     assert len(places) > 90
@@ -593,7 +593,7 @@ ODD_FIELDS = [
 
 
 def _works(data: Data, folder: Path) -> None:
-    """The library loads, its strategies too, and every vector goes through it both ways."""
+    """Check that the library and its strategies load, and that every vector passes both ways."""
     compiled = compiled_of(data)
     model = compiled.model
     names = names_of(model)

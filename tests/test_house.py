@@ -9,6 +9,7 @@ from pathlib import Path
 import busservo
 import framegen
 import pytest
+import yaml
 from framegen.compile import compile_spec
 from framegen.language.load import read_source
 from framegen.render import render, render_shared
@@ -39,7 +40,7 @@ UNFINISHED = re.compile(r"\b(?:TODO|FIXME|XXX)\b|^(?:<{7}|>{7}|={7}$)", re.MULTI
 
 
 def our_files() -> list[Path]:
-    """What belongs to the project: what git would keep, or else everything but litter."""
+    """Return the project's files: what git would keep, or else everything but litter."""
     git = shutil.which("git")
     if git is not None and (ROOT / ".git").exists():
         listed = subprocess.run(
@@ -60,7 +61,7 @@ def our_files() -> list[Path]:
 
 
 def text_of(file: Path) -> str | None:
-    """The text of a file; None for bytes that are no text."""
+    """Return the text of a file; None for bytes that are no text."""
     try:
         return file.read_text(encoding="utf-8")
     except UnicodeDecodeError:
@@ -102,11 +103,14 @@ def test_text_files_end_with_one_line_break() -> None:
 
 
 def test_there_is_one_version() -> None:
-    in_project = re.search(r'^version = "(.*)"$', TEXTS["pyproject.toml"], flags=re.MULTILINE)
-    newest = re.search(r"^## \[(.*)\]", TEXTS["CHANGELOG.md"], flags=re.MULTILINE)
-    assert in_project is not None
-    assert newest is not None
-    assert in_project[1] == framegen.__version__ == busservo.__version__ == newest[1]
+    said = [TEXTS[project] for project in PROJECTS]
+    versions = re.findall(r'^version = "(.*)"$', "\n".join(said), flags=re.MULTILINE)
+    required = re.findall(r'"busservo==(.*)"', "\n".join(said))
+    changes = re.findall(r"^## \[(.*?)\]", TEXTS["CHANGELOG.md"], flags=re.MULTILINE)
+    assert changes[0] == "Unreleased"
+    # framegen's project file reads its version from the package.
+    assert (len(versions), len(required)) == (2, 1)
+    assert {*versions, *required, *changes[1:2], busservo.__version__} == {framegen.__version__}
 
 
 def test_everything_under_generated_is_what_the_generator_makes() -> None:
@@ -132,88 +136,79 @@ def test_generated_code_silences_no_checker() -> None:
     assert silenced == []
 
 
-# -- The same commands everywhere ------------------------------------------------------------------
+# -- Packages, commands and machines ---------------------------------------------------------------
 
-MAKEFILE = TEXTS["Makefile"]
-WORKFLOW = TEXTS[".github/workflows/ci.yml"]
-CI = TEXTS[".ci/run"]
-README = TEXTS["README.md"]
-HOOKS = TEXTS[".pre-commit-config.yaml"]
+PROJECTS = ("pyproject.toml", "codegen/pyproject.toml", "simulator/pyproject.toml")
+BASH = shutil.which("bash")
+WORKFLOWS = [name for name in TEXTS if name.startswith(".github/workflows/")]
 
 
-def recipe(target: str) -> list[str]:
-    """The commands of a target, without the environment's folder."""
-    found = re.search(rf"^{target}:.*\n((?:\t.*\n)+)", MAKEFILE, flags=re.MULTILINE)
-    assert found is not None
-    return found[1].replace("\t", "").replace("$(IN)/", "").splitlines()
+def lines_of(project: str, *starts: str) -> list[str]:
+    """Those lines of a project file that must be the same in all."""
+    return [line for line in TEXTS[project].splitlines() if line.lstrip().startswith(starts)]
 
 
-@pytest.mark.parametrize("command", ["make", "make lint", "make test"])
-def test_all_that_run_the_house_run_it_alike(command: str) -> None:
-    assert re.search(rf"^ *- run: {command}$", WORKFLOW, flags=re.MULTILINE)
-    assert re.search(rf"^{command}$", CI, flags=re.MULTILINE)
+def test_what_packages_have_in_common_is_the_same() -> None:
+    python = '"Programming Language :: Python ::'
+    common = ("requires", "build-backend", "license", "authors", python, '"Operating System ::')
+    first, *others = [lines_of(project, *common) for project in PROJECTS]
+    assert len(first) == 12
+    assert all(other == first for other in others)
+    assert {TEXTS[f"{folder}LICENSE"] for folder in ("", "codegen/", "simulator/")} == {
+        TEXTS["LICENSE"]
+    }
 
 
-@pytest.mark.parametrize("command", ["make", "make test"])
-def test_the_readme_has_the_two_commands(command: str) -> None:
-    assert re.search(rf"^{command}  +# ", README, flags=re.MULTILINE)
-
-
-def test_windows_runs_what_the_readme_says() -> None:
-    by_hand = re.search(r"^```bat\n(.*?)^```", README, flags=re.MULTILINE | re.DOTALL)
-    job = re.search(r"^  windows:\n(.*?)^  [a-z-]+:", WORKFLOW, flags=re.MULTILINE | re.DOTALL)
-    assert by_hand is not None
-    assert job is not None
-    _venv, _activate, *said = by_hand[1].splitlines()
-    # On a fresh machine nothing may differ from what was committed.
-    said = [f"{line} --check" if line == "framegen generate" else line for line in said]
-    assert re.findall(r"^ *- run: (.*)$", job[1], flags=re.MULTILINE) == said
-
-
-def test_plain_commands_do_what_make_does() -> None:
-    assert all(command in README for command in recipe("all"))
-
-
-def test_hooks_are_lints() -> None:
-    hooks = re.findall(r"^ *entry: \.venv/bin/(.*)$", HOOKS, flags=re.MULTILINE)
-    assert {hook.removesuffix(" --force-exclude") for hook in hooks} <= set(recipe("lint"))
-
-
-def test_hooks_are_local() -> None:
-    assert re.findall(r"repo: (.*)", HOOKS) == ["local"]
-
-
-def test_every_supported_python_is_tested() -> None:
+def test_a_declared_python_is_a_tested_one() -> None:
     declared = re.findall(r"Python :: (3\.\d+)", TEXTS["pyproject.toml"])
-    matrix = re.search(r"python: \[(.*)\]", WORKFLOW)
-    versions = re.search(r'^VERSIONS="(.*)"$', CI, flags=re.MULTILINE)
-    assert matrix is not None
-    assert versions is not None
-    assert re.findall(r'"(.*?)"', matrix[1]) == versions[1].split() == declared
+    job = yaml.safe_load(TEXTS[".github/workflows/ci.yml"])["jobs"]["linux"]
+    assert job["strategy"]["matrix"]["python"] == declared
     assert f'requires-python = ">={declared[0]}"' in TEXTS["pyproject.toml"]
 
 
-def test_a_whole_run_depends_on_no_variable_and_no_file_of_a_machine() -> None:
-    started = re.search(r"exec env -i ((?:.|\n)*?) bash \.ci/run$", CI, flags=re.MULTILINE)
-    reaching = re.search(r'^REACHING="([^"]*)"$', CI, flags=re.MULTILINE)
-    assert started is not None
-    assert reaching is not None
-    assert re.findall(r"(\w+)=", started[1]) == ["HOME", "PATH", "LANG", "CI", "BEGUN_ANEW"]
+@pytest.mark.skipif(BASH is None, reason="there is no bash here")
+def test_a_whole_run_depends_on_no_variable_and_no_folder_of_a_machine(tmp_path: Path) -> None:
+    stray = tmp_path / "bin"
+    told = subprocess.run(
+        [str(BASH), str(ROOT / ".ci/bare"), "env"],
+        env={
+            **os.environ,
+            "BARE_HOME": str(tmp_path / "home"),
+            "PATH": f"{stray}{os.pathsep}{os.environ['PATH']}",
+            "PYTHONPATH": str(stray),
+            "PIP_CERT": "kept",
+        },
+        capture_output=True,
+        encoding="utf-8",
+        check=True,
+    )
+    kept = dict(line.partition("=")[::2] for line in told.stdout.splitlines())
     ways = re.compile(
-        "PIP_|SSL_|REQUESTS_|NODE_EXTRA_|HTTPS?_PROXY|NO_PROXY|npm_config_", re.IGNORECASE
+        r"PIP_|SSL_|REQUESTS_|NODE_EXTRA_|HTTPS?_PROXY|NO_PROXY|npm_config_|PYTHON_3_\d+$",
+        re.IGNORECASE,
     )
-    assert all(ways.match(name) for name in reaching[1].split())
+    names = {name for name in kept if not ways.match(name)} - {"_", "PWD", "SHLVL"}
+    assert names == {"HOME", "PATH", "LANG", "CI", "VERSIONS"}
+    assert kept["PIP_CERT"] == "kept"
+    assert kept["HOME"] == str(tmp_path / "home")
+    assert str(stray) not in kept["PATH"].split(os.pathsep)
 
 
-def test_actions_are_pinned_by_their_major_version() -> None:
-    assert all(
-        re.fullmatch(r"actions/[a-z-]+@v\d+", action)
-        for action in re.findall(r"uses: (\S+)", WORKFLOW)
-    )
+@pytest.mark.parametrize("workflow", WORKFLOWS)
+def test_actions_are_pinned_to_a_commit(workflow: str) -> None:
+    jobs = yaml.safe_load(TEXTS[workflow])["jobs"].values()
+    used = [step["uses"] for job in jobs for step in job["steps"] if "uses" in step]
+    assert used
+    assert [action for action in used if not re.fullmatch(r"[\w/-]+@[0-9a-f]{40}", action)] == []
+
+
+def test_hooks_are_local() -> None:
+    hooks = yaml.safe_load(TEXTS[".pre-commit-config.yaml"])
+    assert [repository["repo"] for repository in hooks["repos"]] == ["local"]
 
 
 def test_every_command_of_make_is_explained() -> None:
-    phony = re.search(r"^\.PHONY: (.*)$", MAKEFILE, flags=re.MULTILINE)
+    phony = re.search(r"^\.PHONY: (.*)$", TEXTS["Makefile"], flags=re.MULTILINE)
     assert phony is not None
-    explained = re.findall(r"^([a-z-]+):.*  ## \S", MAKEFILE, flags=re.MULTILINE)
+    explained = re.findall(r"^([a-z-]+):.*  ## \S", TEXTS["Makefile"], flags=re.MULTILINE)
     assert sorted(explained) == sorted(phony[1].split())

@@ -1,4 +1,4 @@
-"""What the library imports: as little as can be, for whoever starts it waits for all of it."""
+"""Imports of the library: as few as possible, since every program that starts it waits for them."""
 
 import subprocess
 import sys
@@ -27,7 +27,7 @@ BROUGHT |= {"org", "posixpath", "reprlib", "types"}
 
 
 def imported(statement: str) -> set[str]:
-    """The modules that a statement adds to a bare Python; of packages, the outermost."""
+    """Return the modules that a statement adds to a bare Python; of packages, the outermost."""
     code = f"import sys; bare = {{*sys.modules}}\n{statement}\nprint(*({{*sys.modules}} - bare))"
     done = subprocess.run(
         [sys.executable, "-S", "-c", f"import sys; sys.path[:] = {sys.path!r}\n{code}"],

@@ -10,20 +10,29 @@ GENERATOR = Path(__file__).parent.parent / "codegen" / "framegen"
 
 # From the ground up. What shares a line knows nothing of each other.
 STOREYS = [
-    {"__version__", "colour", "console", "hextext", "recording_file", "wording"},
+    {
+        "__version__",
+        "colour",
+        "console",
+        "hextext",
+        "recording_file",
+        "shell_completion",
+        "pluralize",
+    },
     {"reading"},
     {"project", "language"},
     {"model"},
     {"checks", "cases"},
-    {"compile", "explain"},
+    {"compile", "explain", "witnesses"},
     {"explain_text", "comparison", "output"},
     {"conformance"},
     {"targets.target", "targets.templates", "targets.filenames"},
     {"targets.python", "targets.docs", "targets.vectors", "targets.schema"},
     {"targets.table"},
-    {"render"},
+    {"render", "skeleton"},
     {"writing"},
     {"commands"},
+    {"completion"},
     {"cli"},
     {"__main__"},
 ]
@@ -36,13 +45,13 @@ ALONE = {
     "framegen.model.model.derive": {"compile"},
     "framegen.checks.check_model": {"compile"},
     "framegen.checks.check_structure": {"compile"},
-    "framegen.reading.yamltree.read_tree": {"language"},
+    "framegen.reading.yamltree.read_tree": {"language", "witnesses"},
     "framegen.model.roles.settle": {"model"},
 }
 
 
 def modules() -> Iterator[tuple[str, Path]]:
-    """Every module of the generator with its room; what is copied into libraries is none."""
+    """Yield every module of the generator with its room, except those copied into libraries."""
     for file in sorted(GENERATOR.rglob("*.py")):
         parts = file.relative_to(GENERATOR).with_suffix("").parts
         if "runtime" not in parts and parts not in (("__init__",), ("targets", "__init__")):
@@ -54,7 +63,7 @@ def _room(parts: tuple[str, ...]) -> str:
 
 
 def imported(file: Path) -> Iterator[str]:
-    """Everything that a module imports, for typing alone or not, in full."""
+    """Return everything that a module imports, for typing alone or not, in full."""
     for node in ast.walk(ast.parse(file.read_text(encoding="utf-8"))):
         if isinstance(node, ast.Import):
             yield from (alias.name for alias in node.names)
@@ -104,7 +113,7 @@ PARTS = sorted(file.relative_to(LIBRARY) for file in LIBRARY.rglob("*.py"))
 
 
 def needed(path: Path) -> Iterator[str]:
-    """Every package and module of the library that one of its modules imports."""
+    """Yield every package and module of the library that one of its modules imports."""
     for node in ast.walk(ast.parse((LIBRARY / path).read_text(encoding="utf-8"))):
         if isinstance(node, ast.ImportFrom) and node.level == len(path.parts):
             names = [node.module] if node.module else [alias.name for alias in node.names]

@@ -1,4 +1,4 @@
-"""What follows from a spec: offsets, lengths and times, against numbers worked out by hand."""
+"""The layout of a spec: offsets, lengths and times, against numbers calculated by hand."""
 
 from typing import Any, NamedTuple
 
@@ -10,7 +10,7 @@ from framegen.model.envelope import derive_envelope
 from framegen.model.facts import NoSuchFact, look_up
 from framegen.model.layout import MessageLayout
 from framegen.model.slots import Number
-from framegen.wording import describe_range
+from framegen.pluralize import describe_range
 from hypothesis import given
 from hypothesis import strategies as st
 
@@ -105,8 +105,12 @@ def test_how_many_servos_a_frame_has_room_for() -> None:
 def test_the_frame_of_bus_servos() -> None:
     frame = SERVO.frame
     assert frame.header == b"\x55\x55"
-    assert (frame.length.name, frame.length.at, frame.length.wire.name) == ("length", 2, "u8")
-    assert (frame.id.name, frame.id.at, frame.id.wire.name) == ("command", 3, "u8")
+    assert (frame.length.name, frame.length.at, frame.length.number_type.name) == (
+        "length",
+        2,
+        "u8",
+    )
+    assert (frame.id.name, frame.id.at, frame.id.number_type.name) == ("command", 3, "u8")
     assert (frame.body_at, frame.uncounted, frame.counted) == (4, 2, 2)
     assert frame.legal_ids == range(256)
 

@@ -1,4 +1,4 @@
-"""Work grows with what there is to do: counted in lines that run, so that no clock is needed."""
+"""Work grows linearly: counted in lines that run, so that no clock is needed."""
 
 import sys
 from collections.abc import Callable
@@ -18,7 +18,7 @@ FEW = 32
 
 
 def many(number: int) -> Source:
-    """A spec of questions and answers, reports among them."""
+    """Return a spec of questions and answers, reports among them."""
     messages: dict[str, Any] = {}
     for at in range(1000, 1000 + number, 2):
         messages[f"Ask{at:04}"] = {
@@ -70,7 +70,7 @@ def _example(digits: str, values: dict[str, int]) -> dict[str, Any]:
 
 
 def lines_run(work: Callable[[], object], leaving_out: str = "no such file") -> int:
-    """How many lines run, those of templates among them, save in some files."""
+    """Return how many lines run, those of templates among them, save in some files."""
     count = 0
 
     def trace(frame: FrameType, _event: str, _argument: object) -> Any:
@@ -97,7 +97,7 @@ nobody_traces = pytest.mark.skipif(
 
 
 def generated(number: int) -> None:
-    """Make all files that follow from a spec of so many messages."""
+    """Make all files of a spec of so many messages."""
     compiled = compile_spec(many(number))
     assert compiled.findings == []
     assert render(compiled)
@@ -147,7 +147,7 @@ RUNS = ("55", "55 " * 40 + "02 07", "55 " * 80 + "00 00 00")
 
 @cache
 def lines_per_byte(pattern: bytes, size: int) -> float:
-    """How many lines run for a byte of a pattern that goes on and on, in chunks of a size."""
+    """Return how many lines run for a byte of a repeated pattern, in chunks of a size."""
 
     def read(length: int) -> int:
         line = (pattern * length)[:length]

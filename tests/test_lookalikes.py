@@ -19,7 +19,7 @@ DIALECT = "The dialect of LeArm and uHand boards"
 
 
 def servo_bus_frame(servo_id: int, command: int, parameters: bytes = b"") -> bytes:
-    """As public write-ups of the LX-16A have it: 55 55 ID LEN CMD parameters CHECKSUM."""
+    """Return a frame as published for the LX-16A: 55 55 ID LEN CMD parameters CHECKSUM."""
     summed = bytes([servo_id, len(parameters) + 3, command]) + parameters
     return b"\x55\x55" + summed + bytes([~sum(summed) & 0xFF])
 

@@ -159,7 +159,7 @@ class Group(IntEnum):
 
 
 class Indexed:
-    """Something that says that it is a whole number."""
+    """An object that declares itself a whole number."""
 
     def __index__(self) -> int:
         return 8
@@ -360,7 +360,7 @@ def test_making_a_message_once_more_does_not_change_it(case: Case) -> None:
 
 
 class OwnBytes(bytes):
-    """Bytes with more to them."""
+    """A class of bytes with more attributes."""
 
     note = "from a log"
 
@@ -415,7 +415,7 @@ def test_messages_are_told_apart_by_matching(message: Message, words: str) -> No
 
 
 def in_words(message: Message) -> str:
-    """A message, taken apart by `match`."""
+    """Return a message, taken apart by `match`."""
     match message:
         case ServoMove(time_ms, [ServoTarget(servo_id, position)]):
             return f"move {servo_id} to {position} in {time_ms} ms"
@@ -587,7 +587,7 @@ def test_targets_mean_the_same_beside_any_kind_of_number(targets: Any) -> None:
 
 
 def outcome(make: Callable[..., Message], *values: Any) -> Message | str:
-    """What is made of these values, or what is said about them."""
+    """Return the message of these values, or the error about them."""
     try:
         return make(*values)
     except EncodeError as error:
@@ -737,7 +737,7 @@ def test_importing_the_codec_imports_little(unwanted: str, imported: set[str]) -
 
 @pytest.fixture(scope="module")
 def imported() -> set[str]:
-    """What is imported with all that needs no port."""
+    """Return the modules that are imported with all that needs no port."""
     return modules_after(f"from busservo import {', '.join(sorted(PUBLIC - {'__version__'}))}")
 
 
@@ -752,7 +752,7 @@ def test_a_port_has_to_be_opened_before_pyserial_is_imported() -> None:
 
 
 def modules_after(statement: str) -> set[str]:
-    """All that is imported then; -S keeps away what a site's .pth files would."""
+    """Return all modules imported after a statement; -S keeps away those of a site's .pth files."""
     home = Path(busservo.__file__).parent.parent
     output = subprocess.run(
         [sys.executable, "-S", "-c", f"import sys; {statement}; print(*sys.modules)"],

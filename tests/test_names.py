@@ -22,7 +22,7 @@ from framegen.cli import main
 from framegen.model.exchanges import snake_case
 from framegen.render import render, render_target, snippets
 from framegen.targets.docs import TARGET as DOCS
-from framegen.targets.docs.pages import render_site
+from framegen.targets.docs.html_pages import render_site
 from framegen.targets.filenames import DEVICES, file_stem
 from framegen.targets.python import reserved
 from framegen.targets.python.names import names_of, strategy_name
@@ -71,7 +71,7 @@ CROWDS = {"names": taken_names, "elements": taken_elements, "pose": taken_pose}
 
 
 def statements(body: list[ast.stmt]) -> Iterator[ast.stmt]:
-    """The statements of a module, those below an `if` included."""
+    """Yield the statements of a module, those below an `if` included."""
     for node in body:
         yield node
         if isinstance(node, ast.If):
@@ -79,7 +79,7 @@ def statements(body: list[ast.stmt]) -> Iterator[ast.stmt]:
 
 
 def names_in(module: str) -> set[str]:
-    """What a module imports and defines at its top, and for type checkers alone."""
+    """Return the names that a module imports and defines at its top, also for typing alone."""
     found: set[str] = set()
     for node in statements(ast.parse((PACKAGE / module).read_text(encoding="utf-8")).body):
         if isinstance(node, ast.Import | ast.ImportFrom):
@@ -94,7 +94,7 @@ def names_in(module: str) -> set[str]:
 
 
 def variables_in(module: str) -> set[str]:
-    """What the methods of a module have as variables, or as arguments that no message gives."""
+    """Return the variables of a module's methods, and their arguments that no message gives."""
     tree = ast.parse((PACKAGE / module).read_text(encoding="utf-8"))
     functions = [
         node for node in ast.walk(tree) if isinstance(node, (ast.FunctionDef, ast.AsyncFunctionDef))
@@ -270,21 +270,21 @@ def test_the_vectors_and_the_reference_keep_the_names_of_the_author(name: str) -
 def crowd(
     request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory
 ) -> Iterator[tuple[Model, ModuleType]]:
-    """A spec of taken names, and its library."""
+    """Return a spec of taken names, and its library."""
     data = CROWDS[request.param]()
     with library(files_of(data), tmp_path_factory.mktemp(request.param)) as made:
         yield layout_of(data), made
 
 
 def plain(value: Any) -> Any:
-    """A value of an example as the library takes it."""
+    """Return a value of an example as the library takes it."""
     if isinstance(value, list):
         return [tuple(each.values()) if isinstance(each, dict) else each for each in value]
     return value
 
 
 def made_of(lib: ModuleType, model: Model, message: MessageLayout) -> Any:
-    """The first example of a message, in the library's names."""
+    """Return the first example of a message, in the library's names."""
     names = names_of(model)
     values = names.values(message.name, message.message.examples[0].values)
     kind = getattr(lib, names.of("message", message.name))
@@ -377,7 +377,7 @@ def test_a_pose_is_read_and_held_under_bent_names(tmp_path: Path) -> None:
 
 @pytest.fixture(scope="module")
 def on_disk(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """The libraries of all of them, side by side."""
+    """Return the libraries of all of them, side by side."""
     folder = tmp_path_factory.mktemp("crowds")
     for data in CROWDS.values():
         write_files(files_of(data()), folder)
@@ -385,7 +385,7 @@ def on_disk(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 
 def run(*words: str, cwd: Path) -> str:
-    """What a tool says, where it finds anything."""
+    """Return the findings of a tool; empty if there are none."""
     pytest.importorskip(words[0], reason="`pip install --group lint`")
     done = subprocess.run(
         [sys.executable, "-m", *words], cwd=cwd, capture_output=True, text=True, check=False
@@ -440,7 +440,7 @@ def test_the_command_says_the_names_that_the_library_has(on_disk: Path) -> None:
 
 @pytest.fixture
 def framegen(capsys: pytest.CaptureFixture[str]) -> Command:
-    """The command: its exit status, its output and its error stream."""
+    """Return a function that runs the command: its exit status, its output and its error stream."""
 
     def run_it(*words: str) -> tuple[int, str, str]:
         code = main(words)

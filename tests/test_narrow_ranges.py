@@ -1,4 +1,4 @@
-"""Ranges narrower than their types: this protocol has none, so a message is made that has."""
+"""Ranges narrower than their types: this protocol has none, so a message with one is made here."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
 
 class Turn(Element, tuple[int, int]):
-    """Where to turn one dial."""
+    """The angle of one dial."""
 
     __slots__ = ()
     __match_args__ = ("dial", "degrees")
@@ -30,7 +30,7 @@ class Turn(Element, tuple[int, int]):
 
 
 class DialsTurn(Message):
-    """Turns some of four dials, with a force of 1 to 9."""
+    """A message that turns some of four dials, with a force of 1 to 9."""
 
     __slots__ = ()
     __match_args__ = ("force", "turns")
@@ -54,7 +54,7 @@ class DialsTurn(Message):
 
 
 class LampDim(Message):
-    """Dims the lamp, in percent: a range, and no list."""
+    """A message that dims the lamp, in percent: a range, and no list."""
 
     __slots__ = ()
 
@@ -81,7 +81,7 @@ each_bad = pytest.mark.parametrize(("frame", "offset", "problem"), BAD)
 
 
 def decoder_of_dials() -> StreamDecoder:
-    """A decoder that knows this message alone."""
+    """Return a decoder that knows this message alone."""
     decoder = StreamDecoder(Direction.HOST_TO_CONTROLLER)
     decoder._table = Table([DialsTurn], largest_of([DialsTurn]))
     decoder._noise = NoiseLane(decoder._table)

@@ -174,7 +174,7 @@ assert main(["encode", "LampSet", "fade_s=0", "lamps=7:9"]) == 0
 
 @pytest.fixture(scope="module")
 def project(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """A project of the spec with one command, one question and its reply more."""
+    """Return a project of the spec with one more command, one more question and its reply."""
     folder = tmp_path_factory.mktemp("lamps")
     text = (ROOT / "spec" / "busservo.yaml").read_text(encoding="utf-8")
     (folder / "spec").mkdir()
@@ -199,7 +199,7 @@ def run(command: list[str], search: list[str]) -> str:
 
 
 def script(project: Path, text: str) -> str:
-    """What a program prints that uses the library of `project`."""
+    """Return the output of a program that uses the library of `project`."""
     command = [sys.executable, "-W", "error", "-c", text]
     return run(command, [str(project / "generated"), *sys.path])
 

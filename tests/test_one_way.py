@@ -22,7 +22,7 @@ MODELS = {"weather": layout_of(WEATHER), "stage_lamp": layout_of(LAMP)}
 
 @pytest.fixture(scope="module", autouse=True)
 def libraries(tmp_path_factory: pytest.TempPathFactory) -> Iterator[None]:
-    """Both, imported under their own names."""
+    """Return both libraries, imported under their own names."""
     folder = tmp_path_factory.mktemp("one_way")
     with (
         library(files_of(WEATHER), folder / "weather"),
@@ -72,7 +72,7 @@ def test_what_a_sensor_sends_is_received_with_asyncio() -> None:
     mast = weather.Device()
 
     class RealLine(DeviceLine):
-        """Asyncio has the time that it is: a read that finds nothing waits."""
+        """A line in real time, as asyncio needs: a read that finds nothing waits."""
 
         def read(self, timeout: float) -> bytes:
             data = super().read(timeout)

@@ -27,7 +27,7 @@ each_direction = pytest.mark.parametrize("direction", DIRECTIONS, ids=str)
 
 
 def verdict(frame: bytes, direction: Direction | None) -> object:
-    """What the library makes of a frame: the message as the oracle writes it, or None."""
+    """Return the library's decoding of a frame: the message as the oracle writes it, or None."""
     try:
         return said(decode(frame, direction))
     except DecodeError:
@@ -35,7 +35,7 @@ def verdict(frame: bytes, direction: Direction | None) -> object:
 
 
 def oracles_verdict(frame: bytes, direction: Direction | None) -> object:
-    """What the oracle makes of it."""
+    """Return the oracle's decoding of it."""
     try:
         return oracle.parse(frame, oracles(direction))
     except oracle.OracleError:

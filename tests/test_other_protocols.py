@@ -44,7 +44,7 @@ SAID = (
 
 
 def names_in(value: Any) -> Iterator[str]:
-    """The names that a spec gives: of messages, fields, elements, values, methods."""
+    """Yield the names that a spec gives: of messages, fields, elements, values, methods."""
     for name, message in value["messages"].items():
         yield from (name, message.get("vendor_name", name))
         yield from re.findall(r"\w+", message.get("method", ""))
@@ -61,7 +61,7 @@ def _fields_in(fields: Data) -> Iterator[str]:
 
 
 def forbidden(spec: Data) -> re.Pattern[str]:
-    """The words of busservo that another spec does not say itself."""
+    """Return the words of busservo that another spec does not say itself."""
     own = " ".join(text for _, text in leaves(spec)) + " ".join(names_in(spec))
     names = {*names_in(data_of(BUSSERVO))} - PLAIN - {"controller"}
     words = [word for word in [*names, *SAID] if not re.search(rf"(?i)\b(?:{word})\b", own)]
@@ -71,7 +71,7 @@ def forbidden(spec: Data) -> re.Pattern[str]:
 
 
 def prose(text: str) -> Iterator[str]:
-    """Every line of the docstrings, other text and comments of a module."""
+    """Yield every line of the docstrings, other text and comments of a module."""
     for node in ast.walk(ast.parse(text)):
         # What is a name is code, such as that of a module in a table of modules.
         if isinstance(node, ast.Constant) and isinstance(node.value, str):
@@ -83,7 +83,7 @@ def prose(text: str) -> Iterator[str]:
 
 
 def told(files: dict[str, str], words: re.Pattern[str]) -> list[str]:
-    """Where one of the words stands."""
+    """Return where one of the words stands."""
     return [
         f"{path}: {line.strip()}"
         for path, text in files.items()
@@ -111,7 +111,7 @@ def test_what_is_looked_for_is_found_where_it_belongs() -> None:
 
 @pytest.fixture(scope="module")
 def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """Where the libraries of the others stand side by side."""
+    """Return where the libraries of the others stand side by side."""
     made = tmp_path_factory.mktemp("others")
     for file in OTHERS.values():
         write_files(files_of(data_of(file)), made)
@@ -152,6 +152,35 @@ def test_only_what_can_work_is_offered(folder: Path, name: str, verbs: list[str]
         assert f"\nexamples:\n  {name} {verb}" in shown
 
 
+LOOKING = ["port", "hid", "permission", "busy", "opening", "silence"]
+ASKING = ["rate", "echo", "reply", "round-trip"]
+
+
+@pytest.mark.parametrize(
+    ("name", "checks"),
+    [
+        ("greenhouse", [*LOOKING, *ASKING, "look-alike"]),
+        ("blinds", [*LOOKING, "present", "look-alike"]),
+        ("weather", [*LOOKING, "look-alike"]),
+        ("stage_lamp", [*LOOKING, "look-alike"]),
+    ],
+)
+def test_the_doctor_makes_only_checks_that_can_find_something(
+    folder: Path, name: str, checks: list[str]
+) -> None:
+    _, shown, _ = command(folder, name, "doctor", "--help")
+    listed = shown.partition("Makes these checks, one after the other:\n")[2].partition(".\n")[0]
+    assert listed.split(", ") == checks
+    _, shown, _ = command(folder, name, "doctor", "--port", "no-such-port")
+    assert [line.split()[1] for line in shown.splitlines() if line[0] != " "] == checks
+
+
+def test_help_speaks_of_no_verb_and_no_reply_that_there_is_not(folder: Path) -> None:
+    assert "replay" not in command(folder, "weather", "monitor", "--help")[1]
+    assert "reply" not in command(folder, "stage_lamp", "--help")[1]
+    assert "print the reply" in command(folder, "greenhouse", "--help")[1]
+
+
 MISSING = (
     "greenhouse: error: the package greenhouse_simulator is not installed here: install it, or "
     "else make a virtual device of greenhouse.Device\n"
@@ -179,7 +208,7 @@ def test_there_is_a_simulator_where_one_is_installed(folder: Path, tmp_path: Pat
 
 
 def install(folder: Path, version: str, origin: str = "") -> None:
-    """Has it that a distribution of the greenhouse is installed in a folder."""
+    """Write the metadata of an installed distribution of the greenhouse to a folder."""
     info = folder / f"greenhouse-{version}.dist-info"
     info.mkdir(parents=True)
     text = f"Metadata-Version: 2.1\nName: greenhouse\nVersion: {version}\n"

@@ -14,7 +14,7 @@ from framegen.cli import main
 from framegen.compile import Compiled, compile_spec
 from framegen.reading.source import Source
 from framegen.render import render, snippets
-from framegen.targets.docs.pages import render_site
+from framegen.targets.docs.html_pages import render_site
 
 from tests.factories import BUSSERVO, DEMO, Data, Steps, data_of
 
@@ -71,12 +71,12 @@ def text_of(name: str) -> str:
 
 
 def as_text(data: Data) -> str:
-    """A spec as text: JSON is YAML, too."""
+    """Return a spec as text: JSON is YAML, too."""
     return json.dumps(data, indent=1)
 
 
 def changed(before: dict[str, str], after: dict[str, str]) -> set[str]:
-    """The paths of the files that come, go or differ."""
+    """Return the paths of the files that come, go or differ."""
     paths = before.keys() | after.keys()
     return {path for path in paths if before.get(path) != after.get(path)}
 
@@ -90,7 +90,7 @@ def replaced(text: str, old: str, new: str) -> str:
 
 
 def commented(text: str) -> str:
-    """The same spec with comments and blank lines wherever they can be."""
+    """Return the same spec with comments and blank lines wherever they can be."""
     for line, comment in (
         (r"^framegen:", "# what this file is\n\n\n"),
         (r"^\w+:$", "# what is next\n"),
@@ -149,7 +149,7 @@ def test_no_file_knows_the_digest_of_the_spec_or_who_generated_it_when(name: str
 
 
 def prose(value: Any, path: Steps = ()) -> Iterator[Steps]:
-    """The way to each text that says something of one thing."""
+    """Yield the path of each text that describes something."""
     items = value.items() if isinstance(value, dict) else enumerate(value)
     for key, item in items:
         here = (*path, key)
@@ -160,7 +160,7 @@ def prose(value: Any, path: Steps = ()) -> Iterator[Steps]:
 
 
 def kinds_of_prose(name: str) -> dict[str, Steps]:
-    """For each kind of place that says something, the last that does."""
+    """Return, for each kind of place with a description, the last such place."""
     known = {"messages", "fields", "values", "notes", "examples", "errata", "unknowns", "sources"}
     found = {}
     for path in prose(data_of(SPECS[name])):
@@ -204,7 +204,7 @@ def test_a_word_changes_few_files(name: str, kind: str) -> None:
 
 
 def reworded(value: Any, key: str = "") -> Any:
-    """The same facts in other words."""
+    """Return the same facts in other words."""
     if isinstance(value, dict):
         return {name: reworded(each, str(name)) for name, each in value.items()}
     if isinstance(value, list):
@@ -213,7 +213,7 @@ def reworded(value: Any, key: str = "") -> Any:
 
 
 class _Bare(ast.NodeTransformer):
-    """Drops docstrings, those below an attribute included, and on demand what all strings say."""
+    """A transformer that drops docstrings, attributes' included, and optionally all strings."""
 
     def __init__(self, *, strings: bool) -> None:
         self._strings = strings
@@ -229,7 +229,7 @@ class _Bare(ast.NodeTransformer):
 
 
 def bare(path: str, text: str) -> str:
-    """The code of a module: what of it is no docstring, and no word that the command prints."""
+    """Return the code of a module without docstrings, and without words that the command prints."""
     strings = any(path.endswith(f"/{name}") for name in FOR_READERS)
     return ast.dump(_Bare(strings=strings).visit(ast.parse(text)))
 

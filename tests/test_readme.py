@@ -1,4 +1,4 @@
-"""Our pages are true: what they run works, prints what they say, and what they link to is there."""
+"""Our pages are true: their commands work, their output is right, their links lead somewhere."""
 
 import re
 from pathlib import Path
@@ -36,7 +36,7 @@ def test_commands_of_make_exist(page: Path) -> None:
 
 @pages
 def test_code_has_a_place(page: Path) -> None:
-    """Files that a page names in code, without linking to them."""
+    """File that a page names in code, without linking to them."""
     text = page.read_text(encoding="utf-8")
     named = re.findall(r"`((?:spec|codegen|generated|docs|tests|benchmarks)/[\w./-]*)`", text)
     assert [name for name in named if not (ROOT / name).exists()] == []

@@ -1,4 +1,4 @@
-"""What was recorded is read back as it was: who, when, what; wherever the file is cut."""
+"""Recordings are read back as they were made: who, when, what; wherever the file is cut."""
 
 import io
 from collections.abc import Iterable, Iterator

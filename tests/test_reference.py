@@ -1,4 +1,4 @@
-"""Every library says of any bytes, in any pieces, what the reference says."""
+"""Every library decodes any bytes, in any pieces, as the reference does."""
 
 from __future__ import annotations
 
@@ -36,7 +36,7 @@ MODELS = {name: layout_of(data) for name, data in SPECS.items()}
 
 @pytest.fixture(scope="module", autouse=True)
 def libraries(tmp_path_factory: pytest.TempPathFactory) -> Iterator[None]:
-    """All of them, imported under their own names."""
+    """Return all of them, imported under their own names."""
     with ExitStack() as stack:
         for name, data in SPECS.items():
             if name != "busservo":
@@ -46,7 +46,7 @@ def libraries(tmp_path_factory: pytest.TempPathFactory) -> Iterator[None]:
 
 
 def lib(name: str) -> Any:
-    """A library, for Hypothesis, which takes no fixtures."""
+    """Return a library, for Hypothesis, which takes no fixtures."""
     return importlib.import_module(name)
 
 
@@ -58,13 +58,13 @@ def lib(name: str) -> Any:
 
 @cache
 def values(low: int, high: int) -> st.SearchStrategy[int | None]:
-    """A number, often the ends of its range; None for what looks like a header."""
+    """Return a number, often the ends of its range; None for one that looks like a header."""
     return st.one_of(st.none(), st.sampled_from([low, high]), st.integers(low, high))
 
 
 @cache
 def frames(model: Model) -> st.SearchStrategy[bytes]:
-    """A frame of any message, most often with legal values."""
+    """Return a frame of any message, most often with legal values."""
     messages = [each for way in model.directions for each in model.sent(way).values()]
     shapes = [(each, count) for each in messages for count in (*each.counts[:4], each.counts[-1])]
     return st.sampled_from(shapes).flatmap(lambda shape: frame_of(model, *shape))
@@ -72,7 +72,7 @@ def frames(model: Model) -> st.SearchStrategy[bytes]:
 
 @st.composite
 def frame_of(draw: st.DrawFn, model: Model, message: MessageLayout, count: int) -> bytes:
-    """A frame of a message with so many elements."""
+    """Return a frame of a message with so many elements."""
     data = bytearray(message.size_at(count))
     for placed in message.lay_out(count):
         slot = placed.slot
@@ -96,7 +96,7 @@ def frame_of(draw: st.DrawFn, model: Model, message: MessageLayout, count: int) 
 
 @st.composite
 def damaged(draw: st.DrawFn, model: Model) -> bytes:
-    """A frame of which something was lost, changed or repeated."""
+    """Return a frame with bytes lost, changed or repeated."""
     frame = draw(frames(model))
     start = draw(st.integers(0, min(8, len(frame)) - 1) | st.integers(0, len(frame) - 1))
     end = draw(st.integers(start, min(start + 3, len(frame))) | st.just(len(frame)))
@@ -105,7 +105,7 @@ def damaged(draw: st.DrawFn, model: Model) -> bytes:
 
 @cache
 def heads(model: Model) -> st.SearchStrategy[bytes]:
-    """A header, and most often a length and an id, none of which need be legal."""
+    """Return a header, and most often a length and an id, none of which need be legal."""
     frame = model.frame
     largest = model.largest(model.directions)
     sizes = st.integers(frame.least - 1, frame.least + 12) | st.just(largest)
@@ -125,7 +125,7 @@ def heads(model: Model) -> st.SearchStrategy[bytes]:
 
 @cache
 def lines(model: Model) -> st.SearchStrategy[bytes]:
-    """Frames, frames of unknown id, and what is left of them, one behind the other."""
+    """Return frames, frames of unknown id, and parts of them, one behind the other."""
     header = model.frame.header
     likely = st.sampled_from([*header, *header, 0, 1, 2, 3, 4, 5, 6, 7, 8, 0x63, 0xFF])
     part = st.one_of(
@@ -143,7 +143,7 @@ def lines(model: Model) -> st.SearchStrategy[bytes]:
 
 @st.composite
 def pieces(draw: st.DrawFn, line: bytes) -> list[bytes]:
-    """The line, cut anywhere, also into single bytes."""
+    """Return the line, cut anywhere, also into single bytes."""
     if draw(st.booleans()):
         return [line[at : at + 1] for at in range(len(line))]
     cuts = sorted(draw(st.lists(st.integers(0, len(line)), max_size=8)))
@@ -152,7 +152,7 @@ def pieces(draw: st.DrawFn, line: bytes) -> list[bytes]:
 
 @st.composite
 def ways(draw: st.DrawFn, model: Model) -> Sequence[Direction]:
-    """One direction, or all of them."""
+    """Return one direction, or all of them."""
     return draw(st.sampled_from([[way] for way in model.directions] + [list(model.directions)]))
 
 
@@ -160,7 +160,7 @@ def ways(draw: st.DrawFn, model: Model) -> Sequence[Direction]:
 
 
 def told(events: Sequence[Any], name: str) -> list[Found]:
-    """What a library tells, noise joined."""
+    """Return the events of a library, noise joined."""
     library = lib(name)
     found: list[Found] = []
     last: Any = None
@@ -178,7 +178,7 @@ def told(events: Sequence[Any], name: str) -> list[Found]:
 
 
 def expected(line: ReferenceDecoder, stretch: bytes) -> list[Found]:
-    """What the reference tells of a stretch of a line, behind which that is quiet."""
+    """Return the events of the reference for a stretch of a line, with silence behind it."""
     names = {"unknown": "unknown frame"}
     return [
         (event.message.name if event.message else names.get(event.kind, event.reason), event.data)
@@ -187,7 +187,7 @@ def expected(line: ReferenceDecoder, stretch: bytes) -> list[Found]:
 
 
 def way_of(name: str, directions: Sequence[Direction]) -> Any:
-    """The directions as a library takes them."""
+    """Return the directions as a library takes them."""
     return lib(name).Direction(directions[0].key) if len(directions) == 1 else None
 
 
@@ -221,7 +221,7 @@ def test_a_stream_decoder_tells_what_the_reference_tells(name: str, data: st.Dat
 
 
 def messages(found: list[Found]) -> list[Found]:
-    """The messages among what was found."""
+    """Return the messages among the events."""
     return [each for each in found if each[0][0].isupper()]
 
 

@@ -1,4 +1,4 @@
-"""Who is who: settled by the order of the endpoints, whatever the order of the messages."""
+"""Client and device: settled by the order of the endpoints, whatever the order of the messages."""
 
 from typing import Any
 
@@ -10,7 +10,7 @@ SERVO, HOUSE = data_of(BUSSERVO), data_of(DEMO)
 
 
 def report_first(data: Data) -> Data:
-    """The same with a message of the device in front."""
+    """Return the same with a message of the device in front."""
     device = list(data["endpoints"])[1]
     messages = data["messages"]
     front = next(name for name in messages if messages[name]["direction"].startswith(device))

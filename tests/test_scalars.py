@@ -23,7 +23,7 @@ CORE = {
 
 
 def words(text: str) -> list[str]:
-    """Scalars as a row of words."""
+    """Return a scalar as a row of words."""
     return text.split(" ")
 
 
@@ -45,7 +45,7 @@ def kind_here(text: str) -> str:
 
 
 def agreed(text: str) -> None:
-    """What is given a value has it in both YAMLs; what they disagree on is refused."""
+    """Check that a scalar's value is the same in both YAMLs; otherwise it must be refused."""
     refused: Ambiguous | None = None
     try:
         kind = kind_here(text)

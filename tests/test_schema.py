@@ -1,4 +1,4 @@
-"""The schema of the spec language: it takes every good spec, refuses typos, and never wavers."""
+"""The schema of the spec language: it accepts every good spec, and refuses typos."""
 
 import copy
 import json
@@ -9,8 +9,8 @@ from typing import Any
 import pytest
 from framegen.cli import main
 from framegen.language.load import read_source
+from framegen.language.number_types import NUMBER_TYPES
 from framegen.language.spec import Spec
-from framegen.language.wiretypes import WIRE_TYPES
 from framegen.reading.yamltree import read_tree
 from framegen.targets.schema import _KEYWORDS, schema_text
 from jsonschema import Draft202012Validator
@@ -24,17 +24,17 @@ VALIDATOR = Draft202012Validator(SCHEMA)
 
 
 def data_of(file: Path) -> dict[str, Any]:
-    """What a spec file says, as editors hand it to a schema: keys are text."""
+    """Return the values of a spec file, as editors hand it to a schema: keys are text."""
     return read_tree(read_source(file))[0].data
 
 
 def complaints(data: object) -> list[str]:
-    """The paths at which the schema refuses `data`."""
+    """Return the paths at which the schema refuses `data`."""
     return sorted("/".join(map(str, error.absolute_path)) for error in VALIDATOR.iter_errors(data))
 
 
 def schemas_in(schema: dict[str, Any]) -> Iterator[dict[str, Any]]:
-    """The schema itself and every schema within it."""
+    """Yield the schema itself and every schema within it."""
     yield schema
     for keyword, value in schema.items():
         if keyword in ("properties", "$defs"):
@@ -156,7 +156,7 @@ def test_every_number_type_is_offered() -> None:
     typed = [model for model in SCHEMA["$defs"].values() if "type" in model["properties"]]
     assert len(typed) == 5
     for model in typed:
-        assert model["properties"]["type"]["enum"] == list(WIRE_TYPES)
+        assert model["properties"]["type"]["enum"] == list(NUMBER_TYPES)
 
 
 def test_every_signed_type_is_offered_to_read_a_number_as() -> None:

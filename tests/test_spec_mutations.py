@@ -1,7 +1,7 @@
-"""Every fact of the spec is guarded: change any one of them, and `framegen check` speaks up.
+"""Every fact of the spec is guarded: change any one of them, and `framegen check` reports it.
 
-What `check` cannot see by nature is listed in BLIND, each with its reason, and held to be unseen:
-those facts need another guard.
+Facts that `check` cannot see by nature are listed in BLIND, each with its reason, and held to be
+unseen: they need another guard.
 """
 
 from __future__ import annotations
@@ -29,7 +29,7 @@ GONE = "(gone)"
 
 
 def mutated(steps: Steps, value: Any) -> Any:
-    """The spec with `value` at `steps`; GONE removes what is there."""
+    """Return the spec with `value` at `steps`; GONE removes what is there."""
     tree = json.loads(json.dumps(TREE))
     around = tree
     for step in steps[:-1]:
@@ -58,7 +58,7 @@ def named(mutation: Mutation) -> str:
 
 
 def numbers() -> Iterator[tuple[Steps, Any]]:
-    """Every number field, those inside elements included."""
+    """Yield every number field, those inside elements included."""
     for name, message in MESSAGES.items():
         for key, field in message.get("fields", {}).items():
             here: Steps = ("messages", name, "fields", key)
@@ -163,7 +163,7 @@ def frame_parts() -> Iterator[Mutation]:
 
 
 def field_orders() -> Iterator[Mutation]:
-    """Each two neighbouring fields, changed about."""
+    """Yield each two neighbouring fields, swapped."""
     for name, message in MESSAGES.items():
         fields = message.get("fields", {})
         yield from swaps(("messages", name, "fields"), fields)
@@ -188,7 +188,7 @@ def field_names() -> Iterator[Mutation]:
 
 
 def ranges() -> Iterator[Mutation]:
-    """A range that would refuse what the examples show, or that none of them reaches."""
+    """Yield a range that would refuse what the examples show, or that none of them reaches."""
     for name, message in MESSAGES.items():
         for key, field in message.get("fields", {}).items():
             if key != "servo_count" and "fields" not in field:
@@ -246,7 +246,7 @@ def origins() -> Iterator[Mutation]:
 
 
 def answers() -> Iterator[Mutation]:
-    """An answer that is no answer; and a query without one is no query, as an erratum has it."""
+    """Yield a reply that is no reply; and a query without one is no query, as an erratum has it."""
     for name, message in MESSAGES.items():
         if "reply" in message:
             yield ("messages", name, "reply"), name
@@ -261,7 +261,7 @@ PLACE: Steps = ("messages", "ServoPositions", "fields", "positions", "fields", "
 
 
 def limits() -> Iterator[Mutation]:
-    """Limits that no frame can reach, or of what no client sends."""
+    """Yield limits that no frame can reach, or of a field that no client sends."""
     for wrong in ("1000..0", "0..", "0..65536", "-1..1000"):
         yield (*POSITION, "limits", "usual"), wrong
     for wrong in ("2500..500", "500..", "500..65536"):
@@ -295,7 +295,7 @@ def poses() -> Iterator[Mutation]:
 
 
 def results() -> Iterator[Mutation]:
-    """What the result of a command tells: of what comes, and in a unit of time."""
+    """Yield results of a command: of a message that comes, and in a unit of time."""
     yield ("messages", "ActionGroupRun", "acknowledged"), "ActionGroupStopped"
     yield ("messages", "ActionGroupRun", "acknowledged"), "Nothing"
     yield ("messages", "ActionGroupRun", "reports", 0), GONE

@@ -1,4 +1,4 @@
-"""StreamDecoder: its six invariants, each a property, and what else is promised of it."""
+"""StreamDecoder: its six invariants, each a property, and its other promises."""
 
 import gc
 import re
@@ -266,7 +266,7 @@ def test_4_it_holds_at_most_the_largest_legal_frame(
 
 
 def bytes_held(decoder: StreamDecoder) -> int:
-    """How many bytes a decoder keeps, in any of its slots; it has no other place to keep them."""
+    """Return how many bytes a decoder keeps, in all its slots; it has no other place for them."""
     kept = [getattr(decoder, name) for name in StreamDecoder.__slots__]
     assert not hasattr(decoder, "__dict__")
     assert not any(isinstance(value, (list, bytearray, memoryview, tuple)) for value in kept)
@@ -835,7 +835,7 @@ CALLS_PER_BYTE = 120
 
 
 def uncut(line: bytes) -> list[bytes]:
-    """`line`, in one piece."""
+    """Return `line`, in one piece."""
     return [line]
 
 
@@ -843,7 +843,7 @@ CUTS = (uncut, single_bytes)
 
 
 def calls(work: Callable[[], object]) -> int:
-    """How many functions are called by `work`: time, without a clock."""
+    """Return how many functions are called by `work`: time, without a clock."""
     count = 0
 
     def profile(frame: FrameType, event: str, argument: object) -> None:

@@ -1,4 +1,4 @@
-"""The lines in the vectors: each shows one thing, all reasons are there, and few change at once."""
+"""The stream vectors: each shows one thing, all reasons are there, and few change at once."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""StreamDecoder on a line where anything may happen next, held against the oracle at each step."""
+"""StreamDecoder on a line where anything may happen next, compared with the oracle at each step."""
 
 from collections.abc import Sequence
 from typing import Any
@@ -16,7 +16,7 @@ frames = strategies.messages().map(Message.encode)
 class Line(RuleBasedStateMachine):
     """A line, its decoder, and the model: the bytes that the oracle has not read to their end.
 
-    What the oracle has read it never takes back, so that it may go on from where it stopped.
+    The oracle never takes back what it has read, so that it may go on from where it stopped.
     """
 
     def __init__(self) -> None:
@@ -66,7 +66,7 @@ class Line(RuleBasedStateMachine):
         assert bytes_of(self.told) == self.sent
 
     def arrives(self, data: bytes) -> None:
-        """Feed the decoder, and let the oracle read on as far as can be told."""
+        """Feed the decoder, and let the oracle read on as far as it can."""
         self.sent += data
         self.held += data
         events = oracle.scan(self.held, oracles(self.direction), quiet=False)
@@ -74,7 +74,7 @@ class Line(RuleBasedStateMachine):
         self.held = self.held[sum(map(size_of, events)) :]
 
     def agree(self, events: Sequence[Message | Noise], expected: list[Any]) -> None:
-        """Both have found the same messages. Noise the decoder may hold back for longer."""
+        """Check that both have found the same messages. The decoder may hold noise longer."""
         self.told += events
         assert [said(message) for message in messages_in(events)] == [
             event for event in expected if not isinstance(event, bytes)
@@ -97,7 +97,7 @@ class Line(RuleBasedStateMachine):
 
 
 def size_of(event: Any) -> int:
-    """How many bytes the oracle read for an event."""
+    """Return how many bytes the oracle read for an event."""
     return len(event if isinstance(event, bytes) else oracle.build(*event))
 
 

@@ -1,4 +1,4 @@
-"""Text that is no YAML: what is wrong where, and what to do, whichever parser has stopped there."""
+"""Text that is no YAML: what is wrong, where, and what to do, whichever parser stopped."""
 
 from __future__ import annotations
 

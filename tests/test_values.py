@@ -1,4 +1,4 @@
-"""The small notations of a spec: what each means, what none is, and that all of them read back."""
+"""The small notations of a spec: their meaning, their errors, and that all of them read back."""
 
 from collections.abc import Callable
 from decimal import Decimal

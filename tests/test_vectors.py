@@ -50,7 +50,7 @@ each_stream = pytest.mark.parametrize(
 
 
 def arguments(fields: dict[str, Any]) -> dict[str, Any]:
-    """The fields of a vector as a message takes them: pairs instead of objects."""
+    """Return the fields of a vector as a message takes them: pairs instead of objects."""
     return {
         name: [tuple(item.values()) if isinstance(item, dict) else item for item in value]
         if isinstance(value, list)
@@ -116,7 +116,7 @@ def test_the_oracle_refuses_an_invalid_vector(vector: dict[str, Any]) -> None:
 
 
 def scanned_events(vector: dict[str, Any]) -> list[list[object]]:
-    """What a stream says up to each quiet, as the oracle has it: all noise is bytes, and joined."""
+    """Return the oracle's events of a stream up to each quiet: noise as bytes, and joined."""
     stretches: list[list[object]] = [[]]
     for event in vector["events"]:
         found = stretches[-1]
@@ -132,7 +132,7 @@ def scanned_events(vector: dict[str, Any]) -> list[list[object]]:
 
 
 def stretches_of(vector: dict[str, Any]) -> list[list[bytes]]:
-    """The chunks of a stream up to each quiet."""
+    """Return the chunks of a stream up to each quiet."""
     stretches: list[list[bytes]] = [[]]
     for part in vector["parts"]:
         if part == "quiet":
@@ -156,7 +156,7 @@ def test_a_stream_is_decoded(vector: dict[str, Any]) -> None:
 
 
 def shown(event: Message | Noise) -> dict[str, Any]:
-    """An event as the vectors have it."""
+    """Return an event as the vectors have it."""
     if isinstance(event, Noise):
         digits = event.data.hex(" ").upper()
         if isinstance(event, UnknownFrame):
@@ -180,7 +180,7 @@ def test_the_oracle_agrees_with_a_stream(vector: dict[str, Any]) -> None:
 
 
 def messages_of(events: Sequence[object]) -> list[object]:
-    """The messages alone."""
+    """Return the messages alone."""
     return [event for event in events if not isinstance(event, bytes)]
 
 
@@ -191,7 +191,7 @@ def test_the_vectors_cover_every_message() -> None:
 
 
 def messages_in(vector: dict[str, Any]) -> list[str]:
-    """The messages that a stream holds."""
+    """Return the messages that a stream holds."""
     return [event["message"] for event in vector["events"] if event["event"] == "message"]
 
 

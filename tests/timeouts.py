@@ -1,4 +1,4 @@
-"""How long a test waits for what must come, so that no machine that is slow or pauses fails it."""
+"""Timeouts of tests, long enough that no slow or pausing machine fails them."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ LIVE: Line = {"reply_timeout": GENEROUS, "baud": math.inf, "settle": 0}
 
 
 def await_that(true: Callable[[], object]) -> None:
-    """Waits until something is true; fails when it takes too long."""
+    """Wait until a condition holds; fail if it takes too long."""
     end = time.monotonic() + GENEROUS
     while not true():
         assert time.monotonic() < end, "it has not come true"
@@ -39,10 +39,10 @@ def await_that(true: Callable[[], object]) -> None:
 
 @contextmanager
 def undoubted() -> Iterator[None]:
-    """Where nobody else asks, and what answers does so once, no client need wait to be sure.
+    """Shorten the waits of clients: nobody else sends requests, and each reply comes once.
 
-    It waits a moment before it asks on a line that was opened just now, and before it believes what
-    came sooner than a wire could have carried it.
+    A client otherwise waits before it asks on a line that was opened just now, and before it
+    believes a reply that came sooner than a wire could have carried it.
     """
     with mock.patch.object(session, "_LATENCY", 0.001):
         yield

@@ -1,4 +1,4 @@
-"""The peers: one module each, loaded when it is there and named when it is not."""
+"""The peers: one module each, loaded if it is installed and named if it is not."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ NOT_INSTALLED = "not installed"
 
 
 class UnavailableError(Exception):
-    """A peer is there, but something that it needs is not; the text says what."""
+    """A peer is installed, but something that it needs is not; the text says what."""
 
 
 @dataclass(frozen=True)
@@ -35,7 +35,7 @@ class Absent:
 
 
 def load() -> tuple[list[Peer], list[Absent]]:
-    """Every peer that can be measured, and every one that cannot."""
+    """Return every peer that can be measured, and every one that cannot."""
     present: list[Peer] = []
     absent: list[Absent] = []
     for module, name in MODULES.items():
@@ -48,7 +48,7 @@ def load() -> tuple[list[Peer], list[Absent]]:
 
 
 def _load(module: str) -> list[Peer] | str:
-    """The peers of a module, or why there are none."""
+    """Return the peers of a module, or why there are none."""
     try:
         found: list[Peer] = importlib.import_module(f"benchmarks.peers.{module}").peers()
     except ModuleNotFoundError as error:

@@ -80,7 +80,7 @@ class Bitstruct(Peer):
         }
 
     def encode_move(self, time_ms: int, targets: Sequence[tuple[int, int]]) -> bytes:
-        """One `pack` of everything."""
+        """Encode with one `pack` of everything."""
         count = len(targets)
         flat = chain.from_iterable(targets)
         move = self._moves(count)
@@ -101,7 +101,7 @@ class Bitstruct(Peer):
         return GroupStopped()
 
     def plain(self, command: int, message: Any) -> object:
-        """Named tuples are tuples; the battery and the stopped group are bare on the floor."""
+        """Return the named tuple as it is; the floor has no tuple for battery and stopped group."""
         if command == floor.POSITIONS:
             return message.positions
         if command == floor.BATTERY:
@@ -132,7 +132,7 @@ class BitstructC(Bitstruct):
         self._battery = bitstruct.c.compile(_BATTERY)
 
     def encode_move(self, time_ms: int, targets: Sequence[tuple[int, int]]) -> bytes:
-        """One `pack`, then one `byteswap`."""
+        """Encode with one `pack`, then one `byteswap`."""
         count = len(targets)
         flat = chain.from_iterable(targets)
         pack, swaps = self._moves(count)
@@ -154,5 +154,5 @@ class BitstructC(Bitstruct):
 
 
 def peers() -> list[Peer]:
-    """What bitstruct takes part with: in Python and in C."""
+    """Return the peers of bitstruct: in Python and in C."""
     return [Bitstruct(), BitstructC()]

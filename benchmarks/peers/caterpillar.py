@@ -90,7 +90,7 @@ class Caterpillar(Peer):
         }
 
     def encode_move(self, time_ms: int, targets: Sequence[tuple[int, int]]) -> bytes:
-        """`pack` of an instance; the constants are derived, length and count are given."""
+        """Encode by `pack` of an instance; constants are derived, length and count given."""
         count = len(targets)
         move = _new_move(
             length=3 * count + 5,
@@ -104,7 +104,7 @@ class Caterpillar(Peer):
         return frame
 
     def plain(self, command: int, message: Any) -> object:
-        """Instances read by attribute."""
+        """Return an instance's values, read by attribute."""
         if command == floor.POSITIONS:
             return tuple((servo.servo_id, servo.position) for servo in message.positions)
         if command == floor.BATTERY:
@@ -115,5 +115,5 @@ class Caterpillar(Peer):
 
 
 def peers() -> list[Peer]:
-    """What caterpillar takes part with."""
+    """Return the peers of caterpillar."""
     return [Caterpillar()]

@@ -76,13 +76,13 @@ class Construct(Peer):
         self.parsers = {command: reply.parse for command, reply in replies.items()}
 
     def encode_move(self, time_ms: int, targets: Sequence[tuple[int, int]]) -> bytes:
-        """`build` of a dictionary."""
+        """Encode by `build` of a dictionary."""
         servos = [{"servo_id": servo_id, "position": position} for servo_id, position in targets]
         frame: bytes = self._move.build({"time_ms": time_ms, "targets": servos})
         return frame
 
     def plain(self, command: int, message: Any) -> object:
-        """Containers read by attribute."""
+        """Return a container's values, read by attribute."""
         if command == floor.POSITIONS:
             return tuple((servo.servo_id, servo.position) for servo in message.positions)
         if command == floor.BATTERY:
@@ -103,5 +103,5 @@ class CompiledConstruct(Construct):
 
 
 def peers() -> list[Peer]:
-    """What construct takes part with: interpreted and compiled."""
+    """Return the peers of construct: interpreted and compiled."""
     return [Construct(), CompiledConstruct()]

@@ -50,7 +50,7 @@ class Cstruct(Peer):
         }
 
     def encode_move(self, time_ms: int, targets: Sequence[tuple[int, int]]) -> bytes:
-        """`dumps` of an instance; it has no derived fields, so count and length are given."""
+        """Encode by `dumps` of an instance; count and length are given, as nothing is derived."""
         count = len(targets)
         servo = _C.servo
         move = _C.servo_move(
@@ -65,7 +65,7 @@ class Cstruct(Peer):
         return frame
 
     def plain(self, command: int, message: Any) -> object:
-        """Structures read by attribute."""
+        """Return a structure's values, read by attribute."""
         if command == floor.POSITIONS:
             return tuple((servo.servo_id, servo.position) for servo in message.positions)
         if command == floor.BATTERY:
@@ -76,5 +76,5 @@ class Cstruct(Peer):
 
 
 def peers() -> list[Peer]:
-    """What dissect.cstruct takes part with."""
+    """Return the peers of dissect.cstruct."""
     return [Cstruct()]

@@ -1,4 +1,4 @@
-"""What a peer must be able to do, so that all of them do the same work."""
+"""The interface of a peer, so that all of them do the same work."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ if TYPE_CHECKING:
 
 
 class Peer(ABC):
-    """One library, used as its own documentation advises, behind a few verbs."""
+    """One library, used as its own documentation advises, behind a few methods."""
 
     name: str
     """How the tables call it."""
@@ -41,11 +41,11 @@ class Peer(ABC):
 
     @abstractmethod
     def encode_move(self, time_ms: int, targets: Sequence[tuple[int, int]]) -> bytes:
-        """The MOVE frame of these (servo id, position) pairs, counts and lengths derived."""
+        """Return the MOVE frame of these (servo id, position) pairs, counts and lengths derived."""
 
     @abstractmethod
     def plain(self, command: int, message: Any) -> object:
-        """A parsed frame as the floor would give it: used to check, never timed."""
+        """Return a parsed frame in the form of the floor: used to check, never timed."""
 
     @property
     def title(self) -> str:

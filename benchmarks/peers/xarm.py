@@ -60,7 +60,7 @@ class Xarm(Peer):
         self.lacks = {"stream": "has no stream decoder: it reads one awaited reply"}
 
     def encode_move(self, time_ms: int, targets: Sequence[tuple[int, int]]) -> bytes:
-        """What `setPosition` writes."""
+        """Return the bytes that `setPosition` writes."""
         self._port.written.clear()
         self._controller.setPosition(targets, duration=time_ms)
         return bytes(self._port.written)
@@ -75,12 +75,12 @@ class Xarm(Peer):
         return self._controller.getBatteryVoltage()
 
     def plain(self, command: int, message: Any) -> object:
-        """Servos read by attribute; volts made millivolts."""
+        """Return the servos, read by attribute; volts in millivolts."""
         if command == floor.POSITIONS:
             return tuple((servo.servo_id, servo.position) for servo in message)
         return round(message * 1000)
 
 
 def peers() -> list[Peer]:
-    """What xarm takes part with."""
+    """Return the peers of xarm."""
     return [Xarm()]

@@ -1,3 +1,3 @@
-"""framegen: from a protocol written down as data to codecs, schema, vectors and documentation."""
+"""framegen: makes codecs, a schema, test vectors and documentation of a protocol's spec."""
 
 __version__ = "0.1.0"

@@ -1,4 +1,4 @@
-"""The `framegen` command: finds the verb, runs it, and turns what goes wrong into plain words."""
+"""The `framegen` command: finds the verb, runs it, and reports errors in plain words."""
 
 from __future__ import annotations
 
@@ -9,15 +9,18 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Protocol, cast
 
 from framegen import __version__, console
-from framegen.console import UNUSABLE, visible
+from framegen.console import DONE, UNUSABLE, visible
 from framegen.reading.findings import did_you_mean
+from framegen.shell_completion import CompletionError, add_option
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
 VERBS = (
+    "new",
     "check",
     "generate",
+    "missing",
     "diff",
     "docs",
     "explain",
@@ -35,7 +38,10 @@ The exit code is 0 when all is well, 1 when something was found (or the bytes ar
 
 
 class Verb(Protocol):
-    """What a module in `commands` offers. An example is a command line and what it does."""
+    """The interface of a module in `commands`. An example is a command line and what it does.
+
+    It may have an `ABOUT`, too: what else is worth knowing before it is run.
+    """
 
     SUMMARY: str
     EXAMPLES: Sequence[tuple[str, str]]
@@ -44,7 +50,7 @@ class Verb(Protocol):
         """Declare the arguments of the verb."""
 
     def run(self, arguments: argparse.Namespace) -> int:
-        """Do it, and give the exit code. Raises Unusable."""
+        """Run the verb, and return the exit code. Raises Unusable."""
 
 
 def main(argv: Sequence[str] | None = None) -> int:
@@ -61,7 +67,7 @@ def _run_or_tell(words: Sequence[str]) -> int:
             raise
         _complain(
             f"the generator needs `{error.name}`, which is not installed",
-            "pip install 'busservo[codegen]'",
+            "in a clone of its repository: pip install ./codegen",
         )
         return UNUSABLE
 
@@ -75,10 +81,13 @@ def _run(words: Sequence[str]) -> int:
         description="Check a protocol spec, generate everything from it, explain its frames.",
     )
     parser.add_argument("--version", action="version", version=f"framegen {__version__}")
+    add_option(parser)
     parser.add_argument("verb", nargs="?", metavar="VERB", help=argparse.SUPPRESS)
     if {"-h", "--help"} & set(words):
         parser.epilog = _overview()
     known, unknown = parser.parse_known_args(words)
+    if known.print_completion is not None:
+        return _print_completion(known.print_completion)
     if known.verb is None and unknown:
         parser.error(f"there is no option `{unknown[0]}`")
     if known.verb is None:
@@ -89,6 +98,23 @@ def _run(words: Sequence[str]) -> int:
     return UNUSABLE
 
 
+def _print_completion(shell: str) -> int:
+    from framegen.completion import completion  # noqa: PLC0415
+
+    parser = argparse.ArgumentParser(prog="framegen")
+    parser.add_argument("--version", action="store_true", help="show the version")
+    parts = parser.add_subparsers()
+    for name in VERBS:
+        verb = _verb(name)
+        verb.add_arguments(parts.add_parser(name, help=verb.SUMMARY))
+    try:
+        print(completion(parser, shell))
+    except CompletionError as error:
+        _complain(str(error))
+        return UNUSABLE
+    return DONE
+
+
 def _run_verb(name: str, words: Sequence[str]) -> int:
     # Only now: --version and a mistyped verb wait for neither YAML nor pydantic.
     from framegen.reading.yamltree import Unusable  # noqa: PLC0415
@@ -96,7 +122,7 @@ def _run_verb(name: str, words: Sequence[str]) -> int:
     verb = _verb(name)
     parser = console.Parser(
         prog=f"framegen {name}",
-        description=verb.SUMMARY,
+        description="\n\n".join((verb.SUMMARY, *_about(verb))),
         epilog=console.table("examples", verb.EXAMPLES),
     )
     verb.add_arguments(parser)
@@ -121,12 +147,21 @@ def _verb(name: str) -> Verb:
     return cast("Verb", import_module(f"framegen.commands.{name}"))
 
 
+def _about(verb: Verb) -> list[str]:
+    return [verb.ABOUT] if hasattr(verb, "ABOUT") else []
+
+
 def _overview() -> str:
     verbs = {name: _verb(name) for name in VERBS}
     summaries = [(name, verb.SUMMARY) for name, verb in verbs.items()]
     examples = [verb.EXAMPLES[0] for verb in verbs.values()]
     return "\n\n".join(
-        (console.table("verbs", summaries), console.table("examples", examples), _CLOSING)
+        (
+            console.table("verbs", summaries),
+            console.table("examples", examples),
+            *(about for verb in verbs.values() for about in _about(verb)),
+            _CLOSING,
+        )
     )
 
 

@@ -1,4 +1,4 @@
-"""Colours, for terminals alone: a pipe, a file and whoever has set NO_COLOR get none.
+"""Colours on terminals: none for a pipe, a file, or where NO_COLOR is set.
 
 The Python target copies this file into each library, so it imports the standard library alone.
 """
@@ -16,7 +16,7 @@ _SGR = {"red": 31, "green": 32, "yellow": 33, "magenta": 35, "cyan": 36}
 
 
 def takes_colour(screen: TextIO) -> bool:
-    """Whether what is printed there is looked at in colour; see https://no-color.org."""
+    """Tell whether `screen` shows colours; see https://no-color.org."""
     if os.environ.get("NO_COLOR") or os.environ.get("TERM") == "dumb" or not screen.isatty():
         return False
     # The console that came with Windows shows the escapes themselves, unless it was told otherwise.
@@ -24,5 +24,5 @@ def takes_colour(screen: TextIO) -> bool:
 
 
 def painted(text: str, colour: str) -> str:
-    """Text in a colour."""
+    """Return text with the escapes of a colour around it."""
     return f"\x1b[{_SGR[colour]}m{text}\x1b[0m"

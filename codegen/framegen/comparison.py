@@ -1,11 +1,11 @@
-"""What lies between two editions of a spec, and what of it breaks."""
+"""Compare two versions of a spec and classify each change by what it breaks."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Literal, TypeAlias
 
-from framegen.language.spec import ConstantPart, GroupField, IdPart, LengthPart
+from framegen.language.spec import ConstantPart, IdPart, LengthPart, ListField
 from framegen.language.values import Direction, to_hex
 from framegen.model.exchanges import method_of
 from framegen.model.slots import Number
@@ -80,7 +80,7 @@ _SECTIONS = ("sources", "reserved", "errata", "unknowns", "lookalikes", "history
 
 @dataclass(frozen=True, slots=True)
 class Difference:
-    """One thing that changed, at its path in the new edition, or in the old where it is gone."""
+    """One change, at its path in the new version, or in the old where it was removed."""
 
     kind: str
     path: str
@@ -89,7 +89,7 @@ class Difference:
 
     @property
     def breaks(self) -> Breaks:
-        """What does not go together any more."""
+        """What the change breaks."""
         return KINDS[self.kind]
 
     def __str__(self) -> str:
@@ -101,7 +101,7 @@ class Difference:
 
 
 def differences(old: Model, new: Model) -> list[Difference]:
-    """All that changed from one edition to the next, in the order of the new spec."""
+    """Return all changes from one version to the next, in the order of the new spec."""
     return [
         *_line(old, new),
         *_messages(old, new),
@@ -111,7 +111,7 @@ def differences(old: Model, new: Model) -> list[Difference]:
 
 
 def _line(old: Model, new: Model) -> Iterator[Difference]:
-    """What all messages share: the library, the ends, the link and the envelope of a frame."""
+    """Compare what all messages share: library, endpoints, link and envelope."""
     was, now = old.spec, new.spec
     versions = was.protocol.version, now.protocol.version
     yield from _changed("version", "protocol.version", *versions)
@@ -130,7 +130,7 @@ def _line(old: Model, new: Model) -> Iterator[Difference]:
 
 
 def _hid(old: Link, new: Link) -> Iterator[Difference]:
-    """Boards without a serial port are the same by vendor and product."""
+    """Compare USB HID boards, which are identified by vendor and product."""
     path = "link.usb_hid"
     was, now = ({board.ids: board for board in link.usb_hid} for link in (old, new))
     for ids, board in now.items():
@@ -184,7 +184,7 @@ def _method(path: str, old: MessageLayout, new: MessageLayout) -> Iterator[Diffe
 def _result(
     path: str, old: MessageLayout, new: MessageLayout, names: Mapping[str, str]
 ) -> Iterator[Difference]:
-    """What the result of a command tells besides that it was sent."""
+    """Compare what the result of a command reports besides that it was sent."""
     fields = _renamed_fields(_numbers(old), _numbers(new))
     for key, renamed in (("acknowledged", names), ("lasts", fields)):
         was, now = getattr(old.message, key), getattr(new.message, key)
@@ -194,13 +194,13 @@ def _result(
 
 
 def _fields(path: str, old: tuple[Number, ...], new: tuple[Number, ...]) -> Iterator[Difference]:
-    """Numbers, one behind the other: those of a message, or of an element of its list."""
+    """Compare the numbers of a message, or of an element of its list, one behind the other."""
     names = _renamed_fields(old, new)
     before = {names.get(field.name, field.name): field for field in old}
     for field in new:
         here = f"{path}.{field.name}"
         if field.name not in before:
-            yield Difference("field-added", here, None, field.wire.name)
+            yield Difference("field-added", here, None, field.number_type.name)
             continue
         was = before[field.name]
         kind = "count-renamed" if field.role == "count" else "field-renamed"
@@ -209,7 +209,7 @@ def _fields(path: str, old: tuple[Number, ...], new: tuple[Number, ...]) -> Iter
     after = [field.name for field in new]
     for name, was in before.items():
         if name not in after:
-            yield Difference("field-removed", f"{path}.{was.name}", was.wire.name)
+            yield Difference("field-removed", f"{path}.{was.name}", was.number_type.name)
     kept = [name for name in before if name in after]
     order = [name for name in after if name in before]
     yield from _changed("field-order", path, ", ".join(kept), ", ".join(order))
@@ -217,7 +217,7 @@ def _fields(path: str, old: tuple[Number, ...], new: tuple[Number, ...]) -> Iter
 
 
 def _properties(path: str, old: list[Number], new: list[Number]) -> Iterator[Difference]:
-    """What follows from the numbers of a message, or of an element, as a property of its own."""
+    """Compare the properties that a message or an element has besides its numbers."""
     was, now = _told_besides(old), _told_besides(new)
     for name in dict.fromkeys([*was, *now]):
         here = f"{path}.{name}"
@@ -230,7 +230,7 @@ def _properties(path: str, old: list[Number], new: list[Number]) -> Iterator[Dif
 
 
 def _told_besides(fields: Iterable[Number]) -> dict[str, str]:
-    """Each such property by its name, and what it is made of."""
+    """Return each such property by its name, with what it is computed from."""
     found: dict[str, str] = {}
     for each in fields:
         if each.field.signed_as is not None:
@@ -250,7 +250,7 @@ def _limits(path: str, old: Limits | None, new: Limits | None) -> Iterator[Diffe
 
 
 def _pose(old: Pose | None, new: Pose | None) -> Iterator[Difference]:
-    """The methods and the verbs that there are because positions are read and commanded."""
+    """Compare the methods and verbs that read and command positions."""
     if old is None or new is None:
         if new is not None:
             yield Difference("pose-added", "pose", None, f"{new.hold}, {new.present}")
@@ -262,8 +262,8 @@ def _pose(old: Pose | None, new: Pose | None) -> Iterator[Difference]:
 
 
 def _number(path: str, old: Number, new: Number) -> Iterator[Difference]:
-    if old.wire != new.wire:
-        yield Difference("field-type", f"{path}.type", old.wire.name, new.wire.name)
+    if old.number_type != new.number_type:
+        yield Difference("field-type", f"{path}.type", old.number_type.name, new.number_type.name)
     else:
         yield from _range(f"{path}.range", (old.low, old.high), (new.low, new.high))
     for name in ("unit", "scale"):
@@ -313,7 +313,7 @@ def _range(path: str, old: tuple[int, int], new: tuple[int, int]) -> Iterator[Di
 
 
 def _told(path: str, old: Message, new: Message) -> Iterator[Difference]:
-    """What no byte and no program depends on."""
+    """Compare what neither bytes nor programs depend on."""
     yield from _changed(
         "message-deprecated", f"{path}.deprecated", old.deprecated or None, new.deprecated or None
     )
@@ -329,7 +329,7 @@ def _told(path: str, old: Message, new: Message) -> Iterator[Difference]:
 
 
 def _prose(message: Message) -> dict[object, object]:
-    """What is said of a message, and of each of its fields, named values and examples."""
+    """Return the prose of a message, and of its fields, named values and examples."""
     said: dict[object, object] = {
         "message": (message.vendor_name, message.summary, message.description, message.cite),
         "versions": message.since,
@@ -338,7 +338,7 @@ def _prose(message: Message) -> dict[object, object]:
     }
     for name, field in message.fields.items():
         said[name] = (field.about, field.notes, field.cite)
-        inner = field.fields if isinstance(field, GroupField) else {"": field}
+        inner = field.fields if isinstance(field, ListField) else {"": field}
         for key, number in inner.items():
             others = None if number.limits is None else number.limits.others
             said[name, key] = (number.about, number.notes, number.cite, others)
@@ -348,7 +348,7 @@ def _prose(message: Message) -> dict[object, object]:
 
 
 def _said_of_all(old: Model, new: Model) -> Iterator[Difference]:
-    """What is said of no message alone."""
+    """Compare the sections that belong to no message."""
     was, now = (
         {
             "protocol": each.protocol.model_copy(update={"name": "", "version": ""}),
@@ -372,7 +372,7 @@ def _changed(kind: str, path: str, old: object, new: object) -> Iterator[Differe
 
 
 def _renamed(old: Mapping[str, object], new: Mapping[str, object]) -> dict[str, str]:
-    """Old names and new ones of what is otherwise the same, where nobody has both names."""
+    """Match old names with new ones of the same content, where neither version has both."""
     gone = [name for name in old if name not in new]
     come = [name for name in new if name not in old]
     found: dict[str, str] = {}
@@ -389,7 +389,8 @@ def _numbers(message: MessageLayout) -> tuple[Number, ...]:
 
 def _renamed_fields(old: tuple[Number, ...], new: tuple[Number, ...]) -> dict[str, str]:
     places = (
-        {field.name: (at, field.wire) for at, field in enumerate(each)} for each in (old, new)
+        {field.name: (at, field.number_type) for at, field in enumerate(each)}
+        for each in (old, new)
     )
     return _renamed(*places)
 
@@ -400,19 +401,19 @@ def _renamed_ends(old: Model, new: Model) -> dict[str, str]:
 
 
 def _seen(way: Direction, ends: Mapping[str, str]) -> Direction:
-    """A direction between ends that may be called otherwise now."""
+    """Return a direction with the new names of its endpoints."""
     return Direction(*(ends.get(end, end) for end in (way.sender, way.receiver)))
 
 
 def _identity(message: MessageLayout, ends: Mapping[str, str]) -> object:
-    """What makes two messages of different names the same: their frames."""
-    numbers = tuple(field.wire for field in _numbers(message))
-    listed = () if message.items is None else tuple(f.wire for f in message.items.fields)
+    """Return what identifies a message whatever its name: its frame."""
+    numbers = tuple(field.number_type for field in _numbers(message))
+    listed = () if message.items is None else tuple(f.number_type for f in message.items.fields)
     return message.id, _seen(message.direction, ends), numbers, listed
 
 
 def _envelope(parts: Mapping[str, FramePart]) -> str:
-    """The parts of a frame, without their names: `55 55, u8 length of 2 and 3, ...`."""
+    """Describe the parts of a frame without their names: `55 55, u8 length of 2 and 3, ...`."""
     return ", ".join(_part(part, [*parts]) for part in parts.values())
 
 

@@ -1,4 +1,4 @@
-"""From the text of a spec to everything that is known of it: one parse, one derivation."""
+"""Compile a spec: read its text, check it, and derive its model, once."""
 
 from __future__ import annotations
 
@@ -8,9 +8,9 @@ from typing import TYPE_CHECKING
 from framegen.checks import check_model, check_structure
 from framegen.language.load import load
 from framegen.model.model import derive
+from framegen.pluralize import pluralize
 from framegen.reading.findings import in_order
 from framegen.reading.yamltree import Unusable
-from framegen.wording import counted
 
 if TYPE_CHECKING:
     from framegen.language.spec import Spec
@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, slots=True)
 class Compiled:
-    """A spec as text, with the place of each value, what is wrong with it, and what it means."""
+    """A spec as text, with the place of each value, its findings and its model."""
 
     source: Source
     tree: Tree
@@ -32,24 +32,24 @@ class Compiled:
 
     @property
     def spec(self) -> Spec:
-        """What its author said. Raises Unusable where there are findings."""
+        """The spec as its author wrote it. Raises Unusable where there are findings."""
         return self.model.spec
 
     @property
     def model(self) -> Model:
-        """What follows from it. Raises Unusable where there are findings."""
+        """The model that follows from it. Raises Unusable where there are findings."""
         if self.findings or self.derived is None:
             name = self.source.name
             first = self.findings[0].render(self.source)
             raise Unusable(
-                f"{name} has {counted(len(self.findings), 'finding')}; the first is\n{first}",
+                f"{name} has {pluralize(len(self.findings), 'finding')}; the first is\n{first}",
                 hint=f"`framegen check {name}` shows them all",
             )
         return self.derived
 
 
 def compile_spec(source: Source) -> Compiled:
-    """Read a spec, check it and work out what follows. Raises Unusable where it is no spec at all.
+    """Read and check a spec, and derive its model. Raises Unusable where it is no spec.
 
     What is wrong is in `findings`, from the top of the file down.
     """

@@ -1,7 +1,7 @@
-"""The standard streams of a command, and how it ends; the same for every command.
+"""Standard streams and exit status of a command; the same for every command.
 
 What is printed may hold names that others chose (of ports, of files, in a spec), and these must not
-command the terminal. A stream may be closed or full, or its reader may be gone: status and error
+control the terminal. A stream may be closed or full, or its reader may be gone: status and error
 are then the same whether or not Python buffers the output.
 
 The Python target copies this file into each library, so it imports the standard library alone.
@@ -41,7 +41,7 @@ _IN_LINE = re.compile(rf"[\t\n{_HIDDEN}]")
 
 
 def visible(text: str) -> str:
-    r"""Show text in one line that cannot command a terminal: an escape character as `\x1b`."""
+    r"""Escape what could control a terminal, on one line: an escape character as `\x1b`."""
     return _IN_LINE.sub(_escape, text)
 
 
@@ -50,7 +50,7 @@ def _escape(found: re.Match[str]) -> str:
 
 
 def complain(program: str, message: str, hint: str = "") -> None:
-    """Print an error as every command does: a line for what is wrong, and one for what to do.
+    """Print an error as every command does: a line for what is wrong, and one for the way out.
 
     `program` may go on with a verb, which is left out.
     """
@@ -60,7 +60,7 @@ def complain(program: str, message: str, hint: str = "") -> None:
 
 
 def table(title: str, entries: Iterable[tuple[str, str]]) -> str:
-    """A table of two columns; or, where that is too wide to be read, a line below the other."""
+    """Format two columns; where that is too wide to read, put the second below the first."""
     rows = list(entries)
     width = max((len(left) for left, _ in rows), default=0)
     lines = [f"  {left:<{width}}  {right}" for left, right in rows] or ["  none"]
@@ -70,7 +70,7 @@ def table(title: str, entries: Iterable[tuple[str, str]]) -> str:
 
 
 class Parser(argparse.ArgumentParser):
-    """Reads a command line; says in one line what is wrong with it, and where there is help."""
+    """A command-line parser that reports errors in one line, and where to find help."""
 
     def __init__(self, **options: Any) -> None:
         options.setdefault("formatter_class", argparse.RawDescriptionHelpFormatter)
@@ -79,13 +79,13 @@ class Parser(argparse.ArgumentParser):
         self.color = False
 
     def error(self, message: str) -> NoReturn:
-        """Complain, and end with UNUSABLE."""
+        """Report the error, and exit with UNUSABLE."""
         complain(self.prog, message, f"`{self.prog} --help` shows how it is used")
         raise SystemExit(UNUSABLE)
 
 
 def run(program: str, body: Callable[[], int]) -> int:
-    """Run a command with streams that are safe to print to, and return its exit status.
+    """Run a command on safe streams, and return its exit status.
 
     `body` returns a status or raises SystemExit. When the output cannot be written, that decides
     the status: READER_GONE for a closed pipe, UNUSABLE with an error for everything else.
@@ -128,7 +128,7 @@ def _reader_has_gone(error: OSError) -> bool:
 
 @contextmanager
 def _standard_streams() -> Iterator[Screen]:
-    """Put screens in place of stdout and stderr."""
+    """Put Screens in place of stdout and stderr."""
     _occupy_descriptors()
     before = sys.stdin, sys.stdout, sys.stderr
     # Where a stream was closed when the command began, Python has None.
@@ -150,7 +150,7 @@ def _no_output(name: str) -> TextIO:
 
 
 def _occupy_descriptors() -> None:
-    """Open what is closed of 0, 1 and 2, or a port would get the number of a standard stream."""
+    """Open closed descriptors of 0, 1 and 2, so that no port gets such a number."""
     for number in range(3):
         try:
             os.fstat(number)
@@ -159,7 +159,7 @@ def _occupy_descriptors() -> None:
 
 
 class Screen:
-    """A text stream that shows what is invisible, and remembers why it could not be written.
+    """A text stream that escapes invisible characters, and remembers why a write failed.
 
     `error` is the first failure of a vital stream; writing raises it, then and ever after. A stream
     that is not vital loses what cannot be written.
@@ -171,7 +171,7 @@ class Screen:
         self._vital = vital
 
     def __getattr__(self, name: str) -> Any:
-        """Have all else in common with the stream behind it."""
+        """Return any other attribute of the stream behind it."""
         return getattr(self.stream, name)
 
     @property
@@ -185,7 +185,7 @@ class Screen:
         return len(text)
 
     def write_as_it_is(self, text: str) -> None:
-        """Write text that may command the terminal: colours, and a line that is written over."""
+        """Write text that may control the terminal: colours, or a line written over."""
         if not text.isascii():
             encoding = getattr(self.stream, "encoding", None) or "utf-8"
             text = text.encode(encoding, "backslashreplace").decode(encoding)
@@ -196,7 +196,7 @@ class Screen:
         self.attempt(self.stream.flush)
 
     def attempt(self, write: Callable[[], Result]) -> Result | None:
-        """Write by a function, unless that has failed before."""
+        """Write by a function, unless an earlier write has failed."""
         if self.error is None:
             try:
                 return write()
@@ -207,7 +207,7 @@ class Screen:
         return None
 
     def end(self) -> None:
-        """Leave nothing behind in the buffer that the interpreter would fail on at exit."""
+        """Empty the buffer, so that the interpreter does not fail on it at exit."""
         with suppress(OSError):
             self.flush()
         if self.error is not None:
@@ -218,7 +218,7 @@ class Screen:
 
 
 class _Bytes:
-    """What `Screen.buffer` is."""
+    """The type of `Screen.buffer`."""
 
     def __init__(self, screen: Screen) -> None:
         self._screen = screen
@@ -233,7 +233,7 @@ class _Bytes:
 
 
 def write_as_it_is(screen: TextIO | Screen, text: str) -> None:
-    """Write text of our own that commands the terminal, on a Screen or any other stream."""
+    """Write our own text that controls the terminal, on a Screen or any other stream."""
     getattr(screen, "write_as_it_is", screen.write)(text)
 
 
@@ -244,11 +244,11 @@ class _Closed(io.RawIOBase):
         self._name = name
 
     def readable(self) -> bool:
-        """Say so, to be asked and to raise the error that tells why not."""
+        """Return True, so that reading is tried and raises the error."""
         return True
 
     def writable(self) -> bool:
-        """Say so, as for `readable`."""
+        """Return True, as for `readable`."""
         return True
 
     def readinto(self, _buffer: Any, /) -> int:

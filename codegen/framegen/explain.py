@@ -1,6 +1,6 @@
-"""Takes a frame apart byte by byte; or shows where and why bytes stop being a frame.
+"""Explanation of a frame byte by byte, or of where and why bytes stop being a frame.
 
-Only what there is to say: `explain_text` puts it on a page.
+Content alone: `explain_text` formats it.
 """
 
 from __future__ import annotations
@@ -29,8 +29,8 @@ _MOST_WITHIN = 8
 class Row:
     """Some bytes of a frame that belong together: a part of the frame, or a field.
 
-    `role` says what its slot is there for; `value` is None for constant bytes; `text` is the value
-    as people say it, `7500 mV = 7.500 V`.
+    `role` is that of its slot; `value` is None for constant bytes; `text` is the value as people
+    write it, `7500 mV = 7.500 V`.
     """
 
     offset: int
@@ -49,7 +49,7 @@ class Row:
 
 @dataclass(frozen=True, slots=True)
 class Reading:
-    """What a frame says in one direction; `facts` are lines of a label and a text."""
+    """The meaning of a frame in one direction; `facts` are lines of a label and a text."""
 
     message: str
     direction: Direction
@@ -60,7 +60,7 @@ class Reading:
 
 @dataclass(frozen=True, slots=True)
 class Refusal:
-    """Why the bytes are no frame in one direction; `rows` are what was right up to there."""
+    """Why the bytes are no frame in one direction; `rows` are the slots that agreed."""
 
     direction: Direction
     reason: str
@@ -71,7 +71,7 @@ class Refusal:
 
 @dataclass(frozen=True, slots=True)
 class Hint:
-    """What the bytes may be instead; `frame` is the frame that the text speaks of, if any."""
+    """What the bytes may be instead; `frame` is the frame that the text mentions, if any."""
 
     text: str
     frame: bytes = b""
@@ -79,7 +79,7 @@ class Hint:
 
 @dataclass(frozen=True, slots=True)
 class Explanation:
-    """Everything that can be said of some bytes. Without readings, they are no frame."""
+    """An explanation of some bytes. Without readings, they are no frame."""
 
     protocol: str
     data: bytes
@@ -109,17 +109,17 @@ def _outcome(model: Model, data: bytes, direction: Direction) -> Reading | Refus
 
 
 def _distance(refusal: Refusal) -> tuple[bool, int]:
-    """Put first the direction in which the bytes came closest to a frame."""
+    """Order refusals: the direction in which the bytes came closest to a frame is first."""
     return refusal.reason == UNKNOWN_COMMAND, -len(refusal.rows)
 
 
 def seen_rows(verdict: Verdict, data: bytes) -> tuple[Row, ...]:
-    """Say what those slots mean that agreed with what a frame begins with."""
+    """Explain the slots that agreed with the beginning of a frame."""
     return tuple(_row(placed, data, verdict.likely) for placed in verdict.seen)
 
 
 def _row(placed: Placed, data: bytes, message: MessageLayout | None) -> Row:
-    """Say what the bytes of a slot mean; `message` is the one that they began, if one is known."""
+    """Explain the bytes of a slot; `message` is the one that they began, if it is known."""
     slot, piece = placed.slot, placed.of(data)
     where = (placed.at, piece, placed.path, slot.role)
     if not isinstance(slot, Number):
@@ -136,7 +136,7 @@ def _row(placed: Placed, data: bytes, message: MessageLayout | None) -> Row:
 
 
 def _said(field: Number, value: int) -> tuple[str, str]:
-    """Put a value in words: with its unit, in its larger unit, by its name."""
+    """Describe a value: with its unit, in its larger unit, by its name."""
     text = f"{value} {field.field.unit}".rstrip()
     if field.field.scale is not None:
         text += f" = {field.field.scale.of(value)}"
@@ -172,7 +172,7 @@ def _facts(model: Model, message: MessageLayout, data: bytes) -> Iterator[tuple[
 
 
 def _hints(model: Model, data: bytes, refusals: Sequence[Refusal]) -> Iterator[Hint]:
-    """Guess what the bytes are instead."""
+    """Suggest what the bytes are instead."""
     otherwise = _names(model, model.directions, data)
     if otherwise:
         yield Hint(f"sent the other way, they are {otherwise}")
@@ -189,7 +189,7 @@ def _hints(model: Model, data: bytes, refusals: Sequence[Refusal]) -> Iterator[H
 
 
 def _command_hints(model: Model, data: bytes, refusals: Sequence[Refusal]) -> Iterator[Hint]:
-    """Say what an unknown command means elsewhere, or why it is kept free."""
+    """Say what an unknown command means elsewhere, or why it is reserved."""
     spec = model.spec
     unknown = [refusal for refusal in refusals if refusal.reason == UNKNOWN_COMMAND]
     if not unknown:
@@ -210,7 +210,7 @@ def _the(title: str) -> str:
 
 
 def _length_hints(model: Model, data: bytes, refusals: Sequence[Refusal]) -> Iterator[Hint]:
-    """Try the length that as many bytes should have."""
+    """Try the length that so many bytes should have."""
     frame = model.frame
     length = len(data) - frame.uncounted
     if length not in range(frame.length.high + 1) or len(data) < frame.body_at:
@@ -226,7 +226,7 @@ def _length_hints(model: Model, data: bytes, refusals: Sequence[Refusal]) -> Ite
 
 
 def _frames_within(model: Model, data: bytes) -> Iterator[Hint]:
-    """Look for whole frames among the bytes, from the first byte on."""
+    """Find whole frames among the bytes, from the first byte on."""
     found = at = 0
     while at + model.frame.body_at <= len(data):
         size = _claimed_size(model, data, at)
@@ -244,12 +244,12 @@ def _frames_within(model: Model, data: bytes) -> Iterator[Hint]:
 
 
 def _claimed_size(model: Model, data: bytes, at: int) -> int:
-    """Tell how many bytes a frame that begins at `at` says that it has."""
+    """Return the size that a frame which begins at `at` claims."""
     return model.frame.uncounted + model.frame.length.read_in(data[at:])
 
 
 def _names(model: Model, directions: Sequence[Direction], data: bytes) -> str:
-    """Name the messages that `data` is, one a direction at most; nothing where it is none."""
+    """Name the messages that `data` is, at most one for each direction; empty for none."""
     return " or ".join(
         f"{message.name} ({direction})"
         for direction in directions

@@ -1,4 +1,4 @@
-"""Puts an explanation on a page of text, or into JSON."""
+"""Explanations as text, and as JSON."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ def as_text(explanation: Explanation) -> str:
 
 
 def as_json(explanation: Explanation) -> dict[str, Any]:
-    """Give the explanation as values that JSON has."""
+    """Return the explanation as values that JSON has."""
     return {
         "hex": to_hex(explanation.data),
         "frame": bool(explanation.readings),
@@ -78,7 +78,7 @@ def _reading(reading: Reading) -> Iterator[str]:
 
 
 def table(rows: Sequence[Row]) -> Iterator[str]:
-    """Put rows in columns: where, which bytes, of what, what they say and what that means."""
+    """Format rows as columns: offset, bytes, part, value and meaning."""
     cells = [("byte", "hex", "part", "value", "meaning")]
     said: set[str] = set()
     for row in rows:

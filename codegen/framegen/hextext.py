@@ -1,11 +1,11 @@
 """Hex as people paste it: `0A 1B 02 FF`, `0x0A, 0x1B`, `0A1B02FF`, over any lines.
 
-Between bytes may stand blanks, commas, colons, semicolons, dashes and underscores, and comments
-from a `#` to the end of the line. A byte is two digits, with `0x` before it, or the backslash and x
-of strings in C and Python, or neither; behind one of these, a single digit at the end of a word is
-a byte, too. Nothing else is hex.
+Bytes may be separated by blanks, commas, colons, semicolons, dashes and underscores, and a comment
+goes from a `#` to the end of the line. A byte is two digits, with or without `0x` before it, or the
+backslash and x of strings in C and Python; after one of these prefixes, a single digit at the end
+of a word is a byte, too. Nothing else is hex.
 
-The Python target copies this into each library, and the script of the decoder's page says the same.
+The Python target copies this into each library, and the script of the decoder's page does the same.
 """
 
 from __future__ import annotations
@@ -26,7 +26,7 @@ _NO_DIGIT = re.compile(r"[^0-9A-Fa-f]")
 
 
 class HexError(ValueError):
-    """Text that is no hex: what is wrong in which word, where it begins, and what to do."""
+    """Text that is no hex: the wrong part, its word and position, and what to do."""
 
     def __init__(self, word: str, wrong: str, at: int, problem: str, hint: str) -> None:
         where = "" if wrong == word else f" in {_shortened(word)!r}"
@@ -38,7 +38,7 @@ class HexError(ValueError):
 
 
 def read_hex(text: str) -> bytes:
-    """Read the bytes that hex stands for. Raises HexError."""
+    """Read hex text as bytes. Raises HexError."""
     try:
         # As most hex is written, and many times as fast.
         return bytes.fromhex(text)
@@ -51,7 +51,7 @@ def read_hex(text: str) -> bytes:
 
 
 def is_hex(text: str) -> bool:
-    """Tell whether text is hex, and of one byte at least."""
+    """Tell whether text is hex of at least one byte."""
     try:
         return bool(read_hex(text))
     except HexError:
@@ -59,14 +59,14 @@ def is_hex(text: str) -> bool:
 
 
 class HexReader:
-    """Reads hex that comes in pieces, cut anywhere."""
+    """A reader of hex that arrives in pieces, cut anywhere."""
 
     def __init__(self) -> None:
         self._begun = ""
         self._in_comment = False
 
     def feed(self, text: str) -> bytes:
-        """Read a further piece, but for a byte that has only begun. Raises HexError."""
+        """Read a further piece, except for a byte that has only begun. Raises HexError."""
         if self._in_comment:
             _, end, text = text.partition("\n")
             self._in_comment = not end
@@ -85,13 +85,13 @@ class HexReader:
         return read_hex(text)
 
     def end(self) -> bytes:
-        """Read what has begun, now that no more comes. Raises HexError."""
+        """Read the byte that has begun, now that nothing follows. Raises HexError."""
         begun, self._begun = self._begun, ""
         return read_hex(begun)
 
 
 def _rest(word: str) -> str:
-    """Give what stands in a word behind its whole bytes."""
+    """Return what follows the whole bytes of a word."""
     if _NO_DIGIT.search(word) is None:
         return word[len(word) // 2 * 2 :]
     whole = _BYTES.match(word)
@@ -109,7 +109,7 @@ def _read_word(word: str, at: int) -> bytes:
 
 
 def _refusal(word: str, rest_at: int, at: int) -> HexError:
-    """Say what is wrong with a word, of which the bytes up to `rest_at` are right."""
+    """Say what is wrong with a word, whose bytes up to `rest_at` are right."""
     prefix = re.compile(_PREFIX).match(word, rest_at)
     start = prefix.end() if prefix else rest_at
     if prefix and start == len(word):

@@ -1,4 +1,4 @@
-"""What a run wants on disk: the files of one owner, and the banner that each of them carries."""
+"""The output of a run: the files of one owner, and the banner that each of them carries."""
 
 from __future__ import annotations
 
@@ -13,10 +13,10 @@ _LONGEST = 52
 
 
 def banner(spec: str) -> str:
-    """What every generated file says of itself, for a comment; `spec` is its path below the root.
+    """Return the banner of a generated file, for a comment; `spec` is its path below the root.
 
-    Nothing else: what changes with every change of the spec stands in the manifest alone. What
-    comes from no spec at all has "".
+    It holds nothing that changes with every change of the spec: that is in the manifest alone. The
+    banner of what comes from no spec at all has "".
     """
     path = _RISKY.sub("_", spec)
     if len(path) > _LONGEST:

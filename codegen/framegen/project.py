@@ -1,4 +1,4 @@
-"""The project around a spec: which specs are meant when none is named, and where its root is."""
+"""The project around a spec: its root, its specs, and the one to use when none is named."""
 
 from __future__ import annotations
 
@@ -52,13 +52,13 @@ def named_spec(word: str) -> Path | None:
 
 
 def project_root(spec: Path) -> Path:
-    """Find what output paths are relative to: the folder above `spec/`, or else the spec's own."""
+    """Return the root of output paths: the folder above `spec/`, or that of the spec."""
     folder = spec.parent.resolve()
     return folder.parent if folder.name == FOLDER else folder
 
 
 def _remedy(here: Path) -> str:
-    """Say what to name. A spec that merely lies here is not taken: it may be somebody's draft."""
+    """Suggest what to name. A spec that merely lies here is not used: it may be a draft."""
     lying = [file.name for file in sorted(here.glob("*.yaml")) if _is_like_a_spec(file)]
     if lying:
         return f"name the spec, such as {visible(lying[0])}, which lies here"

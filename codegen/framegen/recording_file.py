@@ -1,12 +1,12 @@
-"""The file that a recording is written to: a line of hex for each event, and a comment.
+"""The file format of a recording: a line of hex for each event, and a comment.
 
     # recorded of '/dev/ttyUSB0' from 2026-01-02 09:08:07.250000 +0000 on
     HEX  # 0.000000 s, SENDER: what it says
     HEX  # 0.004167 s, noise: why it is noise
     # quiet
 
-Times are seconds from its beginning. `# quiet` says that the line fell silent within a frame: what
-follows is not the rest of it. Whoever reads hex can read such a file; `recordings` reads all of it.
+Times are seconds from its beginning. `# quiet` says that the line went quiet within a frame: what
+follows is not the rest of it. Any reader of hex can read such a file; `recordings` reads all of it.
 
 The Python target copies this file into each library, so it imports the standard library alone.
 """
@@ -32,10 +32,10 @@ _FLAGS: int = getattr(os, "O_CLOEXEC", 0) | getattr(os, "O_BINARY", 0)
 
 
 class RecordingFile:
-    """A recording in the making. Raises OSError where the file cannot be written.
+    """An open recording. Raises OSError where the file cannot be written.
 
-    What has been recorded is never overwritten: FileExistsError is raised for a file that holds
-    anything. An empty one will do, and so will what is no file at all, such as a FIFO or /dev/null.
+    A recording is never overwritten: FileExistsError is raised for a file that holds anything. An
+    empty file is accepted, and so is what is no file at all, such as a FIFO or /dev/null.
     """
 
     def __init__(self, path: str | PathLike[str]) -> None:
@@ -60,24 +60,24 @@ class RecordingFile:
         )
 
     def begin(self, name: str) -> None:
-        """Notes what is recorded, and that its time counts from now on."""
+        """Note what is recorded, and start its clock."""
         now = time.time()
         day = time.localtime(now)
         clock = f"{time.strftime('%Y-%m-%d %H:%M:%S', day)}.{int(now % 1 * 1_000_000):06d}"
         self._file.write(f"# recorded of {name!r} from {clock} {time.strftime('%z', day)} on\n")
 
     def write(self, data: bytes, at: float, who: str, what: object) -> None:
-        """Notes bytes of one event, `at` seconds from the beginning."""
+        """Write the bytes of one event, `at` seconds from the beginning."""
         self._file.write(f"{data.hex(' ').upper()}  # {at:.6f} s, {who}: {what}\n")
 
     def note(self, text: str) -> None:
-        """Notes anything else, in a line of its own."""
+        """Write a comment in a line of its own."""
         self._file.write(f"# {' '.join(text.split())}\n")
 
     def quiet(self) -> None:
-        """Notes that half a frame was given up: what follows is not its other half."""
+        """Note that half a frame was given up: what follows is not its other half."""
         self._file.write(f"{QUIET}\n")
 
     def close(self) -> None:
-        """Closes the file. Raises OSError where its end could not be written."""
+        """Close the file. Raises OSError where its end could not be written."""
         self._file.close()

@@ -1,4 +1,4 @@
-"""From a spec to every file that follows from it: pure, and the same bytes wherever it runs."""
+"""Render a spec to every file that follows from it: pure, the same bytes everywhere."""
 
 from __future__ import annotations
 
@@ -17,9 +17,9 @@ if TYPE_CHECKING:
 
 
 def render(compiled: Compiled, targets: Collection[Target] | None = None) -> Output:
-    """What is made of a spec, and of no other. Raises Unusable where it has findings.
+    """Render the files of one spec. Raises Unusable where it has findings.
 
-    Of `targets` alone, if they are given; what the others make is told apart.
+    Only of `targets`, if they are given; the files of the others are kept apart.
     """
     chosen = table.TARGETS if targets is None else targets
     files: dict[str, str] = {}
@@ -44,7 +44,7 @@ def render(compiled: Compiled, targets: Collection[Target] | None = None) -> Out
 
 
 def render_shared(compiled: Compiled, targets: Collection[Target] | None = None) -> Output:
-    """What is the same for every spec, and framegen's own."""
+    """Render the files that are the same for every spec, and belong to framegen."""
     files: dict[str, str] = {}
     for target in table.TARGETS if targets is None else targets:
         if target.shared:
@@ -53,7 +53,7 @@ def render_shared(compiled: Compiled, targets: Collection[Target] | None = None)
 
 
 def render_target(target: Target, compiled: Compiled) -> dict[str, str]:
-    """The files of one target; those whose language has comments, unless empty, with a banner."""
+    """Render the files of one target, with a banner in each non-empty file that has comments."""
     spec = "" if target.shared else compiled.source.path
     headed = target.render(compiled, snippets())
     for path, text in headed.items():
@@ -64,5 +64,5 @@ def render_target(target: Target, compiled: Compiled) -> dict[str, str]:
 
 
 def snippets() -> Snippets:
-    """How each target that is a language shows an example, by its name."""
+    """Return the function of each language target that shows an example, by the target's name."""
     return {target.name: target.snippet for target in table.TARGETS if target.snippet is not None}

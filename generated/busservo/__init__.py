@@ -4,7 +4,7 @@
 Binary commands and reports between a host and a bus servo controller, over a serial line.
 
 The host moves servos, runs action groups stored on the board and asks for the battery voltage
-and for servo positions. The controller answers questions and reports, unasked, what its action
+and for servo positions. The controller answers queries and reports, by itself, what its action
 groups do, because a handset, the on-board button and other hosts may start them too.
 
 There is no checksum and no error frame: a frame the controller dislikes is met with silence, a

@@ -38,9 +38,9 @@ Report: typing.TypeAlias = (
 class Device:
     """The controller's end of the line: override a handler to say what it does.
 
-    Bytes of the host go in by `receive`, and what there is to send comes back. A handler that is
-    not overridden does nothing and answers nothing. What is no message is counted in `rejects`,
-    by reason.
+    `receive` takes bytes of the host, and returns the bytes to send back. A handler that is not
+    overridden does nothing and answers nothing. Rejected input is counted in `rejects`, by
+    reason.
     """
 
     def __init__(self) -> None:
@@ -49,39 +49,39 @@ class Device:
         self.rejects = Rejects()
 
     def receive(self, data: bytes | bytearray | memoryview) -> bytes:
-        """Takes in bytes, cut anyhow, and returns the bytes of everything there is to send."""
+        """Take in bytes, in pieces of any size, and return the bytes of all that is to be sent."""
         self.accept(data)
         return b"".join(report.encode() for report in self.take())
 
     def accept(self, data: bytes | bytearray | memoryview) -> None:
-        """Takes in bytes; what there is to send waits for `take`. Never raises on input."""
+        """Take in bytes; the messages to send wait for `take`. Never raises on input."""
         self._hear(self._decoder.feed(data))
 
     def quiet(self) -> None:
-        """Says that the line has been quiet for so long that a frame that began is given up."""
+        """End the frame in progress: the line has been quiet for too long to wait for its rest."""
         self._hear(self._decoder.flush())
 
     def restart(self) -> None:
-        """Forgets a frame that has begun and what waits to be sent: the device was switched off."""
+        """Discard half a frame and all messages to be sent: the device was switched off."""
         self._decoder = StreamDecoder(Direction.HOST_TO_CONTROLLER)
         self._queue = []
 
     def send(self, report: Report) -> None:
-        """Puts a message behind those that wait to be sent. TypeError for one of the other end."""
+        """Queue a message to be sent. Raises TypeError for a message of the other end."""
         if report.DIRECTION is Direction.HOST_TO_CONTROLLER:
             raise TypeError(f"{type(report).__name__} is sent to this end, never by it")
         self._queue.append(report)
 
     def take(self) -> list[Report]:
-        """Takes what there is to send, in order."""
+        """Return the messages that wait to be sent, in order, and empty the queue."""
         waiting, self._queue = self._queue, []
         return waiting
 
     def accepted(self, message: Message) -> None:
-        """Called for each message, in front of its handler."""
+        """Handle any message, before its own handler; override it to see them all."""
 
     def rejected(self, noise: Noise) -> None:
-        """Called for each piece of noise that is counted in `rejects`."""
+        """Handle a piece of noise that is counted in `rejects`; override it to see them."""
 
     def on_servo_move(self, message: ServoMove) -> None:
         """Turn one or more servos to positions, all of them arriving after the same time."""
@@ -89,13 +89,13 @@ class Device:
     def on_action_group_run(self, message: ActionGroupRun) -> None:
         """Run an action group stored on the controller, a number of times or for ever.
 
-        May be followed, by `send`: ActionGroupStarted, ActionGroupCompleted.
+        `send` may follow with: ActionGroupStarted, ActionGroupCompleted.
         """
 
     def on_action_group_stop(self, message: ActionGroupStop) -> None:
         """Stop the action group that is running.
 
-        May be followed, by `send`: ActionGroupStopped.
+        `send` may follow with: ActionGroupStopped.
         """
 
     def on_action_group_speed(self, message: ActionGroupSpeed) -> None:
@@ -104,7 +104,7 @@ class Device:
     def on_battery_voltage_read(self, message: BatteryVoltageRead) -> BatteryVoltage | None:
         """Ask for the voltage of the battery.
 
-        Return the BatteryVoltage that answers it, or None to stay silent.
+        Return the BatteryVoltage as the reply, or None to stay silent.
         """
 
     def on_servo_unload(self, message: ServoUnload) -> None:
@@ -113,7 +113,7 @@ class Device:
     def on_servo_positions_read(self, message: ServoPositionsRead) -> ServoPositions | None:
         """Ask where one or more servos are.
 
-        Return the ServoPositions that answers it, or None to stay silent.
+        Return the ServoPositions as the reply, or None to stay silent.
         """
 
     def _hear(self, events: list[Event]) -> None:

@@ -71,10 +71,7 @@ class ServoPosition(Element, tuple[int, int]):
 
     @property
     def absent(self) -> bool:
-        """Whether `position` says that there is nothing to tell of.
-
-        The servo is off or not connected.
-        """
+        """Whether `position` is POSITION_ABSENT."""
         return self.position == 65535
 
 
@@ -122,10 +119,10 @@ class ServoMove(Message):
         )
 
     def columns(self) -> tuple[Column, Column]:
-        """The targets as columns of plain numbers.
+        """Return the targets as columns of plain numbers.
 
         One for each field: servo_id and position. For arrays and plots of a recording: several
-        times as fast as `targets`.
+        times as fast as reading `targets`.
         """
         numbers = type(self).targets.numbers(self._frame)
         return numbers[0::2], numbers[1::2]
@@ -468,10 +465,10 @@ class ServoPositions(Message):
         )
 
     def columns(self) -> tuple[Column, Column]:
-        """The positions as columns of plain numbers.
+        """Return the positions as columns of plain numbers.
 
         One for each field: servo_id and position. For arrays and plots of a recording: several
-        times as fast as `positions`.
+        times as fast as reading `positions`.
         """
         numbers = type(self).positions.numbers(self._frame)
         return numbers[0::2], numbers[1::2]

@@ -19,7 +19,7 @@ class Step:
     targets: Mapping[int, int]
 
     def seconds(self, percent: int) -> float:
-        """How long it takes at `percent` of the recorded speed."""
+        """Return how long it takes at `percent` of the recorded speed."""
         return max(SHORTEST_STEP, self.time_ms / 10 / percent)
 
 
@@ -36,7 +36,7 @@ class ActionGroup:
 
 
 def stored_groups() -> dict[int, ActionGroup]:
-    """What a board comes with: 1 nods, 2 waves, 8 stands up."""
+    """Return the groups of a new board: 1 nods, 2 waves, 8 stands up."""
     return {
         1: ActionGroup([Step(200, {3: 600}), Step(200, {3: 400}), Step(200, {3: 500})]),
         2: ActionGroup([Step(300, {1: 300, 6: 700}), Step(300, {1: 700, 6: 300})]),

@@ -1,4 +1,4 @@
-"""What a host has not read yet, as far as a port keeps it."""
+"""Output that a host has not read yet, as far as a port keeps it."""
 
 from __future__ import annotations
 
@@ -11,14 +11,14 @@ MOST = 65536
 
 
 class Backlog:
-    """Bytes that a port that never waits could not take at once."""
+    """Bytes that a non-blocking port could not take at once."""
 
     def __init__(self) -> None:
         self.data = b""
         self.lost = 0
 
     def send(self, data: bytes, write: Callable[[bytes], int]) -> None:
-        """Writes as much as `write` takes; what is too much to keep is lost, newest first."""
+        """Write as much as `write` takes; beyond what can be kept, the newest bytes are lost."""
         self.data += data
         while self.data:
             try:

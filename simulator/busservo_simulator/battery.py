@@ -14,7 +14,7 @@ SAG_MV = 25.0
 
 
 class Battery:
-    """Two lithium cells. `travelling` tells how many servos are at work just now."""
+    """Two lithium cells. `travelling` returns how many servos are at work just now."""
 
     def __init__(self, full_mv: int, travelling: Callable[[], int]) -> None:
         self.full_mv = full_mv
@@ -22,7 +22,7 @@ class Battery:
         self._drawn_mv = 0.0
 
     def drain(self, seconds: float, busy_seconds: float) -> None:
-        """Takes what that time cost; `busy_seconds` are those of all servos together."""
+        """Subtract the charge for that time; `busy_seconds` are those of all servos together."""
         self._drawn_mv += (seconds * IDLE_MV_PER_HOUR + busy_seconds * BUSY_MV_PER_HOUR) / 3600
 
     @property

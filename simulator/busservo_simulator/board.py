@@ -1,4 +1,4 @@
-"""The board: what a bus servo controller does with what it is told. No port, and no clock."""
+"""The board: what a bus servo controller does with its commands. No port, and no clock."""
 
 from __future__ import annotations
 
@@ -47,9 +47,9 @@ MOST_POSITIONS = ServoPositions.SHAPE.items.counts[-1] if ServoPositions.SHAPE.i
 class Board(Device):
     """A board that has been switched on at time 0 and lives through `advance_to`.
 
-    Where the vendor's document is silent it does the quiet thing: a servo that is not there and an
-    action group that is not stored are ignored, a group that starts replaces the one that runs,
-    and a speed of 0 % is ignored.
+    Where the vendor's document is silent it does nothing: a servo that is not there and an action
+    group that is not stored are ignored, a group that starts replaces the one that runs, and a
+    speed of 0 % is ignored.
     """
 
     def __init__(
@@ -82,7 +82,7 @@ class Board(Device):
         return self._performance.due if self._performance else None
 
     def advance_to(self, moment: float) -> None:
-        """Lives on until a moment, through everything that happens by itself until then."""
+        """Advance to a moment, through everything that happens by itself until then."""
         while self._performance and self._performance.due <= moment:
             self._pass(self._performance.due)
             self._go_on(self._performance)
@@ -111,18 +111,18 @@ class Board(Device):
     # ---------------------------------------------------------------- what the host can do
 
     def hear(self, data: bytes) -> None:
-        """Takes in what arrived now, unless it is busy starting."""
+        """Take in bytes that arrived now, unless the board is still starting."""
         if self.now >= self._blackout_until:
             self.accept(data)
 
     def accepted(self, message: Message) -> None:
-        """LED2 blinks once for what was understood."""
+        """Blink LED2 once for a message."""
         self.heard += 1
         self.led_stays_on = False
         self._log("LED2", f"blinks: {message!r}")
 
     def rejected(self, noise: Noise) -> None:
-        """LED2 stays on and the buzzer beeps twice; the host is told nothing."""
+        """Keep LED2 on and beep twice; the host gets no reply."""
         self.led_stays_on = True
         self.beeps += 2
         shown = noise.data[:16].hex(" ").upper() + (" ..." if len(noise.data) > 16 else "")
@@ -130,17 +130,17 @@ class Board(Device):
         self._log("buzzer", f"DiDi: {noise.reason.value}, {shown}")
 
     def on_servo_move(self, message: ServoMove) -> None:
-        """The servos set off."""
+        """Move the servos."""
         self._turn(message.targets, message.time_ms / 1000)
 
     def on_servo_unload(self, message: ServoUnload) -> None:
-        """The servos go limp."""
+        """Make the servos limp."""
         for servo_id in message.servo_ids:
             for servo in self._addressed(servo_id):
                 servo.unload()
 
     def on_servo_positions_read(self, message: ServoPositionsRead) -> ServoPositions | None:
-        """The servos that are there, in the order asked; silence if no reply could hold them."""
+        """Return the present servos, in the order requested; None if no reply can hold them."""
         if len(message.servo_ids) > MOST_POSITIONS:
             self._log("board", f"{len(message.servo_ids)} servos fit in no reply: silence")
             return None
@@ -148,19 +148,19 @@ class Board(Device):
         return ServoPositions([self._told(servo) for servo in there if servo and not servo.missing])
 
     def on_battery_voltage_read(self, message: BatteryVoltageRead) -> BatteryVoltage:  # noqa: ARG002 - it has no fields
-        """The voltage at this moment."""
+        """Return the present voltage."""
         return BatteryVoltage(self.battery.voltage_mv)
 
     def on_action_group_run(self, message: ActionGroupRun) -> None:
-        """The group starts, if there is one of this number."""
+        """Start the group, if there is one of this number."""
         self.start_group(message.group, message.times, told=self.start_report)
 
     def on_action_group_stop(self, message: ActionGroupStop) -> None:  # noqa: ARG002 - it has no fields
-        """The group that runs is stopped; without one, nothing happens and nothing is said."""
+        """Stop the group that runs; without one, do nothing and send nothing."""
         self.stop_group()
 
     def on_action_group_speed(self, message: ActionGroupSpeed) -> None:
-        """The steps that follow take less time, or more."""
+        """Change the time that the next steps of a group take."""
         if not message.percent:
             self._log("group", f"{message.group}: a speed of 0 % is ignored")
             return
@@ -171,7 +171,7 @@ class Board(Device):
     # ---------------------------------------------------------------- what others can do
 
     def start_group(self, number: int, times: int, *, told: bool = True) -> None:
-        """Starts a stored group, as the handset or the button on the board can too."""
+        """Start a stored group, as the handset or the button on the board can too."""
         group = self.groups.get(number)
         if group is None:
             self._log("group", f"{number} is not stored: silence")
@@ -183,7 +183,7 @@ class Board(Device):
         self._go_on(self._performance)
 
     def stop_group(self) -> None:
-        """Stops what runs. Servos end the step that they are at."""
+        """Stop the group that runs. Servos complete the step that they are at."""
         if self._performance is None:
             return
         self._log("group", f"{self._performance.number} is stopped")
@@ -191,7 +191,7 @@ class Board(Device):
         self.send(ActionGroupStopped())
 
     def reboot(self, seconds: float) -> None:
-        """Switch it off and on: a startup blackout of `seconds`, after which no group runs."""
+        """Switch it off and on: no input for `seconds`, speeds forgotten, and no group runs."""
         self._log("board", f"restarts, for {seconds:g} s")
         self._performance = None
         self.speeds.clear()

@@ -6,7 +6,7 @@ from collections import deque
 
 
 class Channel:
-    """Carries bytes in order. With 0 seconds a byte, they are there at once."""
+    """A queue that delivers bytes in order. With 0 seconds a byte, they arrive at once."""
 
     def __init__(self, seconds_per_byte: float = 0.0) -> None:
         self.seconds_per_byte = seconds_per_byte
@@ -21,11 +21,11 @@ class Channel:
 
     @property
     def held(self) -> int:
-        """How many bytes are under way."""
+        """How many bytes are on their way."""
         return sum(len(data) for _, data in self._pieces)
 
     def put(self, data: bytes, moment: float, seconds_per_byte: float | None = None) -> None:
-        """Puts bytes behind those that are under way, on a paced line at a speed of their own."""
+        """Put bytes behind those that are on their way, on a paced line at a speed of their own."""
         if not data:
             return
         start = max(moment, self.free_at)
@@ -41,13 +41,13 @@ class Channel:
         self.free_at = start + len(data) * each
 
     def take(self, moment: float) -> list[bytes]:
-        """The pieces that are out by then. Of a paced line, all that has come is one piece."""
+        """Return the pieces that are out by then; on a paced line they are one piece."""
         found: list[bytes] = []
         while self._pieces and self._pieces[0][0] <= moment:
             found.append(self._pieces.popleft()[1])
         return [b"".join(found)] if found and self.seconds_per_byte else found
 
     def clear(self) -> None:
-        """Loses what is under way."""
+        """Discard the bytes that are on their way."""
         self._pieces.clear()
         self.free_at = 0.0

@@ -1,4 +1,4 @@
-"""The command `busservo-simulator`: a virtual board that waits behind a port."""
+"""The command `busservo-simulator`: a virtual board behind a port."""
 
 from __future__ import annotations
 
@@ -10,9 +10,9 @@ from contextlib import ExitStack, contextmanager
 from typing import TYPE_CHECKING
 
 from busservo._cli import console
-from busservo._frame.wording import counted
+from busservo._frame.pluralize import pluralize
 
-from busservo_simulator.options import PROGRAM, faults_of, parser_of
+from busservo_simulator.options import PROGRAM, add_arguments, completion, faults_of, parser_of
 from busservo_simulator.tcp_end import LOOPBACK
 
 if TYPE_CHECKING:
@@ -21,12 +21,15 @@ if TYPE_CHECKING:
 
     from busservo_simulator.virtual_controller import VirtualController
 
+# What `busservo simulate` asks for.
+__all__ = ["add_arguments", "main"]
+
 
 def main(argv: Sequence[str] | None = None, *, program: str = PROGRAM) -> int:
-    """Runs the command line. 0: ended by Ctrl-C; 2: unusable; 141: whoever read along has gone.
+    """Run the command line. 0: ended by Ctrl-C; 2: usage error; 141: the reader of its output left.
 
-    `program` is how the command was called: it is a verb of another one, too. With --quiet, nobody
-    reads along: whoever has read the name of the port may go.
+    `program` is how the command was called: it is a verb of another one, too. With --quiet, nothing
+    follows the name of the port, so its reader may leave.
     """
     return console.run(program, lambda: _run_or_tell(argv, program))
 
@@ -34,6 +37,9 @@ def main(argv: Sequence[str] | None = None, *, program: str = PROGRAM) -> int:
 def _run_or_tell(argv: Sequence[str] | None, program: str) -> int:
     arguments = parser_of(program).parse_args(argv)
     try:
+        if getattr(arguments, "print_completion", None) is not None:
+            print(completion(arguments.print_completion))
+            return console.DONE
         return _run(arguments, program)
     except ValueError as error:
         console.complain(program, str(error))
@@ -57,13 +63,13 @@ def _run(arguments: argparse.Namespace, program: str) -> int:
             over = ended.wait(0.5)
             gone = not arguments.quiet and _reader_has_gone()
         log.listener = None
-        totals = f"{counted(board.accepted, 'message')}, {board.rejects.total} rejected"
+        totals = f"{pluralize(board.accepted, 'message')}, {board.rejects.total} rejected"
         print(totals, file=sys.stderr)
     return console.READER_GONE if gone else console.DONE
 
 
 def _reader_has_gone() -> bool:
-    """Whether nobody can read what is printed. On Windows only the next line tells."""
+    """Return whether nobody can read the output. On Windows only the next line shows."""
     if sys.platform == "win32":
         return False
     try:
@@ -76,7 +82,7 @@ def _reader_has_gone() -> bool:
 
 
 def _printer(named: threading.Event, ended: threading.Event) -> Callable[[str], None]:
-    """Prints lines as they come, but none in front of the name of the port, and loses none."""
+    """Return a function that prints all lines, the name of the port first."""
 
     def show(line: str) -> None:
         named.wait()
@@ -90,7 +96,7 @@ def _printer(named: threading.Event, ended: threading.Event) -> Callable[[str], 
 
 @contextmanager
 def _opened(arguments: argparse.Namespace) -> Iterator[VirtualController]:
-    """The board behind its port. Raises ValueError where there cannot be such a port."""
+    """Open the port of a board. Raises ValueError if there cannot be such a port."""
     board = _board(arguments)
     with ExitStack() as port:
         try:
@@ -135,7 +141,7 @@ def _board(arguments: argparse.Namespace) -> VirtualController:
 
 @contextmanager
 def _ended_by_signals() -> Iterator[threading.Event]:
-    """An event that SIGINT and SIGTERM set, so that links and ports are always given back."""
+    """Return an event that SIGINT and SIGTERM set, so that links and ports are always removed."""
     ended = threading.Event()
     kinds = (signal.SIGINT, signal.SIGTERM)
     before = [signal.signal(kind, lambda *_: ended.set()) for kind in kinds]

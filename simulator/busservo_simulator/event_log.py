@@ -1,4 +1,4 @@
-"""What happened on the board, as lines to read: the LED and the buzzer among them."""
+"""The events on the board, as lines to read: the LED and the buzzer among them."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ class EventLog:
         self.listener: Callable[[str], None] | None = None
 
     def add(self, moment: float, who: str, what: str) -> None:
-        """Writes a line: when, in seconds since the board was switched on, who, and what."""
+        """Add a line: when, in seconds since the board was switched on, who, and what."""
         line = f"{moment:10.3f}  {who:8}  {what}"
         self._lines.append(line)
         LOGGER.info("%s", line)

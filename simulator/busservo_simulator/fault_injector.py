@@ -1,4 +1,4 @@
-"""Does the faults that were asked for to what passes on the line."""
+"""The fault injector: applies faults to what passes on the line."""
 
 from __future__ import annotations
 
@@ -42,7 +42,7 @@ class FaultInjector:
         self._random = Random(faults.seed)  # noqa: S311 - to be repeated, not to be secret
 
     def reports(self, report: Report) -> Iterator[Report]:
-        """What is sent in place of `report`."""
+        """Yield the reports that are sent in place of `report`."""
         if self._happens(self.faults.unasked):
             yield self._unasked()
         if isinstance(report, REPLIES) and self._happens(self.faults.dropped):
@@ -54,12 +54,12 @@ class FaultInjector:
             yield report
 
     def lateness(self, report: Report) -> float:
-        """For how many seconds the board keeps `report` back, 0.0 for none."""
+        """Return how many seconds the board keeps `report` back, 0.0 for none."""
         late = isinstance(report, REPLIES) and self._happens(self.faults.late)
         return self.faults.late_by if late else 0.0
 
     def sending(self, report: Report) -> Sending:
-        """How the frame of `report` goes out."""
+        """Return how the frame of `report` goes out."""
         faults, pause = self.faults, 0.0
         data = self._miscounted(report)
         if self._happens(faults.delays):
@@ -74,7 +74,7 @@ class FaultInjector:
         return Sending([(pause, data)], waits=self._happens(faults.coalesced))
 
     def hearing(self, data: bytes) -> list[tuple[float, bytes]]:
-        """How bytes of the host arrive: pieces, each behind a pause in seconds."""
+        """Return how bytes of the host arrive: pieces, each behind a pause in seconds."""
         faults = self.faults
         data = self._flipped(data, faults.bit_flips_to_board)
         if self._happens(faults.noise_to_board):
@@ -106,7 +106,7 @@ class FaultInjector:
         return ServoPositions(kept)
 
     def _miscounted(self, report: Report) -> bytes:
-        """The frame of a report, its count of servos off by one if that fault happens."""
+        """Return the frame of a report, its count of servos off by one if that fault happens."""
         frame = report.encode()
         if not (isinstance(report, ServoPositions) and self._happens(self.faults.wrong_count)):
             return frame
@@ -128,12 +128,12 @@ class FaultInjector:
         return bytes(data)
 
     def _shortened(self, frame: bytes, chance: float) -> bytes:
-        """The frame without the bytes that are lost."""
+        """Return the frame without the bytes that are lost."""
         if not chance:
             return frame
         return bytes(byte for byte in frame if not self._happens(chance))
 
     def _noise(self) -> bytes:
-        """Up to eight bytes without a header, though a lone byte of one may be among them."""
+        """Return up to eight bytes without a header; a single byte of one may be among them."""
         data = self._random.randbytes(self._random.randrange(1, 9))
         return data.replace(b"\x55\x55", b"\x55\xaa")

@@ -1,4 +1,4 @@
-"""The faults that can be asked for: how likely each is, and how long what is slow takes."""
+"""The faults to inject: how likely each is, and how long delays are."""
 
 from __future__ import annotations
 
@@ -16,15 +16,14 @@ def _seconds(default: float, how_long: str) -> float:
 
 @dataclass(frozen=True, slots=True)
 class Faults:
-    """Chances, 0 to 1, of what can go wrong on the way from the board to the host, and back.
+    """Chances, 0 to 1, of faults on the way from the board to the host, and back.
 
     The same seed and the same traffic give the same faults. Those that end in `_to_board` happen to
     each piece that the host writes, all others to what the board sends. There is no checksum: a
     flipped bit in a value is a wrong value, and so may be the bytes that follow a lost one; on the
     way to the board, a flipped bit is another command.
 
-    Raises ValueError for a chance that is not from 0 to 1, and for seconds that are no length of
-    time.
+    Raises ValueError for a chance outside 0 to 1, and for seconds that are no length of time.
     """
 
     seed: int = 0

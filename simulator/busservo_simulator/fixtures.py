@@ -1,6 +1,6 @@
 """Fixtures for pytest: import them in a conftest.py, or name this module in `pytest_plugins`.
 
-No plugin is registered: nobody's pytest should become slower for a robot that it does not test.
+No plugin is registered: no pytest run should become slower for a robot that it does not test.
 """
 
 from __future__ import annotations
@@ -18,20 +18,20 @@ if TYPE_CHECKING:
 
 @pytest.fixture
 def virtual_controller() -> Iterator[VirtualController]:
-    """A board in the same process, on real time."""
+    """Yield a board in the same process, on real time."""
     with VirtualController() as board:
         yield board
 
 
 @pytest.fixture
 def patient_controller() -> Iterator[VirtualController]:
-    """A board in the same process, whose time stands still until `advance`."""
+    """Yield a board in the same process, whose time stands still until `advance`."""
     with VirtualController(clock=VirtualClock()) as board:
         yield board
 
 
 @pytest.fixture
 def virtual_tcp_controller() -> Iterator[VirtualController]:
-    """A board behind a TCP port of this machine: `port` is what to open. On every system."""
+    """Yield a board behind a TCP port of this machine: `port` is its name. On every system."""
     with VirtualController("tcp") as board:
         yield board

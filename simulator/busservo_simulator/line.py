@@ -25,12 +25,12 @@ COALESCING = 0.02
 
 
 class Line:
-    """Bytes of the host go in by `write`; `read` gives those that the host has by then.
+    """A line: bytes of the host go in by `write`; `read` returns those for the host.
 
-    Times are those of the board, which lives as far as it is asked about, event by event. With
+    Times are those of the board, which advances event by event as far as it is asked for. With
     `baud`, bytes take their time; without, the rate is that of the protocol all the same, and a
-    host that has set another one hears garbage and is heard as garbage. With `local_echo`, the
-    host's adapter gives back what the host sends.
+    host that has set another one receives garbage and sends garbage. With `local_echo`, the host's
+    adapter returns what the host sends.
     """
 
     def __init__(
@@ -62,7 +62,7 @@ class Line:
 
     @property
     def faults(self) -> Faults:
-        """The faults that happen; setting them starts anew from their seed."""
+        """The faults that happen; setting them restarts from their seed."""
         return self._injector.faults
 
     @faults.setter
@@ -72,7 +72,7 @@ class Line:
 
     @property
     def host_baud(self) -> float:
-        """The rate that the host has set; that of the board where nobody knows of another."""
+        """The rate that the host has set; the board's if no other is known."""
         return self._host_baud
 
     @host_baud.setter
@@ -93,11 +93,11 @@ class Line:
 
     @property
     def unheard(self) -> int:
-        """How many bytes of the host are still under way."""
+        """How many bytes of the host are still on their way."""
         return self._to_board.held
 
     def write(self, data: bytes, moment: float) -> None:
-        """Takes the bytes that the host sends."""
+        """Take the bytes that the host sends."""
         if self.hung_up or not data:
             return
         if self.local_echo:
@@ -108,7 +108,7 @@ class Line:
             self._to_board.put(piece, start, seconds_per_byte)
 
     def read(self, moment: float) -> list[bytes]:
-        """Lives until then, and gives the pieces that reached the host; `hung_up` may follow."""
+        """Advance to a moment, and return the pieces that reached the host."""
         while (event := self._next_inside) is not None and event <= moment:
             self._live(event)
         self._live(moment)
@@ -118,13 +118,13 @@ class Line:
         return pieces
 
     def send(self, data: bytes, moment: float) -> None:
-        """Sends bytes to the host as they are."""
+        """Send bytes to the host as they are."""
         if not self.hung_up:
             read, seconds_per_byte = self._sampled(data, self.baud, self._host_baud)
             self._to_host.put(read, moment, seconds_per_byte)
 
     def reboot(self, seconds: float) -> None:
-        """Switches the board off and on: what it has kept back is never sent."""
+        """Switch the board off and on: what it has kept back is never sent."""
         self._late.clear()
         self._waiting = b""
         self.board.reboot(seconds)
@@ -132,14 +132,14 @@ class Line:
     def spurious_output(
         self, data: bytes, per_second: float, moment: float, *, ignore_input: bool
     ) -> None:
-        """Sends `data` again and again; without any, ends that."""
+        """Send `data` again and again; b"" ends that."""
         self._ignores_input = ignore_input and bool(data)
         self._babble = data
         self._babble_pause = 1 / per_second
         self._babbles_at = moment if data else None
 
     def cut(self) -> None:
-        """Cuts the line: what is under way is lost."""
+        """Cut the line: the bytes on their way are lost."""
         self.hung_up = True
         self._hangs_up_at = None
         self._waiting = b""
@@ -147,7 +147,7 @@ class Line:
         self._to_host.clear()
 
     def mend(self) -> None:
-        """Makes it whole again, also where it was only about to be cut."""
+        """Repair the line, also if it was only about to be cut."""
         self.hung_up = False
         self._hangs_up_at = None
 
@@ -208,7 +208,7 @@ class Line:
         self.send(waiting, moment)
 
     def _sampled(self, data: bytes, sent_at: float, read_at: float) -> tuple[bytes, float]:
-        """What is read of bytes that were sent, and how many seconds each of those takes."""
+        """Return the bytes that are read for those sent, and the seconds that each takes."""
         if sent_at == read_at:
             return data, BITS_PER_BYTE / read_at
         read = sampled(data, sent_at, read_at, self._phase)

@@ -18,9 +18,9 @@ if TYPE_CHECKING:
 
 
 class MemoryEnd:
-    """Both ends at once: what `busservo.Controller` takes as a transport, and the board's port.
+    """Both ends at once: a transport for `busservo.Controller`, and the board's port.
 
-    Whoever reads or writes makes the board live on, since there is no thread that does.
+    Reads and writes advance the board, since there is no thread that does.
     """
 
     name = "virtual board"
@@ -40,7 +40,7 @@ class MemoryEnd:
     # ---------------------------------------------------------------- the host's side
 
     def open(self) -> MemoryEnd:
-        """Makes it usable again after `close`. Raises PortNotFoundError while it is unplugged."""
+        """Make it usable again after `close`. Raises PortNotFoundError while it is unplugged."""
         with self._changed:
             if not self._plugged:
                 raise PortNotFoundError(self.name, "the board is unplugged", "plug_in() the board")
@@ -49,11 +49,11 @@ class MemoryEnd:
             return self
 
     def reopen(self) -> MemoryEnd:
-        """What a client's `reconnect` calls: as `open`."""
+        """Open it again, for a client's `reconnect`."""
         return self.open()
 
     def read(self, timeout: float) -> bytes:
-        """What has arrived, waiting up to `timeout` seconds for the first byte; b"" for nothing."""
+        """Return what has arrived, waiting up to `timeout` seconds for the first byte; or b""."""
         with self._changed:
             end = self._host_time() + timeout
             while True:
@@ -69,7 +69,7 @@ class MemoryEnd:
                 self._pass(left)
 
     def write(self, data: bytes) -> None:
-        """Hands bytes to the line."""
+        """Hand bytes to the line."""
         with self._changed:
             self._check()
             self._line.write(bytes(data), self._moment())
@@ -77,7 +77,7 @@ class MemoryEnd:
             self._changed.notify_all()
 
     def drain(self, timeout: float) -> None:
-        """Returns once the last byte has arrived at the board, or after `timeout` seconds."""
+        """Return once the last byte has arrived at the board, or after `timeout` seconds."""
         with self._changed:
             end = self._host_time() + timeout
             while self._plugged and self._line.unheard:
@@ -88,7 +88,7 @@ class MemoryEnd:
                 self._live()
 
     def close(self) -> None:
-        """Ends the host's use of it, until `open`. Any number of times."""
+        """End the host's use of it, until `open`. Any number of times."""
         with self._changed:
             self._closed = True
             self._changed.notify_all()
@@ -103,12 +103,12 @@ class MemoryEnd:
         return self._clock.now() - self._since
 
     def _host_time(self) -> float:
-        """The time in which a wait is measured: that of the world, unless reads move the clock."""
+        """Return the time that waits are measured in: real time, unless reads move the clock."""
         follows = isinstance(self._clock, VirtualClock) and self._clock.follow_reads
         return self._clock.now() if follows else time.monotonic()
 
     def _pass(self, left: float) -> None:
-        """Lets time go by until the next event, and for no longer than `left`."""
+        """Let time pass until the next event, and for no longer than `left`."""
         if isinstance(self._clock, VirtualClock) and self._clock.follow_reads:
             event = self._line.next_event
             end = self._clock.now() + left
@@ -123,37 +123,37 @@ class MemoryEnd:
 
     @property
     def port(self) -> str:
-        """A name for it; there is nothing to open by it."""
+        """A name for it; it opens nothing."""
         return self.name
 
     @property
     def host_baud(self) -> None:
-        """There is no rate to set in the same process."""
+        """None: in the same process there is no rate to set."""
         return None
 
     def plug_in(self) -> None:
-        """Makes it usable, unless it has been closed."""
+        """Make it usable, unless it has been closed."""
         self._plugged = True
 
     def unplug(self) -> None:
-        """Makes the next read or write fail; what has arrived can still be read."""
+        """Make the next read or write fail; what has arrived can still be read."""
         self._plugged = False
         self._changed.notify_all()
 
     def deliver(self, data: bytes) -> None:
-        """Puts bytes where a read finds them."""
+        """Put bytes where a read finds them."""
         if self._plugged:
             self._inbox += data
             self._changed.notify_all()
 
     def wait(self, seconds: float | None, *, listening: bool) -> None:
-        """There is no thread to wait."""
+        """Return at once: there is no thread that waits."""
 
     def receive(self) -> bytes:
-        """What is written goes to the line at once."""
+        """Return b"": bytes that are written go to the line at once."""
         return b""
 
     def wake(self) -> None:
-        """Ends the wait of a read."""
+        """End the wait of a read."""
         with self._changed:
             self._changed.notify_all()

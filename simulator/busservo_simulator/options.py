@@ -7,7 +7,7 @@ import re
 from typing import TYPE_CHECKING
 
 from busservo import __version__
-from busservo._cli import console
+from busservo._cli import console, shell_completion
 from busservo._frame.protocol import BAUD
 
 from busservo_simulator.faults import CHANCES, DURATIONS, Faults
@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from collections.abc import Mapping
 
 PROGRAM = "busservo-simulator"
-# What a TCP port and a battery's millivolts are sent as.
+# The highest TCP port, and the most millivolts that a frame carries.
 _MOST = 65535
 
 
@@ -47,12 +47,34 @@ What happens is printed line by line: the seconds since the start, who, and what
 
 
 def parser_of(program: str) -> argparse.ArgumentParser:
-    """The parser of the command, whatever it is called as."""
+    """Return the parser of the command, under the name that it was called by."""
     parser = console.Parser(
         prog=program,
         description="A virtual bus servo controller: talk to it as to a real one.",
         epilog=_EXAMPLES.replace(PROGRAM, program),
     )
+    add_arguments(parser)
+    if program == PROGRAM:
+        shell_completion.add_option(parser)
+    return parser
+
+
+def completion(shell: str) -> str:
+    """Return what a shell needs to complete the command. Raises ValueError where none is made."""
+    try:
+        return shell_completion.script(parser_of(PROGRAM), shell, _candidates)
+    except shell_completion.CompletionError as error:
+        raise ValueError(str(error)) from None
+
+
+def _candidates(_command: str, action: argparse.Action) -> shell_completion.Candidates | None:
+    if action.metavar == "NAME=CHANCE":
+        return shell_completion.Words([f"{name}=" for name in CHANCES])
+    return shell_completion.Files() if action.metavar == "PATH" else None
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Declare the options of the command."""
     where = parser.add_argument_group("where it is")
     where.add_argument("--link", metavar="PATH", help="a name for the pty, a symlink")
     where.add_argument(
@@ -141,7 +163,6 @@ def parser_of(program: str) -> argparse.ArgumentParser:
     )
     parser.add_argument("--quiet", action="store_true", help="print the port and nothing else")
     parser.add_argument("--version", action="version", version=f"{PROGRAM} {__version__}")
-    return parser
 
 
 def _servos(text: str) -> list[int]:
@@ -201,12 +222,12 @@ def _fault(text: str) -> tuple[str, float]:
 
 
 def _decimal(text: str) -> float | None:
-    """A number of 0 or more, None for whatever else."""
+    """Return a number of 0 or more; None for any other text."""
     written = re.fullmatch(r"[0-9]{1,9}(\.[0-9]{0,9})?|\.[0-9]{1,9}", text)
     return float(text) if written else None
 
 
 def faults_of(arguments: argparse.Namespace) -> Faults:
-    """The faults that were asked for."""
+    """Return the faults that the arguments choose."""
     durations = {name: getattr(arguments, name) for name in DURATIONS}
     return Faults(seed=arguments.seed, **dict(arguments.faults), **durations)

@@ -1,4 +1,4 @@
-"""An action group while it runs: which step it is at, and how often it still has to."""
+"""A running action group: the step it is at, and how many runs are left."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ class Performance:
         return self.times > 0 and self._runs == self.times
 
     def next_step(self, percent: int) -> Step:
-        """Takes the step that is due; the one behind it is due when this one is over."""
+        """Take the step that is due; the one behind it is due when this one is over."""
         step = self._group.steps[self._step]
         self.due += step.seconds(percent)
         self._step += 1

@@ -1,4 +1,4 @@
-"""What every way of reaching the board has in common: the board's end of a port."""
+"""The interface of the board's end of a port, whatever the port is."""
 
 from __future__ import annotations
 
@@ -15,33 +15,33 @@ class PortEnd(Protocol):
 
     @property
     def host_baud(self) -> int | None:
-        """The rate that a host has set; None where ports have none, or none has been set."""
+        """The rate that a host has set; None if ports have none, or none has been set."""
         ...
 
     def plug_in(self) -> None:
-        """Makes the port; it may have another name than before."""
+        """Make the port; it may have another name than before."""
         ...
 
     def unplug(self) -> None:
-        """Makes the port vanish, in the middle of whatever is going on. Any number of times."""
+        """Make the port vanish, in the middle of whatever is going on. Any number of times."""
         ...
 
     def deliver(self, data: bytes) -> None:
-        """Hands bytes to the host. Never waits: what nobody reads is lost, as on a serial line."""
+        """Hand bytes to the host. Never waits: unread bytes are lost, as on a serial line."""
         ...
 
     def wait(self, seconds: float | None, *, listening: bool) -> None:
-        """Waits for bytes of the host, if `listening`; for room; for a host; or to be woken."""
+        """Wait for bytes of the host, if `listening`; for room; for a host; or to be woken."""
         ...
 
     def receive(self) -> bytes:
-        """The bytes of the host that are there, b"" for none. Never waits."""
+        """Return the bytes of the host that are there, b"" for none. Never waits."""
         ...
 
     def wake(self) -> None:
-        """Ends a wait that another thread is in."""
+        """End a wait of another thread."""
         ...
 
     def close(self) -> None:
-        """Unplugs it for good."""
+        """Unplug it for good."""
         ...

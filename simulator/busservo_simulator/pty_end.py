@@ -1,4 +1,4 @@
-"""The board behind a pseudo terminal: a serial port by every look of it. Linux and macOS."""
+"""The board behind a pseudo terminal, which looks like a serial port. Linux and macOS."""
 
 from __future__ import annotations
 
@@ -44,21 +44,21 @@ class PtyEnd:
 
     @property
     def host_baud(self) -> int | None:
-        """The rate that a host has set; None where none has set another than there was before."""
+        """The rate that a host has set; None if none has changed it."""
         if self._host_end < 0:
             return None
         rate = read_rate(self._host_end)
         return None if rate == self._baud_before else rate
 
     def plug_in(self) -> None:
-        """Makes the pty and the link. Raises FileExistsError where something else has that name."""
+        """Make the pty and the link. Raises FileExistsError if another file has that name."""
         import tty  # noqa: PLC0415 - there is none on Windows
 
         self._waker.open()
         self._board_end, self._host_end = os.openpty()
         tty.setraw(self._host_end)
         set_rate(self._host_end, self._baud)
-        # Where the system knows no such rate, one that a host sets can still be told from it.
+        # If the system knows no such rate, one that a host sets can still be distinguished from it.
         self._baud_before = read_rate(self._host_end)
         os.set_blocking(self._board_end, False)
         self._name = os.ttyname(self._host_end)
@@ -70,7 +70,7 @@ class PtyEnd:
                 raise
 
     def unplug(self) -> None:
-        """Closes both ends: whoever reads is told so."""
+        """Close both ends: readers get an error."""
         if self._board_end < 0:
             return
         if self._link is not None and self._link_leads_to(self._link) == self._name:
@@ -82,12 +82,12 @@ class PtyEnd:
         self._waker.wake()
 
     def deliver(self, data: bytes) -> None:
-        """Writes what the pty takes."""
+        """Write as much as the pty takes."""
         if self._board_end >= 0:
             self._backlog.send(data, lambda rest: os.write(self._board_end, rest))
 
     def wait(self, seconds: float | None, *, listening: bool) -> None:
-        """Waits for bytes of the host, for room for those to it, or to be woken."""
+        """Wait for bytes of the host, for room for those to it, or to be woken."""
         end = self._board_end
         reading: list[int] = [self._waker.fileno()]
         if end >= 0 and listening:
@@ -98,7 +98,7 @@ class PtyEnd:
         self._waker.clear()
 
     def receive(self) -> bytes:
-        """Reads what there is."""
+        """Read the bytes that are there."""
         if self._board_end < 0:
             return b""
         self.deliver(b"")
@@ -108,16 +108,16 @@ class PtyEnd:
             return b""
 
     def wake(self) -> None:
-        """Ends a wait."""
+        """End a wait."""
         self._waker.wake()
 
     def close(self) -> None:
-        """Unplugs it."""
+        """Unplug it."""
         self.unplug()
         self._waker.close()
 
     def _make_link(self, link: Path) -> None:
-        # One that leads to a device was left behind, as by a program that was killed.
+        # A link to a device was left behind, as by a program that was killed.
         if self._link_leads_to(link).startswith("/dev/"):
             link.unlink()
         link.symlink_to(self._name)

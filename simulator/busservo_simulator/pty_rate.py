@@ -1,4 +1,4 @@
-"""The rate of a pseudo terminal, in baud: nobody needs it there, and yet whoever opens it sets it.
+"""The rate of a pseudo terminal, in baud: it has no effect, yet programs that open one set it.
 
 Not for Windows.
 """
@@ -25,7 +25,7 @@ _FLAGS_AT, _INPUT_AT, _OUTPUT_AT, _LENGTH = 2, 9, 10, 64
 
 
 def read_rate(end: int) -> int | None:
-    """The rate at which a terminal sends; None where the system does not say."""
+    """Return the rate at which a terminal sends; None if the system does not say."""
     speed: int = termios.tcgetattr(end)[_OUTPUT]
     if speed in _STANDARD:
         return _STANDARD[speed]
@@ -37,7 +37,7 @@ def read_rate(end: int) -> int | None:
 
 
 def set_rate(end: int, rate: int) -> None:
-    """Sets both rates of a terminal, as well as the system can."""
+    """Set both rates of a terminal, as well as the system can."""
     attributes = termios.tcgetattr(end)
     if rate in _CONSTANTS or sys.platform != "linux":
         attributes[_INPUT] = attributes[_OUTPUT] = _CONSTANTS.get(rate, rate)

@@ -15,7 +15,7 @@ STEPS_PER_SECOND = 1560.0
 class Servo:
     """A servo of the bus.
 
-    `missing`: nobody answers at this number. `off`: it does not answer, but the board lists it.
+    `missing`: there is no servo of this number. `off`: it does not answer, but the board lists it.
     """
 
     def __init__(self, servo_id: int, now: Callable[[], float], position: int = CENTRE) -> None:
@@ -38,13 +38,13 @@ class Servo:
 
     @property
     def travelling(self) -> bool:
-        """Whether it is under way."""
+        """Whether it is moving."""
         return self._now() < self._arrives
 
     def move(self, position: int, seconds: float) -> None:
-        """Sets off for `position`, to be there after `seconds` or as fast as it can.
+        """Start to move to `position`, to be there after `seconds` or as fast as it can.
 
-        A position out of reach is travelled to as far as the servo goes.
+        For a position out of reach, it moves as far as the servo goes.
         """
         self._start = self.position
         self.target = min(max(position, LOWEST), HIGHEST)
@@ -54,18 +54,18 @@ class Servo:
         self.loaded = True
 
     def unload(self) -> None:
-        """Goes limp where it is."""
+        """Go limp at the present position."""
         self._rest_at(self.position)
         self.loaded = False
 
     def turn_by_hand(self, position: int) -> None:
-        """Turns a limp servo. Raises ValueError while it holds."""
+        """Turn a limp servo. Raises ValueError while it holds."""
         if self.loaded:
             raise ValueError(f"servo {self.servo_id} holds its position: unload it first")
         self._rest_at(min(max(position, LOWEST), HIGHEST))
 
     def busy(self, since: float, until: float) -> float:
-        """For how many seconds of that time it is under way."""
+        """Return for how many seconds of that time it is moving."""
         return max(0.0, min(self._arrives, until) - max(self._left, since))
 
     def _rest_at(self, position: int) -> None:

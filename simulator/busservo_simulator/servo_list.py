@@ -4,7 +4,7 @@ from __future__ import annotations
 
 
 def parse_servos(text: str) -> list[int]:
-    """The numbers, in order. Raises ValueError."""
+    """Return the numbers, in order. Raises ValueError."""
     found: list[int] = []
     for part in text.split(","):
         first, _, last = part.partition("-")

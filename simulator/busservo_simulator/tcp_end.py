@@ -15,7 +15,7 @@ LOOPBACK = "127.0.0.1"
 
 
 class TcpEnd:
-    """A listening socket, on loopback unless told otherwise."""
+    """A listening socket, on loopback by default."""
 
     def __init__(self, host: str = LOOPBACK, number: int = 0) -> None:
         self._host = host
@@ -33,11 +33,11 @@ class TcpEnd:
 
     @property
     def host_baud(self) -> None:
-        """There is no rate to set of a connection."""
+        """None: a connection has no rate to set."""
         return None
 
     def plug_in(self) -> None:
-        """Listens, on the same number as before if there was one."""
+        """Listen, on the same number as before if there was one."""
         self._waker.open()
         family = socket.AF_INET6 if ":" in self._host else socket.AF_INET
         listener = socket.socket(family, socket.SOCK_STREAM)
@@ -55,7 +55,7 @@ class TcpEnd:
         self._listener = listener
 
     def unplug(self) -> None:
-        """Hangs up and listens no more."""
+        """Close the connection, and stop listening."""
         self._hang_up()
         if self._listener is not None:
             _end(self._listener)
@@ -63,9 +63,9 @@ class TcpEnd:
             self._waker.wake()
 
     def deliver(self, data: bytes) -> None:
-        """Sends what the connection takes; without one, nobody hears it."""
+        """Send as much as the connection takes; without one, the bytes are lost."""
         if self._guest is None and self._listener is not None:
-            # Whoever has called hears all that is said from then on.
+            # A waiting host is accepted first, so that it receives everything from now on.
             self._admit(self._listener)
         if self._guest is None:
             return
@@ -75,7 +75,7 @@ class TcpEnd:
             self._hang_up()
 
     def wait(self, seconds: float | None, *, listening: bool) -> None:
-        """Waits for bytes of the host, for room for those to it, for a host, or to be woken."""
+        """Wait for bytes of the host, for room for those to it, for a host, or to be woken."""
         guest, listener = self._guest, self._listener
         reading: list[Waker | socket.socket] = [self._waker]
         if listener is not None:
@@ -88,7 +88,7 @@ class TcpEnd:
         self._waker.clear()
 
     def receive(self) -> bytes:
-        """Reads what there is; then lets a host in that has called, if the one before has gone."""
+        """Read the bytes that are there; then accept a waiting host, if the one before has left."""
         self.deliver(b"")
         found = b""
         while self._guest and len(found) < CHUNK and (data := self._receive(self._guest)):
@@ -109,11 +109,11 @@ class TcpEnd:
         return data
 
     def wake(self) -> None:
-        """Ends a wait."""
+        """End a wait."""
         self._waker.wake()
 
     def close(self) -> None:
-        """Unplugs it."""
+        """Unplug it."""
         self.unplug()
         self._waker.close()
 
@@ -135,7 +135,7 @@ class TcpEnd:
 
 
 def _end(ended: socket.socket) -> None:
-    """Closes a socket at once, even if a thread waits for it: closing alone would wait for that."""
+    """Close a socket at once, even if a thread waits for it: closing alone would wait for that."""
     with contextlib.suppress(OSError):
         ended.shutdown(socket.SHUT_RDWR)
     ended.close()

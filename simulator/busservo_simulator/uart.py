@@ -1,4 +1,4 @@
-"""What a UART makes of bytes that were sent at another rate than its own."""
+"""The bytes that a UART reads if they were sent at another rate than its own."""
 
 from __future__ import annotations
 
@@ -37,7 +37,7 @@ def sampled(data: bytes, sent_at: float, read_at: float, random: Random) -> byte
 
 
 def _levels(byte: int) -> bytes:
-    """A start bit, eight bits with the lowest first, and a stop bit."""
+    """Return a start bit, eight bits with the lowest first, and a stop bit."""
     return bytes([0, *(byte >> bit & 1 for bit in range(8)), 1])
 
 
@@ -47,6 +47,6 @@ def _level(levels: bytes, moment: float) -> int:
 
 
 def _falling_edge(levels: bytes, at: int) -> int:
-    """Where the line falls next, once it is up; -1 if it does not."""
+    """Return where the line falls next, once it is up; -1 if it does not."""
     up = levels.find(1, at)
     return -1 if up < 0 else levels.find(0, up)

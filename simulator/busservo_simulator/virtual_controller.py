@@ -1,4 +1,4 @@
-"""A board to talk to: in the same process, behind a pty or behind a TCP port."""
+"""A virtual board with its line and port: in the same process, or behind a pty or TCP port."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ if TYPE_CHECKING:
 
 # A paced line takes no more than this ahead, and then makes the host wait, as a port does.
 AHEAD = 4096
-# A system wakes a thread this much later than asked; the rest of a wait is spent looking again.
+# A system wakes a thread this much later than requested; the rest of a wait is spent polling.
 OVERSLEEP = 0.0001
 
 
@@ -41,8 +41,8 @@ class VirtualController:
     `via` is "memory" (`port` is then a transport), "pty" (a name such as /dev/pts/3, or `link`) or
     "tcp" (a name such as socket://127.0.0.1:40123). With `baud`, bytes take the time both ways
     that they take on a wire. A host that sets another rate on the pty than `baud`, or than that of
-    the protocol, hears garbage and is heard as garbage; "memory" and "tcp" have no rate to set.
-    With `local_echo`, the adapter gives back what the host sends, in front of what the board says.
+    the protocol, receives garbage and sends garbage; "memory" and "tcp" have no rate to set.
+    With `local_echo`, the adapter returns what the host sends, in front of what the board sends.
     With a VirtualClock, time stands still until `advance`.
     """
 
@@ -102,7 +102,7 @@ class VirtualController:
         self.close()
 
     def start(self) -> None:
-        """Plugs the board in, and for a pty and TCP starts the thread that serves the port."""
+        """Plug the board in, and for a pty and TCP start the thread that serves the port."""
         try:
             self._end.plug_in()
         except OSError:
@@ -113,7 +113,7 @@ class VirtualController:
             self._thread.start()
 
     def close(self) -> None:
-        """Unplugs it for good, and waits for its thread. Any number of times."""
+        """Unplug it for good, and wait for its thread. Any number of times."""
         if self._closing:
             return
         self._closing = True
@@ -139,7 +139,7 @@ class VirtualController:
         return self._transport
 
     def open(self) -> MemoryEnd:
-        """That transport, usable again if it was closed: what a client reconnects with."""
+        """Return that transport, usable again if it was closed: what a client reconnects with."""
         return self.transport.open()
 
     # ---------------------------------------------------------------- what a test looks at
@@ -158,7 +158,7 @@ class VirtualController:
 
     @property
     def rejects(self) -> Rejects:
-        """What the board refused, by reason."""
+        """The board's counts of rejected input, by reason."""
         self._nudge()
         return self.board.rejects
 
@@ -170,20 +170,20 @@ class VirtualController:
 
     @property
     def log(self) -> EventLog:
-        """What happened, in lines."""
+        """The events on the board, in lines."""
         self._nudge()
         return self.board.event_log
 
     # ---------------------------------------------------------------- what a test can do
 
     def advance(self, seconds: float) -> None:
-        """Moves a VirtualClock on. Raises TypeError with any other clock."""
+        """Advance a VirtualClock. Raises TypeError with any other clock."""
         if not isinstance(self.clock, VirtualClock):
             raise TypeError("real time cannot be moved: give the board clock=VirtualClock()")
         self.clock.advance(seconds)
 
     def press_button(self, group: int | None, times: int = 1) -> None:
-        """Starts a group on the board itself, so that reports come unasked; None stops."""
+        """Start a group on the board itself, so that unsolicited reports come; None stops it."""
         with self._changed:
             self._live()
             if group is None:
@@ -193,14 +193,14 @@ class VirtualController:
         self._nudge()
 
     def report(self, report: Report) -> None:
-        """Sends a report of its own accord."""
+        """Send a report of the board's own."""
         with self._changed:
             self._live()
             self.board.send(report)
         self._nudge()
 
     def send_bytes(self, data: bytes) -> None:
-        """Sends bytes as they are: noise, or half a frame."""
+        """Send bytes as they are: noise, or half a frame."""
         with self._changed:
             self._line.send(data, self._moment)
         self._nudge()
@@ -208,7 +208,7 @@ class VirtualController:
     def spurious_output(
         self, data: bytes | None, per_second: float = 960, *, ignore_input: bool = True
     ) -> None:
-        """Sends `data` again and again, and with `ignore_input` does nothing else; None ends that."""
+        """Send `data` again and again, and with `ignore_input` do nothing else; None ends it."""
         with self._changed:
             self._line.spurious_output(
                 data or b"", per_second, self._moment, ignore_input=ignore_input
@@ -216,20 +216,20 @@ class VirtualController:
         self._nudge()
 
     def reboot(self, seconds: float = 1.0) -> None:
-        """Switches the board off and on: for so long it hears nothing and says nothing."""
+        """Switch the board off and on: for so many seconds it receives and sends nothing."""
         with self._changed:
             self._live()
             self._line.reboot(seconds)
         self._nudge()
 
     def unplug(self) -> None:
-        """Pulls the cable out. The board lives on."""
+        """Pull the cable out. The board lives on."""
         with self._changed:
             self._line.cut()
             self._end.unplug()
 
     def plug_in(self) -> None:
-        """Puts the cable back, after `unplug` or a hang-up."""
+        """Put the cable back, after `unplug` or a hang-up."""
         with self._changed:
             self._line.mend()
             self._end.plug_in()
@@ -237,7 +237,7 @@ class VirtualController:
 
     @property
     def faults(self) -> Faults:
-        """The faults that happen. Setting them, at any time, starts anew from their seed."""
+        """The faults that happen. Setting them, at any time, restarts from their seed."""
         return self._line.faults
 
     @faults.setter
@@ -252,7 +252,7 @@ class VirtualController:
         return self.clock.now() - self._since
 
     def _live(self) -> None:
-        """Lives up to now, and delivers what has reached the host. With the lock held."""
+        """Advance to now, and deliver what has reached the host. Needs the lock."""
         whole = not self._line.hung_up
         self._line.host_baud = self._end.host_baud
         for data in self._line.read(self._moment):
@@ -261,7 +261,7 @@ class VirtualController:
             self._end.unplug()
 
     def _nudge(self) -> None:
-        """Lives up to now, and has the thread think again about how long to wait."""
+        """Advance to now, and let the thread recalculate how long to wait."""
         with self._changed:
             self._live()
             self._end.wake()

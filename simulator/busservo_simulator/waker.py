@@ -1,4 +1,4 @@
-"""Ends a `select` that another thread waits in."""
+"""A way to end a `select` that another thread waits in."""
 
 from __future__ import annotations
 
@@ -13,30 +13,30 @@ class Waker:
         self._pair: tuple[socket.socket, socket.socket] | None = None
 
     def open(self) -> None:
-        """Makes the pair. Any number of times."""
+        """Make the pair. Any number of times."""
         if self._pair is None:
             self._pair = socket.socketpair()
             for end in self._pair:
                 end.setblocking(False)
 
     def fileno(self) -> int:
-        """What `select` is to wait for; -1 while it is not open."""
+        """Return the descriptor for `select` to wait for; -1 while it is not open."""
         return -1 if self._pair is None else self._pair[0].fileno()
 
     def wake(self) -> None:
-        """Ends the wait, now or as soon as it begins."""
+        """End the wait, now or as soon as it begins."""
         with contextlib.suppress(OSError):  # full: it has been woken more than enough
             if self._pair is not None:
                 self._pair[1].send(b"\0")
 
     def clear(self) -> None:
-        """Forgets that it was woken."""
+        """Forget that it was woken."""
         with contextlib.suppress(OSError):
             if self._pair is not None:
                 self._pair[0].recv(4096)
 
     def close(self) -> None:
-        """Gives both ends back."""
+        """Close both ends."""
         for end in self._pair or ():
             end.close()
         self._pair = None

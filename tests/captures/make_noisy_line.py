@@ -13,7 +13,7 @@ HOST, CONTROLLER, LINE = "host", "controller", "line"
 
 
 class Event(NamedTuple):
-    """Bytes that came onto the line together, and what a faithful reading makes of them."""
+    """Bytes that came onto the line together, and their correct decoding."""
 
     sender: str
     hex: str
@@ -432,12 +432,12 @@ EVENTS = tuple(event for chapter in CHAPTERS for event in chapter.events)
 
 
 def recording() -> bytes:
-    """Return what the recorder saw, the bytes of all events in order."""
+    """Return the bytes of all events in order, as the recorder saw them."""
     return b"".join(event.data for event in EVENTS)
 
 
 def description() -> str:
-    """Return the tables that say what the recording holds."""
+    """Return the tables that describe the recording."""
     lines = [
         "# What noisy_line.bin holds",
         "",

@@ -1,4 +1,4 @@
-"""What holds for the tests of verbs that are run in this process: nobody else is on their lines."""
+"""Fixtures for verbs that run in this process: no other program is on their lines."""
 
 from __future__ import annotations
 

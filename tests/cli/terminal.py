@@ -1,4 +1,4 @@
-"""A verb as people run it: a process of its own, on a terminal of its own."""
+"""Run a verb as people do: in a process of its own, on a terminal of its own."""
 
 from __future__ import annotations
 
@@ -68,7 +68,7 @@ class OnTerminal:
         os.close(self._screen)
 
     def wait_for(self, pattern: str) -> None:
-        """Reads on until the screen has shown it."""
+        """Read until the screen has shown a text."""
         until = time.monotonic() + GENEROUS
         while not re.search(pattern, self.shown):
             assert time.monotonic() < until, f"{pattern!r} was not shown: {self.shown!r}"
@@ -78,7 +78,7 @@ class OnTerminal:
         os.write(self._screen, keys)
 
     def end(self) -> int:
-        """Waits until it has ended, and gives its exit status; the terminal must be as it was."""
+        """Wait until it has ended, and return its exit status; the terminal must be as it was."""
         status = self._process.wait(GENEROUS)
         while self._read(0.0):
             pass
@@ -93,7 +93,7 @@ class OnTerminal:
 
     @property
     def lines(self) -> list[str]:
-        """What is to be read on the screen, line by line: a carriage return overwrites."""
+        """The text on the screen, line by line: a carriage return overwrites."""
         return [_overwritten(line) for line in self.shown.split("\r\n")]
 
 
@@ -105,13 +105,13 @@ def _overwritten(line: str) -> str:
 
 
 def run(*words: str, **options: Any) -> subprocess.CompletedProcess[str]:
-    """A verb in a process of its own, without a terminal."""
+    """Run a verb in a process of its own, without a terminal."""
     command = [sys.executable, "-m", "busservo", *words]
     options = {"capture_output": True, "text": True, "timeout": GENEROUS, "check": False} | options
     return subprocess.run(command, env=ENVIRONMENT, **options)  # noqa: PLW1510 - among the options
 
 
 def start(*words: str, **options: Any) -> subprocess.Popen[str]:
-    """A verb in a process of its own, to go on beside the test."""
+    """Start a verb in a process of its own, to go on beside the test."""
     options = {"stdout": subprocess.PIPE, "stderr": subprocess.PIPE, "text": True} | options
     return subprocess.Popen([sys.executable, "-m", "busservo", *words], env=ENVIRONMENT, **options)

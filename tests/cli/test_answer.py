@@ -23,7 +23,7 @@ SESSION = re.findall(r"^    \$ busservo answer\n((?:    .*\n)*)", GUIDE, re.MULT
 
 
 def exchanges() -> Iterator[tuple[str, list[str]]]:
-    """Each question of the session in the guide, and its answer."""
+    """Yield each question of the session in the guide, and its answer."""
     (session,) = SESSION
     for exchange in re.findall(r"(.*?)^    end\n", session, re.MULTILINE | re.DOTALL):
         question, *answers = [line.strip() for line in exchange.splitlines()]

@@ -1,4 +1,4 @@
-"""The verb `bench-line`: what it measures, and what it makes of questions without an answer."""
+"""The verb `bench-line`: what it measures, and its output for questions without an answer."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The verbs of the command that have to do with a line, against the virtual controller."""
+"""The verbs that need a line, against the virtual controller."""
 
 import argparse
 import ast
@@ -249,8 +249,8 @@ def test_where_nobody_can_list_such_boards_it_says_so(
     assert capsys.readouterr().err.splitlines() == [
         "no serial port is plugged in",
         (
-            "USB HID devices (0483:5750) have no serial port, and are not listed without an "
-            "extra: pip install 'busservo[hid]'"
+            "USB HID devices (0483:5750) have no serial port, and are not listed without "
+            "hidapi: pip install hidapi"
         ),
     ]
 
@@ -341,7 +341,7 @@ def test_pyserial_is_imported_only_to_open_a_port(words: list[str]) -> None:
 
 
 def imported(words: list[str], *names: str) -> list[str]:
-    """Which of these modules running the command imports."""
+    """Return which of these modules running the command imports."""
     program = (
         "import sys; from busservo._cli import main; "
         f"main({words!r}); print(sorted(set({names!r}) & set(sys.modules)))"
@@ -417,7 +417,7 @@ def test_ctrl_c_is_quiet_where_no_terminal_has_shown_it(
 
 
 def test_a_verb_can_be_run_from_any_thread() -> None:
-    """Signals are for the main thread alone, and SIGTERM is then left as it is."""
+    """Signal are for the main thread alone, and SIGTERM is then left as it is."""
     before = signal.getsignal(signal.SIGTERM)
     with VirtualController("tcp") as board, ThreadPoolExecutor(1) as pool:
         done = pool.submit(main, ["send", "--port", board.port, "BatteryVoltageRead", *PATIENT])

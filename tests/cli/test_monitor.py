@@ -33,7 +33,7 @@ if TYPE_CHECKING:
 
 
 class Line:
-    """Brings pieces of bytes, each a second after the one before; then silence, then its end."""
+    """A line that brings pieces of bytes, a second apart; then silence, then its end."""
 
     def __init__(self, *pieces: bytes, silence: int = 0) -> None:
         self.pieces = [*pieces, *silence * [b""]]
@@ -43,7 +43,7 @@ class Line:
         return self.now
 
     def day(self) -> float:
-        """A clock on a wall: it began at 09:08:07."""
+        """Return a clock that began at 09:08:07."""
         return time.mktime((2026, 1, 2, 9, 8, 7, 0, 0, -1)) + self.now - 100
 
     def read(self, _timeout: float) -> bytes:
@@ -72,7 +72,7 @@ def watched(
     screen: io.StringIO | None = None,
     log: Path | None = None,
 ) -> list[str]:
-    """The lines that a monitor shows until the line is lost."""
+    """Return the lines that a monitor shows until the line is lost."""
     parser = argparse.ArgumentParser()
     monitor.add_arguments(parser)
     line = Line(*LINE) if line is None else line

@@ -55,7 +55,7 @@ def log(tmp_path: Path) -> Path:
 
 
 def replayed(log: Path, *words: str) -> tuple[int, list[Message | Noise]]:
-    """The exit status, and what a board has heard."""
+    """Replay, and return the exit status and the messages that a board received."""
     heard: list[Message | Noise] = []
     with (
         VirtualController("tcp") as board,

@@ -39,7 +39,7 @@ def board() -> Iterator[VirtualController]:
 
 @pytest.fixture
 def heard(board: VirtualController) -> list[Message]:
-    """What the board has understood, in order."""
+    """Return the messages that the board has understood, in order."""
     messages: list[Message] = []
     accepted = board.board.accepted
 
@@ -53,7 +53,7 @@ def heard(board: VirtualController) -> list[Message]:
 
 @pytest.fixture
 def typed(monkeypatch: pytest.MonkeyPatch) -> Any:
-    """Has the next command read these keys."""
+    """Let the next command read these keys."""
     return lambda keys: monkeypatch.setattr(sys, "stdin", io.StringIO(keys))
 
 
@@ -247,7 +247,7 @@ def test_teach_says_what_is_of_no_use(
 
 
 class Folder:
-    """What a program has for its input that was given a folder."""
+    """The standard input of a program that was given a folder."""
 
     def readline(self) -> str:
         raise IsADirectoryError(21, "Is a directory")

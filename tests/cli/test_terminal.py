@@ -27,7 +27,7 @@ BATTERY = "BatteryVoltage voltage_mv=7500 mV | 55 55 04 0F 4C 1D"
 
 @pytest.fixture
 def board() -> Iterator[VirtualController]:
-    """A board behind a pty, that is there from the first moment on."""
+    """Yield a board behind a pty, present from the first moment on."""
     with VirtualController("pty") as board:
         yield board
 

@@ -1,8 +1,8 @@
 """Long conversations with a virtual board, in which every wrong value shows.
 
 The board answers each question with a number that no other answer has, so that a reply taken for
-another's is seen. Every report that leaves it is written down, and so is every value that a client
-was given: none may be given twice, and none that was told before the call began.
+another's is seen. Every report that leaves it is recorded, and so is every value that a client
+received: none may come twice, and none that was sent before the call began.
 """
 
 from __future__ import annotations
@@ -45,7 +45,7 @@ BOUND = GENEROUS
 
 
 class Ledger:
-    """What a board was asked and has reported, and what its clients were told."""
+    """The questions and reports of a board, and the values that its clients received."""
 
     def __init__(self, board: VirtualController) -> None:
         self.board = board
@@ -81,7 +81,7 @@ class Ledger:
         return ServoPositions([(servo, number) for servo in message.servo_ids])
 
     def given(self, before: int, values: set[int]) -> None:
-        """A call that began after answer `before` was given these values."""
+        """Record a call that began after answer `before`, and the values it returned."""
         with self._lock:
             assert len(values) <= 1, "of one reply, all values are the same"
             for value in values:
@@ -92,24 +92,24 @@ class Ledger:
             self.right += 1
 
     def given_part(self, before: int, asked: list[int], error: IncompleteReplyError) -> None:
-        """A call was told of some servos, and which are missing."""
+        """Record a call that returned some servos, and which are missing."""
         there = [each for each in error.arrived if isinstance(each, ServoPosition)]
         assert sorted([*(each.servo_id for each in there), *error.missing]) == sorted(asked)
         assert error.missing
         self.given(before, {each.position for each in there} - {ABSENT})
 
     def given_all(self, before: int, asked: list[int], told: tuple[ServoPosition, ...]) -> None:
-        """A call was told of all servos."""
+        """Record a call that returned all servos."""
         assert sorted(each.servo_id for each in told) == sorted(asked)
         self.given(before, {each.position for each in told} - {ABSENT})
 
     def over(self, controller: Controller | AsyncController) -> bool:
-        """Whether the board has heard all that was sent: it has then reported all it will."""
+        """Return whether the board has received everything: it has then sent all its reports."""
         return self.board.accepted == controller.counters.sent
 
 
 def heard_by(controller: Controller, ledger: Ledger) -> list[Message]:
-    """The reports, once all have come that there are; and any that there should not be."""
+    """Return the reports, once all have come, and any that should not be there."""
     await_that(lambda: ledger.over(controller))
     heard: list[Message] = []
     for report in controller.reports(timeout=GENEROUS if ledger.reported else 0.1):
@@ -120,7 +120,7 @@ def heard_by(controller: Controller, ledger: Ledger) -> list[Message]:
 
 
 async def heard_by_async(controller: AsyncController, ledger: Ledger) -> list[Message]:
-    """The same, for asyncio."""
+    """Return the same, for asyncio."""
     end = time.monotonic() + GENEROUS
     while not ledger.over(controller):
         assert time.monotonic() < end
@@ -134,7 +134,7 @@ async def heard_by_async(controller: AsyncController, ledger: Ledger) -> list[Me
 
 
 def turns(seed: int, count: int) -> Iterator[list[int] | str]:
-    """What is asked: a list of servos to ask for, or the name of something else."""
+    """Yield the next call: a list of servos to read, or the name of something else."""
     random = Random(seed)  # noqa: S311 - to be repeated
     for _ in range(count):
         if random.random() < 0.5:
@@ -151,7 +151,7 @@ def converse(
     now: Callable[[], float] = time.monotonic,
     bound: float = BOUND,
 ) -> None:
-    """Asks `count` times. Whatever goes wrong: a right value or a declared error, in time."""
+    """Make `count` calls. Whatever goes wrong: a right value or a declared error, in time."""
     for turn in turns(seed, count):
         before, began = ledger.asked, now()
         try:
@@ -180,7 +180,7 @@ def converse(
 async def converse_async(
     controller: AsyncController, ledger: Ledger, seed: int, count: int, bound: float = BOUND
 ) -> None:
-    """The same, for asyncio."""
+    """Make `count` calls, for asyncio."""
     for turn in turns(seed, count):
         before, began = ledger.asked, time.monotonic()
         try:

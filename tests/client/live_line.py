@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 
 
 def answered(message: Message) -> list[Message]:
-    """What a board of servos 1 to 200, each at ten times its number, says to a question."""
+    """Return the answer of a board of servos 1 to 200, each at ten times its number."""
     if isinstance(message, BatteryVoltageRead):
         return [BatteryVoltage(7500)]
     if isinstance(message, ServoPositionsRead):
@@ -33,7 +33,7 @@ def answered(message: Message) -> list[Message]:
 
 
 class LiveLine:
-    """A transport whose reads block until there is something to read, or the time is over."""
+    """A transport whose reads block until there are bytes to read, or the time is over."""
 
     name = "live line"
 

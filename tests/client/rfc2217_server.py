@@ -1,4 +1,4 @@
-"""Serves a serial port over RFC 2217, by pyserial's own half of that protocol."""
+"""A serial port served over RFC 2217, by pyserial's own half of that protocol."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
 
 class PtyPort(serial.Serial):
-    """A pseudo-terminal has no wires for these."""
+    """A port of a pseudo-terminal, which has no wires for these signals."""
 
     def _update_dtr_state(self) -> None:
         pass
@@ -32,7 +32,7 @@ class PtyPort(serial.Serial):
 
 
 class Rfc2217Server:
-    """One connection after the other, until it is left. `url` is what a client opens."""
+    """A server of one connection after the other, until it is left. Clients open `url`."""
 
     def __init__(self, port: str) -> None:
         self._serial = PtyPort(port, timeout=0)
@@ -56,12 +56,12 @@ class Rfc2217Server:
         self._serial.close()
 
     def hang_up(self) -> None:
-        """Drops the connection, as an adapter does that is switched off."""
+        """Drop the connection, as an adapter does that is switched off."""
         if self._guest is not None:
             self._guest.shutdown(socket.SHUT_RDWR)
 
     def write(self, data: bytes) -> None:
-        """What pyserial's half of the protocol sends back."""
+        """Send the bytes of pyserial's half of the protocol."""
         if self._guest is not None:
             self._guest.sendall(data)
 

@@ -1,4 +1,4 @@
-"""Runs, and the reports that say that they were taken: what the result of a run tells, and when."""
+"""Runs, and the reports that acknowledge them: what the result of a run says, and when."""
 
 from __future__ import annotations
 
@@ -50,7 +50,7 @@ def session() -> Session:
 
 
 def seen_one() -> Session:
-    """A session of a line over which a group has been said to start, long ago."""
+    """Return a session of a line that has carried an acknowledging report, long ago."""
     line = session()
     line.receive(ActionGroupStarted(99, 1).encode(), -10.0)
     return line
@@ -191,7 +191,7 @@ def test_more_runs_than_are_followed_do_no_harm() -> None:
 
 
 class Board:
-    """A board that says after how many milliseconds each group has started; None for never."""
+    """A board that reports after how many milliseconds each group has started; None for never."""
 
     def __init__(self, delays: list[int | None]) -> None:
         self._delays = delays
@@ -261,7 +261,7 @@ def test_what_is_said_of_runs_is_what_the_board_has_done(
 
 
 def of_group_8(message: Message) -> Iterable[tuple[float, bytes | Message]]:
-    """What a board says that has group 8 and no other."""
+    """Yield the messages of a board that has group 8 and no other."""
     if isinstance(message, ActionGroupRun) and message.group == 8:
         yield 0.02, ActionGroupStarted(message.group, message.times)
     elif isinstance(message, BatteryVoltageRead):

@@ -1,7 +1,7 @@
-"""What a live line can do to a client: pulled, reset, stolen, flooded, rebooted, told nonsense.
+"""Faults of a live line: pulled, reset, stolen, flooded, rebooted, answered with nonsense.
 
-Over pseudo-terminals and TCP. Whatever happens, a call ends with the right value or with an error
-that is declared, in bounded time; and where the line lives on, so does the client.
+Over pseudo-terminals and TCP. Whatever happens, a call ends with the right value or with a declared
+error, in bounded time; and if the line lives on, so does the client.
 """
 
 from __future__ import annotations
@@ -58,7 +58,7 @@ SHORT, OFTEN = 0.1, 200
 
 @pytest.fixture(params=WAYS)
 def board(request: pytest.FixtureRequest, tmp_path: Path) -> Iterator[VirtualController]:
-    """A board behind a port whose name stays the same when it is plugged in again."""
+    """Yield a board behind a port whose name stays the same when it is plugged in again."""
     link = tmp_path / "COM7" if request.param == "pty" else None
     with VirtualController(request.param, link=link) as board:
         yield board
@@ -72,7 +72,7 @@ def bounded(seconds: float = BOUND) -> Iterator[None]:
 
 
 def again(controller: Controller) -> None:
-    """Reconnects, as often as it takes."""
+    """Reconnect, as often as it takes."""
     end = time.monotonic() + BOUND
     while True:
         try:
@@ -250,7 +250,7 @@ def test_a_board_whose_port_goes_away_while_it_reboots(board: VirtualController)
 def flooded(
     board: VirtualController, controller: Controller | AsyncController
 ) -> Iterator[list[int]]:
-    """Reports all the while, as many as the line takes; gives a list whose sum is their number."""
+    """Flood the line with reports, as many as it takes; yield a list whose sum is their number."""
     said: list[int] = []
     over = threading.Event()
 

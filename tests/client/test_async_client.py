@@ -1,4 +1,4 @@
-"""The client for asyncio: what it promises to those who share it."""
+"""The client for asyncio: its promises to tasks that share it."""
 
 from __future__ import annotations
 
@@ -44,7 +44,7 @@ _T = TypeVar("_T")
 
 
 def run(work: Coroutine[object, object, _T]) -> _T:
-    """Runs a coroutine; no test may wait for ever."""
+    """Run a coroutine; no test may wait for ever."""
 
     async def bounded() -> _T:
         return await asyncio.wait_for(work, 2 * GENEROUS)

@@ -1,4 +1,4 @@
-"""The client for threads: what it promises to those who share it."""
+"""The client for threads: its promises to threads that share it."""
 
 from __future__ import annotations
 
@@ -61,7 +61,7 @@ def all_are_closed() -> Iterator[None]:
 
 
 def virtual(line: VirtualLine, **settings: object) -> Controller:
-    """A client of a line in virtual time; closed when the test ends, if not before."""
+    """Return a client of a line in virtual time; closed when the test ends, if not before."""
     made = Controller(line, background=False, clock=line.clock, **settings)  # type: ignore[arg-type]
     OPENED.append(made)
     return made

@@ -1,4 +1,4 @@
-"""How a line ends: closed, lost, given up, forgotten; and how it comes back."""
+"""The end of a line: closed, lost, given up, forgotten; and its return."""
 
 from __future__ import annotations
 
@@ -43,7 +43,7 @@ def own_threads() -> list[str]:
 
 @pytest.fixture(autouse=True)
 def no_thread_is_of_another_test() -> Iterator[None]:
-    """Closing waits for a thread only for a while: on a busy machine it may end a little later."""
+    """Wait for threads of other tests: closing may not wait long enough on a busy machine."""
     await_that(lambda: not own_threads())
     yield
     await_that(lambda: not own_threads())
@@ -57,7 +57,7 @@ class Refusing(LiveLine):
 
 
 class Unplugged(LiveLine):
-    """A line that comes back at the third attempt, and tells how often it was opened."""
+    """A line that comes back at the third attempt, and counts how often it was opened."""
 
     attempts = 0
 
@@ -72,7 +72,7 @@ class Unplugged(LiveLine):
 
 
 class SlowToClose(LiveLine):
-    """A line that is drained only when the test says so, and calls `meanwhile` before it waits."""
+    """A line that is drained when the test allows it, and calls `meanwhile` before it waits."""
 
     def __init__(self) -> None:
         super().__init__()
@@ -115,7 +115,7 @@ def test_closing_while_closing_does_not_wait_for_itself() -> None:
 
 
 class Interrupted(LiveLine):
-    """A line whose writer is interrupted by what calls `meanwhile`, as by a handler of signals."""
+    """A line whose writer is interrupted by a call of `meanwhile`, as by a signal handler."""
 
     meanwhile: Callable[[], object]
 
@@ -458,7 +458,7 @@ def test_a_line_that_does_not_come_back_says_why_until_it_does_with_asyncio() ->
 
 
 class Counted(LiveLine):
-    """A line that takes a moment to open, and counts how many of it are and were open."""
+    """A line that takes a moment to open, and counts how many are and were open."""
 
     open = made = 0
 
@@ -479,7 +479,7 @@ class Counted(LiveLine):
 
 
 class Held(Counted):
-    """One that is opened again only when it is let go."""
+    """A line that is reopened only when the test allows it."""
 
     def __init__(self) -> None:
         super().__init__()
@@ -668,7 +668,7 @@ def test_opening_again_that_fails_after_it_was_cancelled_is_nobodys_error() -> N
 
 
 class Stuck(LiveLine):
-    """A line whose reads do not end when it is closed, but when they are let go, with an error."""
+    """A line whose reads end not when it is closed, but when the test allows it, by an error."""
 
     def __init__(self) -> None:
         super().__init__()
@@ -716,7 +716,7 @@ def test_the_end_of_a_read_of_the_line_before_does_not_end_the_new_one_with_asyn
 
 
 class Troublesome(LiveLine):
-    """A line that can be used, and neither drained nor closed without an error."""
+    """A line that can be used, but neither drained nor closed without an error."""
 
     def drain(self, _timeout: float) -> None:
         raise OSError("it cannot tell")

@@ -166,7 +166,7 @@ def board_at(way: str, folder: Path, faults: Faults) -> Iterator[tuple[VirtualCo
 
 
 def line_at(way: str) -> Line:
-    """What is said of the line: the truth, that it takes no time; or over TCP, that it is slow."""
+    """Return the client's settings: a line that takes no time, as it does; over TCP, a slow one."""
     baud = 9600 if way == "tcp" else math.inf
     return {"reply_timeout": LIVE_REPLY_TIMEOUT, "baud": baud, "settle": 0}
 
@@ -189,7 +189,7 @@ LINES = [(way, kind) for way in WAYS for kind in FAULTS]
 
 
 def at_once(talk: Callable[[str, str], None], lines: Iterable[tuple[str, str]] = LINES) -> None:
-    """The same talk on each of these lines, all at the same time: most of a talk is waiting."""
+    """Run the same conversation on each of these lines at once: most of one is waiting."""
 
     def told(line: tuple[str, str]) -> str:
         try:

@@ -1,6 +1,6 @@
 """No wrong value is ever returned: the right reply, or a declared error, in bounded time.
 
-Every question that the board hears gets a value of its own, so that a reply taken for another's
+Every question that the board receives gets a value of its own, so that a reply taken for another's
 shows. The faults of each answer are drawn by Hypothesis, and time is virtual.
 """
 
@@ -40,7 +40,7 @@ REPORTS = [ActionGroupStarted(8, 1), ActionGroupStopped(), ActionGroupCompleted(
 
 @dataclass
 class Fault:
-    """What goes wrong with one answer."""
+    """A fault of one answer."""
 
     dropped: bool
     late: float
@@ -76,7 +76,7 @@ def question_in_order(question: list[int] | None) -> list[int]:
 
 
 class FaultyBoard:
-    """Answers each question with a number that no other answer has."""
+    """A board that answers each question with a number that no other answer has."""
 
     def __init__(self, plan: list[Fault]) -> None:
         self.plan = plan

@@ -1,4 +1,4 @@
-"""A frame with a hole is no frame: what a gap ends, and what it does not."""
+"""A frame with a gap is no frame: what a gap ends, and what it does not."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Boards of USB HID, by a device that stands in for one: none has been seen yet."""
+"""Boards on USB HID, with a device that stands in for one: no real one has been tried yet."""
 
 from __future__ import annotations
 
@@ -45,7 +45,7 @@ BATTERY = bytes.fromhex("55 55 04 0F 4C 1D")
 
 
 class Device:
-    """As hidapi has it: reports of 64 bytes, the number of the report in front where it writes."""
+    """A device as hidapi has it: reports of 64 bytes; those written begin with their number."""
 
     def __init__(self) -> None:
         self.written: list[bytes] = []
@@ -98,7 +98,7 @@ class Device:
 
 
 class Library:
-    """As much of the module of hidapi as is used."""
+    """The part of the module of hidapi that is used."""
 
     def __init__(self, *found: dict[str, object]) -> None:
         self.found = list(found)
@@ -316,7 +316,7 @@ def test_without_the_extra_it_says_how_to_get_it(
         monkeypatch.setitem(sys.modules, name, module)
     told = (
         "hid://: USB HID needs the package hidapi, which is not installed "
-        r"\(not seen on hardware yet\); pip install 'busservo\[hid\]'"
+        r"\(not seen on hardware yet\); pip install hidapi"
     )
     with pytest.raises(TransportError, match=told):
         open_controller("hid://")

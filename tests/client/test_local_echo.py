@@ -1,4 +1,4 @@
-"""Lines that give back what is sent: expected, compared and dropped; or noticed, and said."""
+"""Lines that return what is sent: expected, compared and dropped; or noticed, and reported."""
 
 from __future__ import annotations
 
@@ -45,7 +45,7 @@ def wire(message: Message) -> float:
 
 
 def echoing(message: Message) -> Heard:
-    """A half-duplex adapter in front of a board that does nothing but tell its voltage."""
+    """Yield the echo of a half-duplex adapter, and the replies of a board with a voltage only."""
     yield wire(message), message.encode()
     if isinstance(message, BatteryVoltageRead):
         yield wire(message) + 0.02, BatteryVoltage(7500)
@@ -58,7 +58,7 @@ def one_that_starts(message: Message) -> Heard:
 
 
 def in_pieces(message: Message) -> Heard:
-    """Bytes come one by one, and a report in front of the echo."""
+    """Yield the echo byte by byte, with a report in front of it."""
     yield 0.0, STARTED
     for number, byte in enumerate(message.encode()):
         yield number / 960, bytes([byte])

@@ -1,4 +1,4 @@
-"""Motions: when they will have ended, and waiting for that; moves of which the latest wins."""
+"""Motions: when they end, and waiting for that; moves of which the latest wins."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Limits, absent servos, holding, and who is there: for threads and for asyncio."""
+"""Limits, absent servos, holding, and which are present: for threads and for asyncio."""
 
 from __future__ import annotations
 
@@ -37,7 +37,7 @@ MOVE_BEYOND = ServoMove(time_ms=100, targets=[(1, 800), (2, 1001)])
 
 
 def virtual(servos: Iterable[int] = range(1, 7), **given: Any) -> tuple[VirtualController, Any]:
-    """A board in virtual time, and what makes a client of it."""
+    """Return a board in virtual time, and a function that makes a client of it."""
     clock = VirtualClock(follow_reads=True)
     board = VirtualController(clock=clock, servos=servos, **given)
 
@@ -242,7 +242,7 @@ def test_holding_commands_the_positions_just_read() -> None:
 
 
 def answering(positions: list[tuple[int, int]]) -> Callable[[Any], list[tuple[float, Any]]]:
-    """What answers every question about positions alike."""
+    """Return a board that answers every question about positions alike."""
 
     def answer(message: Any) -> list[tuple[float, Any]]:
         asked = isinstance(message, ServoPositionsRead)

@@ -45,7 +45,7 @@ def say(line: Session, now: float, *messages: Message) -> None:
 
 
 def settle(line: Session) -> float:
-    """Lets time pass until nothing is left to be decided, and gives what time it is then."""
+    """Let time pass until nothing is left to be decided, and return the time then."""
     now = 0.0
     while (tick_at := line.tick_at) is not None:
         now = tick_at
@@ -54,7 +54,7 @@ def settle(line: Session) -> float:
 
 
 def answered(line: Session, now: float, voltage: int, after: float = IN_TIME) -> Request:
-    """Asks, and has it answered `after` seconds later by one reply alone."""
+    """Send a question, with one reply alone `after` seconds later."""
     request = ask(line, now)
     say(line, now + after, BatteryVoltage(voltage))
     settle(line)
@@ -278,7 +278,7 @@ def test_a_reply_that_is_held_is_no_answer_to_what_was_cancelled() -> None:
 
 
 def slow_board(line: Session, latency: float, reads: int) -> float:
-    """Reads of a board that thinks before it answers, in a loop without a pause."""
+    """Read from a board that needs time for each answer, in a loop without a pause."""
     now = 0.0
     for number in range(reads):
         request = ask(line, now)

@@ -1,4 +1,4 @@
-"""What a client and a monitor record: what it looks like, and that nothing recorded is lost."""
+"""The recordings of a client and a monitor: their form, and that no byte is lost."""
 
 import math
 import os

@@ -1,4 +1,4 @@
-"""The reports that are kept, and which of them a wait takes for the one it wants."""
+"""The reports that are kept, and which of them satisfies a wait."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ ENDED = (ActionGroupCompleted, ActionGroupStopped)
 
 
 def after(story: list[Message]) -> Session:
-    """A session in which these commands were sent and these reports came, in this order."""
+    """Return a session in which these commands were sent and these reports came, in this order."""
     line = Session(baud=math.inf, reply_timeout=0.25, report_limit=16)
     for message in story:
         if message.DIRECTION is RECEIVED:

@@ -1,4 +1,4 @@
-"""Real ports: pseudo-terminals and sockets through pyserial, and what goes wrong with them."""
+"""Real ports: pseudo-terminals and sockets through pyserial, and their failures."""
 
 from __future__ import annotations
 
@@ -49,7 +49,7 @@ import tty  # noqa: E402 - as pty
 
 
 class Board:
-    """Answers at the other end of something that can be read and written."""
+    """A board that answers at the other end of something that can be read and written."""
 
     def __init__(self, read: Callable[[], bytes], write: Callable[[bytes], object]) -> None:
         self.write = write
@@ -103,7 +103,7 @@ class PtyBoard(Board):
         return b""
 
     def unplug(self) -> None:
-        """Closes both ends, after which whoever has the port open finds it gone."""
+        """Close both ends, after which whoever has the port open finds it gone."""
         if not self.gone:
             self.gone = True
             self.join()
@@ -456,7 +456,7 @@ def test_a_port_is_given_back_where_no_controller_can_be_made_of_it(board: PtyBo
 
 
 class Driver:
-    """As much of a port of pyserial as a test needs; whatever is set here is what it does."""
+    """The part of a pyserial port that a test needs; its attributes say what it does."""
 
     in_waiting = 0
 
@@ -501,7 +501,7 @@ def test_an_adapter_that_takes_no_more_bytes_is_told_with_what_helps() -> None:
 
 
 class Paused(Driver):
-    """A port whose process stands still in the middle of each write, for longer than its time."""
+    """A port whose process stands still during each write, for longer than its timeout."""
 
     def __init__(self, handle: int, most: int, clock: list[float]) -> None:
         super().__init__()
@@ -621,7 +621,7 @@ def test_a_port_is_closed_even_under_a_read_that_does_not_end(
 
 
 class SlowToClose(Driver):
-    """A port that is closed only when it is let go, and calls `meanwhile` before it waits."""
+    """A port that is closed only when the test allows it, and calls `meanwhile` before it waits."""
 
     def __init__(self) -> None:
         super().__init__()

@@ -1,4 +1,4 @@
-"""Whatever is asked of a client, it sends whole frames that a board understands, or refuses."""
+"""Any request: a client sends whole frames that a board understands, or refuses it."""
 
 from __future__ import annotations
 

@@ -19,7 +19,7 @@ def nothing(_message: Message) -> list[tuple[float, bytes | Message]]:
 
 
 class VirtualLine:
-    """A transport whose other end answers as `answer` says: bytes, each after a delay.
+    """A transport whose other end answers as `answer` returns: bytes, each after a delay.
 
     Bytes arrive in the order in which they were sent, whatever their delays.
     """
@@ -45,7 +45,7 @@ class VirtualLine:
         return self.now
 
     def say(self, data: bytes | Message, delay: float = 0.0) -> None:
-        """Has bytes arrive, `delay` seconds from now."""
+        """Let bytes arrive, `delay` seconds from now."""
         at = self._last = max(self._last, self.now + delay)
         self._number += 1
         octets = data if isinstance(data, bytes) else data.encode()

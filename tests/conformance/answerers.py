@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from framegen.render import snippets
-from framegen.targets.docs.pages import render_site
+from framegen.targets.docs.html_pages import render_site
 
 from tests.docs.reference import NODE
 from tests.factories import library_files, write_files
@@ -21,7 +21,7 @@ ANSWER = Path(__file__).parent / "answer.js"
 
 
 def python_command(compiled: Compiled, folder: Path) -> list[str]:
-    """Write the library to `folder`; the command that answers with it."""
+    """Write the library to `folder`; return the command that answers with it."""
     write_files(library_files(compiled), folder)
     name = compiled.spec.protocol.name
     code = f"import sys; sys.path.insert(0, sys.argv.pop(1)); from {name}._cli import main; "
@@ -29,7 +29,7 @@ def python_command(compiled: Compiled, folder: Path) -> list[str]:
 
 
 def page_command(compiled: Compiled, folder: Path) -> list[str]:
-    """Write the page with the decoder to `folder`; the command that answers with its script."""
+    """Write the page with the decoder to `folder`; return the command that runs its script."""
     page = folder / "decoder.html"
     path = f"{compiled.spec.protocol.name}/{page.name}"
     page.write_text(render_site([compiled], snippets())[path], encoding="utf-8")

@@ -1,4 +1,4 @@
-"""The codec in C, right and wrong: each as public code is wrong, by a small change of the same."""
+"""The codec in C, right and wrong: each wrong one by a small change, as found in public code."""
 
 from __future__ import annotations
 
@@ -32,9 +32,9 @@ NOISE_OF = (
 
 @dataclass(frozen=True)
 class Wrong:
-    """A codec with one thing wrong: what is replaced, who catches it, and the smallest case.
+    """A codec with one error: the changed text, what finds it, and the smallest case.
 
-    `parted` is what the reference and the program say where they part.
+    `parted` is what the reference and the program answer where they differ.
     """
 
     old: str
@@ -45,7 +45,7 @@ class Wrong:
 
 
 def compile_codec(folder: Path, old: str = "", new: str = "") -> str:
-    """Compile the codec, with one text replaced; gives the program."""
+    """Compile the codec, with one text replaced; return the program."""
     text = SOURCE.read_text(encoding="utf-8")
     assert not old or text.count(old) == 1, f"{SOURCE.name} holds {text.count(old)} times: {old}"
     source = folder / "codec.c"
@@ -62,12 +62,12 @@ def compile_codec(folder: Path, old: str = "", new: str = "") -> str:
 
 
 def still(count: int) -> str:
-    """Targets that are nothing but zeros."""
+    """Return targets that are nothing but zeros."""
     return ",".join(["0:0"] * count)
 
 
 def move(count: int) -> str:
-    """The frame that has them, in hex."""
+    """Return the frame of these targets, in hex."""
     return f"5555{3 * count + 5:02x}03{count:02x}0000" + "000000" * count
 
 

@@ -1,6 +1,6 @@
-"""Holds a codec in any language to the published vectors, through the line language.
+"""Hold a codec in any language to the published vectors, through the line protocol of `answer`.
 
-Knows nothing of the generator but the file of vectors: so may anybody else's.
+It knows nothing of the generator but the file of vectors, as anybody else's harness would.
 """
 
 from __future__ import annotations
@@ -18,14 +18,14 @@ NO_BOUND = 1 << 20
 
 @dataclass(frozen=True)
 class Asked:
-    """A question, and what a codec is to answer; noise is joined."""
+    """A question, and the right answer to it; noise is joined."""
 
     title: str
     question: str
     answer: list[str]
 
     def differs(self, answer: Sequence[str]) -> str:
-        """What is wrong with an answer; nothing where it is the right one."""
+        """Return what is wrong with an answer; empty for the right one."""
         shown = joined(answer)
         if shown == self.answer:
             return ""
@@ -33,7 +33,7 @@ class Asked:
 
 
 def asked(document: dict[str, Any]) -> Iterator[Asked]:
-    """Every question that a file of vectors holds."""
+    """Yield every question that a file of vectors holds."""
     for vector in document["valid"]:
         name, way, frame = vector["message"], vector["direction"], _hex(vector["hex"])
         yield Asked(vector["title"], f"decode {way} {frame}", [_message(vector)])
@@ -54,13 +54,13 @@ def asked(document: dict[str, Any]) -> Iterator[Asked]:
 
 
 def differences(questions: Sequence[Asked], answers: Sequence[Sequence[str]]) -> list[str]:
-    """What is wrong with the answers to all questions, one for each that is."""
+    """Return what is wrong with the answers to all questions, one text for each wrong one."""
     found = (each.differs(answer) for each, answer in zip(questions, answers, strict=True))
     return [each for each in found if each]
 
 
 def run(command: Sequence[str], questions: Sequence[str]) -> list[list[str]]:
-    """What a program answers on its standard output to what it reads, without the `end`."""
+    """Run a program, and return the lines that it prints for this input, without each `end`."""
     done = subprocess.run(
         command,
         input="".join(f"{question}\n" for question in questions),
@@ -81,7 +81,7 @@ def run(command: Sequence[str], questions: Sequence[str]) -> list[list[str]]:
 
 
 def joined(lines: Sequence[str]) -> list[str]:
-    """The lines of an answer, with neighbouring noise of one reason made one."""
+    """Return the lines of an answer, with adjacent noise of one reason joined."""
     found: list[str] = []
     for line in lines:
         noise, _, data = line.rpartition(" ")

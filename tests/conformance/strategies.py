@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 
 @cache
 def lines_of(model: Model, way: Direction) -> st.SearchStrategy[bytes]:
-    """What may be heard in one direction."""
+    """Return a strategy for the bytes that one direction may carry."""
     sender = Sender(model, way)
     header = sender.header
     large = [frame for frame in sender.frames_around(LONGEST) if frame is not None]
@@ -37,7 +37,7 @@ def lines_of(model: Model, way: Direction) -> st.SearchStrategy[bytes]:
 
 @st.composite
 def _damaged(draw: st.DrawFn, frame: bytes) -> bytes:
-    """A frame of which something was lost, changed or repeated."""
+    """Return a frame with bytes lost, changed or repeated."""
     start = draw(st.integers(0, len(frame) - 1))
     end = draw(st.integers(start, min(start + 3, len(frame))))
     return frame[:start] + draw(st.binary(max_size=2)) + frame[end:]
@@ -45,7 +45,7 @@ def _damaged(draw: st.DrawFn, frame: bytes) -> bytes:
 
 @st.composite
 def parts_of(draw: st.DrawFn, lines: st.SearchStrategy[bytes]) -> list[bytes | None]:
-    """A line in pieces, quiet here and there."""
+    """Return a line in pieces, with silences here and there."""
     line = draw(lines)
     if draw(st.booleans()):
         return [line[at : at + 1] for at in range(len(line))]

@@ -1,4 +1,4 @@
-"""Every codec of this project is held to the published vectors, and seen to be able to fail."""
+"""Every codec of this project is held to the published vectors, and shown to be able to fail."""
 
 from functools import cache
 from pathlib import Path
@@ -27,7 +27,7 @@ def compiled(spec: Path) -> Compiled:
 
 @cache
 def published(spec: Path) -> dict[str, Any]:
-    """The vectors of a spec."""
+    """Return the vectors of a spec."""
     return vectors_of(compiled(spec))
 
 

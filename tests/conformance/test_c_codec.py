@@ -25,13 +25,13 @@ pytestmark = needs_compiler
 
 @cache
 def asked(more: int) -> list[tuple[str, Question]]:
-    """All that is published, and some further questions."""
+    """Return all published questions, and some more."""
     return [*questions(MODEL), *islice(further(MODEL, seed=1), more)]
 
 
 @pytest.fixture(scope="module", autouse=True)
 def _the_reference_answers_each_question_once() -> Iterator[None]:
-    """And not for each of the codecs, which are asked the same."""
+    """Remember the reference's answers: all codecs get the same questions."""
     answers: dict[str, list[str]] = {}
 
     def known(model: Model, question: Question) -> list[str]:
@@ -46,7 +46,7 @@ def _the_reference_answers_each_question_once() -> Iterator[None]:
 
 
 def held(program: str, more: int = FURTHER) -> Trial:
-    """What becomes of all that is asked."""
+    """Hold a codec to all questions, and return the result."""
     codec = Program([program], timeout=10)
     try:
         return hold(MODEL, codec, asked(more))

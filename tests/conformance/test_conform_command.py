@@ -41,7 +41,7 @@ for line in sys.stdin:
 
 
 def told(capsys: pytest.CaptureFixture[str], *words: str) -> tuple[int, str, str]:
-    """Status, output and errors."""
+    """Run the command, and return status, output and errors."""
     status = main(["conform", *words])
     printed = capsys.readouterr()
     assert "Traceback" not in printed.out + printed.err
@@ -209,7 +209,7 @@ def test_json_tells_everything(capsys: pytest.CaptureFixture[str]) -> None:
 def test_what_is_unsupported_is_told_and_does_no_harm(capsys: pytest.CaptureFixture[str]) -> None:
     status, out, _ = told(capsys, SPEC, *python(LIMITED))
     assert status == 0
-    assert re.search(r"\n  not supported, and not held against it: \d+ stream\n$", out)
+    assert re.search(r"\n  not supported, and not counted as wrong: \d+ stream\n$", out)
 
 
 # -- The badge -----------------------------------------------------------------------------------
@@ -251,14 +251,14 @@ UNUSABLE = {
     "no such program": ([SPEC, "--", "no-such-codec"], "`no-such-codec` cannot be started: "),
     "a program that is asked nothing": (
         [SPEC, "--answers", "--", "codec"],
-        "no program is asked with --answers",
+        "no program is tested with --answers",
     ),
     "questions and answers": ([SPEC, "--answers", "--questions"], "argument --questions: "),
     "no spec": (["no-such.yaml", "--", "codec"], "no-such.yaml does not exist"),
-    "no number": ([SPEC, "--more", "many", "--", "codec"], "'many' is no number: write one from 0"),
+    "no number": ([SPEC, "--more", "many", "--", "codec"], "'many' is not a whole number from 0"),
     "no seed": ([SPEC, "--more", "1", "--seed", "-1", "--", "codec"], "argument --seed: "),
-    "no time": ([SPEC, "--timeout", "0", "--", "codec"], "'0' is no time: write seconds, up to"),
-    "no such time": ([SPEC, "--timeout", "nan", "--", "codec"], "'nan' is no time: "),
+    "no time": ([SPEC, "--timeout", "0", "--", "codec"], "'0' is not a number of seconds, up to"),
+    "no such time": ([SPEC, "--timeout", "nan", "--", "codec"], "'nan' is not a number of seconds"),
     "no format": ([SPEC, "--format", "png", "--", "codec"], "argument --format: invalid choice"),
 }  # fmt: skip
 
@@ -288,7 +288,7 @@ GUIDE = (ROOT / "docs" / "conformance.md").read_text(encoding="utf-8")
 
 
 def shown(command: str) -> list[str]:
-    """What the guide shows of a command, in pieces, between which it leaves lines out."""
+    """Return the output that the guide shows for a command, in pieces between omitted lines."""
     (block,) = re.findall(rf"```text\n\$ {re.escape(command)}\n(.*?)```", GUIDE, flags=re.DOTALL)
     return re.split(r"^\.\.\.\n", block, flags=re.MULTILINE)
 

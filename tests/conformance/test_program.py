@@ -1,4 +1,4 @@
-"""A program that is asked: whatever it does instead of answering is told, and stops nobody."""
+"""A program under test: whatever it does instead of answering is reported, and blocks nothing."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ SILENT = (
 
 
 def python(source: str, timeout: float = GENEROUS) -> Program:
-    """A program in Python."""
+    """Return a program in Python."""
     return Program([sys.executable, "-c", textwrap.dedent(source)], timeout)
 
 
@@ -188,7 +188,7 @@ def test_what_it_started_ends_with_it() -> None:
 
 
 def is_running(process: int) -> bool:
-    """Whether there is such a process; one that has ended and was not waited for is none."""
+    """Return whether there is such a process; one that has ended and was not waited for is none."""
     try:
         os.kill(process, 0)
     except ProcessLookupError:

@@ -35,7 +35,7 @@ def line(direction: Direction | None) -> ReferenceDecoder:
 
 
 def scanned(events: list[Event]) -> list[object]:
-    """The events as the oracle has them: unknown frames are noise, and all noise is joined."""
+    """Return the events as the oracle has them: unknown frames are noise, all noise is joined."""
     found: list[object] = []
     for event in events:
         if event.message is not None:

@@ -1,4 +1,4 @@
-"""Answers are held to the reference's; the first that differs is shrunk, and all are counted."""
+"""Answers are compared with the reference's; the first wrong one is shrunk, and all are counted."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""A library's client and its own device, face to face: every method is called, and answered."""
+"""A library's client and its own device, connected: every method is called, and answered."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 
 
 class Line:
-    """A transport in virtual time, with a device at its end that takes its time on the wire."""
+    """A transport in virtual time, with a device at its end; bytes take their time on the wire."""
 
     name = "line"
 
@@ -52,7 +52,7 @@ class Line:
 
 
 def converse(made: ModuleType, model: Model) -> None:
-    """Have the client of `made` call each method with each example, and its device answer.
+    """Let the client of `made` call each method with each example, and its device answer.
 
     `model` is in the names of the library.
     """
@@ -70,7 +70,7 @@ def converse(made: ModuleType, model: Model) -> None:
 
 
 def _both_ways(made: ModuleType, model: Model) -> None:
-    """Every example, of either end, is the frame of its message."""
+    """Check that every example, of either end, is the frame of its message."""
     for name, layout in model.messages.items():
         kind = getattr(made, name)
         for example in layout.message.examples:
@@ -94,7 +94,7 @@ def _ask(
 
 
 def _device(made: ModuleType, model: Model) -> Any:
-    """A device that answers what it is asked with what the spec says that it would."""
+    """Return a device that answers as the spec says."""
     heard: list[Any] = []
     said: list[Any] = []
     noise: list[Any] = []
@@ -128,7 +128,7 @@ def _snake(made: ModuleType, exchange: Exchange) -> str:
 
 
 def _report(made: ModuleType, layout: MessageLayout, request: Any) -> Any:
-    """A report with what the request said, where both have a field of that name."""
+    """Return a report with the values of the request, for fields that both have."""
     values = dict(layout.message.examples[0].values)
     for slot in layout.arguments:
         if isinstance(slot, Number):
@@ -139,7 +139,7 @@ def _report(made: ModuleType, layout: MessageLayout, request: Any) -> Any:
 
 
 def _reply(made: ModuleType, exchange: Exchange, layout: MessageLayout, request: Any) -> Any:
-    """The reply of an example, which repeats what it has to."""
+    """Return the reply of an example, with the values that it must repeat."""
     values = dict(layout.message.examples[0].values)
     for asked, told in exchange.echoed:
         outer, _, inner = told.partition(".")
@@ -171,7 +171,7 @@ def _made(made: ModuleType, layout: MessageLayout, values: dict[str, Any]) -> An
 
 
 def _argument(layout: MessageLayout, value: Any) -> Any:
-    """A value of an example as users give it: elements as tuples, in the order of the frame."""
+    """Return a value of an example as users give it: elements as tuples, in frame order."""
     if not isinstance(value, list) or layout.items is None or layout.items.element is None:
         return value
     return [tuple(each[field.name] for field in layout.items.fields) for each in value]

@@ -1,11 +1,11 @@
-"""Lengths and examples that follow from the rest of a spec: what is changed there stays a spec."""
+"""Lengths and examples derived from the rest of a spec, so that a changed spec stays valid."""
 
 from __future__ import annotations
 
 import copy
 from typing import TYPE_CHECKING, Any
 
-from framegen.language.wiretypes import WIRE_TYPES
+from framegen.language.number_types import NUMBER_TYPES
 from framegen.model.codec import Unencodable, encode
 from framegen.model.slots import Number
 from framegen.reading.yamltree import Unusable
@@ -18,9 +18,9 @@ if TYPE_CHECKING:
 
 
 def healed(data: Data) -> Data | None:
-    """A copy whose lengths and examples are those of its fields; None where it has no layout.
+    """Return a copy whose lengths and examples are those of its fields; None if it has no layout.
 
-    What speaks of single frames is left out: errata, unknowns, examples of look-alikes.
+    Facts about single frames are left out: errata, unknowns, examples of look-alikes.
     """
     whole: Data = copy.deepcopy(data)
     try:
@@ -44,7 +44,7 @@ def healed(data: Data) -> Data | None:
 
 
 def _examples(model: Model, message: MessageLayout) -> list[dict[str, Any]]:
-    """Frames with every value that an example has to show."""
+    """Return frames with every value that an example has to show."""
     fields = message.numbers_by_path.values()
     shown = [_values(message, number) for number in range(max(map(_many, fields), default=1))]
     return [
@@ -84,10 +84,10 @@ def _many(field: Number) -> int:
 
 
 def _all_of(field: Number) -> list[int]:
-    """The values that an example of a field has to show, inside its limits."""
+    """Return the values that an example of a field has to show, inside its limits."""
     found = [field.low, field.high, *(each.value for each in field.field.values.values())]
-    if field.field.signed_as in WIRE_TYPES:
-        found.append(WIRE_TYPES[field.field.signed_as].high + 1)
+    if field.field.signed_as in NUMBER_TYPES:
+        found.append(NUMBER_TYPES[field.field.signed_as].high + 1)
     limits = field.field.limits
     if limits is None:
         return list(dict.fromkeys(found))

@@ -1,4 +1,4 @@
-"""The libraries of many specs side by side: one run of a tool looks at all of them."""
+"""The libraries of many specs side by side, so that one run of a tool checks all of them."""
 
 from __future__ import annotations
 
@@ -36,7 +36,7 @@ MADE = sorted(
 
 @dataclass(frozen=True)
 class Library:
-    """What was generated for one spec: its modules that are not the same in every library."""
+    """The generated library of one spec: its modules that are not the same in every library."""
 
     name: str
     modules: dict[str, str]
@@ -64,18 +64,18 @@ class Library:
 
     @cached_property
     def code(self) -> str:
-        """What type checkers tell libraries apart by: the code without what its texts say."""
+        """The code without the contents of its texts, as type checkers see it."""
         return "\n".join(_code(text) for text in self.modules.values())
 
 
 def library_of(name: str, files: dict[str, str]) -> Library:
-    """The library among the files of a spec, to be called `name`."""
+    """Return the library among the files of a spec, under the name `name`."""
     [root] = {path.rpartition("/")[0] for path in files if path.endswith("/py.typed")}
     return Library(name, {path: files[f"{root}/{path}"] for path in MADE})
 
 
 class _Said(ast.NodeTransformer):
-    """Makes a constant of every text that is put together."""
+    """A transformer that replaces every f-string by a constant."""
 
     def visit_JoinedStr(self, _node: ast.JoinedStr) -> ast.Constant:
         return ast.Constant("")
@@ -93,7 +93,7 @@ def _code(text: str) -> str:
 
 @contextmanager
 def imported(library: Library, folder: Path) -> Iterator[ModuleType]:
-    """A library that is written below `folder`; what is the same in all is not written again."""
+    """Import a library written below `folder`; modules that are the same in all are shared."""
     home = folder / library.name
     spec = importlib.util.spec_from_file_location(
         library.name, home / "__init__.py", submodule_search_locations=[str(home), str(LIBRARY)]
@@ -138,7 +138,7 @@ def _by_library(found: Iterable[tuple[str, str]], folder: Path) -> dict[str, lis
 
 
 def linted(folder: Path) -> dict[str, list[str]]:
-    """What ruff has against the libraries in a folder, by library."""
+    """Return the findings of ruff in the libraries of a folder, by library."""
     config = ["--no-cache", "--config", str(ROOT / "pyproject.toml")]
     done = _run(["ruff", "check", *config, "--output-format", "json", "."], folder)
     assert done.returncode in (0, 1), done.stderr
@@ -153,7 +153,7 @@ def linted(folder: Path) -> dict[str, list[str]]:
 
 
 def type_checked(folder: Path, cache: Path) -> dict[str, list[str]]:
-    """What mypy and pyright have against the libraries in a folder, by library."""
+    """Return the findings of mypy and pyright in the libraries of a folder, by library."""
     names = sorted(path.name for path in folder.iterdir())
     if not names:
         return {}

@@ -1,4 +1,4 @@
-"""Specs with one thing changed, or with odd text in every place: what `check` may let through."""
+"""Specs with one change, or with odd text in every place: `check` may accept only good ones."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ GONE = "(gone)"
 
 @dataclass(frozen=True)
 class Change:
-    """One thing that is changed: where, and from what to what."""
+    """One change: where, and from what to what."""
 
     path: str
     old: str
@@ -32,7 +32,7 @@ class Change:
 
 @dataclass(frozen=True)
 class Mutant:
-    """A spec of those at hand, with something changed."""
+    """A spec of those at hand, with a change."""
 
     spec: str
     changes: tuple[Change, ...]
@@ -40,7 +40,7 @@ class Mutant:
 
     @property
     def data(self) -> Data:
-        """What it says; made anew, since there are many."""
+        """The values of the spec; made anew, since there are many."""
         return self.make()
 
     def __str__(self) -> str:
@@ -51,7 +51,7 @@ class Mutant:
 
 @cache
 def specs() -> dict[str, Data]:
-    """The specs at hand, by name."""
+    """Return the specs at hand, by name."""
     return {"greenhouse": data_of(DEMO), "kiln": kiln(), "busservo": data_of(BUSSERVO)}
 
 
@@ -60,18 +60,18 @@ def specs() -> dict[str, Data]:
 
 @cache
 def _places(spec: str) -> tuple[Data, tuple[Steps, ...]]:
-    """A spec with harmless text wherever any may stand, and where that is."""
+    """Return a spec with harmless text wherever any may stand, and where that is."""
     told = with_prose(specs()[spec], HARMLESS)
     return told, tuple(path for path, text in leaves(told) if HARMLESS in text)
 
 
 def rotations() -> int:
-    """How many specs it takes to have each text in each place."""
+    """Return how many specs it takes to have each text in each place."""
     return len(TEXTS)
 
 
 def told(spec: str, rotation: int) -> Mutant:
-    """A spec with an odd text in every place, each place with another."""
+    """Return a spec with an odd text in every place, a different one in each."""
     labels = list(TEXTS)
     _, places = _places(spec)
     given = {place: labels[(at + rotation) % len(labels)] for at, place in enumerate(places)}
@@ -79,7 +79,7 @@ def told(spec: str, rotation: int) -> Mutant:
 
 
 def telling(spec: str, given: dict[Steps, str]) -> Mutant:
-    """A spec with the texts of these labels in these places."""
+    """Return a spec with the texts of these labels in these places."""
 
     def make() -> Data:
         data = copy.deepcopy(_places(spec)[0])
@@ -93,7 +93,7 @@ def telling(spec: str, given: dict[Steps, str]) -> Mutant:
 
 
 def singly(mutant: Mutant) -> list[Mutant]:
-    """One mutant for each of the texts of this one."""
+    """Return one mutant for each of the texts of this one."""
     _, places = _places(mutant.spec)
     by_path = {_dotted(path): path for path in places}
     return [telling(mutant.spec, {by_path[each.path]: each.new}) for each in mutant.changes]
@@ -138,7 +138,7 @@ _OTHERS: dict[str, tuple[Any, ...]] = {
 
 
 def structures(spec: str) -> Iterator[Mutant]:
-    """Every scalar and every key of a spec changed by itself, in each way that there is."""
+    """Yield every scalar and every key of a spec changed by itself, in each way that there is."""
     data = specs()[spec]
     for path, value in _nodes(data):
         for new in _ways(path, value):
@@ -180,7 +180,7 @@ def _ways(path: Steps, value: Any) -> Iterator[Any]:
 
 
 def _orders(spec: str) -> Iterator[Mutant]:
-    """Neighbours of each mapping changed about, and each key moved to the front."""
+    """Yield neighbours of each mapping swapped, and each key moved to the front."""
     for path, value in _nodes(specs()[spec]):
         if isinstance(value, dict) and path[-1] in ("messages", "fields", "endpoints", "frame"):
             keys = list(value)
@@ -205,7 +205,7 @@ _CLASSES = (
 
 
 def _renamings(spec: str) -> Iterator[Mutant]:
-    """Every name as another, wherever it stands."""
+    """Yield every name replaced by another, wherever it stands."""
     data = specs()[spec]
     for path, value in _nodes(data):
         parent = path[-2] if len(path) > 1 else ""
@@ -229,7 +229,7 @@ def _renamings(spec: str) -> Iterator[Mutant]:
 
 
 def stretched(spec: str, length: int) -> Mutant:
-    """A spec whose names all have one length, as far as they may: lines that just fit, or not."""
+    """Return a spec whose names all have one length, if allowed: lines that just fit, or not."""
     messages = specs()[spec]["messages"]
     fields = {name for message in messages.values() for name in message.get("fields", {})}
     lists = [
@@ -262,7 +262,7 @@ def _long(name: str, length: int) -> str:
 
 
 def _relations(spec: str) -> Iterator[Mutant]:
-    """Each message related to each other, in each way that messages can be."""
+    """Yield each message related to each other, in each way that messages can be."""
     messages = specs()[spec]["messages"]
     for name in messages:
         here: Steps = ("messages", name)
@@ -284,7 +284,7 @@ def _given(message: Data) -> list[str]:
 
 
 def _crowds(spec: str) -> Iterator[Mutant]:
-    """More of everything: fields, elements' fields, named values, messages, notes."""
+    """Yield specs with more of everything: fields, named values, messages, notes."""
     data = specs()[spec]
     for path, value in _nodes(data):
         if path[-1] == "fields":

@@ -1,4 +1,4 @@
-"""Text that an author may write, or an enemy: each must come out inert, and as linters want it."""
+"""Odd and hostile text: each must come out inert, and acceptable to linters."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Whether the pages of a spec hold anything but what those of a harmless one hold, and words."""
+"""Compare the pages of a spec with those of a harmless one: they may differ in words only."""
 
 from __future__ import annotations
 
@@ -20,12 +20,12 @@ _LINK = re.compile(r"(?<!\\)\]\(([^)]*)\)")
 
 
 def pages_of(data: Data) -> Reference:
-    """The reference of a spec, as Markdown and as HTML."""
+    """Return the reference of a spec, as Markdown and as HTML."""
     return reference_of(Source("spec/made_up.yaml", yaml_of(data)))
 
 
 def not_inert(pages: Reference, harmless: Reference) -> Iterator[str]:
-    """What the pages have that those of harmless words have not: elements, links, code."""
+    """Yield what the pages have that those of harmless words have not: elements, links, code."""
     for path, page in pages.pages.items():
         other = harmless.pages[path]
         for what in _elements(page) - _elements(other):

@@ -1,9 +1,9 @@
-"""What `framegen check` accepts is good: whatever is changed in a spec, it says so, or all holds.
+"""The contract of `framegen check`: any change of a spec is either reported, or all of this holds.
 
-Accepted means: it generates and imports; ruff, mypy and pyright have nothing against it; its client
-is answered by its own device on every method; and its pages are inert. Each run takes a sample,
-which CONTRACT_SEED chooses; CONTRACT=all takes everything, as `make fuzz` does; and CONTRACT_ONLY
-those whose description holds a text, as a failure shows it.
+Accepted means: it generates and imports; ruff, mypy and pyright have no findings; its client is
+answered by its own device on every method; and its pages are inert. Each run takes a sample, which
+CONTRACT_SEED chooses; CONTRACT=all takes everything, as `make fuzz` does; and CONTRACT_ONLY those
+whose description holds a text, as a failure shows it.
 """
 
 from __future__ import annotations
@@ -46,7 +46,7 @@ BATCH, TYPED = 300, (20 if ALL or ONLY else 2)
 
 
 def sample(mutants: list[Mutant], many: int) -> list[Mutant]:
-    """Those that a run looks at."""
+    """Return the mutants of this run."""
     if ONLY:
         return [mutant for mutant in mutants if ONLY in str(mutant)]
     if ALL or many >= len(mutants):
@@ -55,7 +55,7 @@ def sample(mutants: list[Mutant], many: int) -> list[Mutant]:
 
 
 def accepted(data: Data | None) -> Compiled | None:
-    """What follows from a spec, where nothing is found in it."""
+    """Return the model of a spec, if `check` accepts it."""
     try:
         compiled = None if data is None else compiled_of(data)
     except Unusable:
@@ -68,7 +68,7 @@ def library(name: str, compiled: Compiled) -> Library:
 
 
 def shown(failures: dict[str, list[str]]) -> str:
-    """Failures by mutant, each with the command that shows it alone."""
+    """Return each failure by mutant, with the command that shows it alone."""
     lines = [f"seed {SEED}"]
     for mutant, found in list(failures.items())[:20]:
         lines += [mutant, *(f"    {each}" for each in found[:5])]
@@ -93,7 +93,7 @@ def test_odd_text_leaves_nothing_but_itself(spec: str, tmp_path: Path) -> None:
 def _told_wrongly(
     mutants: list[Mutant], code: str, pages: Reference, folder: Path
 ) -> dict[str, list[str]]:
-    """What odd text has done, by mutant."""
+    """Return the effects of odd text, by mutant."""
     found: dict[str, list[str]] = {}
     for at, mutant in enumerate(mutants):
         compiled = compiled_of(mutant.data)
@@ -133,7 +133,7 @@ def test_a_changed_spec_makes_a_good_library(tmp_path: Path) -> None:
 
 
 def chosen(mutants: list[Mutant]) -> Iterator[tuple[Mutant, Compiled]]:
-    """Those that `check` accepts, and what follows from them; as many as a run looks at."""
+    """Return the mutants that `check` accepts, and their models; as many as a run takes."""
     mutants = sample(mutants, len(mutants))
     if not (ALL or ONLY):
         random.Random(SEED).shuffle(mutants)  # noqa: S311
@@ -155,7 +155,7 @@ def batches(
 def _changed_wrongly(
     changed: list[tuple[Mutant, Compiled]], seen: set[str], folder: Path
 ) -> dict[str, list[str]]:
-    """What is wrong with the libraries of changed specs, by mutant."""
+    """Return what is wrong with the libraries of changed specs, by mutant."""
     sources, whole = folder / "sources", folder / "whole"
     whole.mkdir(parents=True)
     failures: dict[str, list[str]] = {}

@@ -1,4 +1,4 @@
-"""What comparisons with a page need: noisy lines, and what the reference and the vectors say."""
+"""Noisy lines, and the events of reference and vectors, for comparisons with a page."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ Event = list[Any]
 
 
 def reference_events(model: Model, data: bytes, way: Direction | None) -> list[Event]:
-    """What the reference makes of `data` and the silence after it; both ways without `way`."""
+    """Return the reference's events for `data` with silence after it; both ways without `way`."""
     line = ReferenceDecoder(model, model.directions if way is None else [way])
     return [
         [event.kind, event.data.hex(), event.message.name if event.message else event.reason]
@@ -29,7 +29,7 @@ def reference_events(model: Model, data: bytes, way: Direction | None) -> list[E
 
 
 def joined(events: Iterable[Event]) -> list[Event]:
-    """The events, with neighbouring noise of one reason made one."""
+    """Return the events, with adjacent noise of one reason joined."""
     found: list[Event] = []
     for (kind, said), same in groupby(events, lambda event: (event[0], event[2])):
         pieces = [event[1] for event in same]
@@ -39,7 +39,7 @@ def joined(events: Iterable[Event]) -> list[Event]:
 
 
 def noisy_lines(model: Model, seed: int, number: int) -> list[bytes]:
-    """Lines on which frames were cut and spoilt, with noise between them that looks like frames."""
+    """Return lines with cut and damaged frames, with noise between them that looks like frames."""
     chance = random.Random(seed)  # noqa: S311 - the same noise in every run
     messages = model.messages.values()
     frames = [

@@ -1,4 +1,4 @@
-"""The reference of two protocols as the tests read it: its pages, taken apart once."""
+"""The reference of two protocols, with its pages parsed once for all tests."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from framegen.language.load import read_source
 from framegen.reading.source import Source
 from framegen.render import render_target, snippets
 from framegen.targets import docs
-from framegen.targets.docs.pages import render_site
+from framegen.targets.docs.html_pages import render_site
 
 if TYPE_CHECKING:
     from framegen.model.model import Model
@@ -35,7 +35,7 @@ VOID = frozenset(["br", "img", "input", "link", "meta"])
 
 @dataclass
 class Page(HTMLParser):
-    """One page: what its elements say, in the order of the text."""
+    """One page: the text of its elements, in order."""
 
     path: str
     text: str
@@ -93,7 +93,7 @@ class Page(HTMLParser):
                 self.python[-1] += data
 
     def leads_to(self, link: str) -> tuple[str, str]:
-        """The page and the anchor that a link of this page leads to."""
+        """Return the page and the anchor that a link of this page leads to."""
         path, _, anchor = link.partition("#")
         path = path.partition("?")[0]
         if not path:
@@ -120,7 +120,7 @@ class Reference:
 
     @property
     def model(self) -> Model:
-        """What follows from it."""
+        """The model of its spec."""
         return self.compiled.model
 
     @cached_property
@@ -144,16 +144,16 @@ class Reference:
 
 
 def reference_of(source: Source) -> Reference:
-    """The reference of a spec that has no findings."""
+    """Return the reference of a spec that has no findings."""
     return Reference(compile_spec(source))
 
 
 def respelled(data: dict[str, Any]) -> Source:
-    """A spec of other values, as text: JSON is YAML too."""
+    """Return a spec of other values, as text: JSON is YAML too."""
     return Source("spec/other.yaml", json.dumps(data, indent=1, ensure_ascii=False) + "\n")
 
 
 @cache
 def reference(name: str) -> Reference:
-    """The reference of one of SPECS."""
+    """Return the reference of one of SPECS."""
     return reference_of(read_source(SPECS[name]))

@@ -48,7 +48,7 @@ pytestmark = pytest.mark.skipif(CHROMIUM is None, reason="chromium is not instal
 
 @pytest.fixture(scope="session")
 def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """The reference on a disk, as on a USB stick: what `framegen docs` builds."""
+    """Return the reference in a folder, as `framegen docs` builds it."""
     root = tmp_path_factory.mktemp("stick") / "the reference"
     assert main(["docs", str(SPECS["busservo"]), "--out", str(root)]) == 0
     return root / "busservo"
@@ -65,7 +65,7 @@ def browser() -> Iterator[Browser]:
 
 
 class Visit:
-    """One tab that opens pages from the disk, and remembers what went wrong on them."""
+    """One tab that opens pages from the disk, and records errors on them."""
 
     def __init__(self, context: BrowserContext, folder: Path) -> None:
         self.folder = folder
@@ -96,7 +96,7 @@ def context(browser: Browser) -> Iterator[BrowserContext]:
 
 @pytest.fixture
 def visit(context: BrowserContext, folder: Path) -> Iterator[Visit]:
-    """A visit on which nothing may go wrong, and nothing but pages from the disk be asked for."""
+    """Yield a visit on which no error may happen, and only pages on the disk be requested."""
     visit = Visit(context, folder)
     yield visit
     visit.tab.close()
@@ -105,7 +105,7 @@ def visit(context: BrowserContext, folder: Path) -> Iterator[Visit]:
 
 
 def arrives(tab: Tab, end: str) -> None:
-    """See that the tab gets to an address with this end: a key or a click only sets it going."""
+    """Wait for an address with this end: a key or a click only starts the navigation."""
     tab.wait_for_url(re.compile(re.escape(end) + "$"))
 
 
@@ -161,7 +161,7 @@ def decoded(tab: Tab) -> list[str]:
 
 
 def decoded_in_turn(tab: Tab, lines: list[str]) -> list[tuple[list[str], str, list[str]]]:
-    """The headings, the summary and the cells for each of these bytes, filled in in turn."""
+    """Return headings, summary and cells for each of these inputs, filled in one by one."""
     told = tab.evaluate(
         """(lines) => lines.map((line) => {
             const texts = (selector) =>
@@ -356,7 +356,7 @@ BUTTONS = [("Copy hex", MOVE), ("Copy as Python", f'bytes.fromhex("{MOVE}")')]
 
 
 def copied(tab: Tab, label: str) -> str:
-    """What is on the clipboard once the first button of that label has said so."""
+    """Click the first button of that label, and return the clipboard once it has said so."""
     # It says so for a moment, which a busy machine might miss: here, until the page is closed.
     tab.evaluate("() => { window.setTimeout = () => 0; }")
     tab.locator("button.copy", has_text=label).first.click()

@@ -1,4 +1,4 @@
-"""The codec in the page, under node: held to the reference."""
+"""The codec in the page, under node: compared with the reference."""
 
 import json
 import random
@@ -38,7 +38,7 @@ SPECS = [ROOT / "spec" / "busservo.yaml", *sorted((ROOT / "tests" / "specs").glo
 
 
 class Page:
-    """The page of one protocol, and what its codec answers."""
+    """The page of one protocol, and the answers of its codec."""
 
     def __init__(self, compiled: Compiled, folder: Path) -> None:
         self.compiled = compiled
@@ -62,7 +62,7 @@ def test_lines_are_decoded_as_the_reference_decodes_them(page: Page) -> None:
 
 
 def streams(model: Model, seed: int, number: int) -> Iterator[Question]:
-    """Noisy lines, cut anywhere, quiet anywhere, with room for frames of several sizes."""
+    """Return noisy lines, cut anywhere, quiet anywhere, with room for frames of several sizes."""
     chance = random.Random(seed)  # noqa: S311 - the same lines in every run
     for line in noisy_lines(model, seed, number):
         for way in model.directions:
@@ -177,7 +177,7 @@ console.log(JSON.stringify(answers));
 
 
 def ask(model: Model, questions: list[dict[str, Any]]) -> list[Any]:
-    """What the scripts of the page answer to each question about a protocol."""
+    """Return the answers of the page's scripts to each question about a protocol."""
     (codec,) = [
         text
         for _, text in reference("busservo").pages["decoder.html"].scripts
@@ -278,7 +278,7 @@ def test_noise_is_told_in_pieces_with_the_byte_that_was_refused(title: str) -> N
 
 
 def bytewise(events: list[dict[str, Any]]) -> list[tuple[int, int, int]]:
-    """Each byte of noise: its place on the line, the byte, and the place that was refused."""
+    """Return each byte of noise: its place on the line, its value, and the refused place."""
     return [
         (event["at"] + index, byte, event["refusedAt"])
         for event in events
@@ -297,7 +297,7 @@ def test_single_frames_of_either_way_are_judged_as_the_reference_judges_them(nam
 
 
 def verdict(model: Model, way: Direction | None, data: bytes) -> Any:
-    """The name of the message that `data` is, or why and where it is none."""
+    """Return the name of the message that `data` is, or why and where it is none."""
     try:
         return decode(model, way, data).layout.name
     except NotAFrame as error:

@@ -1,4 +1,4 @@
-"""`framegen docs`: the reference alone, somewhere to look at it."""
+"""`framegen docs`: the reference alone, in a folder to look at."""
 
 import webbrowser
 from pathlib import Path

@@ -34,7 +34,7 @@ FREE = frozenset(
 
 
 def poisoned(value: Any, payload: str, key: str = "") -> Any:
-    """The same values, with `payload` in the place of everything that may be any text."""
+    """Return the same values, with `payload` in the place of everything that may be any text."""
     if isinstance(value, dict):
         found = {name: poisoned(each, payload, str(name)) for name, each in value.items()}
         if key == "commands":
@@ -65,7 +65,7 @@ def site(request: pytest.FixtureRequest) -> Reference:
 
 
 def skeleton(page: Page) -> list[tuple[str, tuple[str, ...]]]:
-    """The elements of a page and the names of their attributes, without what they say."""
+    """Return the elements of a page and the names of their attributes, without their texts."""
     return [(tag, tuple(sorted(given))) for tag, given in page.tags]
 
 

@@ -1,4 +1,4 @@
-"""The Markdown twin: the same facts, links that lead somewhere, and nothing that is not meant."""
+"""The Markdown pages: the same facts, links that lead somewhere, and no accidental markup."""
 
 import re
 from pathlib import PurePosixPath

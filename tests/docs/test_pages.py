@@ -1,4 +1,4 @@
-"""The pages of the reference: whole, joined, without a network, and true to the spec."""
+"""The pages of the reference: complete, linked, without a network, and true to the spec."""
 
 import json
 import re
@@ -13,7 +13,7 @@ from framegen.reading.source import Source
 from framegen.reading.yamltree import dotted, read_tree
 from framegen.render import render, snippets
 from framegen.targets import docs
-from framegen.targets.docs.pages import render_site
+from framegen.targets.docs.html_pages import render_site
 
 from tests.docs.reference import (
     ROOT,
@@ -281,7 +281,7 @@ def test_the_python_of_a_message_runs(message: str) -> None:
 
 def test_the_index_lists_every_message_by_code(site: Reference) -> None:
     rows = [given for tag, given in site.pages["index.html"].tags if tag == "tr" and given]
-    found = [(row["data-codes"].split()[0], row["data-words"].split()[0]) for row in rows]
+    found = [(row["data-ids"].split()[0], row["data-words"].split()[0]) for row in rows]
     messages = sorted(site.model.messages.values(), key=lambda message: message.id)
     assert found == [(str(message.id), message.name.lower()) for message in messages]
 

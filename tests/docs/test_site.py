@@ -1,4 +1,4 @@
-"""The folder that is published: guides and reference, joined, and whole."""
+"""The published site: guides and reference, linked and complete."""
 
 import subprocess
 import sys
@@ -15,7 +15,7 @@ pytest.importorskip("markdown_it", reason="markdown-it-py is not installed")
 
 @pytest.fixture(scope="module")
 def site(tmp_path_factory: pytest.TempPathFactory) -> dict[str, Page]:
-    """What `make docs` builds."""
+    """Return the folder that `make docs` builds."""
     root = tmp_path_factory.mktemp("build")
     folder = root / "site"
     makefile = (ROOT / "Makefile").read_text(encoding="utf-8")

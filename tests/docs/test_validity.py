@@ -1,4 +1,4 @@
-"""Every page is valid HTML, says html-validate."""
+"""Every page is valid HTML, according to html-validate."""
 
 import json
 import subprocess
@@ -20,7 +20,7 @@ pytestmark = pytest.mark.skipif(
 
 
 def complaints(folder: Path, pages: dict[str, str]) -> list[str]:
-    """What the validator has against pages, each with its place."""
+    """Return the validator's findings in pages, each with its place."""
     write_files(pages, folder)
     (folder / ".htmlvalidate.json").write_text(json.dumps(RULES))
     done = subprocess.run(

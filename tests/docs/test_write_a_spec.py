@@ -7,7 +7,7 @@ import pytest
 from framegen.compile import compile_spec
 from framegen.explain import explain
 from framegen.language import spec
-from framegen.language.wiretypes import WIRE_TYPES
+from framegen.language.number_types import NUMBER_TYPES
 from framegen.reading.source import Source
 from framegen.render import render
 from pydantic import BaseModel
@@ -59,7 +59,7 @@ def test_every_type_and_every_choice_is_named() -> None:
         if isinstance(choice, str)
     ]
     assert len(choices) > 10
-    for word in [*WIRE_TYPES, *choices]:
+    for word in [*NUMBER_TYPES, *choices]:
         assert f"`{word}`" in GUIDE, word
 
 

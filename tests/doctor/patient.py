@@ -1,4 +1,4 @@
-"""A virtual board for the doctor to look at, in virtual time, and what it needs for that."""
+"""A virtual board for the doctor to examine, in virtual time, and all that it needs for that."""
 
 from __future__ import annotations
 
@@ -24,14 +24,14 @@ LONGEST = 60.0
 
 @contextmanager
 def board_with(faults: Faults | None = None, **more: Any) -> Iterator[VirtualController]:
-    """A board at the end of a wire of 9600 baud, unless told otherwise."""
+    """Return a board at the end of a wire, by default of 9600 baud."""
     made = {"clock": VirtualClock(follow_reads=True), "baud": 9600.0, "faults": faults, **more}
     with VirtualController(**made) as board:
         yield board
 
 
 def diagnosis_of(board: VirtualController, **more: Any) -> Diagnosis:
-    """A diagnosis of that board alone, whatever is plugged into the machine."""
+    """Return a diagnosis of that board alone, whatever is plugged into the machine."""
     given: dict[str, Any] = {
         "port": PORT,
         "opener": lambda _port, _baud: board.open(),
@@ -43,5 +43,5 @@ def diagnosis_of(board: VirtualController, **more: Any) -> Diagnosis:
 
 
 def examined(diagnosis: Diagnosis) -> dict[str, Result]:
-    """What each check has found, by its id."""
+    """Return the result of each check, by its id."""
     return {check.id: result for check, result in examine(diagnosis, CHECKS)}

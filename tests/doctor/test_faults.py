@@ -1,4 +1,4 @@
-"""What the doctor says of each fault of the virtual board, in virtual time."""
+"""The doctor's results for each fault of the virtual board, in virtual time."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 
 @dataclass
 class Case:
-    """A fault, and the checks that do not pass, each with its state and what is said."""
+    """A fault, and the checks that do not pass, each with its state and text."""
 
     faults: Faults = field(default_factory=Faults)
     board: dict[str, Any] = field(default_factory=dict)

@@ -1,4 +1,4 @@
-"""What the doctor says of ports: which there are, who may use them, and at which rate they are."""
+"""The doctor's checks of ports: which there are, who may use them, and their rates."""
 
 from __future__ import annotations
 
@@ -76,7 +76,7 @@ def test_the_port_is_found_or_it_is_said_where_to_look(
     ("port", "hid", "state", "seen", "advice"),
     [
         ("COM7", [], PASSED, "no USB HID device (0483:5750) is plugged in", ""),
-        ("COM7", None, UNKNOWN, "nobody here can tell", "pip install 'busservo[hid]'"),
+        ("COM7", None, UNKNOWN, "nobody here can tell", "pip install hidapi"),
         ("COM7", [BOARD], UNKNOWN, "0483:5750 LOBOT is plugged in", "and --port hid://"),
         ("hid://", [BOARD], PASSED, "0483:5750 LOBOT is plugged in", ""),
     ],
@@ -133,7 +133,7 @@ def test_a_line_that_is_lost_while_it_is_looked_at_is_told_as_lost() -> None:
 
 @pytest.fixture
 def quick(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Nothing here is late, so nothing is waited for."""
+    """Shorten the waits: nothing here is late."""
     monkeypatch.setattr(rate, "EXTRA_TIME", 0.0)
 
 
@@ -172,7 +172,7 @@ def test_a_connection_has_no_rate() -> None:
 
 @pytest.fixture
 def deaf_to_rates() -> Iterator[str]:
-    """A pseudo terminal that leads to a board elsewhere: it answers at whatever rate."""
+    """Return a pseudo terminal that leads to a board elsewhere: it answers at whatever rate."""
     pty = pytest.importorskip("pty", reason="there are pseudo-terminals only where there is a tty")
     import tty  # noqa: PLC0415 - as pty
 

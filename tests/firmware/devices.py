@@ -1,4 +1,4 @@
-"""What firmware is asked behind: a line in virtual time, and devices at its end."""
+"""Devices for firmware tests, and a line in virtual time to reach them."""
 
 import heapq
 from collections.abc import Callable, Iterator
@@ -54,7 +54,7 @@ class VirtualLine:
 
 
 class Observed:
-    """A transport that notes what is written to the one behind it."""
+    """A transport that records what is written to the one behind it."""
 
     def __init__(self, behind: Any) -> None:
         self.written: list[bytes] = []
@@ -73,7 +73,7 @@ class Observed:
 
 
 def by_the_reference(model: Model) -> Answer:
-    """A device that hears what the reference hears, and replies as the spec's examples do."""
+    """Return a device that decodes as the reference does, and replies as the spec's examples do."""
     held = b""
     line = ReferenceDecoder(model, [model.roles.sent])
 

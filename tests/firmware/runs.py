@@ -1,4 +1,4 @@
-"""A run of `framegen conform --port` on a device in virtual time, and what came of it."""
+"""Runs of `framegen conform --port` on a device in virtual time, and their results."""
 
 import json
 from argparse import ArgumentParser
@@ -17,7 +17,7 @@ from tests.firmware.devices import Observed
 
 
 class Run(NamedTuple):
-    """How it ended, what it printed, and what was written to the port."""
+    """The exit status, the output, and the bytes written to the port."""
 
     code: int
     out: str
@@ -26,17 +26,17 @@ class Run(NamedTuple):
 
     @property
     def report(self) -> dict[str, Any]:
-        """What was printed as JSON."""
+        """The output as JSON."""
         found: dict[str, Any] = json.loads(self.out)
         return found
 
     def step(self, title: str) -> dict[str, Any]:
-        """One step of it."""
+        """Return one step of it."""
         return next(step for step in self.report["steps"] if step["title"] == title)
 
     @property
     def faults(self) -> list[tuple[str, str]]:
-        """What is wrong: the title of each step, and the kind of each fault in it."""
+        """The failures: the title of each step, and the kind of each fault in it."""
         return [
             (step["title"], fault["kind"])
             for step in self.report["steps"]
@@ -45,12 +45,12 @@ class Run(NamedTuple):
 
 
 def model_of(file: Path = BUSSERVO) -> Model:
-    """What follows from a spec."""
+    """Return the model of a spec."""
     return compile_spec(read_source(file)).model
 
 
 def run(model: Model, line: Any, *words: str, form: str = "json", timeout: float = 0.25) -> Run:
-    """Ask the device at the end of `line`, a transport with a clock of its own."""
+    """Test the device at the end of `line`, a transport with a clock of its own."""
     parser = ArgumentParser()
     firmware.add_arguments(parser)
     arguments = parser.parse_args(["--port", "a line", *words])

@@ -1,4 +1,4 @@
-"""What a device does wrong is found, and called by its name; what it may do is no fault."""
+"""Errors of a device are found, and named; variations that it may have are no fault."""
 
 from __future__ import annotations
 
@@ -39,14 +39,14 @@ UNKNOWN = bytes.fromhex("55 55 03 63 01")
 def on_a_board(
     script: Script | None, at: int = 2, *options: str, thinks: float = 0.002, baud: float = 9600
 ) -> Run:
-    """A run on the independent board, with one fault in the reply to a question by its number."""
+    """Return a run on the independent board, with one fault in the reply to that question."""
     scripts = {} if script is None else {at: script}
     board = Board(baud=baud, thinks=thinks, faults=scripts.get, servos=range(1, 7))
     return run(MODEL, VirtualPort(board), *options)
 
 
 def changed(at: int, value: int) -> Script:
-    """One byte of the reply is another."""
+    """Return a script that changes one byte of the reply."""
     return lambda reply: [Piece(0.0, reply[:at] + bytes([value]) + reply[at + 1 :])]
 
 
@@ -129,12 +129,12 @@ WORDS: list[tuple[Script, int, str]] = [
         ),
     ),
     (faults.late(0.4), 2, "ServoPositions came after 0.437 s, and was due within 0.285 s"),
-    (faults.duplicated(), 1, "BatteryVoltage came once more than it was asked"),
-    (changed(5, 99), 2, "ServoPositions tells of positions.servo_id 99, which was not asked"),
+    (faults.duplicated(), 1, "BatteryVoltage came once more than it was requested"),
+    (changed(5, 99), 2, "ServoPositions reports positions.servo_id 99, which was not requested"),
     (
         faults.late(0.05),
         10,
-        "BatteryVoltage came behind the reply to ServoPositionsRead, asked after it",
+        "BatteryVoltage came after the reply to ServoPositionsRead, which was requested later",
     ),
     (
         lambda _: [Piece(0.0, bytes(5))],
@@ -167,10 +167,10 @@ NOTES: dict[str, tuple[Script, str]] = {
     "a report before it": (faults.preceded(REPORT), "report: ActionGroupStarted after 0.0"),
     "a report behind it": (faults.followed(REPORT), "report: ActionGroupStarted after 0.0"),
     "an unknown frame": (faults.preceded(UNKNOWN), "unknown frame: 5 bytes, 55 55 03 63 01"),
-    "no servo": (lambda _: [Piece(0.0, firmware.positions_reply([]))], "tells of 0 of 6"),
+    "no servo": (lambda _: [Piece(0.0, firmware.positions_reply([]))], "reports 0 of 6"),
     "four of six": (
         lambda _: [Piece(0.0, firmware.positions_reply([(servo, 5) for servo in (6, 1, 3, 2)]))],
-        "ServoPositions tells of 4 of 6",
+        "ServoPositions reports 4 of 6",
     ),
 }
 
@@ -188,7 +188,7 @@ def test_what_comes_before_anything_is_asked_is_no_fault() -> None:
     board = Board(baud=9600)
     board.report(firmware.COMPLETED, 8, 1, at=0.1)
     done = run(MODEL, VirtualPort(board), form="text")
-    assert "before anything was asked came ActionGroupCompleted group=8 times=1\n" in done.out
+    assert "before anything was sent came ActionGroupCompleted group=8 times=1\n" in done.out
     assert done.code == 0
 
 
@@ -226,7 +226,7 @@ def test_firmware_that_waits_for_the_rest_of_a_frame_loses_the_query_behind_it()
 
 
 def deaf_after(malformed: bytes) -> Answer:
-    """A device that hangs itself up over some bytes."""
+    """Return a device that hangs after some bytes."""
     board = Board()
     is_deaf = False
 
@@ -253,7 +253,7 @@ def test_a_device_that_hangs_is_told_from_one_that_recovers() -> None:
 
 
 def careless(data: bytes) -> list[tuple[float, bytes]]:
-    """A device that answers by header and id alone."""
+    """Return a device that answers by header and id alone."""
     replies = {15: firmware.battery_reply(7500), 21: firmware.positions_reply([])}
     return [
         (0.001, replies[data[at + 3]])

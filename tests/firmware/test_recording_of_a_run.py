@@ -1,4 +1,4 @@
-"""All that goes over the line is recorded while it does, and nothing recorded is overwritten."""
+"""A run records the line while it goes on, and never overwrites a recording."""
 
 from pathlib import Path
 

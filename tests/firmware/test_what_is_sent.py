@@ -41,7 +41,7 @@ DEVICES: dict[str, Callable[[], Answer]] = {
 
 
 def begun(data: bytes) -> set[int]:
-    """The codes of what firmware begins that looks at header and command alone."""
+    """Return the commands that firmware starts if it looks at header and command alone."""
     return {data[at + 3] for at in range(len(data) - 3) if data[at : at + 2] == b"UU"}
 
 
@@ -50,7 +50,7 @@ def allowed_by(options: list[str]) -> set[str]:
 
 
 def heard(pieces: list[bytes], *, quiet: bool) -> set[str]:
-    """The messages that the library's own decoder takes from what was written."""
+    """Return the messages that the library's decoder finds in the written bytes."""
     decoder = StreamDecoder(Direction.HOST_TO_CONTROLLER)
     events = []
     for data in pieces:
@@ -62,7 +62,7 @@ def heard(pieces: list[bytes], *, quiet: bool) -> set[str]:
 
 
 def obeyed(data: bytes) -> set[int]:
-    """The codes of what the independent firmware takes from bytes, which trusts every length."""
+    """Return the commands that the independent firmware finds, as it trusts every length."""
     reader = Reader()
     frames = [frame for byte in data if (frame := reader.take(byte))]
     return {frame[3] for frame in frames if well_formed(frame)}
@@ -170,7 +170,7 @@ def test_what_is_not_refused_holds_no_command_for_the_librarys_decoder(ids: list
 
 
 def with_example(ids: list[int], at: int) -> Model:
-    """The spec with another example of ServoPositionsRead, at a place among them."""
+    """Return the spec with another example of ServoPositionsRead, at a place among them."""
     data = data_of(BUSSERVO)
     example = {
         "title": "Made up",

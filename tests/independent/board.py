@@ -1,7 +1,7 @@
 """An independent board: numbered replies, a wire that takes its time, a fault for each reply.
 
 It is written from the document alone and shares no code with what it tests. It has no clock, no
-thread and no port: whoever drives it says what time it is, in seconds.
+thread and no port: its driver gives it the time, in seconds.
 
 Every question gets the next number, and its reply holds nothing else: as the voltage in mV, or as
 the position of every servo. So a value tells which question it answers.
@@ -46,7 +46,7 @@ KEPT = 10_000
 
 
 class Heard(NamedTuple):
-    """A frame that the board has heard whole, and the number of the question that it was, or 0."""
+    """A frame that the board has received, and the number of the question that it was, or 0."""
 
     at: float
     frame: bytes
@@ -54,7 +54,7 @@ class Heard(NamedTuple):
 
 
 class Said(NamedTuple):
-    """Bytes that the board has sent, and when the last of them is with the host."""
+    """Bytes that the board has sent, and when the last of them reaches the host."""
 
     at: float
     data: bytes
@@ -65,10 +65,10 @@ class Board:
 
     `baud` is the pace of the line, both ways, and `thinks` the time until a reply is due. `faults`
     gives the script for the reply to a question by its number, and the first question has number
-    `first`. Bytes come to the host every `latency` seconds, as those of a USB adapter do; or a
-    frame at a time, if the adapter `gathers`: none is then torn by a machine that is busy. With
-    `echo`, the host hears what it sends, as at a half-duplex adapter. Groups run for
-    `group_seconds` each time; `unknown_groups` never run.
+    `first`. Bytes reach the host every `latency` seconds, as those of a USB adapter do; or a frame
+    at a time, if the adapter `gathers`: none is then torn by a busy machine. With `echo`, the host
+    receives what it sends, as at a half-duplex adapter. Groups run for `group_seconds` each time;
+    `unknown_groups` never run.
     """
 
     def __init__(
@@ -116,7 +116,7 @@ class Board:
     # ---------------------------------------------------------------- the line
 
     def write(self, data: bytes, now: float) -> None:
-        """Takes bytes from the host, which the wire then carries one by one."""
+        """Take bytes from the host, which the wire then carries one by one."""
         self._live(now)
         for byte in data:
             at = max(now, self._arrives_from) + self._seconds_per_byte
@@ -125,7 +125,7 @@ class Board:
         self._live(now)
 
     def read(self, now: float) -> bytes:
-        """Gives the bytes that have reached the host by now."""
+        """Return the bytes that have reached the host by now."""
         self._live(now)
         pieces = []
         while self._leaving and self._leaving[0][0] <= now:
@@ -134,7 +134,7 @@ class Board:
 
     @property
     def next_event(self) -> float:
-        """When something happens next; infinity where nothing will."""
+        """When something happens next; infinity if nothing will."""
         return min(
             self._arriving[0][0] if self._arriving else math.inf,
             self._due[0][0] if self._due else math.inf,
@@ -149,26 +149,26 @@ class Board:
     # ---------------------------------------------------------------- what a test can do
 
     def report(self, command: int, group: int = 0, times: int = 0, *, at: float) -> None:
-        """Sends a report that nobody asked for: STARTED, STOPPED or COMPLETED."""
+        """Send an unsolicited report: STARTED, STOPPED or COMPLETED."""
         self.send([Piece(0.0, report(command, group, times), is_report=True)], at)
 
     def send(self, pieces: list[Piece], due: float, *, in_trouble: bool = False) -> None:
-        """Sends bytes as they are, each piece when it is due."""
+        """Send bytes as they are, each piece when it is due."""
         for piece in pieces:
             self._at(due + piece.after, partial(self._put, piece, in_trouble=in_trouble))
 
     # ---------------------------------------------------------------- what a test looks at
 
     def arrivals(self, data: bytes) -> list[float]:
-        """When bytes that were sent as they are here were with the host."""
+        """Return when these bytes, sent as they are, reached the host."""
         return [said.at for said in self.said if said.data == data]
 
     def troubled(self, since: float, until: float) -> bool:
-        """Whether a fault happened then, or a piece of such a reply was with the host."""
+        """Return whether a fault happened then, or a piece of such a reply reached the host."""
         return any(since <= at <= until for at in self.troubles)
 
     def faulted(self, since: float, until: float) -> bool:
-        """Whether a reply was due then that a fault happened to."""
+        """Return whether a reply was due then that a fault changed."""
         return any(since <= at <= until for at in self.faulty)
 
     # ---------------------------------------------------------------- how it lives
@@ -190,7 +190,7 @@ class Board:
                 self._hear(*self._arriving.popleft())
 
     def _put(self, piece: Piece, at: float, *, in_trouble: bool = False) -> None:
-        """Puts bytes on the wire, behind those that it carries."""
+        """Put bytes on the wire, behind those that it carries."""
         if piece.is_report:
             self.reported.append(piece.data)
         there = self._carry(piece.data[: piece.size], at) if piece.pause else at
@@ -200,7 +200,7 @@ class Board:
             self.troubles.append(there)
 
     def _carry(self, data: bytes, at: float) -> float:
-        """Gives when these bytes are with the host."""
+        """Return when these bytes reach the host."""
         if self._seconds_per_byte and not self._gathers:
             pieces = [bytes([byte]) for byte in data]
         else:
@@ -213,7 +213,7 @@ class Board:
         return there
 
     def _leave(self, at: float, data: bytes) -> float:
-        """Gives when these bytes are with the host."""
+        """Return when these bytes reach the host."""
         if self._latency:
             at = math.ceil(at / self._latency) * self._latency
         self._count += 1

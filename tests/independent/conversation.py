@@ -1,6 +1,6 @@
-"""What a host was told by the independent board, and whether it may have been told so.
+"""The answers that a host got from the independent board, and whether each is allowed.
 
-A call is right if its value answers a question that the board heard after the call began. Any
+A call is right if its value answers a question that the board received after the call began. Any
 other must be excused: by a fault that happened during it or during the call before. So the second
 next call after a fault is right. A stale value is excused only if its reply was complete no earlier
 than question and reply can have fitted on the wire, and never twice in a row for one fault.
@@ -39,20 +39,20 @@ class NumberingBoard(Protocol):
     asked: int
 
     def arrivals(self, data: bytes) -> list[float]:
-        """When these bytes were with the host."""
+        """Return when these bytes reached the host."""
         ...
 
     def troubled(self, since: float, until: float) -> bool:
-        """Whether something then excuses a wrong value."""
+        """Return whether a wrong value is excused at that time."""
         ...
 
     def faulted(self, since: float, until: float) -> bool:
-        """Whether a fault began then."""
+        """Return whether a fault began then."""
         ...
 
 
 class Call(NamedTuple):
-    """One read: the questions that the board had heard `before`, and the number that came back."""
+    """One read: how many questions the board received `before`, and the number that came back."""
 
     began: float
     ended: float
@@ -62,7 +62,7 @@ class Call(NamedTuple):
 
 
 class Conversation:
-    """The calls of one asker, in order."""
+    """The calls of one thread or task, in order."""
 
     def __init__(self, board: NumberingBoard, now: Callable[[], float]) -> None:
         self.board = board
@@ -70,7 +70,7 @@ class Conversation:
         self._now = now
 
     def ask(self, controller: Controller, asked: Asked) -> None:
-        """Reads once. A declared error is noted, any other is raised."""
+        """Read once. A declared error is recorded, any other is raised."""
         began, before = self._now(), self.board.asked
         number: int | None = None
         try:
@@ -83,7 +83,7 @@ class Conversation:
         self.calls.append(Call(began, self._now(), before, number, asked))
 
     async def ask_async(self, controller: AsyncController, asked: Asked) -> None:
-        """The same, for asyncio."""
+        """Read once, for asyncio."""
         began, before = self._now(), self.board.asked
         number: int | None = None
         try:
@@ -97,7 +97,7 @@ class Conversation:
 
     @property
     def stale(self) -> list[Call]:
-        """The calls that were told an answer to an earlier question."""
+        """The calls that got the answer to an earlier question."""
         return [each for each in self.calls if each.number and not self._fresh(each)]
 
     @property
@@ -106,7 +106,7 @@ class Conversation:
         return [each for each in self.calls if each.number is None]
 
     def check(self, baud: float, bound: float) -> None:
-        """Raises AssertionError where a call took too long, or is wrong without an excuse."""
+        """Raise AssertionError if a call took too long, or is wrong without an excuse."""
         since, before_was_stale = float("-inf"), False
         for place, call in enumerate(self.calls):
             told = f"call {place} of {len(self.calls)}: {call}"
@@ -127,13 +127,13 @@ class Conversation:
         return call.before < number
 
     def _arrived(self, call: Call) -> list[float]:
-        """When replies with this number were complete, until the call ended."""
+        """Return when replies with this number were complete, until the call ended."""
         reply = reply_to(call.asked, call.number or 0)
         return [at for at in self.board.arrivals(reply) if at <= call.ended]
 
 
 def only(positions: Sequence[tuple[int, int]], asked: Sequence[int]) -> int:
-    """The one number that all servos of a reply have."""
+    """Return the one number that all servos of a reply have."""
     assert [servo_id for servo_id, _ in positions] == list(asked)
     numbers = {position for _, position in positions}
     assert len(numbers) == 1, f"of one reply, all positions are the same: {positions}"
@@ -141,23 +141,23 @@ def only(positions: Sequence[tuple[int, int]], asked: Sequence[int]) -> int:
 
 
 def question_of(asked: Asked) -> bytes:
-    """The frame that asks it."""
+    """Return the frame of the question."""
     return battery_question() if asked is None else positions_question(list(asked))
 
 
 def reply_to(asked: Asked, number: int) -> bytes:
-    """The frame that answers it."""
+    """Return the frame of its reply."""
     if asked is None:
         return battery_reply(number)
     return positions_reply([(servo_id, number) for servo_id in asked])
 
 
 def wire_time(asked: Asked, baud: float) -> float:
-    """How long question and reply take on the wire, at the least."""
+    """Return how long question and reply take on the wire, at the least."""
     return (len(question_of(asked)) + len(reply_to(asked, 0))) * BITS_PER_BYTE / baud
 
 
 def repeated(talks: Sequence[Conversation]) -> int:
-    """How many values came more than once, among all calls of all askers."""
+    """Return how many values came more than once, among all conversations."""
     numbers = [call.number for talk in talks for call in talk.calls if call.number is not None]
     return len(numbers) - len(set(numbers))

@@ -1,7 +1,7 @@
-"""What can become of one reply on its way: scripts that a test hands to the independent board.
+"""Faults of one reply on its way: scripts for the independent board.
 
-A script takes the frame of a reply and gives what is sent in its place: pieces, each so many
-seconds after the reply is due. What a wire is still carrying then goes first.
+A script takes the frame of a reply and returns what is sent in its place: pieces, each so many
+seconds after the reply is due. Bytes that a wire is still carrying then go first.
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 
 
 class Piece(NamedTuple):
-    """Bytes that are sent `after` so many seconds; a report is noted by the board as sent.
+    """Bytes that are sent `after` so many seconds; the board records a report among them.
 
     Behind its first `size` bytes, if there is a `pause`, nothing is sent for so long.
     """
@@ -28,40 +28,40 @@ class Piece(NamedTuple):
 
 
 def whole(reply: bytes) -> list[Piece]:
-    """As it should be."""
+    """Send the reply as it should be."""
     return [Piece(0.0, reply)]
 
 
 def duplicated(after: float = 0.0, copies: int = 1) -> Script:
-    """The reply comes again, `after` seconds later, and again."""
+    """Send the reply again, `after` seconds later, and again."""
     return lambda reply: [Piece(after * number, reply) for number in range(copies + 1)]
 
 
 def late(by: float) -> Script:
-    """The reply comes late. What is due meanwhile goes out meanwhile."""
+    """Send the reply late. Other bytes that are due meanwhile go out meanwhile."""
     return lambda reply: [Piece(by, reply)]
 
 
 def dropped(_reply: bytes) -> list[Piece]:
-    """The reply never comes."""
+    """Never send the reply."""
     return []
 
 
 def cut(size: int, *behind: Piece) -> Script:
-    """Only the first bytes come, then what is `behind`: a report, say, after a silence.
+    """Send only the first bytes, then `behind`: a report, say, after a silence.
 
-    Of a `size` below 0, so many bytes are missing.
+    For a `size` below 0, so many bytes are missing.
     """
     return lambda reply: [Piece(0.0, reply[:size]), *behind]
 
 
 def lost(start: int, count: int, *behind: Piece) -> Script:
-    """Bytes are lost in the middle."""
+    """Lose bytes in the middle."""
     return lambda reply: [Piece(0.0, reply[:start] + reply[start + count :]), *behind]
 
 
 def miscounted(by: int) -> Script:
-    """The byte behind the command is wrong: the count of positions, or half a voltage."""
+    """Send a wrong byte behind the command: the count of positions, or half a voltage."""
 
     def script(reply: bytes) -> list[Piece]:
         data = bytearray(reply)
@@ -72,7 +72,7 @@ def miscounted(by: int) -> Script:
 
 
 def mislengthened(by: int) -> Script:
-    """The length of the frame is wrong."""
+    """Send a wrong length."""
 
     def script(reply: bytes) -> list[Piece]:
         data = bytearray(reply)
@@ -83,15 +83,15 @@ def mislengthened(by: int) -> Script:
 
 
 def preceded(data: bytes, *, is_report: bool = False) -> Script:
-    """Noise, or a report, comes first."""
+    """Send noise, or a report, first."""
     return lambda reply: [Piece(0.0, data, is_report), Piece(0.0, reply)]
 
 
 def followed(data: bytes, after: float = 0.0, *, is_report: bool = False) -> Script:
-    """Noise, or a report, comes behind."""
+    """Send noise, or a report, behind it."""
     return lambda reply: [Piece(0.0, reply), Piece(after, data, is_report)]
 
 
 def halted(size: int, pause: float) -> Script:
-    """The reply comes in two pieces, with a pause between them, in which nothing else comes."""
+    """Send the reply in two pieces, with a pause between them, in which nothing else is sent."""
     return lambda reply: [Piece(0.0, reply, size=size, pause=pause)]

@@ -1,4 +1,4 @@
-"""Frames as the firmware of a sibling board takes them in, written from the document alone.
+"""Frames as the firmware of a sibling board reads them, written from the document alone.
 
 Nothing of the library or of the simulator is used here, nor anywhere in the independent board.
 """
@@ -14,7 +14,7 @@ QUESTIONS = (BATTERY, POSITIONS)
 
 
 def frame(command: int, parameters: bytes = b"") -> bytes:
-    """A frame: two header bytes, the length (parameters, command and itself), command, parameters.
+    """Return a frame: header, length (of parameters, command and itself), command, parameters.
 
     "Data length: the number of parameters plus a command plus a byte length".
     """
@@ -22,33 +22,33 @@ def frame(command: int, parameters: bytes = b"") -> bytes:
 
 
 def battery_question() -> bytes:
-    """What a host sends to read the battery."""
+    """Return the frame with which a host reads the battery."""
     return frame(BATTERY)
 
 
 def positions_question(servo_ids: list[int]) -> bytes:
-    """What a host sends to read positions."""
+    """Return the frame with which a host reads positions."""
     return frame(POSITIONS, bytes([len(servo_ids), *servo_ids]))
 
 
 def battery_reply(millivolts: int) -> bytes:
-    """The voltage, low byte first."""
+    """Return the reply with the voltage, low byte first."""
     return frame(BATTERY, struct.pack("<H", millivolts))
 
 
 def positions_reply(positions: list[tuple[int, int]]) -> bytes:
-    """The count, then id, low byte and high byte of each servo."""
+    """Return the reply with the count, then id, low byte and high byte of each servo."""
     each = b"".join(struct.pack("<BH", servo_id, position) for servo_id, position in positions)
     return frame(POSITIONS, bytes([len(positions)]) + each)
 
 
 def report(command: int, group: int = 0, times: int = 0) -> bytes:
-    """A report on an action group: STARTED, STOPPED or COMPLETED."""
+    """Return a report on an action group: STARTED, STOPPED or COMPLETED."""
     return frame(command, b"" if command == STOPPED else struct.pack("<BH", group, times))
 
 
 def well_formed(data: bytes) -> bool:
-    """Whether a whole frame is a command of a host, with parameters that agree with its length."""
+    """Return whether a whole frame is a host's command, with parameters that fit its length."""
     command, parameters = data[3], data[4:]
     count = parameters[0] if parameters else 0
     if command == MOVE:
@@ -59,7 +59,7 @@ def well_formed(data: bytes) -> bool:
 
 
 class Reader:
-    """Takes in a byte at a time, and gives each frame as it is whole.
+    """A reader that takes a byte at a time, and returns each frame once it is complete.
 
     There is no time-out between bytes: a frame that was cut off eats the beginning of the next.
     """
@@ -68,7 +68,7 @@ class Reader:
         self._data = bytearray()
 
     def take(self, byte: int) -> bytes | None:
-        """The frame that this byte completes; whether it is well formed, the caller sees."""
+        """Return the frame that this byte completes; the caller checks its form."""
         data = self._data
         data.append(byte)
         if len(data) <= 2:

@@ -1,7 +1,7 @@
-"""The independent board, asked as often as one likes, with a fault for every fourth reply.
+"""Long runs with the independent board, with a fault for every fourth reply.
 
-`make soak` asks a hundred thousand times, the tests for some seconds. Of time, only the calculated
-one passes at a line of 9600 baud; eight threads share one over TCP that is as fast as it can be.
+`make soak` makes a hundred thousand calls, the tests some seconds of them. Only calculated time
+passes at a line of 9600 baud; eight threads share one over TCP that is as fast as it can be.
 """
 
 from __future__ import annotations
@@ -41,13 +41,13 @@ ENOUGH = 50_000
 
 
 def a_report(random: Random) -> bytes:
-    """One of the three, of any group."""
+    """Return one of the three reports, of any group."""
     command = random.choice([firmware.STARTED, firmware.STOPPED, firmware.COMPLETED])
     return firmware.report(command, random.randrange(256), random.randrange(3))
 
 
 def any_fault(random: Random) -> Script:
-    """What can happen to a reply at a line that takes its time."""
+    """Return a fault that can happen on a line with a pace."""
     piece = faults.Piece(random.choice([0.0, 0.004, 0.02, 0.1]), a_report(random), is_report=True)
     return random.choice(
         [
@@ -64,7 +64,7 @@ def any_fault(random: Random) -> Script:
 
 
 def harmless_faults(random: Random) -> list[Script]:
-    """What may happen to a reply without making it another, or none."""
+    """Return a fault that leaves the reply's value as it is, or none."""
     return [
         faults.preceded(b"\x55\xaa"),
         faults.preceded(a_report(random), is_report=True),
@@ -73,7 +73,7 @@ def harmless_faults(random: Random) -> list[Script]:
 
 
 class Rounds:
-    """Sees after each round that all was right, that all reports came, and that nothing grows."""
+    """A check after each round: all was right, all reports came, and nothing grows."""
 
     def __init__(self, name: str, board: Board, controller: Controller) -> None:
         self._name = name
@@ -84,7 +84,7 @@ class Rounds:
         self._began = time.monotonic()
 
     def end(self, talks: Sequence[Conversation], baud: float, bound: float, quiet: float) -> None:
-        """Looks at one round, once the line has been `quiet` for some seconds, and forgets it."""
+        """Check one round, once the line has been `quiet` for some seconds, and forget it."""
         board, controller = self._board, self._controller
         for talk in talks:
             talk.check(baud, bound)
@@ -102,7 +102,7 @@ class Rounds:
         self._blocks.append(sys.getallocatedblocks())
 
     def tell(self) -> None:
-        """Says what came of it. Raises AssertionError where something has grown."""
+        """Print the result. Raises AssertionError if something has grown."""
         fifth = len(self._blocks) // 5
         grown = min(self._blocks[-3:]) - min(self._blocks[fifth : fifth + 3])
         counters = self._controller.counters
@@ -119,12 +119,12 @@ class Rounds:
 
 
 def scheduled(random: Random, fault: Callable[[Random], Script]) -> Callable[[int], Script | None]:
-    """A fault for every fourth reply."""
+    """Return a fault for every fourth reply."""
     return lambda number: fault(random) if number % 4 == 0 else None
 
 
 def at_a_paced_line(requests: int, rounds: int, seed: int) -> None:
-    """One thread, in virtual time: whatever can happen."""
+    """Run one thread, in virtual time, with any fault."""
     random = Random(seed)  # noqa: S311 - to be repeated
     board = Board(baud=BAUD, thinks=0.001, faults=scheduled(random, any_fault))
     port = VirtualPort(board)
@@ -141,7 +141,7 @@ def at_a_paced_line(requests: int, rounds: int, seed: int) -> None:
 
 
 def with_threads(requests: int, rounds: int, seed: int) -> None:
-    """Eight threads, over TCP, as fast as can be: where no time tells, nothing comes twice."""
+    """Run eight threads, over TCP, as fast as can be: without a pace, no reply comes twice."""
     random = Random(seed)  # noqa: S311 - to be repeated
     board = Board(faults=scheduled(random, lambda each: each.choice(harmless_faults(each))))
     with (

@@ -31,11 +31,11 @@ class VirtualPort:
         self._closed = False
 
     def clock(self) -> float:
-        """The time."""
+        """Return the time."""
         return self.now
 
     def read(self, timeout: float) -> bytes:
-        """What has arrived, waiting up to `timeout` for the first byte."""
+        """Return the bytes that have arrived, waiting up to `timeout` for the first."""
         # However short the wait, time goes on: or else a client that polls would stand still.
         until = self.now + max(timeout, 1e-6)
         while True:
@@ -51,24 +51,24 @@ class VirtualPort:
             self.now = max(self.now, event)
 
     def write(self, data: bytes) -> None:
-        """Hands bytes to the wire."""
+        """Hand bytes to the wire."""
         if self._closed:
             raise OSError("the port is closed")
         self.board.write(data, self.now)
 
     def drain(self, timeout: float) -> None:
-        """Lets time pass until the board has heard all."""
+        """Let time pass until the board has received all."""
         until = self.now + timeout
         while self.board.unheard and self.board.next_event <= until:
             self.now = max(self.now, self.board.next_event)
             self.board.write(b"", self.now)
 
     def close(self) -> None:
-        """Ends its use."""
+        """End its use."""
         self._closed = True
 
     def reopen(self) -> VirtualPort:
-        """The same, usable again."""
+        """Return the same port, usable again."""
         self._closed = False
         return self
 
@@ -104,13 +104,13 @@ class Port:
         self._wakes.close()
 
     def hear(self, data: bytes) -> None:
-        """Has the board hear bytes that no host at this port has sent."""
+        """Let the board receive bytes that no host at this port has sent."""
         with self._lock:
             self.board.write(data, time.monotonic())
         self._wakes.send(b"!")
 
     def report(self, command: int, group: int = 0, times: int = 0) -> None:
-        """Has the board send a report that nobody asked for."""
+        """Let the board send an unsolicited report."""
         with self._lock:
             self.board.report(command, group, times, at=time.monotonic())
         self._wakes.send(b"!")

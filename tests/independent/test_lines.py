@@ -1,4 +1,4 @@
-"""Lines of other kinds, in virtual time: faster than stated, with an echo, or not silent before."""
+"""Lines of other kinds, in virtual time: faster than stated, with an echo, or busy before."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ REPLY_TIMEOUT = 0.25
 def conversation(
     board: Board, reads: int, *, baud: float = BAUD
 ) -> tuple[Conversation, Controller, VirtualPort]:
-    """Reads the battery so often, one after the other."""
+    """Read the battery so often, one after the other."""
     port = VirtualPort(board)
     talk = Conversation(board, port.clock)
     with Controller(
@@ -38,7 +38,7 @@ def conversation(
 
 
 def times(talk: Conversation) -> list[float]:
-    """How long each call took."""
+    """Return how long each call took."""
     return [each.ended - each.began for each in talk.calls]
 
 
@@ -105,7 +105,7 @@ def test_a_board_whose_clock_runs_ahead_is_not_slowed(faster: float) -> None:
 
 
 class Pausing(VirtualPort):
-    """The whole process stands still for a second behind a read that gave so many bytes in all."""
+    """A process that stands still for a second behind a read that gave so many bytes in all."""
 
     def __init__(self, board: Board, behind: int) -> None:
         super().__init__(board)
@@ -172,7 +172,7 @@ def test_an_echo_that_is_missing_is_an_error() -> None:
 
 
 class Damaging(VirtualPort):
-    """An adapter that loses one byte of what it hands over."""
+    """An adapter that loses one byte of what it delivers."""
 
     def __init__(self, board: Board, lost: int) -> None:
         super().__init__(board)

@@ -42,7 +42,7 @@ SCRIPTS = [
 
 
 def scripts(seed: int) -> Board:
-    """A board that does something wrong to every fifth reply."""
+    """Return scripts with a fault for every fifth reply."""
     random = Random(seed)  # noqa: S311 - to be repeated
 
     def script(number: int) -> Script | None:
@@ -52,7 +52,7 @@ def scripts(seed: int) -> Board:
 
 
 def settle(board: Board, controller: Controller | AsyncController) -> bool:
-    """Whether all has been said that there is to say, and been counted."""
+    """Return whether all reports have come, and been counted."""
     counters = controller.counters
     replies = [said for said in board.said if said.data[:2] == b"UU" and said.data[3] in (15, 21)]
     return len(replies) <= counters.replies + counters.unsolicited
@@ -61,8 +61,10 @@ def settle(board: Board, controller: Controller | AsyncController) -> bool:
 def check(
     board: Board, controller: Controller | AsyncController, talks: list[Conversation]
 ) -> None:
-    """What holds on however slow a machine. A host that is held up reads a reply late, and then
-    cannot know that it had come too soon: exactly which call may be stale, virtual time tells.
+    """Check what holds on however slow a machine.
+
+    A host that is held up reads a reply late, and then cannot know that it had come too soon:
+    exactly which call may be stale is tested in virtual time.
     """
     calls = [call for talk in talks for call in talk.calls]
     assert max(call.ended - call.began for call in calls) < GENEROUS
@@ -73,7 +75,7 @@ def check(
 
 
 def turns(seed: int, count: int) -> list[Asked]:
-    """What is asked; twice in a row, so that a reply to the one could be taken for the other's."""
+    """Return the calls; each twice in a row, so that their replies could be confused."""
     random = Random(seed)  # noqa: S311 - to be repeated
     kinds: list[Asked] = [None, None, (3,), (1, 2), SIX]
     return [asked for _ in range((count + 1) // 2) for asked in [random.choice(kinds)] * 2][:count]
@@ -92,7 +94,7 @@ async def ask_all_async(
 
 
 def reports_of(controller: Controller, board: Board) -> list[bytes]:
-    """The reports that came, once all have come that there are."""
+    """Return the reports, once all have come."""
     heard: list[bytes] = []
     await_that(lambda: controller.counters.reports >= len(board.reported))
     heard.extend(each.encode() for each in controller.reports(timeout=0.05))

@@ -1,6 +1,6 @@
 """One fault in a row of reads, in virtual time at 9600 baud: each kind, for each kind of read.
 
-The wire takes its time both ways, and the client is told the baud rate that it has.
+The wire takes its time both ways, and the client is given the true baud rate.
 """
 
 from __future__ import annotations
@@ -30,12 +30,12 @@ FAULTY = 4
 
 
 def later(after: float, data: bytes = REPORT) -> Piece:
-    """A report, some time after the reply."""
+    """Return a report, some time after the reply."""
     return Piece(after, data, is_report=True)
 
 
 class Bench(NamedTuple):
-    """How a board and its adapter take their time."""
+    """The timing of a board and its adapter."""
 
     thinks: float = 0.0
     latency: float = 0.0
@@ -127,7 +127,7 @@ class Run:
 
 
 def all_faults() -> list[tuple[str, str]]:
-    """Each kind of read with each fault that can happen to it."""
+    """Return each kind of read with each fault that can happen to it."""
     return [
         (read, name) for read in READS for name in FAULTS | (OF_POSITIONS if READS[read] else {})
     ]

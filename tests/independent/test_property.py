@@ -1,4 +1,4 @@
-"""Whatever is asked, and whatever happens to the replies: in virtual time, at 9600 baud.
+"""Any calls, with any faults of the replies: in virtual time, at 9600 baud.
 
 A right reply or a declared error, in bounded time; no value from an impossible reply; no report
 invented, and none lost; after any fault the second next read is right.
@@ -31,7 +31,7 @@ BOUND = 3 * (REPLY_TIMEOUT + wire_time(SIX, BAUD))
 
 
 class Read(NamedTuple):
-    """What is read, behind how many moves, and for how long nothing is asked then."""
+    """One kind of read, behind so many moves, and the pause after it."""
 
     asked: Asked
     moves: int
@@ -39,7 +39,7 @@ class Read(NamedTuple):
 
 
 class Step(NamedTuple):
-    """What happens to the reply to the first of some reads, and whether a group runs meanwhile."""
+    """The fault of the first reply to some reads, and whether a group runs meanwhile."""
 
     script: Script
     reads: list[Read]

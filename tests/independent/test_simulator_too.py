@@ -1,7 +1,7 @@
 """The property of the independent board, held to the simulator: by seed, at 9600 baud.
 
-It cannot say what happened when, so that every fault is over before the last reads, which must be
-right. No stale value may come of a reply that was impossible, whatever happens.
+It does not record when a fault happened, so that every fault is over before the last reads, which
+must be right. No stale value may come of a reply that was impossible, whatever happens.
 """
 
 from __future__ import annotations
@@ -34,7 +34,7 @@ BOUND = 3 * (REPLY_TIMEOUT + wire_time(SIX, BAUD))
 
 
 class Simulated:
-    """A board of the simulator that numbers its replies, and what came of it and when."""
+    """A simulated board that numbers its replies, with a record of the values and times."""
 
     def __init__(self, board: VirtualController, clock: VirtualClock) -> None:
         self.asked = 0
@@ -50,7 +50,7 @@ class Simulated:
         board.board.on_servo_positions_read = self._positions  # type: ignore[method-assign]
 
     def note_reports(self, board: VirtualController) -> None:
-        """Has every report that leaves the board written down; as often as faults are set."""
+        """Record every report that leaves the board; to be called whenever faults are set."""
         injector = board._line._injector
         reports = injector.reports
 

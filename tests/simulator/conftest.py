@@ -1,4 +1,4 @@
-"""Boards to talk to, by each way there is."""
+"""Boards for tests, by each kind of port."""
 
 from __future__ import annotations
 
@@ -20,20 +20,20 @@ WAYS = ["memory", "tcp"] if sys.platform == "win32" else ["memory", "tcp", "pty"
 
 @pytest.fixture
 def board() -> Iterator[VirtualController]:
-    """A board whose time goes on when somebody waits for it, and never by itself."""
+    """Yield a board whose time goes on when somebody waits for it, and never by itself."""
     with VirtualController(clock=VirtualClock(follow_reads=True)) as board:
         yield board
 
 
 @pytest.fixture
 def host(board: VirtualController) -> Host:
-    """A host of that board."""
+    """Return a host of that board."""
     return host_of(board)
 
 
 @pytest.fixture(params=WAYS)
 def connect(request: pytest.FixtureRequest) -> Iterator[Callable[..., tuple[Any, Host]]]:
-    """Makes a board on real time, and a host that has opened its port."""
+    """Yield a function that makes a board on real time, and a host that has opened its port."""
     boards: list[VirtualController] = []
     hosts: list[Host] = []
 

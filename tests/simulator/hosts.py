@@ -1,4 +1,4 @@
-"""A host for the tests: writes messages, and hears what comes back."""
+"""A host for the tests: it writes messages, and reads what comes back."""
 
 from __future__ import annotations
 
@@ -36,17 +36,17 @@ class Host:
         self._decoder = StreamDecoder(Direction.CONTROLLER_TO_HOST)
 
     def say(self, *messages: Message) -> None:
-        """Writes them, one write each."""
+        """Write messages, one write each."""
         for message in messages:
             self.transport.write(message.encode())
 
     def ask(self, message: Message) -> Message | None:
-        """Writes a message, and returns the next that comes."""
+        """Write a message, and return the next that comes."""
         self.say(message)
         return self.hear()
 
     def hear(self, patience: float | None = None) -> Message | None:
-        """The next message; None if none comes in time."""
+        """Return the next message; None if none comes in time."""
         end = self._now() + (self.patience if patience is None else patience)
         while True:
             for event in self.heard:
@@ -59,7 +59,7 @@ class Host:
             self._listen(left)
 
     def collect(self, count: int) -> bytes:
-        """The next `count` bytes, or as many as come in time."""
+        """Return the next `count` bytes, or as many as come in time."""
         end = self._now() + self.patience
         data = b""
         while len(data) < count and (left := end - self._now()) > 0:
@@ -72,7 +72,7 @@ class Host:
         self.heard += self._decoder.feed(data)
 
     def hang_up(self) -> None:
-        """Closes the port. pyserial sleeps after it has closed a socket, so that is done here."""
+        """Close the port. pyserial sleeps after it has closed a socket, so that is done here."""
         port = getattr(self.transport, "_port", None)
         behind = getattr(port, "_socket", None)
         if port is not None and behind is not None:
@@ -81,10 +81,10 @@ class Host:
         self.transport.close()
 
     def noise(self) -> list[bytes]:
-        """The noise heard so far."""
+        """Return the noise so far."""
         return [event.data for event in self.heard if isinstance(event, Noise)]
 
 
 def host_of(board: VirtualController) -> Host:
-    """A host at the board's own clock, in the same process."""
+    """Return a host at the board's own clock, in the same process."""
     return Host(board.transport, board.clock.now, SILENCE)

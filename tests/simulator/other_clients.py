@@ -27,9 +27,9 @@ SILENCE = 0.03
 
 
 class OtherClient:
-    """The calls that a user would make; NotImplementedError where it has no method for one.
+    """The calls that a user would make; NotImplementedError if a client has no method for one.
 
-    Before an answer is looked for, it is waited for: `answer` bytes, 0 where none will come.
+    Before an answer is read, it is waited for: `answer` bytes, 0 if none will come.
     """
 
     name: str
@@ -42,11 +42,11 @@ class OtherClient:
         raise NotImplementedError
 
     def battery(self) -> object:
-        """In millivolts."""
+        """Return the voltage in millivolts."""
         raise NotImplementedError
 
     def positions(self, servo_ids: Sequence[int]) -> object:
-        """The positions, in order."""
+        """Return the positions, in order."""
         raise NotImplementedError
 
     def unload(self, servo_ids: Sequence[int]) -> None:
@@ -60,7 +60,7 @@ class OtherClient:
 
 
 class Xarm(OtherClient):
-    """It asks for two bytes more than an answer has, and so waits out its time each time."""
+    """The client `xarm`: it reads two bytes more than an answer has, so it always times out."""
 
     name = "`xarm` 0.0.4"
 
@@ -99,7 +99,7 @@ class Xarm(OtherClient):
 
 
 class LewansoulLx16a(OtherClient):
-    """It speaks to the servos themselves, in their own protocol."""
+    """The client `lewansoul-lx16a`: it speaks to the servos themselves, in their own protocol."""
 
     name = "`lewansoul-lx16a` 0.1"
 
@@ -128,7 +128,7 @@ class LewansoulLx16a(OtherClient):
 
 
 class NextFrame(OtherClient):
-    """It looks for a header, and takes the next frame for the answer, whatever its command is."""
+    """A client that takes the next frame with a header for the answer, whatever its command is."""
 
     name = "its controller module"
 

@@ -1,4 +1,4 @@
-"""What the board does: servos, action groups, battery, LED, buzzer, and when it is silent."""
+"""The board's behaviour: servos, action groups, battery, LED, buzzer, and when it is silent."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ A_MOMENT = 1e-6
 
 
 def positions(host: Host, *servo_ids: int) -> list[tuple[int, int]]:
-    """What the board says about servos."""
+    """Return the board's reply about servos."""
     reply = host.ask(ServoPositionsRead(servo_ids))
     assert isinstance(reply, ServoPositions)
     return [(servo_id, position) for servo_id, position in reply.positions]
@@ -240,7 +240,7 @@ def test_an_action_group_has_a_step() -> None:
 
 
 def voltage(host: Host) -> int:
-    """What the board says about its battery."""
+    """Return the board's reply about its battery."""
     reply = host.ask(BatteryVoltageRead())
     assert isinstance(reply, BatteryVoltage)
     return reply.voltage_mv

@@ -31,7 +31,7 @@ not_windows = pytest.mark.skipif(sys.platform == "win32", reason="no pty and no 
 
 @pytest.fixture
 def start() -> Iterator[Callable[..., tuple[subprocess.Popen[str], str]]]:
-    """Starts the command, and gives it and the port that it printed."""
+    """Yield a function that starts the command, and returns it with the port that it printed."""
     started: list[subprocess.Popen[str]] = []
 
     def run(*arguments: str) -> tuple[subprocess.Popen[str], str]:

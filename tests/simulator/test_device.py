@@ -27,7 +27,7 @@ HOST = Direction.HOST_TO_CONTROLLER
 
 
 class Meter(Device):
-    """Answers one question."""
+    """A device that answers one question."""
 
     def on_battery_voltage_read(self, message: BatteryVoltageRead) -> BatteryVoltage:
         assert message == BatteryVoltageRead()

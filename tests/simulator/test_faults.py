@@ -1,4 +1,4 @@
-"""Every fault: that it happens when asked for, and what it does; by every way to the board."""
+"""Every fault: that it happens when it is chosen, and its effect; by every kind of port."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ ASK = BatteryVoltageRead()
 
 
 def faulty(**faults: float) -> VirtualController:
-    """A board with faults, seeded alike."""
+    """Return a board with faults, seeded alike."""
     clock = VirtualClock(follow_reads=True)
     return VirtualController(clock=clock, faults=Faults(seed=7, **faults))
 

@@ -1,4 +1,4 @@
-"""The pytest fixtures for other people's robots: there when asked for, and not loaded otherwise."""
+"""The pytest fixtures for other people's robots: there if imported, and not loaded otherwise."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""An adapter that gives back what the host sends: in front of what the board answers."""
+"""An adapter that returns what the host sends: in front of the board's answers."""
 
 from __future__ import annotations
 

@@ -37,7 +37,7 @@ def line(board: VirtualController) -> Iterator[serial.Serial]:
 
 
 def await_answer(line: serial.Serial, size: int) -> None:
-    """Waits until an answer is there in full, before the time that a client has for it begins."""
+    """Wait until an answer is complete, before the timeout of a client for it begins."""
     await_that(lambda: line.in_waiting >= size)
 
 

@@ -1,4 +1,4 @@
-"""What clients that others wrote can do at the simulator, as the table in docs/testing.md has it.
+"""The table in docs/testing.md: what clients that others wrote can do at the simulator.
 
 The same at a line that takes its time and at one that takes none.
 """
@@ -26,7 +26,7 @@ BATTERY, TWO_POSITIONS, ONE_POSITION = 6, 11, 8
 
 
 def outcome(call: Callable[[], object], right: object) -> str:
-    """How a call of one of them ends."""
+    """Return how a call of one of them ends."""
     try:
         value = call()
     except NotImplementedError:
@@ -37,7 +37,7 @@ def outcome(call: Callable[[], object], right: object) -> str:
 
 
 def told(board: VirtualController) -> bool:
-    """Whether the board has heard something, be it what it understands or not."""
+    """Return whether the board has received bytes, understood or not."""
     return bool(board.accepted or board.rejects.total)
 
 
@@ -105,7 +105,7 @@ ROWS: dict[str, Callable[[OtherClient, VirtualController], str]] = {
 
 
 def cells() -> dict[tuple[str, str], str]:
-    """The table of the guide: by row and client."""
+    """Return the table of the guide: by row and client."""
     lines = GUIDE.read_text(encoding="utf-8").splitlines()
     head = next(line for line in lines if line.startswith("| at the simulator |"))
     table = [
@@ -122,7 +122,7 @@ def cells() -> dict[tuple[str, str], str]:
 
 
 def marks(row: str, client: type[OtherClient]) -> list[pytest.MarkDecorator]:
-    """Of what speaks another protocol, all is refused, save what it has no method for."""
+    """Return the marks of a cell: a board refuses calls of a client for another protocol."""
     return [pytest.mark.garbage] if client is LewansoulLx16a and ROWS[row] is not group else []
 
 

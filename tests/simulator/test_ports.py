@@ -274,7 +274,7 @@ def test_what_is_said_to_a_host_that_has_crashed_is_lost() -> None:
 
 
 def crash(host: socket.socket) -> None:
-    """Ends a connection as a computer does that is switched off: nothing is finished."""
+    """End a connection as a computer does that is switched off: nothing is finished."""
     host.setsockopt(socket.SOL_SOCKET, socket.SO_LINGER, struct.pack("ii", 1, 0))
     host.close()
 

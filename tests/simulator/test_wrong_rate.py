@@ -1,4 +1,4 @@
-"""A host that is at another rate than the board: what arrives at either end is garbage."""
+"""A host that is at another rate than the board: garbage arrives at either end."""
 
 from __future__ import annotations
 
@@ -97,7 +97,7 @@ def test_garbage_holds_no_message(rate: int, to_board: bool, data: st.DataObject
 
 
 def carried(host_baud: float, seed: int = 0, baud: float | None = 9600) -> tuple[bytes, float]:
-    """What a host reads of a report of six servos, and when its last byte has come."""
+    """Return the bytes that a host reads of a report of six servos, and when the last has come."""
     line = Line(Board(), baud=baud)
     line.faults = type(line.faults)(seed=seed)
     line.host_baud = host_baud

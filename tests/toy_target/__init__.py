@@ -17,7 +17,7 @@ WORDS = Reserved("message", frozenset(["VentsOpen", "Halt"]), "is a word of the 
 
 
 def render(compiled: Compiled, _snippets: Snippets) -> dict[str, str]:
-    """A list of the messages, and a file of data, which has no comments."""
+    """Return a list of the messages, and a file of data, which has no comments."""
     (folder,) = folders(compiled.model)
     lines = [f"{_name(each.name)} {each.id}\n" for each in compiled.model.messages.values()]
     return {f"{folder}/messages.toy": "".join(lines), f"{folder}/count.dat": f"{len(lines)}\n"}

@@ -1,4 +1,4 @@
-"""What holds for every test of the writer."""
+"""Fixtures for every test of the writer."""
 
 from __future__ import annotations
 
@@ -9,5 +9,5 @@ import pytest
 
 @pytest.fixture(autouse=True)
 def no_power_fails(monkeypatch: pytest.MonkeyPatch) -> None:
-    """To wait for the disk takes long, and makes a difference only to those who pull the plug."""
+    """Skip waiting for the disk: it takes long, and matters only when the power fails."""
     monkeypatch.setattr(os, "fsync", lambda _descriptor: None)

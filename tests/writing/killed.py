@@ -1,4 +1,4 @@
-"""Writes into copies of a tree, and is killed at each step in turn: a program of its own.
+"""Writes into copies of a tree, killed at each step in turn: a program of its own.
 
 `python -m tests.writing.killed TREE FOLDER NAME [force]` writes what `EDITIONS[NAME]` holds into a
 copy of TREE for each step and each moment of it, in a child that kills itself there, and prints the
@@ -28,7 +28,7 @@ EDITIONS = {"first": [BEFORE, schema()], "next": [AFTER, schema()], "renamed": [
 
 @contextmanager
 def patched(at: int, when: str, stop: Callable[[], None]) -> Iterator[list[str]]:
-    """Have `stop` called at that step; gives the steps that are taken, as they come."""
+    """Call `stop` at that step; yield the steps that are taken, as they come."""
     taken: list[str] = []
 
     def wrapped(name: str) -> Callable[..., None]:
@@ -64,7 +64,7 @@ def _kill() -> None:
 
 
 def steps(tree: Path, copy: Path, edition: str, *, force: bool) -> list[str]:
-    """The steps that a run takes."""
+    """Return the steps that a run takes."""
     shutil.copytree(tree, copy, symlinks=True)
     with patched(0, "", lambda: None) as taken:
         write(copy, EDITIONS[edition], all_of="spec", force=force)
@@ -73,7 +73,7 @@ def steps(tree: Path, copy: Path, edition: str, *, force: bool) -> list[str]:
 
 
 def moments(steps: list[str]) -> Iterator[tuple[int, str]]:
-    """Every state of the disk there is: after each step, and within each that can be cut short."""
+    """Yield every state of the disk: after each step, and within each that can be cut short."""
     for number, name in enumerate(steps, 1):
         if name == "write_file":
             yield number, "halfway"

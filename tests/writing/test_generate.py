@@ -1,4 +1,4 @@
-"""`framegen generate`: what it writes and what it says, for real specs."""
+"""`framegen generate`: the files that it writes and the text that it prints, for real specs."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ FILES = {**OUTPUT.files, **SHARED.files}
 MANIFESTS = {OUTPUT.manifest, SHARED.manifest}
 GIT = shutil.which("git")
 LIBRARY = "generated/greenhouse"
-CODEC = f"{LIBRARY}/codec.py"
+CODEC = f"{LIBRARY}/_codec/codec.py"
 SCHEMA = "spec/framegen.schema.json"
 
 
@@ -43,7 +43,7 @@ _RENDERED: dict[tuple[str, str, str], dict[str, str]] = {}
 
 @pytest.fixture(autouse=True)
 def the_same_is_rendered_once(monkeypatch: pytest.MonkeyPatch) -> None:
-    """The same text gives the same files, as tests/test_deterministic.py has it."""
+    """Render the same text once: it gives the same files, see tests/test_deterministic.py."""
 
     def remembered(target: Target, compiled: Compiled) -> dict[str, str]:
         key = target.name, compiled.source.path, compiled.source.text
@@ -56,7 +56,7 @@ def the_same_is_rendered_once(monkeypatch: pytest.MonkeyPatch) -> None:
 
 @pytest.fixture
 def project(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
-    """A project with a spec and its output, all of it in step; tests run in it."""
+    """Return a project with a spec and its output, all of it up to date; tests run in it."""
     put(tmp_path, "spec/demo.yaml", TEXT)
     write(tmp_path, [OUTPUT, SHARED])
     monkeypatch.chdir(tmp_path)
@@ -64,7 +64,7 @@ def project(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 
 
 def changed(before: str, after: str) -> str:
-    """The spec with one thing changed."""
+    """Return the spec with one thing changed."""
     assert before in TEXT
     return TEXT.replace(before, after)
 
@@ -228,9 +228,9 @@ def test_what_differs_is_told_and_mended(
         assert main(["generate"]) == 2
         out, err = capsys.readouterr()
         assert out == ""
-        assert err.startswith("framegen: error: the work of others would be lost, so nothing was")
+        assert err.startswith("framegen: error: somebody's work would be lost, so nothing was")
         assert f"\n  edited by hand: {path}\n" in err
-        assert err.endswith("kept beside its place, as NAME.mine: --force\n")
+        assert err.endswith("keeps it beside its place, as NAME.mine\n")
         assert snapshot(project) == spoilt
     assert main(["generate", "--force"]) == 0
     out, err = capsys.readouterr()
@@ -251,7 +251,7 @@ def test_a_file_of_somebody_else_is_told_and_left_alone(project: Path, capsys: C
         assert main(["generate", *words]) == 0
         out, err = capsys.readouterr()
         assert out == ""
-        assert err.startswith(f"left alone, for framegen did not write it: {LIBRARY}/a.md\n")
+        assert err.startswith(f"left alone, because framegen did not write it: {LIBRARY}/a.md\n")
         assert "left alone, too: 2 more files\n" in err
         assert snapshot(project) == before
 
@@ -260,11 +260,11 @@ def test_a_lost_manifest_is_made_anew_with_a_notice(project: Path, capsys: Captu
     before = snapshot(project)
     (project / OUTPUT.manifest).unlink()
     assert main(["generate", "--check"]) == 1
-    assert f"{OUTPUT.manifest} is not there: own files are told" in capsys.readouterr().err
+    assert f"{OUTPUT.manifest} is not there: files are recognised" in capsys.readouterr().err
     assert main(["generate"]) == 0
     out, err = capsys.readouterr()
     assert out == f"wrote {OUTPUT.manifest}\n"
-    assert f"{OUTPUT.manifest} is not there: own files are told" in err
+    assert f"{OUTPUT.manifest} is not there: files are recognised" in err
     assert snapshot(project) == before
 
 
@@ -341,7 +341,7 @@ def test_all_specs_of_a_root_are_written_side_by_side(three: Path, capsys: Captu
     files = 3 * (len(OUTPUT.files) + 1) + len(SHARED.files) + 1
     assert capsys.readouterr().err == f"{files} files from 3 specs: none would change\n"
     for name in ("greenhouse", "glasshouse", "shed"):
-        assert (three / "generated" / name / "codec.py").exists()
+        assert (three / "generated" / name / "_codec/codec.py").exists()
         assert (three / "generated" / f"{name}.manifest").exists()
     assert main(["check"]) == 0
     for verb in (["explain", "C3"], ["diff", "spec/demo.yaml"]):
@@ -353,9 +353,9 @@ def test_all_specs_of_a_root_are_written_side_by_side(three: Path, capsys: Captu
 def test_one_spec_of_several_is_written_alone(three: Path) -> None:
     before = snapshot(three)
     for name in ("glasshouse", "shed"):
-        (three / "generated" / name / "codec.py").unlink()
+        (three / "generated" / name / "_codec/codec.py").unlink()
     assert main(["generate", "spec/shed.yaml"]) == 0
-    del before["generated/glasshouse/codec.py"]
+    del before["generated/glasshouse/_codec/codec.py"]
     assert snapshot(three) == before
 
 
@@ -364,7 +364,7 @@ def test_a_spec_that_is_gone_takes_its_output_along(three: Path, capsys: Capture
     capsys.readouterr()
     assert main(["generate", "spec/demo.yaml", "--check"]) == 0
     assert main(["generate", "--check"]) == 1
-    assert "orphaned: generated/shed/codec.py\n" in capsys.readouterr().err
+    assert "orphaned: generated/shed/_codec/codec.py\n" in capsys.readouterr().err
     assert main(["generate"]) == 0
     assert [path for path in snapshot(three) if "shed" in path] == []
     assert main(["generate", "--check"]) == 0
@@ -377,7 +377,7 @@ def test_below_another_folder_no_output_of_other_projects_goes(
     assert main(["generate", "--out", str(out)]) == 0
     (three / "spec" / "shed.yaml").unlink()
     assert main(["generate", "--out", str(out)]) == 0
-    assert (out / "generated" / "shed" / "codec.py").exists()
+    assert (out / "generated" / "shed" / "_codec/codec.py").exists()
 
 
 def test_a_finding_in_one_spec_keeps_all_of_them_from_being_written(three: Path) -> None:
@@ -444,7 +444,7 @@ def test_a_file_where_a_folder_should_be_is_told(
     for words in ([], ["--check"], ["--force"]):
         assert main(["generate", str(DEMO), "--out", str(tmp_path), *words]) == 2
         assert capsys.readouterr().err == (
-            f"framegen: error: {obstacle} is no folder, and output goes there\n"
+            f"framegen: error: {obstacle} is no folder, but output goes there\n"
             "  hint: move it elsewhere; nothing was changed\n"
         )
     assert snapshot(tmp_path) == before

@@ -45,7 +45,7 @@ def prepared(root: Path, state: str) -> Path:
 
 
 def wholly(found: Snapshot, *whole: Snapshot) -> bool:
-    """Whether each file is as in one of these states: nothing is half-written."""
+    """Return whether each file is as in one of these states: nothing is half-written."""
     allowed = {data for state in whole for data in state.values()}
     return all(data in allowed for path, data in found.items() if not path.endswith(".manifest"))
 

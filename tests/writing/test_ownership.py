@@ -1,4 +1,4 @@
-"""Whose a file is: what framegen wrote, what somebody edited, and what somebody else put there."""
+"""Owners of files: what framegen wrote, what somebody edited, and what somebody else put there."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ MANIFEST = "generated/kiln.manifest"
 
 @pytest.fixture
 def root(tmp_path: Path) -> Path:
-    """A root with the first edition in it."""
+    """Return a root with the first edition in it."""
     write(tmp_path, [BEFORE])
     return tmp_path
 
@@ -176,7 +176,7 @@ def _foreign(root: Path) -> tuple[str, bytes]:
 
 
 def _foreign_with_banner(root: Path) -> tuple[str, bytes]:
-    """A copy that somebody took, where the manifest tells that framegen wrote none there."""
+    """Return a copy that somebody made, though the manifest says that framegen wrote none there."""
     put(root, f"{LIBRARY}/new.py", f"{BANNER}x = 3\n")
     return f"{LIBRARY}/new.py", f"{BANNER}x = 3\n".encode()
 
@@ -204,7 +204,7 @@ def test_what_is_not_our_own_is_never_replaced_or_removed(root: Path, name: str)
     with pytest.raises(Unusable) as told:
         write(root, [AFTER])
     assert f"  {why}: {path}" in str(told.value)
-    assert str(told.value).startswith("the work of others would be lost, so nothing was written")
+    assert str(told.value).startswith("somebody's work would be lost, so nothing was written")
     assert "--force" in told.value.hint
     assert snapshot(root) == before
 
@@ -325,7 +325,7 @@ def test_a_manifest_that_is_lost_or_damaged_is_made_anew(
     spoil(root / MANIFEST)
     state = "is not there" if spoil is _gone else "is damaged"
     done = write(root, [edition])
-    assert done.notices == [f"{MANIFEST} {state}: own files are told by what stands in them"]
+    assert done.notices == [f"{MANIFEST} {state}: files are recognised by their contents"]
     assert snapshot(root) == fresh(tmp_path / "elsewhere", edition)
 
 
@@ -510,7 +510,7 @@ def test_a_spec_does_not_take_over_what_another_has_made(root: Path) -> None:
 
 
 def part(whole: Output, folder: str) -> Output:
-    """What one target makes, whose folder that is."""
+    """Return the output of one target, which owns that folder."""
     mine = {path: text for path, text in whole.files.items() if path.startswith(f"{folder}/")}
     others = {path: text for path, text in whole.files.items() if path not in mine}
     return replace(whole, files=mine, others=others, folders=(folder,))

@@ -1,4 +1,4 @@
-"""Odd things where output goes: links, pipes, folders, read-only folders; two runs at once."""
+"""Odd places for output: links, pipes, folders, read-only folders; two runs at once."""
 
 from __future__ import annotations
 
@@ -149,7 +149,7 @@ def test_an_orphan_that_is_no_file_any_more_is_in_nobodys_way(root: Path) -> Non
 def test_a_file_where_a_folder_should_be_is_told(tmp_path: Path, name: str) -> None:
     put(tmp_path, name, "mine\n")
     before = snapshot(tmp_path)
-    with pytest.raises(Unusable, match=f"{name} is no folder, and output goes there"):
+    with pytest.raises(Unusable, match=f"{name} is no folder, but output goes there"):
         write(tmp_path, [BEFORE], force=True)
     assert snapshot(tmp_path) == before
 
@@ -159,7 +159,7 @@ def test_a_file_where_a_folder_should_be_is_told(tmp_path: Path, name: str) -> N
 
 @pytest.fixture
 def read_only(root: Path) -> Iterator[Path]:
-    """A root whose library cannot be written, even by a superuser."""
+    """Return a root whose library cannot be written, even by a superuser."""
     folder = root / LIBRARY
     here = Path.cwd()
     # Relative, since the folders above may be closed to anybody else.
@@ -200,7 +200,7 @@ def test_nothing_is_written_where_nothing_differs(read_only: Path) -> None:
 def test_a_second_run_waits_and_says_who_is_at_work(root: Path) -> None:
     before = snapshot(root)
     with workshop(root, 0), pytest.raises(Unusable) as told:
-        write(root, [AFTER], patience=0.2)
+        write(root, [AFTER], timeout=0.2)
     message = f"another run of framegen (process {os.getpid()}) is writing in {root}"
     assert str(told.value) == message
     assert told.value.hint == "wait until it has ended, and run this again; nothing was changed"
@@ -222,7 +222,7 @@ from tests.writing.killed import EDITIONS
 
 for _ in range(10):
     for name in sys.argv[2:]:
-        write(Path(sys.argv[1]), EDITIONS[name], all_of="spec", patience=600)
+        write(Path(sys.argv[1]), EDITIONS[name], all_of="spec", timeout=600)
 """
 
 
@@ -248,5 +248,5 @@ def test_runs_at_once_take_turns(root: Path) -> None:
 def test_a_lock_that_nobody_holds_keeps_nobody_out(root: Path) -> None:
     """Of a run that was killed, or on a system that has lost its power."""
     put(root, f"{NAME}/lock", "1\n")
-    write(root, [AFTER], patience=0)
+    write(root, [AFTER], timeout=0)
     assert not (root / NAME).exists()

@@ -1,4 +1,4 @@
-"""Small output to write, and what a folder holds."""
+"""Small output to write, and the contents of a folder."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ PAGES = "docs/reference/kiln"
 
 
 def snapshot(folder: Path) -> Snapshot:
-    """Every path below `folder`: the bytes of files, None for folders."""
+    """Return every path below `folder`: the bytes of files, None for folders."""
     return {
         path.relative_to(folder).as_posix(): None if path.is_dir() else path.read_bytes()
         for path in sorted(folder.rglob("*"))
@@ -36,7 +36,7 @@ def times(folder: Path) -> dict[str, int]:
 
 
 def output(name: str = "kiln", spec: str = SPEC, **bodies: str) -> Output:
-    """The output of a spec: a module for each body, and a page for each whose name is a class's."""
+    """Return the output of a spec: a module for each body, and a page for each named as a class."""
     files = {}
     for body, text in bodies.items():
         if body[0].isupper():

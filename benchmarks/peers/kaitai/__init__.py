@@ -31,7 +31,7 @@ _MODULE = "servo_frames"
 
 
 def compile_command(folder: str, *options: str) -> list[str]:
-    """The command that compiles the .ksy file into a folder."""
+    """Return the command that compiles the .ksy file into a folder."""
     native = shutil.which("kaitai-struct-compiler")
     if native is not None:
         return [native, "--target", "python", "--outdir", folder, *options, str(_SOURCE)]
@@ -42,7 +42,7 @@ def compile_command(folder: str, *options: str) -> list[str]:
 
 
 def _compiled(folder: str, *options: str) -> Any:
-    """The generated class that holds all others."""
+    """Return the generated class that holds all others."""
     command = compile_command(folder, *options)
     done = subprocess.run(command, capture_output=True, text=True, check=False)
     if done.returncode != 0:
@@ -91,7 +91,7 @@ class Kaitai(Peer):
             self.lacks = {"encode": "this build of its compiler makes readers only"}
 
     def encode_move(self, time_ms: int, targets: Sequence[tuple[int, int]]) -> bytes:
-        """`_check` and `_write` of an object; nothing is derived, constants included."""
+        """Encode by `_check` and `_write` of an object; nothing is derived, constants included."""
         count = len(targets)
         move = self._writers.ServoMove()
         move.header = b"\x55\x55"
@@ -115,7 +115,7 @@ class Kaitai(Peer):
         return frame
 
     def plain(self, command: int, message: Any) -> object:
-        """Objects read by attribute."""
+        """Return an object's values, read by attribute."""
         if command == floor.POSITIONS:
             return tuple((servo.servo_id, servo.position) for servo in message.positions)
         if command == floor.BATTERY:
@@ -126,5 +126,5 @@ class Kaitai(Peer):
 
 
 def peers() -> list[Peer]:
-    """What Kaitai Struct takes part with."""
+    """Return the peers of Kaitai Struct."""
     return [Kaitai()]

@@ -1,1 +1,1 @@
-"""What a codec in any language is to be tried on: frames, bytes that are none, and whole lines."""
+"""Test cases for a codec in any language: frames, bytes that are none, and streams."""

@@ -1,4 +1,4 @@
-"""Bytes that are no frame, with the reason: every documented frame, spoilt in every way."""
+"""Invalid frames with the reason: every documented frame, with one thing wrong at a time."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, slots=True)
 class InvalidFrame:
-    """Bytes that are no frame, why, and where that shows."""
+    """Bytes that are no frame, the reason, and the offset where it shows."""
 
     title: str
     direction: Direction
@@ -30,7 +30,7 @@ class InvalidFrame:
 
 
 def invalid_frames(model: Model) -> Iterator[InvalidFrame]:
-    """Every example of the spec, spoilt; each bytes once."""
+    """Yield every example of the spec, spoilt in every way; no bytes twice."""
     for direction in model.directions:
         seen: set[bytes] = set()
         for message in model.sent(direction).values():
@@ -46,7 +46,7 @@ def invalid_frames(model: Model) -> Iterator[InvalidFrame]:
 
 
 def spoilt(model: Model, message: MessageLayout, frame: bytes) -> Iterator[tuple[str, bytes]]:
-    """A frame with one thing wrong with it. Some are legal frames after all."""
+    """Yield copies of a frame with one thing wrong in each; some may still be legal frames."""
     envelope = model.frame
     for size in sorted({0, 1, len(envelope.header), envelope.body_at - 1, len(frame) - 1}):
         yield f"only the first {size} bytes", frame[:size]
@@ -60,7 +60,7 @@ def spoilt(model: Model, message: MessageLayout, frame: bytes) -> Iterator[tuple
 
 
 def slots_once(message: MessageLayout, frame: bytes) -> Iterator[Placed]:
-    """Where the slots of a legal frame stand; of a list, those of its first element."""
+    """Yield the slots of a legal frame with their places; of a list, the first element's."""
     seen: set[int] = set()
     for placed in message.lay_out(message.count_of(frame)):
         if id(placed.slot) not in seen:
@@ -71,7 +71,7 @@ def slots_once(message: MessageLayout, frame: bytes) -> Iterator[Placed]:
 def spoilt_slot(
     model: Model, message: MessageLayout, placed: Placed, data: bytes
 ) -> Iterator[tuple[str, bytes]]:
-    """The bytes of one slot, wrong in every way that its role has."""
+    """Yield the bytes of one slot, wrong in every way that its role allows."""
     slot = placed.slot
     if isinstance(slot, Constant):
         yield "a header byte flipped", data[:-1] + bytes([data[-1] ^ 0xFF])
@@ -80,14 +80,14 @@ def spoilt_slot(
     match slot.role:
         case "length" | "count":
             for step in -1, 1:
-                value = (slot.read(data) + step) % (slot.wire.high + 1)
+                value = (slot.read(data) + step) % (slot.number_type.high + 1)
                 yield f"the {slot.role} off by {step:+}", slot.write(value)
         case "id":
             unknown = unknown_id(model, message.direction)
             if unknown is not None:
                 yield "an unknown command", slot.write(unknown)
         case _:
-            if slot.high < slot.wire.high:
+            if slot.high < slot.number_type.high:
                 yield f"{placed.path} too high", slot.write(slot.high + 1)
-            if slot.low > slot.wire.low:
+            if slot.low > slot.number_type.low:
                 yield f"{placed.path} too low", slot.write(slot.low - 1)

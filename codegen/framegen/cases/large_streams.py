@@ -1,4 +1,4 @@
-"""The largest frames, and lines on which no frame may be larger than a bound."""
+"""Streams with the largest frames, and streams with a bound on the size of a frame."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ _REPORT = 64
 
 
 def large_streams(sender: Sender) -> Iterator[StreamCase]:
-    """The largest frame in all ways, then the bound."""
+    """Yield streams with the largest frame, whole and in pieces, then those with a bound."""
     frames = [*sender.small_frames.values()]
     if not frames:
         return
@@ -40,7 +40,7 @@ def _largest(sender: Sender, frame: bytes) -> Iterator[tuple[str, Parts]]:
     yield title, (largest, QUIET)
     pieces = chunks(sender.noise(2) + largest + frame, _REPORT)
     yield f"{title}, in pieces of {_REPORT} bytes", (*pieces, QUIET)
-    yield f"{title}, behind a stray byte of the header", (sender.header[:1] + largest, QUIET)
+    yield f"{title}, behind a single header byte", (sender.header[:1] + largest, QUIET)
     short = largest[:-1]
     yield f"{title}, without its last byte, then another", (short + frame, QUIET)
     yield f"{title}, without its last byte, then quiet", (short, QUIET, frame, QUIET)

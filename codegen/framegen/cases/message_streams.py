@@ -1,4 +1,4 @@
-"""What can happen to the frames of one message on a line."""
+"""Streams with the frames of one message: whole, in pieces, repeated, behind noise."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
 
 def message_streams(sender: Sender) -> Iterator[StreamCase]:
-    """The same lines for each message."""
+    """Yield the same streams for each message."""
     for name, frame in sender.small_frames.items():
         for title, parts in _lines(sender, sender.model.messages[name], frame):
             yield StreamCase(f"{name}: {title}", sender.direction, parts)
@@ -25,9 +25,9 @@ def message_streams(sender: Sender) -> Iterator[StreamCase]:
 def _lines(sender: Sender, message: MessageLayout, frame: bytes) -> Iterator[tuple[str, Parts]]:
     half = len(frame) // 2
     yield "byte by byte", (*single_bytes(frame), QUIET)
-    told = "told before the line goes quiet"
-    yield f"behind noise, {told}", (sender.noise(3) + frame,)
-    yield f"behind a stray byte of the header, {told}", (sender.header[:1] + frame,)
+    early = "reported before the line goes quiet"
+    yield f"behind noise, {early}", (sender.noise(3) + frame,)
+    yield f"behind a single header byte, {early}", (sender.header[:1] + frame,)
     yield "without its last byte, held before the line goes quiet", (frame + frame[:-1],)
     twice = (frame[:half], frame[half:] + frame[:half], frame[half:], QUIET)
     yield "twice, in pieces that end inside of a frame", twice

@@ -1,4 +1,4 @@
-"""Lines with noise on them, and frames that came in parts."""
+"""Streams with noise, and with frames that arrive in pieces."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 
 
 def noise_streams(sender: Sender) -> Iterator[StreamCase]:
-    """Noise around frames, stray headers, frames cut, and lengths that no frame has."""
+    """Yield streams of noise around frames, false headers, cut frames and illegal lengths."""
     frames = [*sender.small_frames.values()]
     if frames:
         # The second, so that a message more changes nothing here.
@@ -47,9 +47,9 @@ def _headers(sender: Sender, frame: bytes) -> Iterator[tuple[str, Parts]]:
     yield "a header alone", (header, QUIET)
     yield "a header at the end of noise", (noise(3) + header, QUIET)
     yield "a header twice, then quiet", (header * 2, QUIET)
-    yield "a stray header in front of a frame", (header + frame, QUIET)
-    yield "two stray headers in front of a frame", (header * 2 + frame, QUIET)
-    yield "a stray header, noise, then a frame", (header + noise(4) + frame, QUIET)
+    yield "a false header in front of a frame", (header + frame, QUIET)
+    yield "two false headers in front of a frame", (header * 2 + frame, QUIET)
+    yield "a false header, noise, then a frame", (header + noise(4) + frame, QUIET)
     yield "the first byte of a header seven times, then a frame", (header[:1] * 7 + frame, QUIET)
     if len(header) > 1:
         yield "a header that is cut in two by quiet", (header[:1], QUIET, frame[1:], QUIET)
@@ -68,7 +68,7 @@ def _cuts(sender: Sender, frame: bytes, other: bytes) -> Iterator[tuple[str, Par
 
 
 def _lengths(sender: Sender, frame: bytes) -> Iterator[tuple[str, Parts]]:
-    """Lengths that no frame has, of a message that there is."""
+    """Yield frames of a known message whose length no frame has."""
     envelope = sender.model.frame
     known = next(iter(sender.model.sent(sender.direction)))
     sizes = {
@@ -91,11 +91,11 @@ def _together(frames: list[bytes]) -> Iterator[tuple[str, Parts]]:
 
 
 def _mixed(sender: Sender, frame: bytes, other: bytes) -> Iterator[tuple[str, Parts]]:
-    """Whatever comes, in an order that nobody has thought of."""
+    """Yield mixtures of frames, noise and parts of both, in a pseudo-random order."""
     header = sender.header
-    told = sender.unknown(sender.noise(2)) or header
+    unknown = sender.unknown(sender.noise(2)) or header
     pieces = [
-        *(frame, other, header, header[:1], told, told[:-1], told + header[:1]),
+        *(frame, other, header, header[:1], unknown, unknown[:-1], unknown + header[:1]),
         *(frame[:-1], frame[1:], other[: len(header) + 1], sender.noise(2), frame + other),
     ]
     state = 1

@@ -1,4 +1,4 @@
-"""What one end of a line sends: frames that it may send, and bytes that look like them."""
+"""What one end of a line sends: legal frames, and bytes that resemble them."""
 
 from __future__ import annotations
 
@@ -28,19 +28,19 @@ _NOISE = [(0x13 + at * 0x25) % 0x100 for at in range(0x100)]
 
 @dataclass(frozen=True)
 class Sender:
-    """One direction of a protocol, with the bytes that cases are made of."""
+    """One direction of a protocol, and the bytes that its cases are made of."""
 
     model: Model
     direction: Direction
 
     @property
     def header(self) -> bytes:
-        """The bytes with which a frame begins."""
+        """The constant bytes with which a frame begins."""
         return self.model.frame.header
 
     @cached_property
     def small_frames(self) -> dict[str, bytes]:
-        """A frame of each message, the first example that is small; of the first messages."""
+        """A small frame of each of the first messages: the first example that is small."""
         found: dict[str, bytes] = {}
         for message in self.model.sent(self.direction).values():
             frames = (each.data for each in frames_of(message))
@@ -51,11 +51,11 @@ class Sender:
 
     @cached_property
     def largest(self) -> int:
-        """Bytes of the largest frame."""
+        """The size of the largest frame in bytes."""
         return self.model.largest([self.direction])
 
     def noise(self, size: int) -> bytes:
-        """Bytes of which none can be of a header."""
+        """Return `size` bytes of which none occurs in a header."""
         calm = self._calm
         return bytes(calm[:1] and [calm[at % len(calm)] for at in range(size)])
 
@@ -64,7 +64,7 @@ class Sender:
         return [byte for byte in _NOISE if byte not in self.header]
 
     def enveloped(self, code: int, body: bytes, size: int | None = None) -> bytes | None:
-        """A frame of any id; its length says `size` instead of the truth. None where none can."""
+        """Make a frame with any id, whose length field says `size`; None where it cannot."""
         envelope = self.model.frame
         true = envelope.least + len(body)
         length = (true if size is None else size) - envelope.uncounted
@@ -86,7 +86,7 @@ class Sender:
         return data
 
     def unknown(self, body: bytes, size: int | None = None) -> bytes | None:
-        """The same, of an id that nobody knows, and of a length that a frame may have."""
+        """Make a frame with an unknown id and a legal length; None where there is none."""
         code = unknown_id(self.model, self.direction)
         shown = self.model.frame.least + len(body) if size is None else size
         if code is None or not self.model.frame.least <= shown <= self.largest:
@@ -94,7 +94,7 @@ class Sender:
         return self.enveloped(code, body, size)
 
     def frames_around(self, limit: int) -> tuple[bytes | None, bytes | None]:
-        """The largest frame of at most `limit` bytes, and the smallest that is larger.
+        """Return the largest frame of at most `limit` bytes, and the next larger one.
 
         None where there is none, or none that a line has room for.
         """
@@ -112,7 +112,7 @@ class Sender:
 
 
 def _counts_around(message: MessageLayout, limit: int) -> list[int]:
-    """Up to two counts, with which a frame has at most `limit` bytes, and just more."""
+    """Return the counts whose frames have at most `limit` bytes, and just more."""
     first, last = message.counts[0], message.counts[-1]
     step = message.formula.factor or 1
     count = first + (limit - message.size_at(first)) // step

@@ -1,4 +1,4 @@
-"""What a line brings: its title, the pieces in which it arrives, and where it goes quiet."""
+"""One stream as a test case: its title, its chunks, and where the line goes quiet."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ Parts: TypeAlias = "tuple[bytes | None, ...]"
 
 @dataclass(frozen=True, slots=True)
 class StreamCase:
-    """What arrives, and how large a frame may be there; None is the largest of the direction."""
+    """The chunks of a stream; `max_frame` bounds a frame, None for no bound."""
 
     title: str
     direction: Direction
@@ -26,10 +26,10 @@ class StreamCase:
 
 
 def single_bytes(data: bytes) -> Parts:
-    """A piece for each byte."""
+    """Cut data into single bytes."""
     return chunks(data, 1)
 
 
 def chunks(data: bytes, size: int) -> Parts:
-    """Pieces of `size` bytes, and what is left."""
+    """Cut data into pieces of `size` bytes; the last may be shorter."""
     return tuple(data[at : at + size] for at in range(0, len(data), size))

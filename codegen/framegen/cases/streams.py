@@ -1,4 +1,4 @@
-"""Lines to decode: frames among noise, cut, doubled and in pieces, each to show one thing."""
+"""Stream cases: frames among noise, cut, doubled and in pieces, each to show one thing."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
 
 def streams(model: Model) -> Iterator[StreamCase]:
-    """The lines of each direction; one that says nothing new is left out."""
+    """Yield the streams of each direction; one that repeats another is left out."""
     for direction in model.directions:
         sender = Sender(model, direction)
         seen: set[object] = set()

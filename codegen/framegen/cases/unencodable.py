@@ -22,7 +22,7 @@ _ENOUGH = 0x100
 
 @dataclass(frozen=True)
 class UnencodableValues:
-    """What a message was asked to carry, of which one thing is too little or too much."""
+    """Values for a message, of which one is too large, too small, or too many."""
 
     title: str
     message: MessageLayout
@@ -30,7 +30,7 @@ class UnencodableValues:
 
 
 def unencodable(model: Model) -> Iterator[UnencodableValues]:
-    """What no frame of each message carries."""
+    """Yield values that no frame of a message can carry, for every message."""
     for message in model.messages.values():
         for slot in message.arguments:
             if isinstance(slot, Items):

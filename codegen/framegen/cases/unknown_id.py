@@ -1,4 +1,4 @@
-"""An id that no message has, for frames that nobody knows."""
+"""An id that no message has, for unknown frames."""
 
 from __future__ import annotations
 
@@ -13,10 +13,10 @@ _TRIED = 0x1000
 
 
 def unknown_id(model: Model, direction: Direction) -> int | None:
-    """An id that no message has, in this direction at least; None where all are taken.
+    """Return an id that no message of this direction has; None where all are taken.
 
-    The highest, and none with a byte of the header, as far as there is one: new messages seldom
-    take it, so that cases stay what they are.
+    The highest such id without a byte of the header is preferred: new messages seldom take it, so
+    that cases stay as they are.
     """
     slot, header = model.frame.id, set(model.frame.header)
     known = model.sent(direction)

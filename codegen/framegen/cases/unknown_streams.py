@@ -1,4 +1,4 @@
-"""Frames of an id that no message has, whole and in part, and what hides in them."""
+"""Streams with frames of an unknown id, whole and cut short, and with frames inside them."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 
 
 def unknown_streams(sender: Sender) -> Iterator[StreamCase]:
-    """All of them, as far as a frame of this direction has room for what they hold."""
+    """Yield these streams, as far as a frame of this direction has room for their contents."""
     empty = sender.unknown(b"")
     if not sender.small_frames or empty is None:
         return
@@ -31,7 +31,7 @@ def unknown_streams(sender: Sender) -> Iterator[StreamCase]:
 
 
 def _filled(sender: Sender) -> bytes | None:
-    """An unknown frame with a few bytes that mean nothing, as many as there is room for."""
+    """Make an unknown frame that holds up to a few bytes without meaning."""
     found = (sender.unknown(sender.noise(size)) for size in (3, 2, 1))
     return next((each for each in found if each is not None), None)
 
@@ -39,18 +39,18 @@ def _filled(sender: Sender) -> bytes | None:
 def _whole(
     sender: Sender, frame: bytes, empty: bytes, filled: bytes
 ) -> Iterator[tuple[str, Parts]]:
-    noise, stray = sender.noise, sender.header[:1]
+    noise, single = sender.noise, sender.header[:1]
     yield "an unknown frame without fields", (empty, QUIET)
     yield "an unknown frame between frames", (frame + filled + frame, QUIET)
     yield "an unknown frame between noise", (noise(2) + filled + noise(3), QUIET)
-    yield "an unknown frame, told before the line goes quiet", (filled + frame,)
+    yield "an unknown frame, reported before the line goes quiet", (filled + frame,)
     known = sender.model.frame.id.at + sender.model.frame.id.size
     held = "held before the line goes quiet"
     yield f"an unknown frame without its last byte, {held}", (frame + filled[:-1],)
     yield f"an unknown frame cut behind its id, {held}", (frame + filled[:known],)
     yield "an unknown frame byte by byte, then another", (*single_bytes(filled), frame, QUIET)
     yield "two unknown frames", (filled + empty, QUIET)
-    yield "an unknown frame behind a stray byte of the header", (stray + filled, QUIET)
+    yield "an unknown frame behind a single header byte", (single + filled, QUIET)
     yield "an unknown frame without its last byte, then quiet", (filled[:-1], QUIET)
     yield "an unknown frame without its last byte, then a frame", (filled[:-1] + frame, QUIET)
     yield "an unknown frame with a pause in it", (filled[:-1], QUIET, filled[-1:], QUIET)
@@ -59,13 +59,13 @@ def _whole(
 def _holding(
     sender: Sender, frame: bytes, empty: bytes, filled: bytes
 ) -> Iterator[tuple[str, Parts]]:
-    """Whole ones, by what they hold; and what comes behind them."""
+    """Yield whole unknown frames, by what they hold and by what follows them."""
     header, calm = sender.header, sender.noise(1)
     held = {
         "a frame": (frame, b""),
         "the beginning of a frame": (calm + frame[:-1], frame[-1:]),
         "the first byte of a frame": (calm + frame[:1], frame[1:]),
-        "a stray byte of the header": (calm + header[:1], frame),
+        "a single header byte": (calm + header[:1], frame),
         "a header": (calm + header, b""),
         "an unknown frame": (empty, frame),
         "the beginning of an unknown frame": (calm + filled[:-1], filled[-1:] + frame),
@@ -79,7 +79,7 @@ def _holding(
 
 
 def _unfinished(sender: Sender, frame: bytes, empty: bytes) -> Iterator[tuple[str, Parts]]:
-    """Those whose length says more than comes."""
+    """Yield unknown frames whose length claims more than arrives."""
     calm, least = sender.noise(1), sender.model.frame.least
     more = least + 2 * len(frame) + 2 * len(empty) + 4
     claim, larger = sender.unknown(b"", more), sender.unknown(b"", more + 1)
@@ -88,7 +88,7 @@ def _unfinished(sender: Sender, frame: bytes, empty: bytes) -> Iterator[tuple[st
     title = "an unknown frame that does not end"
     yield f"{title}, then quiet", (claim + calm, QUIET, frame, QUIET)
     yield f"{title}, with a frame in it", (claim + calm + frame, QUIET)
-    yield f"{title}, with a frame told before the line goes quiet", (claim + frame,)
+    yield f"{title}, with a frame reported before the line goes quiet", (claim + frame,)
     frames = single_bytes(claim + frame + calm + frame)
     yield f"{title}, with two frames in it, byte by byte", (*frames, QUIET)
     yield f"{title}, with an unknown frame in it", (claim + empty + calm, QUIET)
@@ -98,7 +98,7 @@ def _unfinished(sender: Sender, frame: bytes, empty: bytes) -> Iterator[tuple[st
 
 
 def _in_a_run(sender: Sender) -> Iterator[tuple[str, Parts]]:
-    """One that begins in a run of one byte, which says how long it is, and ends behind the run."""
+    """Yield unknown frames that begin in a run of one byte, which is also their length."""
     first = sender.header[:1]
     run = first[0] + sender.model.frame.uncounted + 1
     if set(sender.header) == {*first} and run <= sender.largest:

@@ -1,4 +1,4 @@
-"""Frames with what they mean: the examples of a spec, and the ends of its ranges."""
+"""Frames with their values: the examples of a spec, and the ends of its ranges."""
 
 from __future__ import annotations
 
@@ -31,18 +31,18 @@ class ValidFrame:
 
     @property
     def data(self) -> bytes:
-        """Its bytes."""
+        """The bytes of the frame."""
         return encode(self.message, self.values)
 
 
 def valid_frames(model: Model) -> Iterator[ValidFrame]:
-    """The frames of every message."""
+    """Yield the frames of every message."""
     for message in model.messages.values():
         yield from frames_of(message)
 
 
 def frames_of(message: MessageLayout) -> Iterator[ValidFrame]:
-    """The examples of one message, then the ends of its ranges."""
+    """Yield the examples of one message, then the ends of its ranges."""
     for example in message.message.examples:
         yield ValidFrame(example.title, message, dict(example.values))
     for title, values in range_ends(message):
@@ -50,7 +50,7 @@ def frames_of(message: MessageLayout) -> Iterator[ValidFrame]:
 
 
 def range_ends(message: MessageLayout) -> Iterator[tuple[str, dict[str, Any]]]:
-    """Every field at its lowest, then its highest; a list with the fewest items, then with many."""
+    """Yield every field at its lowest, then at its highest; a list short, then long."""
     if not message.arguments:
         return
     fewest, most = message.counts[0], message.counts[-1]
@@ -62,7 +62,7 @@ def range_ends(message: MessageLayout) -> Iterator[tuple[str, dict[str, Any]]]:
 
 
 def values_at(message: MessageLayout, end: _End, count: int) -> dict[str, Any]:
-    """Every field at one end of its range; a list with `count` elements."""
+    """Return every field at one end of its range, and a list of `count` elements."""
     return {
         slot.name: [_item(slot, end) for _ in range(count)]
         if isinstance(slot, Items)

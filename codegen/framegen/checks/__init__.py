@@ -1,4 +1,4 @@
-"""The rules that a spec must keep, one file each, and what looks for all of them."""
+"""The rules that a spec must keep, one file each, and the functions that check them all."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from framegen.checks import (
     duplicate_id,
     duplicate_name,
     echoed,
-    empty_group,
+    empty_element,
     endpoints,
     erratum,
     example,
@@ -73,7 +73,7 @@ STRUCTURE_RULES: tuple[StructureRule, ...] = (
     reserved.RULE,
     counted_by.RULE,
     list_last.RULE,
-    empty_group.RULE,
+    empty_element.RULE,
     count_bounds.RULE,
     value_range.RULE,
     signed_as.RULE,
@@ -117,12 +117,12 @@ RULES: tuple[AnyRule, ...] = (
 
 
 def check_structure(spec: Spec, tree: Tree) -> list[Finding]:
-    """Say what can be said against a spec as it is written; without any of it, a model follows."""
+    """Check a spec as it is written; a model can be derived once nothing is found."""
     return _placed(((rule.id, each) for rule in STRUCTURE_RULES for each in rule.look(spec)), tree)
 
 
 def check_model(model: Model, tree: Tree) -> list[Finding]:
-    """Say what can be said against what follows from a spec, causes before what they lead to."""
+    """Check what follows from a spec; a cause comes before its consequences."""
     for rules in (MODEL_RULES, EVIDENCE_RULES):
         found = _placed(((rule.id, each) for rule in rules for each in rule.look(model)), tree)
         if found:
@@ -131,7 +131,7 @@ def check_model(model: Model, tree: Tree) -> list[Finding]:
 
 
 def _placed(problems: Iterable[tuple[str, Problem]], tree: Tree) -> list[Finding]:
-    """Place the problems, each once, from the top of the file down: what is shown gets its hint."""
+    """Place the problems in the text, each once, from top to bottom; add hints to those shown."""
     unique = {(each.span(tree), rule, each.message): each for rule, each in problems}
     return [
         unique[key].finding(key[1], tree, hinted=number < MOST_FINDINGS)

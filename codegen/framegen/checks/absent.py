@@ -1,4 +1,4 @@
-"""Rule: who is told to be absent by a value is told so by one field."""
+"""Rule: absence is marked by the values of one field."""
 
 from __future__ import annotations
 
@@ -23,10 +23,10 @@ def _look(spec: Spec) -> Iterator[Problem]:
                 continue
             here = (*path, name, "values", marked[0], "absent")
             if field.counted_by is not None:
-                what = "numbers in a list have no property that could tell who is absent"
+                what = "numbers in a list have no property that could say which are absent"
                 yield Problem(here, what, "give the list an `element` with fields", on_key=True)
             elif first is not None:
-                what = "another field tells who is absent"
+                what = "another field already marks absence"
                 also = (first, "it is here")
                 yield Problem(here, what, "mark the values of one field", on_key=True, also=also)
             else:
@@ -35,9 +35,8 @@ def _look(spec: Spec) -> Iterator[Problem]:
 
 RULE = StructureRule(
     id="absent",
-    title="Who is told to be absent by a value is told so by one field",
-    why="Users ask an element, or a message, whether it is `absent`: one question, which has one "
-    "answer.",
+    title="Absence is marked by the values of one field",
+    why="An element or a message has one property `absent`, so one field has to decide it.",
     bad="fade: {values: {off: {absent: true, ...}}}, level: {values: {off: {absent: true, ...}}}",
     good="fade: {values: {off: {...}}}, level: {values: {off: {absent: true, ...}}}",
     look=_look,

@@ -1,4 +1,4 @@
-"""Rule: what acknowledges a message is one of its reports, and shares numbers with it."""
+"""Rule: what acknowledges a message is one of its reports, and shares a field with it."""
 
 from __future__ import annotations
 
@@ -25,10 +25,10 @@ def _look(spec: Spec) -> Iterator[Problem]:
 
 def _misfit(name: str, message: Message, report: str, spec: Spec) -> tuple[str, str] | None:
     if message.reply is not None:
-        what = f"{name} is answered by {message.reply}, which says as much"
+        what = f"{name} is answered by {message.reply}, which confirms it already"
         return what, "leave out `acknowledged`"
     if message.lasts is not None:
-        what = f"{name} also `lasts`, and a client can tell one of the two"
+        what = f"{name} also `lasts`, and a client can wait for only one of the two"
         return what, "leave out `acknowledged`, or `lasts`"
     if report not in message.reports:
         hint = did_you_mean(report, message.reports) or f"name {report} there, too"
@@ -45,9 +45,9 @@ def _misfit(name: str, message: Message, report: str, spec: Spec) -> tuple[str, 
 
 RULE = StructureRule(
     id="acknowledged",
-    title="What acknowledges a message is one of its reports, and shares numbers with it",
-    why="A client waits for that report, with the values of the message: for one that never "
-    "follows, every message would seem to be refused.",
+    title="What acknowledges a message is one of its reports, and shares a field with it",
+    why="A client waits for that report with the values of the message: if it can never follow, "
+    "every message seems to be refused.",
     bad="LampFade: {reports: [LampLit], acknowledged: LampOut}",
     good="LampFade: {reports: [LampLit], acknowledged: LampLit}",
     look=_look,

@@ -35,7 +35,8 @@ def _fault(count: Range) -> tuple[str, str] | None:
 RULE = StructureRule(
     id="count-bounds",
     title="The bounds of a count are numbers of elements",
-    why="They bound what encoders accept and decoders believe; some bounds no list could keep.",
+    why="They bound what encoders accept and decoders believe; no list could have such a number "
+    "of elements.",
     bad="count: 8..1",
     good="count: 1..8",
     look=_look,

@@ -5,8 +5,8 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from framegen.checks.rule import Problem, StructureRule
-from framegen.language.spec import GroupField, NumberField
-from framegen.language.wiretypes import WIRE_TYPES
+from framegen.language.number_types import NUMBER_TYPES
+from framegen.language.spec import ListField, NumberField
 from framegen.reading.findings import did_you_mean
 
 if TYPE_CHECKING:
@@ -20,7 +20,7 @@ def _look(spec: Spec) -> Iterator[Problem]:
     for name, message in spec.messages.items():
         for field_name, field in message.fields.items():
             here = ("messages", name, "fields", field_name)
-            if isinstance(field, GroupField):
+            if isinstance(field, ListField):
                 yield from _in_element(here, field)
             if field.counted_by is not None:
                 path = (*here, "counted_by")
@@ -34,7 +34,7 @@ def _look(spec: Spec) -> Iterator[Problem]:
                 )
 
 
-def _in_element(path: KeyPath, group: GroupField) -> Iterator[Problem]:
+def _in_element(path: KeyPath, group: ListField) -> Iterator[Problem]:
     for name, field in group.fields.items():
         for key in ("counted_by", "count"):
             if getattr(field, key) is not None:
@@ -69,11 +69,11 @@ def _counter(
 
 
 def _plain(field: AnyField) -> bool:
-    """Whether it is one number that can count; of an unknown type, another rule speaks."""
+    """Tell whether a field is an unsigned number; an unknown type is another rule's concern."""
     if not isinstance(field, NumberField) or field.counted_by is not None:
         return False
-    wire = WIRE_TYPES.get(field.type)
-    return wire is None or wire.low == 0
+    type_ = NUMBER_TYPES.get(field.type)
+    return type_ is None or type_.low == 0
 
 
 def _busy(path: KeyPath, name: str, field: AnyField) -> Iterator[Problem]:

@@ -22,7 +22,7 @@ def _look(spec: Spec) -> Iterator[Problem]:
                 hint = did_you_mean(name, spec.endpoints)
                 yield Problem(path, f"there is no endpoint `{name}`", hint)
         if direction.sender == direction.receiver:
-            yield Problem(path, f"`{direction.sender}` does not talk to itself")
+            yield Problem(path, f"`{direction.sender}` cannot send to itself")
 
 
 def _directions(spec: Spec) -> Iterator[tuple[KeyPath, Direction]]:
@@ -36,7 +36,8 @@ def _directions(spec: Spec) -> Iterator[tuple[KeyPath, Direction]]:
 RULE = StructureRule(
     id="direction",
     title="Every direction leads from one endpoint to another",
-    why="The direction is half of what a message is known by; a misspelt one makes it another.",
+    why="The direction identifies a message together with its id; a misspelt one makes it another "
+    "message.",
     bad="direction: hots -> lamp",
     good="direction: host -> lamp",
     look=_look,

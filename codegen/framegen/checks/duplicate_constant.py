@@ -1,11 +1,11 @@
-"""Rule: no two constants have one name."""
+"""Rule: no two constants have the same name."""
 
 from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
 from framegen.checks.rule import ModelRule, Problem
-from framegen.language.spec import GroupField
+from framegen.language.spec import ListField
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -21,7 +21,7 @@ def _look(model: Model) -> Iterator[Problem]:
         path = ("messages", name, "fields")
         numbers: dict[str, NumberField] = {}
         for field_name, field in message.fields.items():
-            if isinstance(field, GroupField):
+            if isinstance(field, ListField):
                 yield from _clashes((*path, field_name, "fields"), field.fields)
             else:
                 numbers[field_name] = field
@@ -30,7 +30,7 @@ def _look(model: Model) -> Iterator[Problem]:
 
 
 def _clashes(path: KeyPath, fields: dict[str, NumberField]) -> Iterator[Problem]:
-    """Named values of one class that would become the same constant."""
+    """Find named values of one class that would become the same constant."""
     first: dict[str, KeyPath] = {}
     for field_name, field in fields.items():
         for value_name in field.values:
@@ -43,15 +43,15 @@ def _clashes(path: KeyPath, fields: dict[str, NumberField]) -> Iterator[Problem]
 
 
 def _directions(model: Model) -> Iterator[Problem]:
-    """Directions that would become the same constant, whether a message goes that way or not."""
+    """Find directions that would become the same constant, used or not."""
     first: dict[str, tuple[KeyPath, str]] = {}
     for path, direction in _ways(model):
         key, text = direction.key, str(direction)
         there, other = first.setdefault(key, (path, text))
         if other != text:
-            told = f"`{text}` and `{other}` would both be the constant {key.upper()}"
+            what = f"`{text}` and `{other}` would both be the constant {key.upper()}"
             also = (there, "the other is here")
-            yield Problem(path, told, "rename an endpoint", path[0] == "endpoints", also)
+            yield Problem(path, what, "rename an endpoint", path[0] == "endpoints", also)
 
 
 def _ways(model: Model) -> Iterator[tuple[KeyPath, Direction]]:
@@ -63,9 +63,9 @@ def _ways(model: Model) -> Iterator[tuple[KeyPath, Direction]]:
 
 RULE = ModelRule(
     id="duplicate-constant",
-    title="No two constants have one name",
-    why="A named value becomes FIELD_VALUE in its message, and a direction SENDER_TO_RECEIVER: of "
-    "two with one name, one would vanish.",
+    title="No two constants have the same name",
+    why="A named value becomes FIELD_VALUE in its message, and a direction SENDER_TO_RECEIVER: "
+    "one of two equal names would be lost.",
     bad="{lamp: {values: {is_off: {value: 0, ...}}}, lamp_is: {values: {off: {value: 0, ...}}}}",
     good="{lamp: {values: {off: {value: 0, ...}}}, lamp_is: {values: {off: {value: 0, ...}}}}",
     look=_look,

@@ -1,4 +1,4 @@
-"""Rule: no two messages have the same code in the same direction."""
+"""Rule: no two messages have the same id in the same direction."""
 
 from __future__ import annotations
 
@@ -28,8 +28,8 @@ def _look(spec: Spec) -> Iterator[Problem]:
 
 RULE = StructureRule(
     id="duplicate-id",
-    title="No two messages have the same code in the same direction",
-    why="A receiver knows a message by its direction and its code, and by nothing else.",
+    title="No two messages have the same id in the same direction",
+    why="A receiver identifies a message by its direction and its id alone.",
     bad="{LampOn: {id: 7, direction: host -> lamp}, LampOff: {id: 7, direction: host -> lamp}}",
     good="{LampOn: {id: 7, direction: host -> lamp}, LampOff: {id: 8, direction: host -> lamp}}",
     look=_look,

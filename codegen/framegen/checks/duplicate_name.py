@@ -1,11 +1,11 @@
-"""Rule: no two classes have one name."""
+"""Rule: no two classes have the same name."""
 
 from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
 from framegen.checks.rule import Problem, StructureRule
-from framegen.language.spec import GroupField
+from framegen.language.spec import ListField
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -36,16 +36,15 @@ def _classes(spec: Spec) -> Iterator[tuple[KeyPath, str, bool]]:
         yield ("messages", name), name, True
     for name, message in spec.messages.items():
         for field_name, field in message.fields.items():
-            if isinstance(field, GroupField):
+            if isinstance(field, ListField):
                 path = ("messages", name, "fields", field_name, "element")
                 yield path, field.element, False
 
 
 RULE = StructureRule(
     id="duplicate-name",
-    title="No two classes have one name",
-    why="Messages and elements become classes side by side: of two with one name, one would "
-    "vanish.",
+    title="No two classes have the same name",
+    why="Messages and elements become classes in one module: one of two equal names would be lost.",
     bad="messages: {LampRead: {...}, Lampread: {...}}",
     good="messages: {LampRead: {...}, LampState: {...}}",
     look=_look,

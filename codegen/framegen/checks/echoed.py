@@ -5,8 +5,8 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from framegen.checks.rule import Problem, StructureRule
-from framegen.language.spec import GroupField
-from framegen.language.wiretypes import WIRE_TYPES
+from framegen.language.number_types import NUMBER_TYPES
+from framegen.language.spec import ListField
 from framegen.model.exchanges import paths_of
 from framegen.reading.findings import did_you_mean
 
@@ -26,38 +26,38 @@ def _look(spec: Spec) -> Iterator[Problem]:
             continue
         reply = None if message.reply is None else spec.messages.get(message.reply)
         if reply is not None:
-            for asked, told in message.echoed.items():
-                yield from _pair((*path, asked), (name, message, asked), (reply, told))
+            for requested, reported in message.echoed.items():
+                yield from _pair((*path, requested), (name, message, requested), (reply, reported))
 
 
 def _pair(
     path: KeyPath, request: tuple[str, Message, str], answer: tuple[Message, str]
 ) -> Iterator[Problem]:
-    name, message, asked = request
-    reply, told = answer
+    name, message, requested = request
+    reply, reported = answer
     ours, theirs = paths_of(message), paths_of(reply)
-    if asked not in ours:
-        what = f"{name} is not given `{asked}`"
-        yield Problem(path, what, did_you_mean(asked, list(ours)), on_key=True)
-    elif told not in theirs:
-        what = f"{message.reply} does not tell `{told}`"
-        yield Problem(path, what, did_you_mean(told, list(theirs)))
-    elif ours[asked] != theirs[told]:
-        listed, single = (asked, told) if ours[asked] else (told, asked)
+    if requested not in ours:
+        what = f"{name} has no argument `{requested}`"
+        yield Problem(path, what, did_you_mean(requested, list(ours)), on_key=True)
+    elif reported not in theirs:
+        what = f"{message.reply} has no field `{reported}`"
+        yield Problem(path, what, did_you_mean(reported, list(theirs)))
+    elif ours[requested] != theirs[reported]:
+        listed, single = (requested, reported) if ours[requested] else (reported, requested)
         what = f"`{listed}` is in a list and `{single}` is not"
         yield Problem(path, what, "a list can repeat a list, and a number a number")
     else:
-        yield from _room(path, (message, asked), (reply, told))
+        yield from _room(path, (message, requested), (reply, reported))
 
 
 def _room(
     path: KeyPath, request: tuple[Message, str], answer: tuple[Message, str]
 ) -> Iterator[Problem]:
-    """What is asked for and cannot be told makes questions that nothing answers."""
-    asked, told = _values(*request), _values(*answer)
-    if asked is None or told is None:
+    """Find values that can be requested but not reported: such a request never gets a reply."""
+    requested, reported = _values(*request), _values(*answer)
+    if requested is None or reported is None:
         return
-    (low, high), (lowest, highest) = asked, told
+    (low, high), (lowest, highest) = requested, reported
     if low < lowest or high > highest:
         what = (
             f"`{request[1]}` may be {low}..{high}, "
@@ -67,23 +67,26 @@ def _room(
 
 
 def _values(message: Message, path: str) -> tuple[int, int] | None:
-    """The values that a field, or one of an element, may have; None where its type is unknown."""
+    """Return the values that a field may have; None where its type is unknown."""
     outer, _, inner = path.partition(".")
     field = message.fields[outer]
-    number = field.fields[inner] if isinstance(field, GroupField) else field
-    wire = WIRE_TYPES.get(number.type)
-    if wire is None:
+    number = field.fields[inner] if isinstance(field, ListField) else field
+    type_ = NUMBER_TYPES.get(number.type)
+    if type_ is None:
         return None
     declared = number.range
     high = None if declared is None else declared.high
-    return wire.low if declared is None else declared.low, wire.high if high is None else high
+    return (
+        type_.low if declared is None else declared.low,
+        type_.high if high is None else high,
+    )
 
 
 RULE = StructureRule(
     id="echoed",
     title="What a reply repeats is a field of both messages",
-    why="A client tells the reply to its request from others by the fields that it repeats: by one "
-    "that is not there, no reply is ever the right one.",
+    why="A client matches a reply to its request by the fields that it repeats: where one does "
+    "not exist, no reply ever matches.",
     bad="LampRead: {reply: LampState, echoed: {lamp: lamp_id}}",
     good="LampRead: {reply: LampState, echoed: {lamp_id: lamp_id}}",
     look=_look,

@@ -1,4 +1,4 @@
-"""Rule: every erratum still tells a difference between the document and the frames."""
+"""Rule: every erratum names a difference between the document and the frames."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ def _look(model: Model) -> Iterator[Problem]:
         if fact.agrees(erratum.document):
             yield Problem(
                 ("errata", index, "document"),
-                f"the erratum no longer differs: this spec says `{fact}`, as it does",
+                f"the erratum is out of date: this spec says `{fact}`, as the document does",
                 "remove the erratum, or mend what it is about",
             )
         elif not fact.agrees(erratum.bytes_):
@@ -36,9 +36,9 @@ def _look(model: Model) -> Iterator[Problem]:
 
 RULE = ModelRule(
     id="erratum",
-    title="Every erratum still tells a difference between the document and the frames",
-    why="An erratum is a claim about bytes, and is held to them like an example. Once the spec "
-    "says what the document says, it is out of date.",
+    title="Every erratum names a difference between the document and the frames",
+    why="An erratum is a claim about bytes, and is checked like an example. Once the spec agrees "
+    "with the document, it is out of date.",
     bad="{document: 11, bytes: 11}",
     good="{document: 11, bytes: 15}",
     look=_look,

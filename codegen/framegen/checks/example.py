@@ -48,7 +48,7 @@ def _executed(
 
 
 def _other_order(model: Model, message: MessageLayout, example: Example) -> str:
-    """Hint at the byte order, if the frame would have its values in the other one."""
+    """Hint at the byte order, where the other one would give the values of the example."""
     try:
         frame = encode(message, example.values)
     except Unencodable:
@@ -72,8 +72,8 @@ def _differences(path: KeyPath, frame: Any, said: Any, message: MessageLayout) -
                 yield from _differences((*path, key), frame[key], value, message)
             else:
                 counts = message.items is not None and key == message.items.counter.name
-                hint = "leave it out: the list says it" if counts else "leave it out"
-                yield Problem((*path, key), f"the frame gives no `{key}`", hint, on_key=True)
+                hint = "leave it out: it follows from the list" if counts else "leave it out"
+                yield Problem((*path, key), f"the frame has no `{key}`", hint, on_key=True)
     elif isinstance(frame, list) and isinstance(said, list):
         if len(frame) != len(said):
             yield Problem(path, f"{len(said)} are listed, and the frame has {len(frame)}")
@@ -81,17 +81,17 @@ def _differences(path: KeyPath, frame: Any, said: Any, message: MessageLayout) -
             yield from _differences((*path, index), value, other, message)
     elif frame != said or type(frame) is not type(said):
         hint = "bytes swapped?" if _swapped(path, frame, said, message) else ""
-        yield Problem(path, f"the frame says {_shown(frame)}, not {_shown(said)}", hint)
+        yield Problem(path, f"the frame has {_shown(frame)}, not {_shown(said)}", hint)
 
 
 def _swapped(path: KeyPath, frame: Any, said: Any, message: MessageLayout) -> bool:
-    """Whether the frame has the bytes of the number the other way round."""
+    """Tell whether the frame has the bytes of the number in the other order."""
     _, _, _, _, _, *steps = path
     name = ".".join(step for step in steps if isinstance(step, str))
     number = message.numbers_by_path.get(name)
     if number is None or type(said) is not int or type(frame) is not int:
         return False
-    fits = number.wire.low <= said <= number.wire.high
+    fits = number.number_type.low <= said <= number.number_type.high
     return fits and number.read(number.write(said)[::-1]) == frame
 
 
@@ -107,8 +107,8 @@ def _shown(value: object) -> str:
 RULE = ModelRule(
     id="example",
     title="Every example decodes to its values, and they encode to it",
-    why="Examples are the evidence for everything else: a layout that does not read them is wrong, "
-    "or they are.",
+    why="Examples are the evidence for everything else: if they do not decode to their values, "
+    "the layout is wrong, or they are.",
     bad="{hex: AA 55 02 01 64, values: {percent: 50}}",
     good="{hex: AA 55 02 01 32, values: {percent: 50}}",
     look=_look,

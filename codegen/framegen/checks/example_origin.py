@@ -34,8 +34,8 @@ def _look(spec: Spec) -> Iterator[Problem]:
 RULE = StructureRule(
     id="example-origin",
     title="Every example says where it comes from",
-    why="A frame that was published or captured is evidence; one that was made up is none, and "
-    "must not pass for it.",
+    why="A published or captured frame is evidence; an invented one is not, and must not pass for "
+    "it.",
     bad="{title: Off, hex: AA 55 01 02}",
     good="{title: Off, hex: AA 55 01 02, cite: vendor, section 1}",
     look=_look,

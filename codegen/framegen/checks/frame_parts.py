@@ -65,8 +65,8 @@ def _order(spec: Spec) -> Iterator[Problem]:
 RULE = StructureRule(
     id="frame-parts",
     title="The frame is made of parts that fit together",
-    why="Everything has its place from here: a constant to search for, one length that counts the "
-    "body, one id that says what the body holds.",
+    why="A decoder needs a constant to search for, one length that counts the body, and one id "
+    "that says what the body holds.",
     bad="frame: {length: ..., header: ..., parameters: ...}",
     good="frame: {header: ..., length: ..., command: ..., parameters: ...}",
     look=_look,

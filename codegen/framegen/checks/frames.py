@@ -1,12 +1,12 @@
-"""What is asked of the parts of any frame, the protocol's own or a look-alike's."""
+"""Requirements on the parts of any frame, the protocol's own or a look-alike's."""
 
 from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
 from framegen.checks.rule import Problem
+from framegen.language.number_types import NUMBER_TYPES
 from framegen.language.spec import BodyPart, ChecksumPart, ConstantPart, LengthPart
-from framegen.language.wiretypes import WIRE_TYPES
 from framegen.reading.findings import did_you_mean
 
 if TYPE_CHECKING:
@@ -27,7 +27,7 @@ _WITHOUT = {
 
 
 def part_problems(path: KeyPath, frame: dict[str, FramePart]) -> Iterator[Problem]:
-    """Find what keeps the parts of the frame at `path` from fitting together."""
+    """Find what is wrong with the parts of the frame at `path`."""
     for kind in ("length", "id", "body"):
         names = [name for name, part in frame.items() if part.is_ == kind]
         if not names:
@@ -46,8 +46,8 @@ def part_problems(path: KeyPath, frame: dict[str, FramePart]) -> Iterator[Proble
         if isinstance(part, ConstantPart):
             constant += len(part.bytes_)
             if constant > MOST_CONSTANT:
-                what = f"the frame has {constant} bytes that never change up to here"
-                yield Problem((*path, name, "bytes"), f"{what}, and {MOST_CONSTANT} are the most")
+                what = f"the frame has {constant} constant bytes up to here"
+                yield Problem((*path, name, "bytes"), f"{what}, and may have {MOST_CONSTANT}")
         if isinstance(part, LengthPart):
             yield from _names((*path, name, "counts"), part.counts, frame)
             yield from _counts_body((*path, name, "counts"), name, part, frame)
@@ -62,12 +62,12 @@ def part_problems(path: KeyPath, frame: dict[str, FramePart]) -> Iterator[Proble
 
 
 def _type(path: KeyPath, name: str, part: FramePart) -> Iterator[Problem]:
-    wire = WIRE_TYPES.get(getattr(part, "type", ""))
-    if wire is not None and wire.low < 0:
+    type_ = NUMBER_TYPES.get(getattr(part, "type", ""))
+    if type_ is not None and type_.low < 0:
         yield Problem(
             (*path, name, "type"),
-            f"a part of the frame is never negative, and `{wire.name}` is signed",
-            f"write u{wire.name[1:]}",
+            f"a part of the frame is never negative, and `{type_.name}` is signed",
+            f"write u{type_.name[1:]}",
         )
 
 
@@ -90,6 +90,6 @@ def _counts_body(
         if isinstance(other, BodyPart) and body not in part.counts:
             yield Problem(
                 path,
-                f"`{name}` does not count the body, so it cannot tell where a frame ends",
+                f"`{name}` does not count the body, so the end of a frame is unknown",
                 f"add `{body}`",
             )

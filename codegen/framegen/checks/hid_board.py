@@ -1,4 +1,4 @@
-"""Rule: a kind of USB HID board is described once, and its reports have room for a frame."""
+"""Rule: each USB HID board is described once, and its reports have room for a frame."""
 
 from __future__ import annotations
 
@@ -37,7 +37,7 @@ def _look(spec: Spec) -> Iterator[Problem]:
 
 RULE = StructureRule(
     id="hid-board",
-    title="A kind of USB HID board is described once, and its reports have room for a frame",
+    title="Each USB HID board is described once, and its reports have room for a frame",
     why="A board is found by its vendor and product, and each of its reports carries one frame.",
     bad="usb_hid: [{vendor: 0x0483, product: 0x5750, report_size: 2}]",
     good="usb_hid: [{vendor: 0x0483, product: 0x5750, report_size: 64}]",

@@ -1,4 +1,4 @@
-"""Rule: the versions that a spec speaks of are in its history."""
+"""Rule: every version that a spec mentions is in its history."""
 
 from __future__ import annotations
 
@@ -42,8 +42,9 @@ def _look(spec: Spec) -> Iterator[Problem]:
 
 RULE = StructureRule(
     id="history",
-    title="The versions that a spec speaks of are in its history",
-    why="Whoever upgrades reads the history; what is missing there comes as a surprise.",
+    title="Every version that a spec mentions is in its history",
+    why="Users who upgrade read the history; a version that is missing there takes them by "
+    "surprise.",
     bad='protocol: {version: "1.1.0"}  # and no 1.1.0 in `history`',
     good='history: [{version: "1.1.0", changes: [LampFade is new.]}]',
     look=_look,

@@ -1,12 +1,12 @@
-"""Rule: every code fits the part of the frame that carries it."""
+"""Rule: every id fits the part of the frame that carries it."""
 
 from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
 from framegen.checks.rule import Problem, StructureRule
+from framegen.language.number_types import NUMBER_TYPES
 from framegen.language.spec import IdPart
-from framegen.language.wiretypes import WIRE_TYPES
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -17,14 +17,14 @@ if TYPE_CHECKING:
 
 def _look(spec: Spec) -> Iterator[Problem]:
     for part_name, part in spec.frame.items():
-        wire = WIRE_TYPES.get(part.type) if isinstance(part, IdPart) else None
-        if wire is None:
+        type_ = NUMBER_TYPES.get(part.type) if isinstance(part, IdPart) else None
+        if type_ is None:
             continue
         for path, code in _codes(spec):
-            if code > wire.high:
+            if code > type_.high:
                 yield Problem(
                     path,
-                    f"{code} does not fit `{part_name}`, a {wire.name}: it ends at {wire.high}",
+                    f"{code} does not fit `{part_name}`, a {type_.name}: it ends at {type_.high}",
                 )
 
 
@@ -38,8 +38,8 @@ def _codes(spec: Spec) -> Iterator[tuple[KeyPath, int]]:
 
 RULE = StructureRule(
     id="id-range",
-    title="Every code fits the part of the frame that carries it",
-    why="A code that is too large would be cut, and the frame taken for another message.",
+    title="Every id fits the part of the frame that carries it",
+    why="An id that is too large would be cut, and the frame taken for another message.",
     bad="id: 300  # where `command` is a u8",
     good="id: 30",
     look=_look,

@@ -1,4 +1,4 @@
-"""Rule: every name has the shape of one, in whatever language it will be written."""
+"""Rule: every name is an identifier in any language."""
 
 from __future__ import annotations
 
@@ -70,16 +70,16 @@ def _snake(path: KeyPath, name: str, *, on_key: bool = True) -> Iterator[Problem
 
 
 def _words(name: str) -> list[str]:
-    """Split `servo_move`, `ServoMove` and `servo-move` alike; nothing stranger than those."""
+    """Split `servo_move`, `ServoMove` and `servo-move` into the same words."""
     return _WORD.findall(name) if _PLAIN.fullmatch(name) else []
 
 
 RULE = StructureRule(
     id="identifier",
-    title="Every name has the shape of one",
+    title="Every name is an identifier in any language",
     why="Names go into code, files and addresses: messages and elements in PascalCase, all others "
-    "in snake_case. A word that a language has taken is a good name here: whatever is written in "
-    "that language bends it.",
+    "in snake_case. A word that a language has reserved is allowed here: its target adds a "
+    "suffix.",
     bad="fields: {Servo-ID: {type: u8}}",
     good="fields: {servo_id: {type: u8}}",
     look=_look,

@@ -1,12 +1,12 @@
-"""Rule: how long something goes on is a time that the message gives."""
+"""Rule: the field that says how long a motion lasts is a time, and is given by the client."""
 
 from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
 from framegen.checks.rule import ModelRule, Problem
+from framegen.language.number_types import NUMBER_TYPES
 from framegen.language.spec import NumberField
-from framegen.language.wiretypes import WIRE_TYPES
 from framegen.model.exchanges import STEPS_PER_SECOND, arguments_of
 from framegen.reading.findings import did_you_mean
 
@@ -30,7 +30,7 @@ def _look(model: Model) -> Iterator[Problem]:
 
 
 def _misuse(name: str, message: Message, sent: Direction) -> tuple[str, str] | None:
-    """What keeps the message from starting anything that a client could wait for."""
+    """Say why a client cannot wait for the end of what the message starts."""
     if message.direction != sent:
         what = f"{name} goes {message.direction}, and a client sends {sent}"
         return what, "only what a client sends can be waited for"
@@ -41,20 +41,20 @@ def _misuse(name: str, message: Message, sent: Direction) -> tuple[str, str] | N
 
 
 def _no_time(name: str, message: Message, lasts: str) -> tuple[str, str] | None:
-    """What keeps the field from being a time."""
+    """Say why the field is not a time."""
     times = [each for each in arguments_of(message) if _is_time(message, each)]
     field = message.fields.get(lasts)
     if field is None or lasts not in arguments_of(message):
-        return f"{name} is not given `{lasts}`", did_you_mean(lasts, times)
+        return f"{name} has no argument `{lasts}`", did_you_mean(lasts, times)
     if not isinstance(field, NumberField) or field.counted_by is not None:
         return f"`{lasts}` is a list, and not one time", did_you_mean(lasts, times)
     if field.unit not in STEPS_PER_SECOND:
         return f"`{lasts}` has no unit of time", f"give it {_UNITS}, or name another field"
-    wire = WIRE_TYPES.get(field.type)
-    lowest = field.range.low if field.range is not None else 0 if wire is None else wire.low
+    type_ = NUMBER_TYPES.get(field.type)
+    lowest = field.range.low if field.range is not None else 0 if type_ is None else type_.low
     if lowest < 0:
-        what = f"`{lasts}` may be below zero, and no time is"
-        return what, "take a type without a sign, or give it a `range` from 0 on"
+        what = f"`{lasts}` may be negative, and a time is not"
+        return what, "use an unsigned type, or a `range` from 0 on"
     return None
 
 
@@ -67,9 +67,9 @@ def _is_time(message: Message, name: str) -> bool:
 
 RULE = ModelRule(
     id="lasts",
-    title="How long something goes on is a time that the message gives",
-    why="A client adds it to the moment at which the message has left, and waits until then: what "
-    "is in no known unit, or below zero, is no time to wait for.",
+    title="The field that says how long a motion lasts is a time, and is given by the client",
+    why="A client adds it to the time at which the message has left, and waits until then: "
+    "without a known unit, or below zero, there is nothing to wait for.",
     bad="LampFade: {lasts: level}",
     good="LampFade: {lasts: fade_ms}",
     look=_look,

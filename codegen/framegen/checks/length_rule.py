@@ -41,7 +41,7 @@ def _fault(message: MessageLayout) -> str | None:
 RULE = ModelRule(
     id="length-rule",
     title="The length rule of a message is the length of its fields, for every legal count",
-    why="The rule is what the document says, the fields are what the code does. Where the two "
+    why="The rule is what the document says, and the fields are what the code does. If they "
     "disagree, one of them is wrong.",
     bad="length: 3 * lamp_count + 5  # and fields of 2 bytes a lamp",
     good="length: 2 * lamp_count + 5",

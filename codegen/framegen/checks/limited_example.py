@@ -1,4 +1,4 @@
-"""Rule: what an example sends is inside the limits of one device or another."""
+"""Rule: an example stays within the limits of at least one device."""
 
 from __future__ import annotations
 
@@ -24,13 +24,13 @@ def _look(model: Model) -> Iterator[Problem]:
                 continue
             for path, limits in message.limited.items():
                 outer, _, inner = path.partition(".")
-                told = values[outer]
-                for item in told if isinstance(told, list) else [told]:
+                given = values[outer]
+                for item in given if isinstance(given, list) else [given]:
                     value = item[inner] if inner else item
                     if not _inside(limits, value):
                         here = ("messages", name, "examples", number, "values", outer)
                         what = f"`{inner or outer}` is {value}, outside all limits"
-                        yield Problem(here, what, "mend the example, or widen the limits")
+                        yield Problem(here, what, "correct the example, or widen the limits")
 
 
 def _inside(limits: Limits, value: int) -> bool:
@@ -40,9 +40,9 @@ def _inside(limits: Limits, value: int) -> bool:
 
 RULE = ModelRule(
     id="limited-example",
-    title="What an example sends is inside the limits of one device or another",
-    why="A frame that was published for a device is one that it takes: limits that refuse it are "
-    "wrong, or forget that device.",
+    title="An example stays within the limits of at least one device",
+    why="A device accepts a frame that was published for it: limits that refuse it are wrong, or "
+    "omit that device.",
     bad="level: {type: u16, limits: {usual: 0..50}}  # and an example with 100",
     good="level: {type: u16, limits: {usual: 0..100}}  # and an example with 100",
     look=_look,

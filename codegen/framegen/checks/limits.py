@@ -1,4 +1,4 @@
-"""Rule: limits are values that the field can have, the same wherever a client has them."""
+"""Rule: limits lie inside the field's range, and are the same wherever the field occurs."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 from framegen.checks.fields import numbers_of
 from framegen.checks.rule import ModelRule, Problem
-from framegen.language.wiretypes import WIRE_TYPES
+from framegen.language.number_types import NUMBER_TYPES
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -25,7 +25,7 @@ def _look(model: Model) -> Iterator[Problem]:
                 continue
             here = (*path, "limits")
             if message.direction != model.roles.sent:
-                what = f"{name} is no message of a client's, which has nothing to refuse in it"
+                what = f"{name} is not sent by the client, so there is nothing to limit"
                 yield Problem(here, what, "leave the limits out", on_key=True)
                 continue
             yield from _bounds((*here, "usual"), field.limits.usual, field)
@@ -33,13 +33,15 @@ def _look(model: Model) -> Iterator[Problem]:
                 yield from _bounds((*here, "others", other), range_, field)
             first = first or (here, field.limits)
             if field.limits != first[1]:
-                what = "these limits are others than those above, and a client is told one pair"
+                what = "these limits differ from those above, and a client has one pair"
                 also = (first[0], "the first are here")
-                yield Problem(here, what, "give every field the same ones", on_key=True, also=also)
+                yield Problem(
+                    here, what, "give every field the same limits", on_key=True, also=also
+                )
 
 
 def _bounds(path: KeyPath, range_: Range, field: NumberField) -> Iterator[Problem]:
-    wire = WIRE_TYPES.get(field.type)
+    type_ = NUMBER_TYPES.get(field.type)
     if range_.high is None:
         yield Problem(path, f"the limits {range_} have no end", "write both ends, like 0..1000")
         return
@@ -47,12 +49,12 @@ def _bounds(path: KeyPath, range_: Range, field: NumberField) -> Iterator[Proble
         what = f"the limits {range_} begin above their end"
         yield Problem(path, what, f"write {range_.high}..{range_.low}")
         return
-    if wire is None:
+    if type_ is None:
         return
-    low, high = wire.low, wire.high
+    low, high = type_.low, type_.high
     if field.range is not None:
         low = field.range.low
-        high = wire.high if field.range.high is None else field.range.high
+        high = type_.high if field.range.high is None else field.range.high
     for end in dict.fromkeys((range_.low, range_.high)):
         if not low <= end <= high:
             what = f"{end} is outside {low}..{high}, which the field allows"
@@ -61,9 +63,9 @@ def _bounds(path: KeyPath, range_: Range, field: NumberField) -> Iterator[Proble
 
 RULE = ModelRule(
     id="limits",
-    title="Limits are values that the field can have, the same wherever a client has them",
-    why="A client refuses what is outside: by limits that no frame can reach it refuses nothing, "
-    "and of two pairs nobody could say which one `limits=` is about.",
+    title="Limits lie inside the field's range, and are the same wherever the field occurs",
+    why="A client refuses values outside its limits: limits beyond the range refuse nothing, and "
+    "with two different pairs it is unclear which one `limits=` changes.",
     bad="level: {type: u8, limits: {usual: 0..1000}}",
     good="level: {type: u16, limits: {usual: 0..1000}}",
     look=_look,

@@ -32,7 +32,7 @@ def _look(spec: Spec) -> Iterator[Problem]:
 RULE = StructureRule(
     id="list-last",
     title="A message has at most one list, and it ends the message",
-    why="So every other field has a fixed place, and the length tells the count without looking.",
+    why="Then every other field has a fixed place, and the count follows from the length.",
     bad="fields: {lamp_count: ..., lamps: ..., fade_ms: ...}",
     good="fields: {lamp_count: ..., fade_ms: ..., lamps: ...}",
     look=_look,

@@ -20,7 +20,7 @@ def _look(model: Model) -> Iterator[Problem]:
             found = recognise(model, example.hex)
             if found is None:
                 text = f"this is no frame of {lookalike.title}"
-                yield Problem(path, text, "check its length, its checksum and its codes")
+                yield Problem(path, text, "check its length, its checksum and its ids")
             elif found.name != name:
                 yield Problem(path, f"this is a frame of {found.lookalike.title}")
 
@@ -28,7 +28,7 @@ def _look(model: Model) -> Iterator[Problem]:
 RULE = ModelRule(
     id="lookalike-example",
     title="Every example of a look-alike is recognised as one",
-    why="People paste such frames to learn why nothing answers them: they must be told.",
+    why="People paste such frames to learn why nothing answers them: they must be recognised.",
     bad="hex: AA 55 01 03 07 00  # with a wrong checksum",
     good="hex: AA 55 01 03 07 F4",
     look=_look,

@@ -35,7 +35,7 @@ def _look(spec: Spec) -> Iterator[Problem]:
 RULE = StructureRule(
     id="lookalike-frame",
     title="The frame of a look-alike is made of parts that fit together",
-    why="A frame of it is told by its parts, its length and its checksum above all.",
+    why="A look-alike is recognised by the parts of its frame, above all by length and checksum.",
     bad="frame: {header: ..., checksum: ..., parameters: ...}",
     good="frame: {header: ..., length: ..., command: ..., parameters: ..., checksum: ...}",
     look=_look,

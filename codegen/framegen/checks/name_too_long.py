@@ -1,4 +1,4 @@
-"""Rule: a name is short enough for a line of code to hold it."""
+"""Rule: names are short enough for a line of code."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 from framegen.checks.fields import owned_numbers
 from framegen.checks.rule import Problem, StructureRule
-from framegen.language.spec import GroupField
+from framegen.language.spec import ListField
 from framegen.model.exchanges import snake_case
 
 if TYPE_CHECKING:
@@ -51,7 +51,7 @@ def _messages(spec: Spec) -> Iterator[Problem]:
         for key, field in message.fields.items():
             inside = (*here, "fields", key)
             yield from _name(inside, key, _OTHERS)
-            if isinstance(field, GroupField):
+            if isinstance(field, ListField):
                 yield from _class((*inside, "element"), field.element, on_key=False)
                 for inner in field.fields:
                     yield from _name((*inside, "fields", inner), inner, _OTHERS)
@@ -80,9 +80,9 @@ def _name(path: KeyPath, name: str, most: int, *, on_key: bool = True) -> Iterat
 
 RULE = StructureRule(
     id="name-too-long",
-    title="A name is short enough for a line of code to hold it",
-    why="Names are written as they are, often two in a line: a message and its handler, a field "
-    "and its value. What no line can hold, nobody wants to type, either.",
+    title="Names are short enough for a line of code",
+    why="Names appear in code as they are, often two in a line: a message and its handler, a "
+    "field and its value.",
     bad="fields: {the_position_that_the_first_of_all_the_lamps_of_the_row_has: {type: u16}}",
     good="fields: {position: {type: u16}}",
     look=_look,

@@ -1,4 +1,4 @@
-"""Rule: a named value is one that the field can have, and has one name."""
+"""Rule: a named value is inside the field's range, and has one name."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 from framegen.checks.fields import numbers
 from framegen.checks.rule import Problem, StructureRule
-from framegen.language.wiretypes import WIRE_TYPES
+from framegen.language.number_types import NUMBER_TYPES
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -32,24 +32,26 @@ def _look(spec: Spec) -> Iterator[Problem]:
 
 
 def _outside(path: KeyPath, field: NumberField, name: str, value: int) -> Iterator[Problem]:
-    wire = WIRE_TYPES.get(field.type)
-    if wire is None:
+    type_ = NUMBER_TYPES.get(field.type)
+    if type_ is None:
         return
-    low, high = wire.low, wire.high
+    low, high = type_.low, type_.high
     if field.range is not None:
         low = field.range.low
-        high = wire.high if field.range.high is None else field.range.high
+        high = type_.high if field.range.high is None else field.range.high
     if not low <= value <= high:
         yield Problem(
-            path, f"`{name}` is {value}, outside {low}..{high}", "widen the range or mend it"
+            path,
+            f"`{name}` is {value}, outside {low}..{high}",
+            "widen the range or correct the value",
         )
 
 
 RULE = StructureRule(
     id="named-value",
-    title="A named value is one that the field can have, and has one name",
-    why="A name for a value that is always refused promises what no frame can carry; two names for "
-    "one value leave open which of them a decoder shows.",
+    title="A named value is inside the field's range, and has one name",
+    why="A name for a value that is always refused is useless; with two names for one value it is "
+    "unclear which of them a decoder shows.",
     bad="{type: u8, range: 0..100, values: {off: {value: 255}}}",
     good="{type: u8, range: 0..100, values: {off: {value: 0}}}",
     look=_look,

@@ -20,7 +20,7 @@ def _look(spec: Spec) -> Iterator[Problem]:
 RULE = StructureRule(
     id="no-message",
     title="A spec has messages",
-    why="Nothing was checked where nothing was said, and a library for no message helps nobody.",
+    why="A library without messages helps nobody.",
     bad="messages: {}",
     good="messages: {LampOff: {id: 2, direction: host -> lamp, ...}}",
     look=_look,

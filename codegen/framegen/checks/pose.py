@@ -1,12 +1,12 @@
-"""Rule: positions are read, commanded and let go by messages that speak of the same things."""
+"""Rule: the messages that read, command and release positions have the same fields."""
 
 from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
 from framegen.checks.rule import ModelRule, Problem
-from framegen.language.spec import GroupField, NumberField
-from framegen.language.wiretypes import WIRE_TYPES
+from framegen.language.number_types import NUMBER_TYPES
+from framegen.language.spec import ListField, NumberField
 from framegen.model.exchanges import arguments_of
 from framegen.reading.findings import did_you_mean
 
@@ -28,22 +28,22 @@ def _look(model: Model) -> Iterator[Problem]:
     read, move, release = (
         spec.messages[name] for name in (spec.pose.read, spec.pose.move, spec.pose.release)
     )
-    asked = _lone_list(read)
-    told = None if asked is None else _told(spec, read, asked)
-    if asked is None or told is None:
-        what = f"{spec.pose.read} does not ask for a list of numbers alone, each with its position"
-        hint = "its reply repeats the list (`echoed`), in elements of a number and a position"
+    requested = _lone_list(read)
+    reported = None if requested is None else _reported(spec, read, requested)
+    if requested is None or reported is None:
+        what = f"{spec.pose.read} does not request positions by a list of numbers alone"
+        hint = "its reply has to repeat the list (`echoed`) in elements of a number and a position"
         yield Problem(("pose", "read"), what, hint)
         return
-    yield from _ids(spec.pose, read.fields[asked])
-    yield from _move(spec.pose.move, move, told)
-    if asked in arguments_of(move) and move.fields[asked].counted_by is None:
-        what = f"`{spec.pose.hold}` would be given two things called `{asked}`"
-        hint = f"call them by different names in {spec.pose.read} and {spec.pose.move}"
+    yield from _ids(spec.pose, read.fields[requested])
+    yield from _move(spec.pose.move, move, reported)
+    if requested in arguments_of(move) and move.fields[requested].counted_by is None:
+        what = f"`{spec.pose.hold}` would have two arguments named `{requested}`"
+        hint = f"give them different names in {spec.pose.read} and {spec.pose.move}"
         yield Problem(("pose", "hold"), what, hint)
-    if _lone_list(release) != asked:
-        what = f"{spec.pose.release} does not let go of a list `{asked}` alone"
-        yield Problem(("pose", "release"), what, f"{spec.pose.read} is given `{asked}`")
+    if _lone_list(release) != requested:
+        what = f"{spec.pose.release} does not release a list `{requested}` alone"
+        yield Problem(("pose", "release"), what, f"{spec.pose.read} has `{requested}`")
 
 
 def _messages(model: Model, pose: Pose) -> Iterator[Problem]:
@@ -54,12 +54,12 @@ def _messages(model: Model, pose: Pose) -> Iterator[Problem]:
             there = "is no message of a client's" if name in model.messages else "is no message"
             yield Problem(("pose", key), f"`{name}` {there}", did_you_mean(name, sent))
     if pose.release == pose.read:
-        what = f"{pose.read} asks for positions, and cannot let go of them as well"
-        yield Problem(("pose", "release"), what, "name the message that lets go")
+        what = f"{pose.read} requests positions, and cannot release them as well"
+        yield Problem(("pose", "release"), what, "name the message that releases them")
 
 
 def _lone_list(message: Message) -> str | None:
-    """The list of numbers that is all that a message is given."""
+    """Return the list of numbers, if it is all that the message is given."""
     names = arguments_of(message)
     if len(names) != 1:
         return None
@@ -68,45 +68,45 @@ def _lone_list(message: Message) -> str | None:
     return names[0] if listed else None
 
 
-def _told(spec: Spec, read: Message, asked: str) -> list[str] | None:
-    """The fields of an element of the reply: the number that was asked about, and its position."""
+def _reported(spec: Spec, read: Message, requested: str) -> list[str] | None:
+    """Return the fields of an element of the reply: the requested number, and its position."""
     reply = None if read.reply is None else spec.messages.get(read.reply)
-    name, _, inner = read.echoed.get(asked, "").partition(".")
-    group = None if reply is None else reply.fields.get(name)
-    if not isinstance(group, GroupField):
+    name, _, inner = read.echoed.get(requested, "").partition(".")
+    items = None if reply is None else reply.fields.get(name)
+    if not isinstance(items, ListField):
         return None
-    fields = list(group.fields)
+    fields = list(items.fields)
     return fields if len(fields) == 2 and fields[0] == inner else None
 
 
-def _ids(pose: Pose, field: NumberField | GroupField) -> Iterator[Problem]:
-    wire = WIRE_TYPES.get(getattr(field, "type", ""))
+def _ids(pose: Pose, field: NumberField | ListField) -> Iterator[Problem]:
+    type_ = NUMBER_TYPES.get(getattr(field, "type", ""))
     low, high = pose.ids.low, pose.ids.high
     if high is None or low > high:
-        what = f"the numbers {pose.ids} have no end, or one below their beginning"
+        what = f"the ids {pose.ids} have no end, or end before they begin"
         yield Problem(("pose", "ids"), what, "write both ends, like 1..253")
-    elif wire is not None and not wire.low <= low <= high <= wire.high:
-        what = f"{pose.ids} is more than {wire.low}..{wire.high}, which {wire.name} holds"
+    elif type_ is not None and not type_.low <= low <= high <= type_.high:
+        what = f"{pose.ids} is outside {type_.low}..{type_.high}, which {type_.name} holds"
         yield Problem(("pose", "ids"), what, "keep them inside the type")
 
 
-def _move(name: str, move: Message, told: list[str]) -> Iterator[Problem]:
+def _move(name: str, move: Message, reported: list[str]) -> Iterator[Problem]:
     given = {key: move.fields[key] for key in arguments_of(move)}
-    groups = [field for field in given.values() if isinstance(field, GroupField)]
-    if [list(group.fields) for group in groups] != [told]:
-        what = f"{name} has no list of elements with the fields {' and '.join(told)}"
-        yield Problem(("pose", "move"), what, "name them as the reply has them")
+    lists = [field for field in given.values() if isinstance(field, ListField)]
+    if [list(items.fields) for items in lists] != [reported]:
+        what = f"{name} has no list of elements with the fields {' and '.join(reported)}"
+        yield Problem(("pose", "move"), what, "name the fields as in the reply")
     numbers = [field for field in given.values() if isinstance(field, NumberField)]
     if len(numbers) != 1 or numbers[0].counted_by is not None:
-        what = f"{name} is not given one number besides the list"
-        yield Problem(("pose", "move"), what, "it has to be the milliseconds that the motion takes")
+        what = f"{name} does not have one number besides the list"
+        yield Problem(("pose", "move"), what, "it has to be the time of the motion in milliseconds")
 
 
 RULE = ModelRule(
     id="pose",
-    title="Positions are read, commanded and let go by messages that speak of the same things",
-    why="A client holds what it has read, and plays what was recorded: the numbers of a reply have "
-    "to be those that a command takes.",
+    title="The messages that read, command and release positions have the same fields",
+    why="A client holds the positions that it has read, and plays those that were recorded: the "
+    "fields of a reply have to be those that a command takes.",
     bad="pose: {read: LampRead, move: FansSet, ...}",
     good="pose: {read: LampsRead, move: LampsSet, ...}",
     look=_look,

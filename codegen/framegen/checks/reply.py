@@ -30,7 +30,7 @@ def _look(spec: Spec) -> Iterator[Problem]:
             if other is None:
                 yield Problem(path, f"there is no message `{answer}`", hint)
             else:
-                what = f"{answer} goes {other.direction}, and what answers {name} goes {way}"
+                what = f"{answer} goes {other.direction}, and an answer to {name} goes {way}"
                 also = (("messages", answer, "direction"), f"the direction of {answer}")
                 yield Problem(path, what, hint, also=also)
 
@@ -45,7 +45,7 @@ def _answers(path: KeyPath, message: Message) -> Iterator[tuple[KeyPath, str]]:
 RULE = StructureRule(
     id="reply",
     title="Replies and reports are messages of the other direction",
-    why="A client waits for the reply by its name: for one that cannot come, it waits in vain.",
+    why="A client waits for the reply by its name: one that cannot arrive is waited for in vain.",
     bad="LampRead: {direction: host -> lamp, reply: LampRead}",
     good="LampRead: {direction: host -> lamp, reply: LampState}",
     look=_look,

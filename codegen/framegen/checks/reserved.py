@@ -1,4 +1,4 @@
-"""Rule: what is reserved is not used."""
+"""Rule: reserved ids and names are not used."""
 
 from __future__ import annotations
 
@@ -17,13 +17,13 @@ def _look(spec: Spec) -> Iterator[Problem]:
     for index, reserved in enumerate(spec.reserved):
         path: KeyPath = ("reserved", index)
         if reserved.id is None and reserved.name is None:
-            yield Problem(path, "this reserves nothing", "give an `id`, a `name`, or both")
+            yield Problem(path, "nothing is reserved here", "give an `id`, a `name`, or both")
         for name, message in spec.messages.items():
             ways = (None, message.direction)
             if message.id == reserved.id and reserved.direction in ways:
                 yield Problem(
                     ("messages", name, "id"),
-                    f"the code {message.id} is reserved: {reserved.why}",
+                    f"the id {message.id} is reserved: {reserved.why}",
                     "choose another code",
                     also=((*path, "id"), "it is reserved here"),
                 )
@@ -39,9 +39,9 @@ def _look(spec: Spec) -> Iterator[Problem]:
 
 RULE = StructureRule(
     id="reserved",
-    title="What is reserved is not used",
-    why="A code or a name that once meant something still means it to devices and programs in use.",
-    bad="reserved: [{id: 7, why: It was LampFade until 2.0.}]  # and a message with the code 7",
-    good="reserved: [{id: 7, why: It was LampFade until 2.0.}]  # and no message with that code",
+    title="Reserved ids and names are not used",
+    why="Devices and programs in use still know the former meaning of an id or a name.",
+    bad="reserved: [{id: 7, why: It was LampFade until 2.0.}]  # and a message with the id 7",
+    good="reserved: [{id: 7, why: It was LampFade until 2.0.}]  # and no message with that id",
     look=_look,
 )

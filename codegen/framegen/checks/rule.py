@@ -1,4 +1,4 @@
-"""What a rule is: its id, why it exists, an example of each side, and how it is looked for."""
+"""The kinds of rules: id, reason, an example of each side, and the check itself."""
 
 from __future__ import annotations
 
@@ -19,9 +19,10 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, slots=True)
 class Problem:
-    """Something that a rule found, by path; `on_key` points at the key instead of its value.
+    """A violation of a rule, by path; `on_key` points at the key instead of its value.
 
-    A hint that takes a search among thousands of names is given as what finds it.
+    A hint that takes a search among many names is a function, called only for findings that are
+    shown.
     """
 
     path: KeyPath
@@ -31,11 +32,11 @@ class Problem:
     also: tuple[KeyPath, str] | None = None
 
     def span(self, tree: Tree) -> Span:
-        """Find the place in the text."""
+        """Return the place in the text."""
         return tree.key_at(self.path) if self.on_key else tree.value_at(self.path)
 
     def finding(self, rule: str, tree: Tree, *, hinted: bool = True) -> Finding:
-        """Place the problem in the text; with a hint that has to be searched for, if asked to."""
+        """Make a finding of the problem; a hint that has to be searched for only if asked to."""
         related = () if self.also is None else (Related(tree.key_at(self.also[0]), self.also[1]),)
         hint = self.hint if isinstance(self.hint, str) else self.hint() if hinted else ""
         return Finding(rule, self.span(tree), dotted(self.path), self.message, hint, related)
@@ -67,7 +68,7 @@ class ModelRule:
 
 @dataclass(frozen=True, slots=True)
 class ReadingRule:
-    """A rule that is looked after while a spec is read, where its text is still at hand."""
+    """A rule that is checked while a spec is read."""
 
     id: str
     title: str

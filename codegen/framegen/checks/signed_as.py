@@ -1,4 +1,4 @@
-"""Rule: a number that can be read as signed is unsigned itself, and as wide."""
+"""Rule: a number that is read as signed is unsigned itself, and as wide."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 from framegen.checks.fields import owned_numbers
 from framegen.checks.rule import Problem, StructureRule
-from framegen.language.wiretypes import WIRE_TYPES
+from framegen.language.number_types import NUMBER_TYPES
 from framegen.reading.findings import did_you_mean
 
 if TYPE_CHECKING:
@@ -22,32 +22,32 @@ def _look(spec: Spec) -> Iterator[Problem]:
             if field.signed_as is not None:
                 here = (*path, name, "signed_as")
                 yield from _type(here, field, field.signed_as)
-                yield from _listed(here, field)
+                yield from _in_list(here, field)
 
 
 def _type(path: KeyPath, field: NumberField, signed_as: str) -> Iterator[Problem]:
-    signed = [wire.name for wire in WIRE_TYPES.values() if wire.low < 0]
-    wire = WIRE_TYPES.get(field.type)
+    signed = [type_.name for type_ in NUMBER_TYPES.values() if type_.low < 0]
+    type_ = NUMBER_TYPES.get(field.type)
     if signed_as not in signed:
         yield Problem(path, f"`{signed_as}` is no signed type", did_you_mean(signed_as, signed))
-    elif wire is not None and wire.low < 0:
-        yield Problem(path, f"{wire.name} is signed already", "leave `signed_as` out")
-    elif wire is not None and wire.size != WIRE_TYPES[signed_as].size:
-        same = next(name for name in signed if WIRE_TYPES[name].size == wire.size)
-        yield Problem(path, f"{signed_as} is not as wide as {wire.name}", f"write {same}")
+    elif type_ is not None and type_.low < 0:
+        yield Problem(path, f"{type_.name} is signed already", "leave `signed_as` out")
+    elif type_ is not None and type_.size != NUMBER_TYPES[signed_as].size:
+        same = next(name for name in signed if NUMBER_TYPES[name].size == type_.size)
+        yield Problem(path, f"{signed_as} is not as wide as {type_.name}", f"write {same}")
 
 
-def _listed(path: KeyPath, field: NumberField) -> Iterator[Problem]:
+def _in_list(path: KeyPath, field: NumberField) -> Iterator[Problem]:
     if field.counted_by is not None:
-        what = "numbers in a list have no properties that could tell them as signed"
+        what = "numbers in a list have no properties that could read them as signed"
         yield Problem(path, what, "give the list an `element` with fields", on_key=True)
 
 
 RULE = StructureRule(
     id="signed-as",
-    title="A number that can be read as signed is unsigned itself, and as wide",
-    why="The bits are the same and only their meaning differs: `signed_position` tells what "
-    "`position` is when it wraps round below zero.",
+    title="A number that is read as signed is unsigned itself, and as wide",
+    why="The bits are the same and only their meaning differs: `signed_position` is the value of "
+    "`position` where it wraps round below zero.",
     bad="position: {type: u16, signed_as: i8}",
     good="position: {type: u16, signed_as: i16}",
     look=_look,

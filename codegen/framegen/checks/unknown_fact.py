@@ -1,4 +1,4 @@
-"""Rule: every erratum and every unknown is about something that is there."""
+"""Rule: every erratum and every unknown names something that exists."""
 
 from __future__ import annotations
 
@@ -46,8 +46,8 @@ def _missing(
 
 RULE = ModelRule(
     id="unknown-fact",
-    title="Every erratum and every unknown is about something that is there",
-    why="What is said about a field that was renamed or removed is said about nothing.",
+    title="Every erratum and every unknown names something that exists",
+    why="A statement about a field that was renamed or removed is a statement about nothing.",
     bad="concerns: {message: LampSet, field: precent}",
     good="concerns: {message: LampSet, field: percent}",
     look=_look,

@@ -1,4 +1,4 @@
-"""Rule: every source cited is declared."""
+"""Rule: every cited source is declared."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ def _look(spec: Spec) -> Iterator[Problem]:
 
 
 def _cited(path: KeyPath, value: Any) -> Iterator[tuple[KeyPath, str]]:
-    """Find the citations in `value`, wherever the language has one now or later."""
+    """Find the citations in `value`, wherever the language allows one."""
     if isinstance(value, Citation):
         yield path, value.source
     elif isinstance(value, BaseModel):
@@ -44,9 +44,9 @@ def _cited(path: KeyPath, value: Any) -> Iterator[tuple[KeyPath, str]]:
 
 RULE = StructureRule(
     id="unknown-source",
-    title="Every source cited is declared",
-    why="A fact is worth what its source is worth, and a source that is not declared is worth "
-    "nothing to a reader.",
+    title="Every cited source is declared",
+    why="A fact is only as good as its source, and readers cannot look up one that is not "
+    "declared.",
     bad="cite: vender, section 1.1",
     good="cite: vendor, section 1.1",
     look=_look,

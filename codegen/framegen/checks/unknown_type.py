@@ -5,8 +5,8 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from framegen.checks.rule import Problem, StructureRule
-from framegen.language.spec import GroupField
-from framegen.language.wiretypes import WIRE_TYPES
+from framegen.language.number_types import NUMBER_TYPES
+from framegen.language.spec import ListField
 from framegen.reading.findings import did_you_mean
 
 if TYPE_CHECKING:
@@ -18,8 +18,8 @@ if TYPE_CHECKING:
 
 def _look(spec: Spec) -> Iterator[Problem]:
     for path, type_ in _types(spec):
-        if type_ not in WIRE_TYPES:
-            yield Problem(path, f"unknown type `{type_}`", did_you_mean(type_, WIRE_TYPES))
+        if type_ not in NUMBER_TYPES:
+            yield Problem(path, f"unknown type `{type_}`", did_you_mean(type_, NUMBER_TYPES))
 
 
 def _types(spec: Spec) -> Iterator[tuple[KeyPath, str]]:
@@ -34,7 +34,7 @@ def _types(spec: Spec) -> Iterator[tuple[KeyPath, str]]:
     for name, message in spec.messages.items():
         for field_name, field in message.fields.items():
             here = ("messages", name, "fields", field_name)
-            if isinstance(field, GroupField):
+            if isinstance(field, ListField):
                 for inner_name, inner in field.fields.items():
                     yield (*here, "fields", inner_name, "type"), inner.type
             else:
@@ -44,7 +44,7 @@ def _types(spec: Spec) -> Iterator[tuple[KeyPath, str]]:
 RULE = StructureRule(
     id="unknown-type",
     title="Every type is one that the language has",
-    why="A misspelt type has no size, and nothing after it would have a place.",
+    why="A type that does not exist has no size, so no later field would have a place.",
     bad="time_ms: {type: u17}",
     good="time_ms: {type: u16}",
     look=_look,

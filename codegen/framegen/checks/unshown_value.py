@@ -1,4 +1,4 @@
-"""Rule: an example shows every named value, every end of a range, and what is below zero."""
+"""Rule: examples show every named value, both ends of a range, and negative values."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 from framegen.checks.fields import numbers_of
 from framegen.checks.rule import ModelRule, Problem
-from framegen.language.wiretypes import WIRE_TYPES
+from framegen.language.number_types import NUMBER_TYPES
 from framegen.model.codec import NotAFrame, decode
 
 if TYPE_CHECKING:
@@ -37,8 +37,8 @@ def _look(model: Model) -> Iterator[Problem]:
                 if end is not None and end not in there:
                     text = f"no example of {name} shows {end}, an end of the range"
                     yield Problem((*path, "range"), text, _HINT)
-            if field.signed_as and max(there, default=0) <= WIRE_TYPES[field.signed_as].high:
-                text = f"no example of {name} shows a value that `signed_as` tells below zero"
+            if field.signed_as and max(there, default=0) <= NUMBER_TYPES[field.signed_as].high:
+                text = f"no example of {name} shows a value that `signed_as` makes negative"
                 yield Problem((*path, "signed_as"), text, _HINT)
 
 
@@ -58,8 +58,8 @@ def _shown(model: Model, message: MessageLayout) -> dict[KeyPath, set[int]]:
 
 RULE = ModelRule(
     id="unshown-value",
-    title="An example shows every named value, every end of a range, and what is below zero",
-    why="The values at the edge are where a width or a sign goes wrong unseen.",
+    title="Examples show every named value, both ends of a range, and negative values",
+    why="Values at the ends of a range show a wrong width or a wrong sign.",
     bad="level: {type: u8, range: 0..100}  # and examples with 50 alone",
     good="level: {type: u8, range: 0..100}  # and examples with 0 and 100",
     look=_look,

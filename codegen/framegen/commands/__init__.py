@@ -1,1 +1,1 @@
-"""The verbs of the command, one module each; a module is imported when its verb is used."""
+"""The verbs of the command, one module each, imported when the verb is used."""

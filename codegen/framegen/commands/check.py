@@ -1,4 +1,4 @@
-"""`framegen check`: everything that can be said against a spec."""
+"""`framegen check`: every finding about a spec."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ import sys
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from framegen.wording import counted
+from framegen.pluralize import pluralize
 
 if TYPE_CHECKING:
     from argparse import ArgumentParser, Namespace
@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from framegen.reading.findings import Finding
     from framegen.targets.target import BentName
 
-SUMMARY = "Look for everything that is wrong with a spec, its examples and errata included."
+SUMMARY = "Check a spec against all rules, its examples and errata included."
 EXAMPLES = (
     ("framegen check", "every spec/*.yaml, here or in a folder above"),
     ("framegen check spec/busservo.yaml", "this spec"),
@@ -33,10 +33,10 @@ def add_arguments(parser: ArgumentParser) -> None:
 
 
 def run(arguments: Namespace) -> int:
-    """Print the findings; to the error stream, what is no finding. 1 where there are any.
+    """Print the findings; counts and remarks go to the error stream. Return 1 if there are any.
 
-    That is how many there are, and which names a target writes otherwise: whoever counts lines of
-    the output counts findings.
+    The error stream also names what a target writes otherwise, so that lines of the output are
+    findings.
     """
     from framegen.commands.spec_argument import compiled  # noqa: PLC0415
     from framegen.project import all_specs  # noqa: PLC0415
@@ -71,7 +71,7 @@ def _json(each: Compiled, finding: Finding) -> str:
 
 
 def _notes(each: Compiled) -> Iterator[str]:
-    """Say each name that a target writes otherwise once, where it comes first."""
+    """Name each name that a target writes otherwise, once, where it first occurs."""
     from framegen.targets.table import TARGETS  # noqa: PLC0415
 
     if each.findings:
@@ -83,7 +83,7 @@ def _notes(each: Compiled) -> Iterator[str]:
         for (name, bent), found_there in places.items():
             first, *others = found_there
             at = each.tree.key_at(first.path)
-            also = f" (and so in {counted(len(others), 'place')} more)" if others else ""
+            also = f" (and so in {pluralize(len(others), 'place')} more)" if others else ""
             yield (
                 f"{each.source.name}:{at.line}:{at.column}: note: {target.name} writes the "
                 f"{first.kind} `{name}` as `{bent}`{also}: it {first.why}"
@@ -93,12 +93,12 @@ def _notes(each: Compiled) -> Iterator[str]:
 def _summary(each: Compiled) -> str:
     name, spec, findings = each.source.name, each.read, each.findings
     if spec is None:
-        found = f"{counted(len(findings), 'finding')} in {name}"
+        found = f"{pluralize(len(findings), 'finding')} in {name}"
         return f"{found}; check again once its shape is mended, for what it says was not looked at"
     if findings:
-        return f"{counted(len(findings), 'finding')} in {name}"
+        return f"{pluralize(len(findings), 'finding')} in {name}"
     examples = sum(len(message.examples) for message in spec.messages.values())
     return (
-        f"{name}: {counted(len(spec.messages), 'message')}, {counted(examples, 'example')}, "
-        f"{counted(len(spec.errata), 'erratum', 'errata')} checked: nothing found"
+        f"{name}: {pluralize(len(spec.messages), 'message')}, {pluralize(examples, 'example')}, "
+        f"{pluralize(len(spec.errata), 'erratum', 'errata')} checked: nothing found"
     )

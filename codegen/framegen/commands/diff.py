@@ -1,4 +1,4 @@
-"""`framegen diff`: what lies between two editions of a spec, and what of it breaks."""
+"""`framegen diff`: compares two versions of a spec and classifies each change by what it breaks."""
 
 from __future__ import annotations
 
@@ -7,14 +7,14 @@ import sys
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from framegen.wording import counted
+from framegen.pluralize import pluralize
 
 if TYPE_CHECKING:
     from argparse import ArgumentParser, Namespace
 
     from framegen.comparison import Difference
 
-SUMMARY = "Tell what changed between two editions of a spec, and what of it breaks."
+SUMMARY = "Compare two versions of a spec, and classify each change by what it breaks."
 EXAMPLES = (
     ("framegen diff old.yaml", "from old.yaml to the only spec/*.yaml, here or above"),
     ("framegen diff old.yaml new.yaml", "from one to the other; 1 if anything breaks"),
@@ -26,12 +26,12 @@ EXAMPLES = (
 def add_arguments(parser: ArgumentParser) -> None:
     """Declare the arguments of the verb."""
     parser.add_argument("old", type=Path, metavar="OLD", help="a spec file")
-    parser.add_argument("new", nargs="?", type=Path, metavar="NEW", help="a later edition of it")
+    parser.add_argument("new", nargs="?", type=Path, metavar="NEW", help="a later version of it")
     parser.add_argument("--json", action="store_true", help="print each as a line of JSON")
 
 
 def run(arguments: Namespace) -> int:
-    """Print the differences, what breaks first. 1 where the wire or programs break."""
+    """Print the differences, the most serious first. 1 where the wire or programs break."""
     from framegen.commands.spec_argument import compiled  # noqa: PLC0415
     from framegen.comparison import differences  # noqa: PLC0415
 
@@ -68,4 +68,4 @@ def _summary(found: list[Difference]) -> str:
         f"{sum(difference.breaks == what for difference in found)} {words}"
         for what, words in (("wire", "break the wire"), ("programs", "break programs"))
     ]
-    return f"{counted(len(found), 'difference')}: {', '.join(counts)}"
+    return f"{pluralize(len(found), 'difference')}: {', '.join(counts)}"

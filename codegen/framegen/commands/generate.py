@@ -1,4 +1,4 @@
-"""`framegen generate`: everything that follows from the specs, written, compared or shown."""
+"""`framegen generate`: writes, compares or shows everything that follows from the specs."""
 
 from __future__ import annotations
 
@@ -8,8 +8,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from framegen.commands.output_arguments import add_force, add_spec
-from framegen.console import visible
-from framegen.wording import counted
+from framegen.console import table, visible
+from framegen.pluralize import pluralize
 
 if TYPE_CHECKING:
     from argparse import ArgumentParser, Namespace
@@ -22,13 +22,24 @@ if TYPE_CHECKING:
 
 SUMMARY = "Write the libraries, the reference, the test vectors and the editor schema of all specs."
 EXAMPLES = (
-    ("framegen generate", "write what spec/*.yaml asks for; only what differs is touched"),
+    ("framegen generate", "write the files of spec/*.yaml; only those that differ are touched"),
     ("framegen generate spec/busservo.yaml", "what this spec asks for, and no other"),
     ("framegen generate --target python", "the libraries alone"),
     ("framegen generate --diff", "show what that would change, and change nothing"),
     ("framegen generate --check", "fail if anything would change: for CI"),
     ("framegen generate --out build", "write below another folder"),
 )
+_WRITES = (
+    ("generated/NAME/", "the library of the spec with this `name`, and its test vectors"),
+    ("generated/NAME.manifest", "by what framegen knows its own files from those of others"),
+    ("docs/reference/NAME/", "the reference, in Markdown"),
+    ("spec/framegen.schema.json", "the schema for editors, with spec/framegen.manifest beside it"),
+)
+ABOUT = f"""\
+{table("what `framegen generate` writes", _WRITES)}
+
+These paths are below the folder that holds spec/, or for a spec that lies elsewhere below its own
+folder, or below --out. Only what framegen wrote is replaced or removed."""
 # Of many files that are in nobody's way, as many are named.
 _NAMED = 3
 
@@ -40,9 +51,7 @@ def add_arguments(parser: ArgumentParser) -> None:
     how.add_argument("--check", action="store_true", help="write nothing; 1 if anything differs")
     how.add_argument("--diff", action="store_true", help="write nothing; show what would change")
     add_force(how)
-    parser.add_argument(
-        "--target", metavar="NAME", help="write this target's files, and leave all others"
-    )
+    parser.add_argument("--target", metavar="NAME", help="write the files of this target alone")
     parser.add_argument(
         "--out",
         type=Path,
@@ -53,7 +62,7 @@ def add_arguments(parser: ArgumentParser) -> None:
 
 
 def run(arguments: Namespace) -> int:
-    """Check the specs, render them, and bring the disk to agree. 1: findings, or with --check."""
+    """Check the specs, render them, and update the disk. 1: findings, or changes with --check."""
     from framegen.commands.spec_argument import compiled, print_findings  # noqa: PLC0415
     from framegen.project import FOLDER, all_specs, project_root  # noqa: PLC0415
     from framegen.render import render, render_shared  # noqa: PLC0415
@@ -82,7 +91,7 @@ def run(arguments: Namespace) -> int:
 
 
 def _target(name: str) -> Target:
-    """Find a target by its name. Raises Unusable where there is none."""
+    """Find a target by its name. Raises Unusable."""
     from framegen.reading.findings import did_you_mean  # noqa: PLC0415
     from framegen.reading.yamltree import Unusable  # noqa: PLC0415
     from framegen.targets.table import TARGETS  # noqa: PLC0415
@@ -111,25 +120,25 @@ def _report(done: Written) -> None:
 
 
 def _remark(found: Survey | Written) -> None:
-    """Say what a reader may want to know, and need do nothing about."""
+    """Print a remark on the output that calls for no action."""
     for notice in found.notices:
         _tell(visible(notice))
     for path in found.strangers[:_NAMED]:
-        _tell(f"left alone, for framegen did not write it: {visible(path)}")
+        _tell(f"left alone, because framegen did not write it: {visible(path)}")
     if len(found.strangers) > _NAMED:
-        _tell(f"left alone, too: {counted(len(found.strangers) - _NAMED, 'more file')}")
+        _tell(f"left alone, too: {pluralize(len(found.strangers) - _NAMED, 'more file')}")
 
 
 def _sum_up(outputs: Sequence[Output], specs: Sequence[Compiled], root: Path, what: str) -> None:
-    files = counted(sum(len(output.files) + 1 for output in outputs), "file")
-    source = specs[0].source.name if len(specs) == 1 else counted(len(specs), "spec")
+    files = pluralize(sum(len(output.files) + 1 for output in outputs), "file")
+    source = specs[0].source.name if len(specs) == 1 else pluralize(len(specs), "spec")
     # Paths are shown as they are below the root: so it is told where that is another folder.
     below = "" if os.path.realpath(root) == os.path.realpath(Path()) else f" below {_near(root)}"
     _tell(f"{files} from {source}{below}: {what}")
 
 
 def _near(root: Path) -> str:
-    """Name a folder as it is seen from here, where that is shorter."""
+    """Name a folder relative to the current one, where that is shorter."""
     try:
         relative = os.path.relpath(root)
     except ValueError:  # on another drive

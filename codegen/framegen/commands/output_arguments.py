@@ -1,4 +1,4 @@
-"""The arguments that all verbs have which write: of which spec, and what may be replaced."""
+"""Arguments of all verbs that write files: which spec, and whether to replace files of others."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ if TYPE_CHECKING:
 
 
 def add_spec(parser: _ActionsContainer) -> None:
-    """Declare SPEC: one of the specs, or all that there are."""
+    """Declare SPEC: one of the specs, or all of them."""
     parser.add_argument(
         "spec",
         nargs="?",

@@ -1,4 +1,4 @@
-"""`framegen rules`: what `framegen check` looks for, and why."""
+"""`framegen rules`: lists the rules of `framegen check`, with their reasons."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ if TYPE_CHECKING:
 
     from framegen.checks.rule import AnyRule
 
-SUMMARY = "List the rules that a spec must keep, or tell why one of them exists."
+SUMMARY = "List the rules that a spec must keep, or explain one of them."
 EXAMPLES = (
     ("framegen rules", "every rule in a line"),
     ("framegen rules unknown-type", "why it exists, what breaks it and what keeps it"),
@@ -23,7 +23,7 @@ def add_arguments(parser: ArgumentParser) -> None:
 
 
 def run(arguments: Namespace) -> int:
-    """Print the rules, or one of them. Raises Unusable for a rule that there is not."""
+    """Print the rules, or one of them. Raises Unusable for an unknown rule."""
     from framegen.checks import RULES  # noqa: PLC0415
     from framegen.reading.findings import did_you_mean  # noqa: PLC0415
     from framegen.reading.yamltree import Unusable  # noqa: PLC0415

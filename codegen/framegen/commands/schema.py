@@ -1,4 +1,4 @@
-"""`framegen schema`: the spec language, for editors."""
+"""`framegen schema`: prints the JSON Schema of the spec language, for editors."""
 
 from __future__ import annotations
 
@@ -10,13 +10,13 @@ if TYPE_CHECKING:
 
 SUMMARY = "Print the JSON Schema of the spec language, for completion and help in an editor."
 EXAMPLES = (
-    ("framegen schema", "the whole language, each key with what it is for"),
+    ("framegen schema", "the whole language, each key with its description"),
     ("framegen schema > spec/framegen.schema.json", "where the first line of a spec points"),
 )
 
 
 def add_arguments(parser: ArgumentParser) -> None:
-    """Declare the arguments of the verb: none."""
+    """Declare no arguments: the verb has none."""
 
 
 def run(_arguments: Namespace) -> int:

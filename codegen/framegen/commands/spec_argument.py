@@ -1,4 +1,4 @@
-"""The SPEC that verbs are given: which file it is, and what it says."""
+"""The SPEC argument: finds the file and compiles it."""
 
 from __future__ import annotations
 
@@ -7,9 +7,9 @@ from typing import TYPE_CHECKING
 
 from framegen.compile import compile_spec
 from framegen.language.load import read_source
+from framegen.pluralize import pluralize
 from framegen.project import default_spec, named_spec
 from framegen.reading.yamltree import Unusable
-from framegen.wording import counted
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -19,9 +19,9 @@ if TYPE_CHECKING:
 
 
 def compiled(file: Path | None) -> Compiled:
-    """Compile `file`, which may be the name of a spec of the project, or else its only spec.
+    """Compile `file`, the named spec of the project, or the only spec.
 
-    Raises Unusable, with the place in its text, where it is no spec at all.
+    Raises Unusable, with the place in the text, where it is no spec at all.
     """
     if file is None:
         file = default_spec()
@@ -36,12 +36,12 @@ def compiled(file: Path | None) -> Compiled:
 
 
 def print_findings(specs: Sequence[Compiled]) -> bool:
-    """Print what is wrong with specs of which something was to be written; whether anything is."""
+    """Print the findings of specs that something was to be written of; return whether any is."""
     for spec in specs:
         for finding in spec.findings:
             print(finding.render(spec.source) + "\n")
         if spec.findings:
             sys.stdout.flush()
-            found = counted(len(spec.findings), "finding")
+            found = pluralize(len(spec.findings), "finding")
             print(f"{found} in {spec.source.name}: nothing was written", file=sys.stderr)
     return any(spec.findings for spec in specs)

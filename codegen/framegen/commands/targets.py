@@ -1,11 +1,11 @@
-"""`framegen targets`: what can be made of a spec, and the words that each target has taken."""
+"""`framegen targets`: lists the targets, and the names that each of them reserves."""
 
 from __future__ import annotations
 
 from textwrap import wrap
 from typing import TYPE_CHECKING
 
-from framegen.wording import counted
+from framegen.pluralize import pluralize
 
 if TYPE_CHECKING:
     from argparse import ArgumentParser, Namespace
@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from framegen.model.model import Model
     from framegen.targets.target import Target
 
-SUMMARY = "List the targets, or the words that one of them has taken and what they become."
+SUMMARY = "List the targets, or the reserved words of one of them and what they become."
 EXAMPLES = (
     ("framegen targets", "every target, with its folders"),
     ("framegen targets python", "the words that it has taken, and what a name becomes that is one"),
@@ -28,14 +28,14 @@ def add_arguments(parser: ArgumentParser) -> None:
 
 
 def run(arguments: Namespace) -> int:
-    """Print the targets, or one of them. Raises Unusable for a target that there is not."""
+    """Print the targets, or one of them. Raises Unusable for an unknown target."""
     from framegen.reading.findings import did_you_mean  # noqa: PLC0415
     from framegen.reading.yamltree import Unusable  # noqa: PLC0415
     from framegen.targets.table import TARGETS  # noqa: PLC0415
 
     targets = {target.name: target for target in TARGETS}
     if arguments.name is None:
-        print("\n".join(_listed(list(targets.values()), _models())))
+        print("\n".join(_overview(list(targets.values()), _models())))
         return 0
     if arguments.name not in targets:
         hint = did_you_mean(arguments.name, targets, otherwise="`framegen targets` lists them")
@@ -45,7 +45,7 @@ def run(arguments: Namespace) -> int:
 
 
 def _models() -> list[Model]:
-    """What the specs at hand mean; nothing, where there are none or one has findings."""
+    """Return the models of the specs at hand; none where one has findings."""
     from framegen.commands.spec_argument import compiled  # noqa: PLC0415
     from framegen.project import all_specs  # noqa: PLC0415
     from framegen.reading.yamltree import Unusable  # noqa: PLC0415
@@ -56,7 +56,7 @@ def _models() -> list[Model]:
         return []
 
 
-def _listed(targets: list[Target], models: list[Model]) -> Iterator[str]:
+def _overview(targets: list[Target], models: list[Model]) -> Iterator[str]:
     width = max(len(target.name) for target in targets)
     for target in targets:
         yield f"{target.name:<{width}}  {target.about}"
@@ -65,14 +65,14 @@ def _listed(targets: list[Target], models: list[Model]) -> Iterator[str]:
         if folders:
             yield f"{'':<{width}}  all of {', '.join(f'{folder}/' for folder in folders)}"
         if taken:
-            yield f"{'':<{width}}  {counted(len(taken), 'word')} taken"
+            yield f"{'':<{width}}  {pluralize(len(taken), 'reserved word')}"
 
 
 def _described(target: Target) -> Iterator[str]:
     yield f"{target.name}: {target.about}"
     if not target.reserved:
         yield ""
-        yield "No word is taken: every name stays as it is."
+        yield "No word is reserved: every name stays as it is."
     for row in target.reserved:
         yield ""
         yield f"{row.kind}: NAME becomes NAME{row.suffix} where it {row.why}"

@@ -1,1 +1,1 @@
-"""Asks a codec that somebody else wrote, in any language, and compares it with the reference."""
+"""Conformance tests: questions to a codec in any language, compared with the reference."""

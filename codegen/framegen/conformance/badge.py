@@ -1,4 +1,4 @@
-"""A badge: what a codec conforms to, as a small picture that needs nothing else."""
+"""The conformance badge: a small SVG picture that needs nothing else."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ _LABEL = "#3c4043"
 
 
 def badge(label: str, text: str, mood: str) -> str:
-    """Draw a label and what is said of it: `good`, `fair` or `bad`."""
+    """Draw a badge with a label and a text, in the colour of `good`, `fair` or `bad`."""
     label, text = visible(label), visible(text)
     left, right = (round(len(each) * _CHARACTER + 2 * _MARGIN) for each in (label, text))
     width = left + right

@@ -1,4 +1,4 @@
-"""Holds an answer to that of the reference."""
+"""Comparison of an answer with that of the reference."""
 
 from __future__ import annotations
 
@@ -21,10 +21,10 @@ _KNOWN = {"message", "refused", "frame", "unknown", "noise", QUIET, UNSUPPORTED}
 
 @dataclass(frozen=True)
 class Difference:
-    """A question that is answered otherwise than by the reference; both answers are joined.
+    """A question whose answer differs from the reference's; both answers are joined.
 
-    `at` counts the line in which they part. `failure` says why the answer never ended,
-    and `hangs` that its time was over.
+    `at` is the first line that differs. `failure` says why the answer never ended, and `hangs` that
+    it ran out of time.
     """
 
     title: str
@@ -49,7 +49,7 @@ class Difference:
 
     @property
     def kind(self) -> tuple[object, ...]:
-        """What is wrong, without bytes: no answer, messages that differ, or how the lines begin."""
+        """The kind of error, without bytes: no answer, or how the differing lines begin."""
         if self.failure:
             return ("hangs" if self.hangs else "ends",)
         if self.of_messages:
@@ -60,7 +60,7 @@ class Difference:
 
     @property
     def of_messages(self) -> bool:
-        """Whether messages are lost, invented or read otherwise; else only noise is."""
+        """Whether messages are lost, invented or read otherwise; else only noise differs."""
         ours, theirs = (
             [line for line in lines if line.startswith(("message ", "frame "))]
             for lines in (self.expected, self.answered)
@@ -69,17 +69,17 @@ class Difference:
 
     @property
     def rubbish(self) -> str:
-        """The first line of the answer that the language does not have."""
+        """The first line of the answer that is not in the line language."""
         return next((line for line in self.answered if line.partition(" ")[0] not in _KNOWN), "")
 
 
 def unsupported(reply: Reply) -> bool:
-    """Whether a program says that it cannot do what it was asked."""
+    """Tell whether a program answers that it does not support the question."""
     return not reply.failure and reply.lines == (UNSUPPORTED,)
 
 
 def compare(model: Model, title: str, question: Question, reply: Reply) -> Difference | None:
-    """Find where an answer parts from that of the reference; None where it nowhere does."""
+    """Find where an answer differs from the reference's; None where it does not."""
     expected, answered = joined(answer(model, question)), joined(reply.lines)
     if not reply.failure and _agree(question, expected, answered):
         return None

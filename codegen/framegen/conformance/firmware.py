@@ -1,4 +1,4 @@
-"""Asks real firmware over a port whether it does what the spec says: safely, and on the record."""
+"""Conformance tests of real firmware over a port: safe by default, and recorded."""
 
 from __future__ import annotations
 
@@ -34,32 +34,32 @@ _LOST = "see to the cable and the power, then run this again"
 
 
 def add_arguments(parser: ArgumentParser) -> None:
-    """Declare what is said of a port, and of what may be sent to it."""
+    """Declare the options about a port, and about what may be sent to it."""
     parser.add_argument(
         "--port",
         metavar="PORT",
-        help="ask the firmware behind this port: /dev/ttyUSB0, COM7 or socket://HOST:PORT",
+        help="test the firmware behind this port: /dev/ttyUSB0, COM7 or socket://HOST:PORT",
     )
     parser.add_argument(
         "--baud",
         type=_rate,
         metavar="BAUD",
-        help="the rate of the line, if not the spec's: at a wrong one, a device hears other bytes",
+        help="the baud rate, if not the spec's: at a wrong one, a device receives other bytes",
     )
     parser.add_argument(
         "--malformed",
         action="store_true",
-        help="send malformed queries, too, and see that the next query is still answered",
+        help="send malformed queries as well, and check that the next query is still answered",
     )
     parser.add_argument(
         "--allow",
         action="append",
         default=[],
         metavar="NAME",
-        help="send the examples of this message, too, though a device does what they say",
+        help="send the examples of this message as well, which a device carries out",
     )
     parser.add_argument(
-        "--log", type=Path, metavar="FILE", help="record all that goes over the line in a new file"
+        "--log", type=Path, metavar="FILE", help="record all traffic of the line in a new file"
     )
 
 
@@ -70,7 +70,7 @@ def _rate(text: str) -> int:
 
 
 def refuse_without_port(arguments: Namespace) -> None:
-    """Refuse what is said of a port where none is named. Raises Unusable."""
+    """Refuse options about a port where none is named. Raises Unusable."""
     for name in ("baud", "malformed", "allow", "log"):
         if getattr(arguments, name):
             raise Unusable(f"--{name} is for firmware", hint="name its port, as by --port COM5")
@@ -83,12 +83,12 @@ def run(
     connect: Callable[[str, Link, int], Transport] = open_port,
     clock: Callable[[], float] = time.monotonic,
 ) -> int:
-    """Ask, and tell what came of it. 0: all as it should be; 1: something is not. Raises Unusable.
+    """Run the tests and report. 0: all passed; 1: something failed. Raises Unusable.
 
-    `connect` opens the port, and `clock` tells the time that its reads take.
+    `connect` opens the port, and `clock` is the time that its reads take.
     """
     if arguments.format not in ("text", "json"):
-        raise Unusable(f"there is no {arguments.format} of firmware", hint="--format text or json")
+        raise Unusable(f"there is no {arguments.format} for firmware", hint="--format text or json")
     permission = permit(model, arguments.allow)
     after = min(requests(permission), key=lambda request: len(request.frame), default=None)
     steps = list(_steps(permission, after, malformed=arguments.malformed))
@@ -119,8 +119,6 @@ def _steps(permission: Permission, after: Request | None, *, malformed: bool) ->
     yield from query_steps(permission)
     if malformed:
         if after is None:
-            raise Unusable(
-                "nothing malformed can be sent: there is no query to see by what came of it"
-            )
+            raise Unusable("nothing malformed can be sent: there is no query that could follow it")
         yield from malformed_steps(permission, after)
     yield from command_steps(permission, after)

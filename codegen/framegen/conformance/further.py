@@ -1,4 +1,4 @@
-"""Further questions from a seed, so that no codec can be fitted to those that are published."""
+"""Further random questions, repeatable by seed, beyond those that are published."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ _SMALL = 64
 
 
 def further(model: Model, seed: int) -> Iterator[tuple[str, Question]]:
-    """Ask without end, with a title each; the same of the same seed, on every machine."""
+    """Yield questions without end, each with a title; the same for the same seed everywhere."""
     dice = _Dice(seed)
     number = 0
     while True:
@@ -44,7 +44,7 @@ def further(model: Model, seed: int) -> Iterator[tuple[str, Question]]:
 
 
 class _Dice:
-    """Chance that falls alike on every Python: of all that Random has, `random` alone promises."""
+    """Random choices that are the same on every Python: `random` is all that Random guarantees."""
 
     def __init__(self, seed: int) -> None:
         self._random = Random(seed)  # noqa: S311 - nothing is secret
@@ -77,7 +77,7 @@ def _stream(model: Model, dice: _Dice, way: Direction) -> Stream:
 
 
 def _piece(model: Model, dice: _Dice, way: Direction) -> bytes:
-    """A frame, one with something wrong, or noise that looks like the beginning of one."""
+    """Make a frame, one with something wrong, or noise that resembles the beginning of one."""
     message = dice.pick(list(model.sent(way).values()))
     frame = encode(message, _values(dice, message, wild=False))
     at = dice.below(len(frame))
@@ -107,7 +107,7 @@ def _part(dice: _Dice, slot: Any) -> bytes:
 
 
 def _values(dice: _Dice, message: MessageLayout, *, wild: bool) -> dict[str, Any]:
-    """Values that a frame can carry; `wild` ones may be one too many, too low or too high."""
+    """Make values that a frame can carry; `wild` ones may be just outside their bounds."""
     values: dict[str, Any] = {}
     for slot in message.arguments:
         if isinstance(slot, Number):

@@ -1,17 +1,17 @@
-"""The line language: what is asked of a codec, and how it answers, a line each.
+"""The line language: questions to a codec and its answers, a line each.
 
     decode WAY HEX                   -> message NAME HEX FIELDS...  or  refused REASON OFFSET
     encode NAME FIELDS...            -> frame HEX                   or  refused
     stream WAY LARGEST PARTS...      -> the events, a line each
 
-A way is the key of a direction, `controller_to_host`. FIELDS are `name=value`, in the order of the
-frame without counts; a list is `targets=1:800,9:800`, apart by commas, the fields of an element by
-colons. REASON is one of the reference's words with dashes: `count-mismatch`. PARTS are chunks in
-hex, in the order in which they arrive, and `quiet` wherever the line goes quiet; no frame larger
-than LARGEST bytes is to be taken. Events are `message NAME HEX FIELDS...`, `unknown HEX`,
-`noise REASON HEX` in pieces of any size, and `quiet` for each `quiet` of the question, once all
-that it decides is told. Every answer ends with a line `end`; `unsupported` alone says that a codec
-cannot do what it was asked.
+WAY is the key of a direction, `controller_to_host`. FIELDS are `name=value`, in the order of the
+frame without counts; a list is `targets=1:800,9:800`: commas between elements, colons between the
+fields of an element. REASON is one of the reference's words with dashes: `count-mismatch`. PARTS
+are chunks in hex, in the order in which they arrive, and `quiet` wherever the line goes quiet;
+frames larger than LARGEST bytes are refused. Events are `message NAME HEX FIELDS...`, `unknown
+HEX`, `noise REASON HEX` in pieces of any size, and `quiet` for each `quiet` of the question, after
+the events that it decides. Every answer ends with a line `end`; `unsupported` alone says that a
+codec cannot do what it was asked.
 """
 
 from __future__ import annotations
@@ -42,7 +42,7 @@ HEX_AT = {"message": 2, "frame": 1, "unknown": 1, "noise": 2}
 
 @dataclass(frozen=True, slots=True)
 class Decode:
-    """Asks what some bytes are, as one frame."""
+    """A question: what some bytes are, as one frame."""
 
     verb: ClassVar = "decode"
 
@@ -51,13 +51,13 @@ class Decode:
 
     @property
     def line(self) -> str:
-        """The question, as it is sent."""
+        """The question as it is sent."""
         return f"{self.verb} {self.way.key} {self.data.hex()}".rstrip()
 
 
 @dataclass(frozen=True)
 class Encode:
-    """Asks which frame carries some values."""
+    """A question: which frame carries some values."""
 
     verb: ClassVar = "encode"
 
@@ -66,13 +66,13 @@ class Encode:
 
     @property
     def line(self) -> str:
-        """The question, as it is sent."""
+        """The question as it is sent."""
         return " ".join([self.verb, self.message.name, *fields(self.message, self.values)])
 
 
 @dataclass(frozen=True, slots=True)
 class Stream:
-    """Asks what a line says. None among the parts is where it goes quiet."""
+    """A question: what a stream holds. None among the parts is where it goes quiet."""
 
     verb: ClassVar = "stream"
 
@@ -82,7 +82,7 @@ class Stream:
 
     @property
     def line(self) -> str:
-        """The question, as it is sent."""
+        """The question as it is sent."""
         parts = [QUIET if part is None else part.hex() for part in self.parts if part != b""]
         return " ".join([self.verb, self.way.key, str(self.max_frame), *parts])
 
@@ -91,7 +91,7 @@ Question: TypeAlias = Decode | Encode | Stream
 
 
 def answer(model: Model, question: Question) -> list[str]:
-    """What the reference answers, without the `end`."""
+    """Return what the reference answers, without the `end`."""
     match question:
         case Decode():
             return [_decoded(model, question)]
@@ -112,7 +112,7 @@ def _decoded(model: Model, question: Decode) -> str:
 
 
 def _streamed(model: Model, question: Stream) -> Iterator[str]:
-    """What is told up to each quiet; what is still held at the end is not."""
+    """Yield the events up to each quiet; what is still held at the end is left out."""
     line = ReferenceDecoder(model, [question.way], question.max_frame)
     for event in line.follow(question.parts):
         yield QUIET if event is None else _event(event)
@@ -132,7 +132,7 @@ def _message(message: MessageLayout, frame: bytes) -> str:
 
 
 def fields(message: MessageLayout, values: Mapping[str, Any]) -> list[str]:
-    """Values as the language has them: `time_ms=1000`, `targets=1:800,9:800`."""
+    """Write values in the line language: `time_ms=1000`, `targets=1:800,9:800`."""
     return [f"{slot.name}={_value(slot, values[slot.name])}" for slot in message.arguments]
 
 
@@ -146,12 +146,12 @@ def _value(slot: Number | Items, value: Any) -> str:
 
 
 def dashed(reason: str) -> str:
-    """A reason as one word."""
+    """Write a reason as one word."""
     return reason.replace(" ", "-")
 
 
 def joined(lines: Iterable[str]) -> list[str]:
-    """The lines of an answer, with neighbouring noise of one reason made one; in lower case hex."""
+    """Join neighbouring noise of one reason in the lines of an answer; write hex in lower case."""
     found: list[str] = []
     for line in lines:
         words = line.split()

@@ -1,7 +1,7 @@
-"""A program that answers questions: started, asked line by line, ended with all that it started.
+"""A program that answers questions: started, asked line by line, and ended with its children.
 
-Nothing that it does stops whoever asks: what it prints is always read, what it does not read waits
-in a thread, and an answer has a time and a size that it may take.
+Nothing that it does blocks the caller: what it prints is always read, what it does not read waits
+in a thread, and an answer is limited in time and in size.
 """
 
 from __future__ import annotations
@@ -18,8 +18,8 @@ from threading import Condition, Thread
 from typing import IO, TYPE_CHECKING, Any
 
 from framegen.conformance.language import END
+from framegen.pluralize import pluralize
 from framegen.reading.yamltree import Unusable
-from framegen.wording import counted
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -38,7 +38,7 @@ _PIECE = 65_536
 class Reply:
     """The lines of an answer, without the `end`; `failure` says why no `end` came, if none did.
 
-    `hangs` is true where that is because its time was over.
+    `hangs` is true where that is because it ran out of time.
     """
 
     lines: tuple[str, ...]
@@ -47,9 +47,9 @@ class Reply:
 
 
 class Program:
-    """A command line that is started when a question is asked, and anew after it has failed.
+    """A command line that is started by a question, and again after it has failed.
 
-    `last_words` is the end of what it had printed on its error stream when it was last ended.
+    `last_words` is the end of what it printed on its error stream before it ended.
     """
 
     def __init__(self, command: Sequence[str], timeout: float) -> None:
@@ -59,21 +59,21 @@ class Program:
         self._running: _Running | None = None
 
     def ask(self, question: str, timeout: float | None = None) -> Reply:
-        """Ask in one line, and wait for the answer. Raises Unusable for what cannot be started."""
+        """Ask in one line, and wait for the answer. Raises Unusable if it cannot be started."""
         if self._running is None:
             self._running = _Running(self.command)
         reply = self._running.ask(question, timeout or self.timeout)
         if reply.failure:
-            self._end(patience=0)
+            self._end(timeout=0)
         return reply
 
     def close(self) -> None:
-        """End it, with all that it has started; the next question starts it anew."""
-        self._end(patience=_ENDING)
+        """End the program with its children; the next question starts it again."""
+        self._end(timeout=_ENDING)
 
-    def _end(self, patience: float) -> None:
+    def _end(self, timeout: float) -> None:
         if self._running is not None:
-            self._running.end(patience)
+            self._running.end(timeout)
             self.last_words = self._running.last_words
             self._running = None
 
@@ -97,7 +97,7 @@ class _Running:
             hint = "name a program that is on the path, or give its path, like ./codec"
             raise Unusable(f"`{command[0]}` cannot be started: {why}", hint=hint) from None
         self._questions: SimpleQueue[bytes | None] = SimpleQueue()
-        self._heard = _Heard()
+        self._output = _Output()
         self._said: bytes = b""
         self._threads = [
             Thread(target=work, args=[pipe], daemon=True)
@@ -112,13 +112,13 @@ class _Running:
 
     def ask(self, question: str, timeout: float) -> Reply:
         deadline = time.monotonic() + timeout
-        self._heard.allow(_ROOM + _ROOM_EACH * len(question))
+        self._output.allow(_ROOM + _ROOM_EACH * len(question))
         self._questions.put(f"{question}\n".encode())
         lines: list[str] = []
         while True:
-            line = self._heard.line(deadline)
+            line = self._output.line(deadline)
             if line is None:
-                hangs = not (self._heard.closed or self._heard.too_much)
+                hangs = not (self._output.closed or self._output.too_much)
                 return Reply(tuple(lines), self._why(timeout, len(lines), hangs=hangs), hangs)
             text = line.decode("utf-8", "backslashreplace").strip()
             if text == END:
@@ -126,10 +126,10 @@ class _Running:
             lines.append(text)
 
     def _why(self, timeout: float, lines: int, *, hangs: bool) -> str:
-        """Say why no `end` came."""
-        after = f"after {counted(lines, 'line')}" if lines else "before it printed a line"
-        if self._heard.too_much:
-            return f"it prints on and on: {self._heard.room} bytes without an `end`"
+        """Return why no `end` came."""
+        after = f"after {pluralize(lines, 'line')}" if lines else "before it printed a line"
+        if self._output.too_much:
+            return f"it prints on and on: {self._output.room} bytes without an `end`"
         if hangs:
             hint = "" if lines else "; does it flush its output behind each `end`?"
             return f"no `end` came within {timeout:g} s, {after}{hint}"
@@ -147,12 +147,12 @@ class _Running:
     def last_words(self) -> str:
         return self._said.decode("utf-8", "backslashreplace").strip()
 
-    def end(self, patience: float) -> None:
-        """Let it end by itself, having no more questions, or else by force."""
+    def end(self, timeout: float) -> None:
+        """Let it end by itself once there are no more questions, or end it by force."""
         self._questions.put(None)
-        if patience:
+        if timeout:
             with suppress(subprocess.TimeoutExpired):
-                self._process.wait(patience)
+                self._process.wait(timeout)
         self._kill()
         self._process.wait()
         for thread in self._threads:
@@ -194,8 +194,8 @@ class _Running:
     def _read(self, pipe: IO[bytes]) -> None:
         with suppress(OSError, ValueError):
             while piece := pipe.read(_PIECE):
-                self._heard.add(piece)
-        self._heard.close()
+                self._output.add(piece)
+        self._output.close()
 
     def _listen(self, pipe: IO[bytes]) -> None:
         with suppress(OSError, ValueError):
@@ -203,8 +203,8 @@ class _Running:
                 self._said = (self._said + piece)[-_LAST_WORDS:]
 
 
-class _Heard:
-    """What a program has printed: a thread adds to it, and another takes the lines."""
+class _Output:
+    """The output of a program: one thread adds to it, and another takes the lines."""
 
     def __init__(self) -> None:
         self.closed = False
@@ -233,7 +233,7 @@ class _Heard:
             self._change.notify_all()
 
     def line(self, deadline: float) -> bytes | None:
-        """The next line; None where none comes any more, or none in time."""
+        """Return the next line; None where there is none, or none in time."""
         with self._change:
             while (end := self._lines.find(b"\n")) < 0:
                 left = deadline - time.monotonic()

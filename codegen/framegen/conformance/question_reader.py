@@ -1,4 +1,4 @@
-"""Reads questions of the line language, for whoever wants the answers of the reference."""
+"""The reader of questions in the line language."""
 
 from __future__ import annotations
 
@@ -21,11 +21,11 @@ _VERBS = ("decode", "encode", "stream")
 
 
 class NotAQuestion(ValueError):  # noqa: N818 - says what the line is
-    """A line that asks nothing: what is wrong with it, and what to write."""
+    """A line that is no question: what is wrong with it, and what to write."""
 
 
 def read_question(model: Model, line: str) -> Question:
-    """Read what is asked in a line. Raises NotAQuestion."""
+    """Read the question in a line. Raises NotAQuestion."""
     verb, *words = line.split() or [""]
     match verb, words:
         case "decode", [way, *pieces]:

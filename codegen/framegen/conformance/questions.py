@@ -1,4 +1,4 @@
-"""Every case of a protocol, as questions to a codec."""
+"""Every test case of a protocol, as questions to a codec."""
 
 from __future__ import annotations
 
@@ -18,13 +18,13 @@ if TYPE_CHECKING:
 
 
 def questions(model: Model) -> Iterator[tuple[str, Question]]:
-    """Ask for each frame both ways, for what is none, and for lines; titles in front."""
+    """Yield questions on each frame both ways, on invalid frames and on streams, with titles."""
     for frame in valid_frames(model):
         title = f"{frame.message.name}: {frame.title}"
         yield title, Decode(frame.message.direction, frame.data)
         yield title, Encode(frame.message, frame.values)
-    for asked in unencodable(model):
-        yield asked.title, Encode(asked.message, asked.values)
+    for unfit in unencodable(model):
+        yield unfit.title, Encode(unfit.message, unfit.values)
     for wrong in invalid_frames(model):
         yield wrong.title, Decode(wrong.direction, wrong.data)
     for case in streams(model):

@@ -1,4 +1,4 @@
-"""Tells how a program did: as text, as JSON, or in the words of a badge."""
+"""The report on a program: as text, as JSON, or as a badge."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from framegen.conformance.badge import badge
 from framegen.conformance.language import Decode, Encode, Stream
 from framegen.conformance.strip import strip
 from framegen.console import visible
-from framegen.wording import counted
+from framegen.pluralize import pluralize
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
@@ -28,7 +28,7 @@ _LAST_LINES = 8
 
 
 def as_text(model: Model, trial: Trial, command: Sequence[str]) -> Iterator[str]:
-    """Tell it to a person, line by line."""
+    """Report to a person, line by line."""
     if trial.smallest is not None:
         yield from _first(model, trial.smallest)
         yield ""
@@ -36,25 +36,25 @@ def as_text(model: Model, trial: Trial, command: Sequence[str]) -> Iterator[str]
         yield from _kinds(trial.differences)
         yield ""
     if trial.stopped:
-        yield f"stopped after {counted(trial.asked, 'question')}: {trial.stopped}"
+        yield f"stopped after {pluralize(trial.asked, 'question')}: {trial.stopped}"
     yield f"{_short(visible(' '.join(command)))}: {_verdict(model.spec.protocol, trial)}"
     if trial.unsupported:
         verbs = ", ".join(f"{count} {verb}" for verb, count in sorted(trial.unsupported.items()))
-        yield f"  not supported, and not held against it: {verbs}"
+        yield f"  not supported, and not counted as wrong: {verbs}"
 
 
 def colour_of(line: str) -> str:
-    """Which colour a line of the text has on a terminal; empty for none."""
+    """Return the colour of a line of the text on a terminal; empty for none."""
     return _COLOURS.get(line[: line.find("  ", 2)].strip(), "") if line.startswith("  ") else ""
 
 
 def _verdict(protocol: Protocol, trial: Trial) -> str:
     what = f"{protocol.name} {protocol.version}"
     if trial.conforms:
-        return f"conforms to {what}: {counted(trial.agreed, 'answer')} as the reference's"
+        return f"conforms to {what}: {pluralize(trial.agreed, 'answer')} as the reference's"
     if not trial.differences:
-        return f"answers nothing of {what}: {counted(trial.asked, 'question')} not supported"
-    answers = counted(trial.asked - trial.unsupported.total(), "answer")
+        return f"supports nothing of {what}: {pluralize(trial.asked, 'question')} not supported"
+    answers = pluralize(trial.asked - trial.unsupported.total(), "answer")
     return f"differs from {what} in {len(trial.differences)} of {answers}"
 
 
@@ -65,7 +65,7 @@ def _first(model: Model, smallest: Smallest) -> Iterator[str]:
         yield "  Asked this alone, anew, it answers rightly: it keeps something between questions."
         yield f"  the question before: {_short(smallest.behind)}"
     elif smallest.tries:
-        yield f"  shrunk in {counted(smallest.tries, 'try', 'tries')}"
+        yield f"  shrunk in {pluralize(smallest.tries, 'try', 'tries')}"
     yield f"  question: {_short(found.question.line)}"
     yield ""
     yield from strip(model, found)
@@ -76,7 +76,7 @@ def _first(model: Model, smallest: Smallest) -> Iterator[str]:
 
 
 def _first_failure(trial: Trial) -> Iterator[str]:
-    """Tell when it first gave no answer, where that was not the first difference."""
+    """Report the first failure to answer, where it was not the first difference."""
     failed = next((found for found in trial.differences if found.failure), None)
     if failed is not None and failed is not trial.differences[0]:
         yield f"the first that it did not answer: {failed.title}"
@@ -101,18 +101,18 @@ def _short(text: str) -> str:
 def _kinds(differences: Sequence[Difference]) -> Iterator[str]:
     wrong = sum(found.of_messages or bool(found.failure) for found in differences)
     yield (
-        f"{counted(len(differences), 'answer')} differ, {wrong or 'none'} of them in a message; "
+        f"{pluralize(len(differences), 'answer')} differ, {wrong or 'none'} of them in a message; "
         "by what the reference says there:"
     )
     kinds = Counter((found.question.verb, found.about) for found in differences)
     for (verb, about), count in kinds.most_common(_KINDS):
         yield f"  {count:>5}  {verb:<6}  {about}"
     if len(kinds) > _KINDS:
-        yield f"  and {counted(len(kinds) - _KINDS, 'more kind')}"
+        yield f"  and {pluralize(len(kinds) - _KINDS, 'more kind')}"
 
 
 def as_json(model: Model, trial: Trial, command: Sequence[str], seed: int | None) -> dict[str, Any]:
-    """Give it as values that JSON has."""
+    """Report as values that JSON has."""
     protocol, smallest = model.spec.protocol, trial.smallest
     return {
         "protocol": protocol.name,
@@ -154,7 +154,7 @@ def _difference_json(found: Difference) -> dict[str, Any]:
 
 
 def as_badge(model: Model, trial: Trial) -> str:
-    """Draw it."""
+    """Draw the badge."""
     protocol = model.spec.protocol
     label = f"{protocol.name} {protocol.version}"
     if not trial.conforms:

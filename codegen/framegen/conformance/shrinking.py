@@ -1,4 +1,4 @@
-"""Makes a question that is answered wrongly as small as it can be and still be answered wrongly."""
+"""Shrinks a question that is answered wrongly to the smallest one that still is."""
 
 from __future__ import annotations
 
@@ -28,10 +28,10 @@ _STEPS = (1, 2, 3, 4, 6)
 def shrink(
     model: Model, question: Question, differs: Callable[[Question], bool], tries: int
 ) -> tuple[Question, int]:
-    """Find the smallest question for which `differs` holds, and how often it was tried.
+    """Find the smallest question for which `differs` holds, and the number of tries.
 
-    It tries what is smaller, in turn, and goes on from the first that will do; `tries` times at the
-    most.
+    It tries smaller questions in turn, and goes on from the first for which it holds, up to `tries`
+    times.
     """
     tried = {question.line}
     smaller = _smaller(model, question)
@@ -63,7 +63,7 @@ def _smaller(model: Model, question: Question) -> Iterator[Question]:
 
 
 def _weight(model: Model, question: Question) -> tuple[int, ...]:
-    """How large a question is: how much of it there is, then how large its numbers are."""
+    """Return the size of a question: how much of it there is, then how large its numbers are."""
     match question:
         case Encode():
             numbers = list(_numbers(question.values))
@@ -81,7 +81,7 @@ def _weight(model: Model, question: Question) -> tuple[int, ...]:
 
 
 def _symbols(parts: Sequence[bytes | None]) -> list[int]:
-    """Bytes, and what stands between them, in one list, of which anything may be left out."""
+    """List bytes and the marks between them as symbols, any of which may be left out."""
     symbols: list[int] = []
     for part in parts:
         if part is None:
@@ -127,7 +127,7 @@ def _lowered(symbols: list[int]) -> Iterator[list[int]]:
 
 
 def _runs(items: Sequence[object]) -> Iterator[tuple[int, int]]:
-    """Where a half, a quarter, ... and each single one begins and ends."""
+    """Yield the bounds of each half, quarter, ... and of each single symbol."""
     size = len(items)
     while size:
         for at in range(0, len(items) - size + 1, max(1, size // 2)):
@@ -136,7 +136,7 @@ def _runs(items: Sequence[object]) -> Iterator[tuple[int, int]]:
 
 
 def _with_smaller_frames(model: Model, way: Direction, symbols: list[int]) -> Iterator[list[int]]:
-    """Put a smaller frame in the place of a legal one: the least of any message, or of its own."""
+    """Replace a legal frame by a smaller one, of its own or of any message."""
     others = sorted((_least(message) for message in model.sent(way).values()), key=len)
     for at in range(len(symbols)):
         rest = bytes(symbol for symbol in symbols[at:] if symbol >= 0)
@@ -151,7 +151,7 @@ def _with_smaller_frames(model: Model, way: Direction, symbols: list[int]) -> It
 
 
 def _shorter_frames(message: MessageLayout, frame: bytes) -> Iterator[bytes]:
-    """The frames of the same message with fewer elements."""
+    """Yield frames of the same message with fewer elements."""
     for values in _shorter(values_of(message, frame)):
         with suppress(Unencodable):
             yield encode(message, values)

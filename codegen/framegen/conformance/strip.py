@@ -1,4 +1,4 @@
-"""Shows a difference: the bytes with their offsets, both answers, and why the reference says so."""
+"""Shows a difference: the bytes with their offsets, both answers, and the reference's reason."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from framegen.explain import seen_rows
 from framegen.explain_text import table
 from framegen.model.codec import Unencodable, encode
 from framegen.model.verdict import weigh, weigh_whole
-from framegen.wording import counted
+from framegen.pluralize import pluralize
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
@@ -55,7 +55,7 @@ def _joined(parts: Sequence[bytes | None]) -> bytes:
 
 
 def _bytes(data: bytes, marked: int | None = None) -> Iterator[str]:
-    """Bytes under their offsets, with a mark under one of them, or where it is missing."""
+    """Show bytes under their offsets, with a mark under one of them, or where it is missing."""
     for start in range(0, len(data), _BYTES_A_LINE):
         line = data[start : start + _BYTES_A_LINE]
         yield "  byte" + "".join(f"{at:>4}" for at in range(start, start + len(line)))
@@ -66,7 +66,7 @@ def _bytes(data: bytes, marked: int | None = None) -> Iterator[str]:
 
 
 def _answers(difference: Difference) -> Iterator[str]:
-    """Both answers, what they have in common once, with the byte at which each line begins."""
+    """Show both answers, what they share once, with the byte at which each line begins."""
     end = difference.at + _LINES
     rows = list(_rows(_placed(difference.expected)[:end], _placed(difference.answered)[:end]))
     if difference.failure:
@@ -77,7 +77,7 @@ def _answers(difference: Difference) -> Iterator[str]:
         rows.insert(0, ("reference", "", "nothing"))
     start = max(0, difference.at - _BEFORE)
     if start:
-        yield f"  ... {counted(start, 'line')} before, in which they agree"
+        yield f"  ... {pluralize(start, 'line')} before, in which they agree"
     for who, at, line in rows[start : start + _LINES]:
         cut = line if len(line) <= _WIDTH else f"{line[: _WIDTH - 3]}..."
         yield f"  {who:<9}  {at:>4}  {cut}".rstrip()
@@ -96,7 +96,7 @@ def _rows(ours: _Lines, theirs: _Lines) -> Iterator[tuple[str, str, str]]:
 
 
 def _placed(lines: Sequence[str]) -> _Lines:
-    """Each line behind the offset of its first byte, as it follows from what was told before."""
+    """Return each line with the offset of its first byte, which follows from the lines before."""
     offsets = accumulate((len(_told(line)) // 2 for line in lines), initial=0)
     return [
         (str(at) if _told(line) else "", line) for at, line in zip(offsets, lines, strict=False)
@@ -104,14 +104,14 @@ def _placed(lines: Sequence[str]) -> _Lines:
 
 
 def _told(line: str) -> str:
-    """The bytes, in hex, of which an event tells."""
+    """Return the bytes of an event, in hex."""
     words = line.split()
     at = HEX_AT.get(words[0], 0) if words and words[0] != "frame" else 0
     return "".join(words[at : at + 1]) if at else ""
 
 
 def _parting(difference: Difference) -> int:
-    """The byte at which the events of a stream part."""
+    """Return the byte at which the events of two streams begin to differ."""
     before = sum(len(_told(line)) // 2 for line in difference.expected[: difference.at])
     one, other = (
         "".join(lines[difference.at : difference.at + 1])
@@ -125,7 +125,7 @@ def _parting(difference: Difference) -> int:
 
 
 def _rest(parts: Sequence[bytes | None], at: int) -> bytes:
-    """What is on the line from a byte on, until it goes quiet."""
+    """Return what is on the line from a byte on, until it goes quiet."""
     stretch = b""
     for part in (*parts, None):
         if part is not None:
@@ -140,7 +140,7 @@ def _rest(parts: Sequence[bytes | None], at: int) -> bytes:
 
 @dataclass(frozen=True, slots=True)
 class _Reason:
-    """Why the reference says what it says: what agreed with a frame, what did not, and where."""
+    """Why the reference answers so: what agreed with a frame, what did not, and where."""
 
     rows: Sequence[Row]
     refused_at: int | None
@@ -148,7 +148,7 @@ class _Reason:
 
 
 def _reason(model: Model, difference: Difference, question: Decode | Stream) -> _Reason | None:
-    """Take apart what begins where the answers part; None where nothing does."""
+    """Explain what begins where the answers differ; None where nothing does."""
     at = 0
     if isinstance(question, Decode):
         rest = question.data
@@ -169,7 +169,7 @@ def _reason(model: Model, difference: Difference, question: Decode | Stream) -> 
 
 
 def _frame(question: Encode) -> Iterator[str]:
-    """The frame that was due, or why there is none."""
+    """Yield the expected frame, or why there is none."""
     try:
         frame = encode(question.message, question.values)
     except Unencodable as error:

@@ -1,4 +1,4 @@
-"""Asks a program everything, holds it to the reference, and shrinks the first difference."""
+"""A trial of a program: asks every question, compares, and shrinks the first difference."""
 
 from __future__ import annotations
 
@@ -40,7 +40,7 @@ class Smallest:
 
 @dataclass(slots=True)
 class Trial:
-    """What was asked and how it was answered; `stopped` says why not everything was asked.
+    """The questions and how they were answered; `stopped` says why not all were asked.
 
     `last_words` is what the program had printed on its error stream when it first gave no answer.
     """
@@ -55,12 +55,12 @@ class Trial:
 
     @property
     def conforms(self) -> bool:
-        """Whether everything was answered as by the reference, but for what is unsupported."""
+        """Whether everything was answered as by the reference, except what is unsupported."""
         return bool(self.agreed) and not self.differences
 
 
 def hold(model: Model, program: Program, questions: Iterable[tuple[str, Question]]) -> Trial:
-    """Ask every question, each with a title. Raises Unusable for what cannot be started."""
+    """Ask every question, each with a title. Raises Unusable if the program cannot be started."""
     trial = Trial()
     failures: Counter[bool] = Counter()
     before = behind = ""
@@ -90,7 +90,7 @@ def hold(model: Model, program: Program, questions: Iterable[tuple[str, Question
 
 
 def _enough(failures: Counter[bool], *, answered: bool) -> str:
-    """Say why no more is asked of a program that fails so often; empty where it is to go on."""
+    """Return why no more is asked of a program that fails too often; empty to go on."""
     if not answered:
         return "it never answered"
     if failures[True] >= _HANGS:
@@ -99,7 +99,7 @@ def _enough(failures: Counter[bool], *, answered: bool) -> str:
 
 
 def _smallest(model: Model, program: Program, first: Difference, behind: str) -> Smallest:
-    """Shrink the first difference; as it was found where a program that is asked alone has none."""
+    """Shrink the first difference; keep it as it is where the program alone shows none."""
 
     def ask(question: Question, timeout: float | None = None) -> Difference | None:
         reply = program.ask(question.line, timeout)

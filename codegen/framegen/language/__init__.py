@@ -1,1 +1,1 @@
-"""The spec as its author wrote it: the keys of the language, its types and small notations."""
+"""The spec as its author wrote it: the keys of the language, its types and its notations."""

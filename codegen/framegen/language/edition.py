@@ -1,7 +1,6 @@
-"""The editions of the language: which there are, and what is said of one that is newer.
+"""The editions of the spec language, and the refusal of a newer one.
 
-Keys are added under the same number. It rises when a meaning changes, and every edition is read
-for ever.
+Added keys keep the number. It rises when a meaning changes, and every edition is read for ever.
 """
 
 from __future__ import annotations
@@ -19,14 +18,14 @@ FIRST_ENDPOINT_IS_CLIENT = 2
 
 
 def is_newer(value: object) -> bool:
-    """Whether `value` is an edition that only a later framegen reads."""
+    """Tell whether `value` is an edition that only a later framegen reads."""
     return isinstance(value, int) and not isinstance(value, bool) and value > LATEST
 
 
 def refusal(value: object) -> tuple[str, str]:
-    """Say that an edition is newer than this framegen, and what to do."""
+    """Return the error for an edition that is newer than this framegen."""
     what = f"this spec is written in edition {value} of the language"
     return (
         f"{what}, and framegen {__version__} reads up to {LATEST}",
-        "a newer framegen is needed: pip install --upgrade 'busservo[codegen]'",
+        "a newer framegen is needed: git pull in its clone, then pip install ./codegen",
     )

@@ -23,11 +23,11 @@ class Formula:
         return f"{term} + {self.constant}" if self.constant else term
 
     def at(self, count: int) -> int:
-        """Work out the length of a frame with `count` elements."""
+        """Return the length of a frame with `count` elements."""
         return self.factor * count + self.constant
 
     def count_at(self, length: int) -> int | None:
-        """Work out the count that gives `length`, or None where no count does."""
+        """Return the count that gives `length`, or None where no count does."""
         if self.factor == 0:
             return 0 if length == self.constant else None
         count, rest = divmod(length - self.constant, self.factor)
@@ -35,7 +35,7 @@ class Formula:
 
 
 def parse_formula(text: str) -> Formula:
-    """Read a length rule. Raises ValueError with what stands in the way."""
+    """Read a length rule. Raises ValueError that says what is wrong."""
     terms = _terms(_tokens(text), text)
     constant = sum(factor for factor, name in terms if name is None)
     names = list(dict.fromkeys(name for _, name in terms if name is not None))

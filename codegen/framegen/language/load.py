@@ -1,4 +1,4 @@
-"""From a file to a Spec: reads the text, keeps the positions, tests the shape."""
+"""Loads a spec: reads the text, keeps the positions, checks the shape."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ MAX_BYTES = 1_000_000
 
 @dataclass(frozen=True, slots=True)
 class Loaded:
-    """What came of reading a spec: the spec itself, if its shape was right, and the findings."""
+    """The result of reading a spec: the spec itself, if its shape is right, and the findings."""
 
     source: Source
     tree: Tree
@@ -33,7 +33,7 @@ class Loaded:
 
 
 def read_source(file: Path) -> Source:
-    """Read a spec file, with LF line ends. Raises Unusable where it is no text of sane size."""
+    """Read a spec file, with LF line ends. Raises Unusable for what is no text or too large."""
     name = visible(file.as_posix())
     try:
         status = file.stat()
@@ -66,7 +66,7 @@ def read_source(file: Path) -> Source:
 
 
 def load(source: Source) -> Loaded:
-    """Read a spec's text. Raises Unusable where it is no YAML mapping; the rest are findings."""
+    """Read the text of a spec. Raises Unusable for no YAML mapping; all else is findings."""
     tree, findings = read_tree(source)
     written_in = tree.data.get("framegen")
     if is_newer(written_in):

@@ -1,4 +1,4 @@
-"""Where a spec does not fit the language: pydantic's errors, in our words and at their places."""
+"""Findings on a spec that does not fit the language: pydantic's errors, in our words."""
 
 from __future__ import annotations
 
@@ -44,19 +44,19 @@ _MESSAGES = {
 def misfits(
     source: Source, tree: Tree, problems: Iterable[Any], doubtful: Container[Span]
 ) -> Iterator[Finding]:
-    """Turn pydantic's errors into findings, save at the `doubtful` places.
+    """Turn pydantic's errors into findings, except at the `doubtful` places.
 
-    Hints are worked out for as many as are shown, from the top of the file down.
+    Hints are worked out only for the findings that are shown.
     """
     placed = sorted((_Misfit.of(tree, problem) for problem in problems), key=lambda each: each.span)
-    told = [misfit for misfit in placed if misfit.span not in doubtful]
-    for number, misfit in enumerate(told):
+    shown = [misfit for misfit in placed if misfit.span not in doubtful]
+    for number, misfit in enumerate(shown):
         yield misfit.finding(source, tree, hinted=number < MOST_FINDINGS)
 
 
 @dataclass(frozen=True, slots=True)
 class _Misfit:
-    """One of pydantic's errors, and where it is."""
+    """One of pydantic's errors, and its place."""
 
     problem: Any
     path: KeyPath
@@ -69,7 +69,7 @@ class _Misfit:
         return cls(problem, path, tree.key_at(path) if on_key else tree.value_at(path))
 
     def finding(self, source: Source, tree: Tree, *, hinted: bool) -> Finding:
-        """Say what is wrong, and what to do if that is asked for."""
+        """Return the finding, with a hint if asked for."""
         kind, last = self.problem["type"], str(self.problem["loc"][-1])
         path = dotted(self.path)
         if kind == "missing":
@@ -114,7 +114,7 @@ def _kind(value: object) -> str:
 
 
 def _is_plain(text: str) -> bool:
-    """Whether the text would be text without quotes, too."""
+    """Tell whether the text would still be text without quotes."""
     try:
         return resolve(text) == text
     except Ambiguous:
@@ -122,7 +122,7 @@ def _is_plain(text: str) -> bool:
 
 
 def _part(source: Source, span: Span, part: str) -> Span:
-    """Find the `part` of a value at `span` that is wrong; all of it, if that stands nowhere."""
+    """Find the wrong `part` of a value at `span`; all of it, if the part cannot be found."""
     word = re.compile(rf"(?<!\w){re.escape(part)}(?!\w)")
     for number in range(span.line, len(source.lines) + 1) if part else ():
         found = word.search(source.line(number), span.column - 1 if number == span.line else 0)
@@ -148,7 +148,7 @@ def _steps_in(tree: Tree, steps: tuple[str | int, ...]) -> Iterator[str | int]:
 
 
 def _keys_at(tree: Tree, path: KeyPath) -> list[str]:
-    """List the keys that the language has at `path`; of a union, those of what fits best there."""
+    """List the keys that the language has at `path`; of a union, those of the best match."""
     here: Any = tree.data
     for step in path:
         here = here[step]
@@ -160,14 +160,14 @@ def _keys_at(tree: Tree, path: KeyPath) -> list[str]:
 
 
 def _described(path: KeyPath, key: str) -> str:
-    """Say what a missing key is for, with the description that editors show too."""
-    told = [
+    """Describe a missing key, with the description that editors show."""
+    descriptions = [
         info.description
         for model in _models_at(path[:-1])
         for name, info in model.model_fields.items()
         if key in (name, info.alias)
     ]
-    return next(filter(None, told), "")
+    return next(filter(None, descriptions), "")
 
 
 def _models_at(path: KeyPath) -> list[type[BaseModel]]:

@@ -1,4 +1,4 @@
-"""Lets pydantic read what it has no type for: the small notations of `values`, exact numbers."""
+"""Types that pydantic does not have: the notations of `values`, and exact numbers."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, slots=True)
 class Notation:
-    """Goes into `Annotated`: text read by `parse`; a bare number by `number`, where it is given."""
+    """A type for `Annotated`: text read by `parse`; a bare number by `number`, if given."""
 
     what: str
     example: str
@@ -46,12 +46,12 @@ class Notation:
         try:
             return self.parse(value)
         except ValueError as error:
-            told = {"message": str(error), "part": getattr(error, "part", "")}
-            raise PydanticCustomError("notation", "{message}", told) from None
+            context = {"message": str(error), "part": getattr(error, "part", "")}
+            raise PydanticCustomError("notation", "{message}", context) from None
 
 
 class OneOf:
-    """Goes into `Annotated` beside a Literal of numbers: one of them, and never a truth value.
+    """A type for `Annotated` beside a Literal of numbers: one of them, and never a truth value.
 
     Of itself, pydantic takes `true` for 1.
     """

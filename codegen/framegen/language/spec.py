@@ -1,8 +1,8 @@
-"""The spec as its author wrote it: every key of the language, and nothing that follows from them.
+"""The spec as its author wrote it: every key of the language, and nothing derived.
 
-What follows (offsets, legal lengths, wire time) is in `layout`; whether it makes sense is for
-`checks` to say. Here only the shape is tested: which keys there are, and what kind of value each
-has. The descriptions are what an editor shows while the spec is written.
+What follows (offsets, legal lengths, wire time) is in `layout`, and whether it makes sense is for
+`checks`. Only the shape is checked here: the keys, and the kind of each value. The descriptions are
+what an editor shows while the spec is written.
 """
 
 from __future__ import annotations
@@ -15,8 +15,8 @@ from pydantic import Field as Key
 from framegen.language.edition import LATEST, Edition
 from framegen.language.formula import Formula, parse_formula
 from framegen.language.notation import Notation, OneOf
+from framegen.language.number_types import NUMBER_TYPES
 from framegen.language.values import Citation, Direction, Method, Range, Scale, parse_hex
-from framegen.language.wiretypes import WIRE_TYPES
 
 Cite: TypeAlias = Annotated[Citation, Notation("a citation", "vendor, section 1.1", Citation.parse)]
 Hex: TypeAlias = Annotated[bytes, Notation("hex", "55 55 02 07", parse_hex)]
@@ -35,7 +35,7 @@ Natural: TypeAlias = Annotated[StrictInt, Key(ge=0)]
 
 
 class Part(BaseModel):
-    """What all mappings of the language share: no key is ignored, and nothing changes once read."""
+    """The base of all mappings of the language: no unknown keys, and frozen instances."""
 
     # Built when a spec is read, all at once: a part is seldom read alone.
     model_config = ConfigDict(
@@ -44,7 +44,7 @@ class Part(BaseModel):
 
 
 class Protocol(Part):
-    """What the protocol is."""
+    """The protocol: its name, title, version and description."""
 
     name: str = Key(description="The name of the library, as it is imported.")
     title: str = Key(description="What people call the protocol.")
@@ -55,7 +55,7 @@ class Protocol(Part):
 
 
 class SourceDocument(Part):
-    """Something that facts are cited from."""
+    """A document that facts are cited from."""
 
     title: str = Key(description="What it is called.")
     kind: Literal["document", "firmware", "implementation", "observation"] = Key(
@@ -99,7 +99,7 @@ class Link(Part):
 
     @property
     def bits_per_byte(self) -> int:
-        """Start, data, parity and stop bits together."""
+        """The sum of start, data, parity and stop bits."""
         return 1 + self.data_bits + (self.parity != "none") + self.stop_bits
 
 
@@ -121,7 +121,7 @@ class LengthPart(Part):
 
 
 class IdPart(Part):
-    """The code of the message."""
+    """The id of the message."""
 
     is_: Literal["id"] = Key(alias="is")
     type: str = Key(description="The number type, such as u8.")
@@ -129,7 +129,7 @@ class IdPart(Part):
 
 
 class BodyPart(Part):
-    """Where the fields of the message stand."""
+    """The place of the message's fields."""
 
     is_: Literal["body"] = Key(alias="is")
     about: str = Key("", description="What it is.")
@@ -160,7 +160,7 @@ FramePart: TypeAlias = Annotated[
 
 
 class Note(Part):
-    """Something worth knowing that no codec can enforce."""
+    """A fact that no codec can enforce."""
 
     text: str = Key(description="What there is to know.")
     cite: Cite = Key(description="Where it is known from.")
@@ -191,7 +191,7 @@ class Limits(Part):
 class NumberField(Part):
     """A number; with `counted_by`, a list of them."""
 
-    type: str = Key(description=f"The number type: {', '.join(WIRE_TYPES)}.")
+    type: str = Key(description=f"The number type: {', '.join(NUMBER_TYPES)}.")
     about: str = Key(description="What it is.")
     unit: str = Key("", description="The unit of one step, such as ms.")
     scale: Step | None = Key(None, description="What one step is in a larger unit.")
@@ -221,7 +221,7 @@ class NumberField(Part):
     )
 
 
-class GroupField(Part):
+class ListField(Part):
     """A list of elements that each have fields of their own."""
 
     element: str = Key(description="The name of one element's class.")
@@ -238,20 +238,20 @@ class GroupField(Part):
 
 
 def _kind_of_field(value: object) -> str:
-    group = isinstance(value, GroupField) or (
+    group = isinstance(value, ListField) or (
         isinstance(value, dict) and not value.keys().isdisjoint(("element", "fields"))
     )
     return "group" if group else "number"
 
 
 AnyField: TypeAlias = Annotated[
-    Annotated[GroupField, Tag("group")] | Annotated[NumberField, Tag("number")],
+    Annotated[ListField, Tag("group")] | Annotated[NumberField, Tag("number")],
     Discriminator(_kind_of_field),
 ]
 
 
 class Example(Part):
-    """One frame, with what it means. Every example is executed by `framegen check`."""
+    """One frame with its values. Every example is executed by `framegen check`."""
 
     title: str = Key(description="What the frame says.")
     hex: Hex = Key(description="The frame, in hex.")
@@ -299,9 +299,9 @@ class Message(Part):
 
 
 class Pose(Part):
-    """The positions of what is named by numbers: how they are read, commanded and let go.
+    """The messages that read, command and release the positions of many actuators.
 
-    A client then has three methods more, and the command the verbs `teach` and `play`.
+    A client then has three more methods, and the command has the verbs `teach` and `play`.
     """
 
     read: str = Key(description="The message that asks for positions, by a list of numbers.")
@@ -316,7 +316,7 @@ class Pose(Part):
 
 
 class Reserved(Part):
-    """A code or a name that must not be used, for instance because a removed message had it."""
+    """An id or a name that must not be used, for instance because a removed message had it."""
 
     id: Natural | None = Key(None, description="The code.")
     direction: Way | None = Key(
@@ -344,7 +344,7 @@ class Concern(Part):
 
 
 class Erratum(Part):
-    """Where a document is wrong, and how that is known. `check` fails once it is not any more."""
+    """A mistake in a document, and the evidence. `check` fails once there is no difference."""
 
     title: str = Key(description="What is wrong, in one line.")
     cite: Cite = Key(description="Where it is printed.")
@@ -356,7 +356,7 @@ class Erratum(Part):
 
 
 class Unknown(Part):
-    """Something that nobody has written down."""
+    """A question that no source answers."""
 
     concerns: Concern = Key(description="What it is about.")
     what: str = Key(description="What is not known, and what this spec does meanwhile.")

@@ -1,4 +1,4 @@
-"""The small notations of the spec language: hex, `host -> controller`, `1..`, `0.001 V`, citations.
+"""The notations of the spec language: hex, `host -> controller`, `1..`, `0.001 V`, citations.
 
 Each is a frozen value with a `parse` that raises ValueError with what is wrong and what to write.
 """
@@ -22,7 +22,7 @@ _SCALE = re.compile(r"([0-9]{1,6}(?:\.[0-9]{1,12})?)\s+(\S+)")
 
 @dataclass(frozen=True, slots=True)
 class Direction:
-    """Who sends and who receives, written `host -> controller`."""
+    """A sender and a receiver, written `host -> controller`."""
 
     sender: str
     receiver: str
@@ -32,7 +32,7 @@ class Direction:
 
     @property
     def reversed(self) -> Direction:
-        """The way back."""
+        """The opposite direction."""
         return Direction(self.receiver, self.sender)
 
     @property
@@ -51,7 +51,7 @@ class Direction:
 
 @dataclass(frozen=True, slots=True)
 class Range:
-    """A range with both ends in it, written `0..1000`; `high` is None in an open one, `1..`."""
+    """An inclusive range, written `0..1000`; `high` is None in an open one, `1..`."""
 
     low: int
     high: int | None
@@ -60,7 +60,7 @@ class Range:
         return f"{self.low}..{'' if self.high is None else self.high}"
 
     def holds(self, other: Range) -> bool:
-        """Whether all of another range is in this one."""
+        """Tell whether another range lies inside this one."""
         within = self.high is None or (other.high is not None and other.high <= self.high)
         return self.low <= other.low and within
 
@@ -78,7 +78,7 @@ class Range:
 
 @dataclass(frozen=True, slots=True)
 class Scale:
-    """What one step of a value is in a larger unit, written `0.001 V`."""
+    """The size of one step of a value in a larger unit, written `0.001 V`."""
 
     step: Decimal
     unit: str
@@ -87,7 +87,7 @@ class Scale:
         return f"{self.step} {self.unit}"
 
     def of(self, value: int) -> str:
-        """`value` in that unit, exactly: 7500 steps of 0.001 V are `7.500 V`."""
+        """Convert `value` to that unit, exactly: 7500 steps of 0.001 V are `7.500 V`."""
         return f"{value * self.step} {self.unit}"
 
     @classmethod
@@ -103,7 +103,7 @@ class Scale:
 
 @dataclass(frozen=True, slots=True)
 class Citation:
-    """Where a fact comes from: a declared source and the place in it, `vendor, section 1.1`."""
+    """The source of a fact: a declared source and the place in it, `vendor, section 1.1`."""
 
     source: str
     place: str
@@ -146,7 +146,7 @@ class Method:
 
 
 class NotHex(ValueError):  # noqa: N818 - says what the text is
-    """Text that is no hex as a spec has it; `part` is the first word that is none."""
+    """Text that is no hex as a spec has it; `part` is the first word that is wrong."""
 
     def __init__(self, part: str, hint: str) -> None:
         super().__init__(f"`{part[:40]}` is no hex: {hint}")
@@ -154,7 +154,7 @@ class NotHex(ValueError):  # noqa: N818 - says what the text is
 
 
 def parse_hex(text: str) -> bytes:
-    """Bytes written `55 55 02 07`, over as many lines as they need. Raises NotHex."""
+    """Read bytes written `55 55 02 07`, over as many lines as they need. Raises NotHex."""
     if _HEX.fullmatch(text.strip()) is not None:
         return bytes.fromhex(text)
     part = next((word for word in text.split() if _BYTE.fullmatch(word) is None), "")
@@ -164,5 +164,5 @@ def parse_hex(text: str) -> bytes:
 
 
 def to_hex(data: bytes) -> str:
-    """Bytes as `55 55 02 07`."""
+    """Write bytes as `55 55 02 07`."""
     return data.hex(" ").upper()

@@ -1,1 +1,1 @@
-"""What follows from a spec: roles, places, sizes, exchanges; and the reference codec."""
+"""The model that follows from a spec: roles, layouts, sizes, exchanges; and the reference codec."""

@@ -1,7 +1,7 @@
-"""The reference codec: encodes and decodes single frames slot by slot, slowly and plainly.
+"""The reference codec: encodes and decodes single frames slot by slot, slow and plain.
 
 It executes the examples of a spec, explains frames and writes the test vectors. The generated
-libraries are held to what it says, and share no code with it.
+libraries are tested against it, and share no code with it.
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, slots=True)
 class Decoded:
-    """A frame understood: its layout and the values of its fields, without the count."""
+    """A decoded frame: its layout and the values of its fields, without the count."""
 
     layout: MessageLayout
     values: dict[str, Any]
@@ -45,7 +45,7 @@ class Unencodable(ValueError):  # noqa: N818 - says what the values are
 
 
 def decode(model: Model, direction: Direction | None, data: bytes) -> Decoded:
-    """Understand exactly one frame; with no direction, of whichever it is. Raises NotAFrame."""
+    """Decode exactly one frame, of any direction if none is given. Raises NotAFrame."""
     directions = model.directions if direction is None else [direction]
     verdict = weigh_whole(model, directions, data)
     if verdict.message is None:
@@ -54,7 +54,7 @@ def decode(model: Model, direction: Direction | None, data: bytes) -> Decoded:
 
 
 def values_of(message: MessageLayout, frame: bytes) -> dict[str, Any]:
-    """Read the values of a legal frame, by field."""
+    """Return the values of a legal frame, by field."""
     count = message.count_of(frame)
     # In the order of the frame, which is that of the fields.
     numbers = (
@@ -76,7 +76,7 @@ def values_of(message: MessageLayout, frame: bytes) -> dict[str, Any]:
 
 
 def encode(message: MessageLayout, values: Mapping[str, Any]) -> bytes:
-    """Encode the frame that carries `values`, keyed by field. Raises Unencodable."""
+    """Encode the frame that carries `values`, by field. Raises Unencodable."""
     count, numbers = _numbers(message, values)
     frame = bytearray(message.size_at(count))
     for placed in message.lay_out(count):
@@ -104,7 +104,7 @@ def _written(
 
 
 def _numbers(message: MessageLayout, values: Mapping[str, Any]) -> tuple[int, dict[str, object]]:
-    """Gather what is given by path (`targets[0].position`), and count the elements of the list."""
+    """Return the given numbers by path (`targets[0].position`), and the number of elements."""
     expected = {argument.name for argument in message.arguments}
     for name in sorted(values.keys() ^ expected):
         raise Unencodable(

@@ -1,4 +1,4 @@
-"""What stands around the fields of every frame: the slots that a spec lists under `frame`."""
+"""The envelope of every frame: the slots that a spec lists under `frame`."""
 
 from __future__ import annotations
 
@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING
 
+from framegen.language.number_types import NUMBER_TYPES
 from framegen.language.spec import (
     BodyPart,
     ChecksumPart,
@@ -13,7 +14,6 @@ from framegen.language.spec import (
     LengthPart,
     NumberField,
 )
-from framegen.language.wiretypes import WIRE_TYPES
 from framegen.model.slots import Body, Constant, Number, Placed, lay_out
 
 if TYPE_CHECKING:
@@ -25,7 +25,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Envelope:
-    """The slots of a frame whose message is not known yet, the body among them."""
+    """The slots of a frame of any message, the body among them."""
 
     slots: tuple[Constant | Number | Body, ...]
 
@@ -41,12 +41,12 @@ class Envelope:
 
     @cached_property
     def opening(self) -> str:
-        """How a frame begins, in words."""
+        """The beginning of a frame, in words."""
         return f"a frame begins {self.header.hex(' ').upper()}"
 
     @cached_property
     def shortest(self) -> str:
-        """How small a frame may be, in words."""
+        """The size of the shortest frame, in words."""
         return f"the shortest frame has {self.least} bytes"
 
     @cached_property
@@ -56,7 +56,7 @@ class Envelope:
 
     @cached_property
     def id(self) -> Number:
-        """The number that says which message it is."""
+        """The number that identifies the message."""
         return self._only("id")
 
     def _only(self, role: str) -> Number:
@@ -67,22 +67,22 @@ class Envelope:
 
     @cached_property
     def body_at(self) -> int:
-        """Where the fields begin."""
+        """The offset of the fields."""
         return next(slot.at for slot in self.slots if isinstance(slot, Body))
 
     @cached_property
     def head(self) -> tuple[Constant | Number, ...]:
-        """What stands in front of the fields."""
+        """The slots in front of the fields."""
         return tuple(slot for slot in self._fixed if 0 <= slot.at < self.body_at)
 
     @cached_property
     def placed_head(self) -> tuple[Placed, ...]:
-        """The same, each in its place, which is the same in every frame."""
+        """The slots in front of the fields with their places, the same in every frame."""
         return tuple(Placed(slot.name, slot.at, slot.size, slot) for slot in self.head)
 
     @cached_property
     def tail(self) -> tuple[Constant | Number, ...]:
-        """What stands behind them; its places count from the end."""
+        """The slots behind the fields, with places that count from the end."""
         return tuple(slot for slot in self._fixed if slot.at < 0)
 
     @cached_property
@@ -96,12 +96,12 @@ class Envelope:
 
     @cached_property
     def uncounted(self) -> int:
-        """How many bytes of a frame its length does not count."""
+        """The number of bytes of a frame that its length does not count."""
         return sum(slot.size for slot in self._fixed if slot.name not in self.length.of)
 
     @property
     def counted(self) -> int:
-        """How much the length counts besides the fields."""
+        """The number of bytes that the length counts besides the fields."""
         return self.least - self.uncounted
 
     @property
@@ -110,12 +110,12 @@ class Envelope:
         return range(self.id.low, self.id.high + 1)
 
     def lay_out(self, size: int) -> Iterator[Placed]:
-        """Say what stands where in a frame of `size` bytes; its fields are one piece."""
+        """Place the slots of a frame of `size` bytes; its fields are one piece."""
         return lay_out(self.slots, size)
 
 
 def derive_envelope(parts: Mapping[str, FramePart], order: ByteOrder) -> Envelope:
-    """Work out where the parts of a frame stand. Needs parts that keep the rule frame-parts."""
+    """Place the parts of a frame. Needs parts that keep the rule frame-parts."""
     slots: list[Constant | Number | Body] = []
     at = 0
     left = sum(map(_size_of, parts.values()))
@@ -142,11 +142,11 @@ def _number(
     elif isinstance(part, ChecksumPart):
         of = tuple(part.covers)
     field = NumberField.model_validate({"type": part.type, "about": part.about})
-    return Number(name, part.is_, at, WIRE_TYPES[part.type], order, field, of)
+    return Number(name, part.is_, at, NUMBER_TYPES[part.type], order, field, of)
 
 
 def _size_of(part: FramePart) -> int:
-    """How many bytes a part of a frame has; 0 for the body, whose size varies."""
+    """Return the size of a part of a frame in bytes; 0 for the body, whose size varies."""
     if isinstance(part, ConstantPart):
         return len(part.bytes_)
-    return 0 if isinstance(part, BodyPart) else WIRE_TYPES[part.type].size
+    return 0 if isinstance(part, BodyPart) else NUMBER_TYPES[part.type].size

@@ -1,4 +1,4 @@
-"""What a client does with each message that it sends: its method, and how the reply is known."""
+"""The exchanges of a client: each message that it sends, its method, and what comes back."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ import re
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from framegen.language.spec import GroupField
+from framegen.language.spec import ListField
 from framegen.language.values import Method
 
 if TYPE_CHECKING:
@@ -23,11 +23,11 @@ STEPS_PER_SECOND = {"s": 1, "ms": 1000}
 
 @dataclass(frozen=True)
 class Exchange:
-    """One message of the client, and what comes back.
+    """A request of the client, and what comes back for it.
 
-    `echoed` pairs a field of the request with where the reply has it, such as `servo_ids` with
-    `positions.servo_id`. `acknowledged` is the report that says that the request was taken, and
-    `lasts` the field of the request that says how long what it starts goes on.
+    `echoed` pairs a field of the request with its place in the reply, such as `servo_ids` with
+    `positions.servo_id`. `acknowledged` is the report that confirms the request, and `lasts` the
+    field of the request that says how long a motion goes on.
     """
 
     request: MessageLayout
@@ -40,33 +40,33 @@ class Exchange:
 
     @property
     def split(self) -> Items | None:
-        """The list of the request that is asked in parts, where a reply has room for fewer.
+        """The list of the request that is sent in parts, where a reply has room for fewer.
 
-        Only what is nothing but a list, and returns nothing but a list, can be put together again;
-        and only where the reply repeats it is it known what of it was answered.
+        Only a request that is a single list, and returns a list, can be split; and only where the
+        reply repeats it is it known which elements were answered.
         """
-        asked, reply = self.request.items, self.reply
-        if asked is None or reply is None or reply.items is None or not self.most:
+        requested, reply = self.request.items, self.reply
+        if requested is None or reply is None or reply.items is None or not self.most:
             return None
         whole = len(self.request.arguments) == 1 and self.method.result == reply.items.name
-        return asked if whole and self.most < asked.high else None
+        return requested if whole and self.most < requested.high else None
 
     @property
     def most(self) -> int:
-        """How many elements of the request's list a reply can answer; 0 where nothing limits it."""
-        asked = self.request.items
-        told = None if self.reply is None else self.reply.items
-        if asked is None or told is None:
+        """The number of elements of the request that a reply can answer; 0 for no limit."""
+        requested = self.request.items
+        reported = None if self.reply is None else self.reply.items
+        if requested is None or reported is None:
             return 0
         paired = any(
-            (one.partition(".")[0], other.partition(".")[0]) == (asked.name, told.name)
+            (one.partition(".")[0], other.partition(".")[0]) == (requested.name, reported.name)
             for one, other in self.echoed
         )
-        return told.high if paired else 0
+        return reported.high if paired else 0
 
 
 def exchanges(messages: Mapping[str, MessageLayout], roles: Roles) -> list[Exchange]:
-    """Every message that the client sends, in the order of the spec."""
+    """Return an exchange for every message that the client sends, in the order of the spec."""
     return [
         _exchange(messages, message)
         for message in messages.values()
@@ -75,7 +75,7 @@ def exchanges(messages: Mapping[str, MessageLayout], roles: Roles) -> list[Excha
 
 
 def method_of(name: str, message: Message) -> Method:
-    """The method that sends a message: as declared, or else named after it, its list first."""
+    """Return the method that sends a message: declared, or named after it, its list first."""
     if message.method is not None:
         return message.method
     lists = [key for key, field in message.fields.items() if field.counted_by is not None]
@@ -84,17 +84,17 @@ def method_of(name: str, message: Message) -> Method:
 
 
 def arguments_of(message: Message) -> list[str]:
-    """The fields that a user gives: all but counts."""
+    """Return the fields that a user gives: all but counts."""
     counters = {field.counted_by for field in message.fields.values()}
     return [name for name in message.fields if name not in counters]
 
 
 def paths_of(message: Message) -> dict[str, bool]:
-    """Every field that can be echoed, by path, and whether it is in a list."""
+    """Return every field that can be echoed, by path, and whether it is in a list."""
     paths: dict[str, bool] = {}
     for name in arguments_of(message):
         field = message.fields[name]
-        if isinstance(field, GroupField):
+        if isinstance(field, ListField):
             paths |= {f"{name}.{inner}": True for inner in field.fields}
         else:
             paths[name] = field.counted_by is not None
@@ -102,7 +102,7 @@ def paths_of(message: Message) -> dict[str, bool]:
 
 
 def snake_case(name: str) -> str:
-    """`ServoMove` as `servo_move`."""
+    """Return `servo_move` for `ServoMove`."""
     return re.sub(r"(?<=[a-z0-9])(?=[A-Z])|(?<=[A-Z])(?=[A-Z][a-z])", "_", name).lower()
 
 

@@ -1,4 +1,4 @@
-"""What a spec says of one fact, so that errata and unknowns can be held against it."""
+"""Facts of a spec, looked up so that errata and unknowns can be compared with them."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from functools import partial
 from typing import TYPE_CHECKING, Any
 
 from framegen.language.formula import Formula, parse_formula
-from framegen.language.spec import GroupField
+from framegen.language.spec import ListField
 from framegen.model.codec import decode
 from framegen.model.slots import Number
 from framegen.reading.findings import did_you_mean
@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 
 
 class NoSuchFact(ValueError):  # noqa: N818 - says what the fact is
-    """What the spec says nothing of; `key` is the key of the concern that leads nowhere."""
+    """A fact that the spec does not have; `key` is the wrong key of the concern."""
 
     def __init__(self, key: str, message: str, hint: str | Callable[[], str] = "") -> None:
         super().__init__(message)
@@ -32,7 +32,7 @@ class NoSuchFact(ValueError):  # noqa: N818 - says what the fact is
 
 @dataclass(frozen=True, slots=True)
 class Fact:
-    """What the spec says; None where the subject is there but is no single value."""
+    """A fact of the spec; None where the subject exists but has no single value."""
 
     value: int | str | list[Any] | Formula | None
 
@@ -40,7 +40,7 @@ class Fact:
         return json.dumps(self.value) if isinstance(self.value, list) else str(self.value)
 
     def agrees(self, said: object) -> bool:
-        """Whether `said` is the same; a length rule may be spaced and ordered differently."""
+        """Tell whether `said` is the same; a length rule may be spaced and ordered differently."""
         if not isinstance(self.value, Formula):
             # As JSON, 1 and true differ.
             return json.dumps(self.value, sort_keys=True) == json.dumps(said, sort_keys=True)
@@ -51,7 +51,7 @@ class Fact:
 
 
 def look_up(model: Model, concern: Concern) -> Fact:
-    """Find the fact. Raises NoSuchFact; and codec.NotAFrame where it is in a broken example."""
+    """Find a fact. Raises NoSuchFact; and codec.NotAFrame where it is in a broken example."""
     message = model.messages.get(concern.message)
     if message is None:
         raise NoSuchFact(
@@ -108,7 +108,7 @@ def _require_field(message: Message, name: str, path: str) -> None:
     outer, _, inner = path.partition(".")
     field = message.fields.get(outer)
     known = list(message.fields)
-    if inner and isinstance(field, GroupField):
+    if inner and isinstance(field, ListField):
         known = [f"{outer}.{each}" for each in field.fields]
     if field is None or (inner and path not in known):
         raise NoSuchFact("field", f"{name} has no field `{path}`", did_you_mean(path, known))

@@ -1,8 +1,7 @@
-"""What follows from a message in a spec: its slots, how long its frame may be, how long it takes.
+"""The layout of a message: its slots, how long its frame may be, and its time on the wire.
 
 Derived once, and read by the checks, the reference codec and every target; none of them computes an
-offset or a length of its own. `derive_message` needs a spec that the rules about its structure have
-passed.
+offset or a length of its own. `derive_message` needs a spec that the structure rules have passed.
 """
 
 from __future__ import annotations
@@ -12,8 +11,8 @@ from functools import cached_property
 from typing import TYPE_CHECKING
 
 from framegen.language.formula import Formula
-from framegen.language.spec import GroupField
-from framegen.language.wiretypes import WIRE_TYPES
+from framegen.language.number_types import NUMBER_TYPES
+from framegen.language.spec import ListField
 from framegen.model.slots import Body, Constant, Items, Number, lay_out
 
 if TYPE_CHECKING:
@@ -40,17 +39,17 @@ class MessageLayout:
 
     @property
     def id(self) -> int:
-        """The code of the message."""
+        """The id of the message."""
         return self.message.id
 
     @property
     def direction(self) -> Direction:
-        """Who sends it to whom."""
+        """The sender and the receiver."""
         return self.message.direction
 
     @cached_property
     def fields(self) -> tuple[Number | Items, ...]:
-        """What the message has besides its envelope: counts, numbers and the list."""
+        """The slots of the message between head and tail: counts, numbers and the list."""
         return tuple(
             slot
             for slot in self.slots
@@ -59,17 +58,17 @@ class MessageLayout:
 
     @cached_property
     def items(self) -> Items | None:
-        """Its list, where it has one."""
+        """The list, where the message has one."""
         return next((slot for slot in self.slots if isinstance(slot, Items)), None)
 
     @cached_property
     def arguments(self) -> tuple[Number | Items, ...]:
-        """What a user gives: every field but the count."""
+        """The fields that a user gives: all but the count."""
         return tuple(slot for slot in self.fields if isinstance(slot, Items) or slot.given)
 
     @property
     def limited(self) -> dict[str, Limits]:
-        """The limits of what a client sends, by path: `targets.position` for one in an element."""
+        """The limits of what a client sends, by path: `targets.position` in an element."""
         return {
             path: field.field.limits
             for path, field in self.numbers_by_path.items()
@@ -78,7 +77,7 @@ class MessageLayout:
 
     @cached_property
     def numbers_by_path(self) -> dict[str, Number]:
-        """Every number that is a field, or of an element: `time_ms`, `targets.position`."""
+        """Every number of a field or of an element: `time_ms`, `targets.position`."""
         found: dict[str, Number] = {}
         for slot in self.fields:
             if isinstance(slot, Number):
@@ -93,7 +92,7 @@ class MessageLayout:
 
     @cached_property
     def formula(self) -> Formula:
-        """The length as it follows from the slots."""
+        """The length rule that follows from the slots."""
         fixed = sum(slot.size for slot in self.slots if isinstance(slot, Constant | Number))
         constant = fixed - self.frame.uncounted
         if self.items is None:
@@ -102,34 +101,34 @@ class MessageLayout:
 
     @property
     def counts(self) -> range:
-        """How many elements a frame may have; 0 alone where the message has no list."""
+        """The legal numbers of elements; 0 alone where the message has no list."""
         return range(1) if self.items is None else range(self.items.low, self.items.high + 1)
 
     @cached_property
     def lengths(self) -> range:
-        """Every value that the length of a legal frame can have."""
+        """The legal values of the length."""
         lowest, highest = self.formula.at(self.counts[0]), self.formula.at(self.counts[-1])
         return range(lowest, highest + 1, self.formula.factor or 1)
 
     def size_at(self, count: int) -> int:
-        """How many bytes a frame with `count` elements has."""
+        """Return the size of a frame with `count` elements in bytes."""
         return self.formula.at(count) + self.frame.uncounted
 
     def count_at(self, length: int) -> int:
-        """How many elements a frame of this legal length has. Raises ValueError for no such one."""
+        """Return the count of a frame with this legal length. Raises ValueError for others."""
         return self.counts[self.lengths.index(length)]
 
     def count_of(self, frame: bytes) -> int:
-        """How many elements a legal frame has."""
+        """Return the number of elements of a legal frame."""
         return self.count_at(self.frame.length.read_in(frame))
 
     @property
     def largest(self) -> int:
-        """Bytes of the largest legal frame."""
+        """The size of the largest legal frame in bytes."""
         return self.size_at(self.counts[-1])
 
     def lay_out(self, count: int) -> Iterable[Placed]:
-        """Say what stands where in a frame with `count` elements, from its first byte on."""
+        """Place the slots of a frame with `count` elements, from its first byte on."""
         if count > _KEPT:
             return lay_out(self.slots, self.size_at(count), count)
         if count not in self._laid_out:
@@ -138,16 +137,16 @@ class MessageLayout:
 
     @cached_property
     def _laid_out(self) -> dict[int, tuple[Placed, ...]]:
-        """By count, what is asked for again and again: made once."""
+        """The placed slots by count, computed once because they are needed often."""
         return {}
 
     def wire_seconds(self, size: int) -> float:
-        """How long `size` bytes are on the line."""
+        """Return how long `size` bytes take on the line."""
         return size * self.link.bits_per_byte / self.link.baud
 
 
 def derive_message(spec: Spec, frame: Envelope, name: str) -> MessageLayout:
-    """Work out the slots of a message: those of the envelope, with its fields for a body."""
+    """Derive the slots of a message: those of the envelope, with its fields for a body."""
     message = spec.messages[name]
     slots: list[MessageSlot] = []
     for slot in frame.slots:
@@ -164,14 +163,14 @@ def _fields(spec: Spec, frame: Envelope, message: Message) -> Iterator[MessageSl
     at = frame.body_at
     behind = sum(slot.size for slot in frame.tail)
     for name, field in message.fields.items():
-        if field.counted_by is None and not isinstance(field, GroupField):
+        if field.counted_by is None and not isinstance(field, ListField):
             role: NumberRole = "count" if name in counters else "field"
-            wire = WIRE_TYPES[field.type]
-            numbers[name] = Number(name, role, at, wire, spec.byte_order, field)
+            number_type = NUMBER_TYPES[field.type]
+            numbers[name] = Number(name, role, at, number_type, spec.byte_order, field)
             yield numbers[name]
-            at += wire.size
+            at += number_type.size
             continue
-        element = field.element if isinstance(field, GroupField) else None
+        element = field.element if isinstance(field, ListField) else None
         fields = tuple(_element(spec, name, field))
         counter = numbers[str(field.counted_by)]
         fixed = at + behind - frame.uncounted
@@ -179,22 +178,22 @@ def _fields(spec: Spec, frame: Envelope, message: Message) -> Iterator[MessageSl
         yield Items(name, at, element, fields, counter, low, high, field)
 
 
-def _element(spec: Spec, name: str, field: GroupField | NumberField) -> Iterator[Number]:
+def _element(spec: Spec, name: str, field: ListField | NumberField) -> Iterator[Number]:
     at = 0
-    inner = field.fields if isinstance(field, GroupField) else {name: field}
+    inner = field.fields if isinstance(field, ListField) else {name: field}
     for each, number in inner.items():
-        yield Number(each, "field", at, WIRE_TYPES[number.type], spec.byte_order, number)
-        at += WIRE_TYPES[number.type].size
+        yield Number(each, "field", at, NUMBER_TYPES[number.type], spec.byte_order, number)
+        at += NUMBER_TYPES[number.type].size
 
 
 def _count_bounds(
     frame: Envelope,
-    field: GroupField | NumberField,
+    field: ListField | NumberField,
     counter: Number,
     constant: int,
     size: int,
 ) -> tuple[int, int]:
-    """Find the fewest and the most elements: as declared, or as length and count have room for."""
+    """Return the fewest and the most elements, as declared or as length and count allow."""
     room = min((frame.length.high - constant) // size, counter.high)
     declared = field.count
     if declared is None:

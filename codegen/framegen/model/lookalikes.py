@@ -1,4 +1,4 @@
-"""Tells the frames of protocols that are easily taken for this one."""
+"""Recognition of look-alikes: frames of protocols that are easily taken for this one."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, slots=True)
 class Recognised:
-    """A frame of a look-alike: whose it is, and where its parts stand."""
+    """A frame of a look-alike: which one, and the places of its parts."""
 
     name: str
     lookalike: Lookalike
@@ -25,7 +25,7 @@ class Recognised:
 
     @property
     def meaning(self) -> str:
-        """What the code means there; empty where the spec does not say."""
+        """The meaning of the id there; empty where the spec does not say."""
         return self.lookalike.commands.get(self.command, "")
 
 
@@ -44,7 +44,7 @@ def recognise(model: Model, data: bytes) -> Recognised | None:
 
 
 def _parts(frame: Envelope, data: bytes) -> dict[str, Placed] | None:
-    """Cut `data` into the parts of `frame`; None where a part says that it is no such frame."""
+    """Cut `data` into the parts of `frame`; None where a part shows that it is no such frame."""
     if len(data) < frame.least:
         return None
     parts = {placed.path: placed for placed in frame.lay_out(len(data))}
@@ -62,6 +62,6 @@ def _fits(placed: Placed, parts: dict[str, Placed], data: bytes) -> bool:
             return slot.read(found) == sum(parts[name].size for name in slot.of)
         case "checksum":
             total = sum(sum(parts[name].of(data)) for name in slot.of)
-            return slot.read(found) == ~total & slot.wire.high
+            return slot.read(found) == ~total & slot.number_type.high
         case _:
             return True

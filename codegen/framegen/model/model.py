@@ -1,4 +1,4 @@
-"""Everything that follows from a spec, in one place: whoever asks what a protocol is, asks here."""
+"""The model: everything that follows from a spec, derived once and in one place."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ class Model:
 
     @cached_property
     def lookalikes(self) -> dict[str, Envelope]:
-        """What the frames of each look-alike are; those of one without its own are ours."""
+        """The envelope of each look-alike; a look-alike without a frame has the protocol's own."""
         return {
             name: self.frame
             if lookalike.frame is None
@@ -43,16 +43,16 @@ class Model:
 
     @cached_property
     def ways(self) -> list[Direction]:
-        """Every direction: what the client sends, what it receives, and others that messages go."""
+        """Every direction: what the client sends, what it receives, and others of messages."""
         return list(dict.fromkeys([*self.roles.directions, *self._sent]))
 
     @cached_property
     def directions(self) -> list[Direction]:
-        """Those of them in which messages go."""
+        """Those directions that messages have."""
         return [way for way in self.ways if way in self._sent]
 
     def sent(self, direction: Direction) -> Mapping[int, MessageLayout]:
-        """The messages of one direction, by id."""
+        """Return the messages of one direction, by id."""
         return self._sent.get(direction, {})
 
     @cached_property
@@ -63,7 +63,7 @@ class Model:
         return found
 
     def largest(self, directions: Iterable[Direction]) -> int:
-        """Bytes of the largest legal frame of these directions; 0 where nothing goes."""
+        """Return the size of the largest legal frame of these directions; 0 for no messages."""
         return max((self._largest.get(way, 0) for way in directions), default=0)
 
     @cached_property
@@ -74,7 +74,7 @@ class Model:
         }
 
     def kind(self, name: str) -> Kind:
-        """What a message is: `query`, `command`, `reply` or `report`."""
+        """Return the kind of a message: `query`, `command`, `reply` or `report`."""
         return self._kinds[name]
 
     @cached_property
@@ -83,23 +83,23 @@ class Model:
 
     @cached_property
     def exchanges(self) -> list[Exchange]:
-        """Every message that the client sends and what comes back, in the order of the spec."""
+        """The exchanges of the client, in the order of the spec."""
         return exchanges(self.messages, self.roles)
 
     @cached_property
     def answers(self) -> dict[str, list[str]]:
-        """By reply, the messages that it answers."""
+        """The requests that each reply answers, by the name of the reply."""
         named = {name: [message.reply or ""] for name, message in self.spec.messages.items()}
         return _turned(named)
 
     @cached_property
     def reports_on(self) -> dict[str, list[str]]:
-        """By report, the messages that it may follow."""
+        """The messages that each report may follow, by the name of the report."""
         return _turned({name: message.reports for name, message in self.spec.messages.items()})
 
 
 def _turned(named: Mapping[str, Iterable[str]]) -> dict[str, list[str]]:
-    """By each name that is named, those that name it."""
+    """Invert a mapping: by each name that is named, those that name it."""
     found: dict[str, list[str]] = {}
     for name, others in named.items():
         for other in dict.fromkeys(others):
@@ -108,7 +108,7 @@ def _turned(named: Mapping[str, Iterable[str]]) -> dict[str, list[str]]:
 
 
 def derive(spec: Spec) -> Model:
-    """Work out all of it, once. Needs a spec that keeps the rules of its structure."""
+    """Derive the model. Needs a spec that keeps the structure rules."""
     frame = derive_envelope(spec.frame, spec.byte_order)
     messages = {name: derive_message(spec, frame, name) for name in spec.messages}
     return Model(spec, settle(spec), frame, messages)

@@ -1,8 +1,8 @@
-"""Who is who: which end is the library's user, which one it talks to, and what each message is.
+"""The roles of the endpoints: the client, the device, and the kind of each message.
 
 The first endpoint of a spec is the client, which the library is for; the second is the device that
-it talks to. Others can be named whom the same frames go to: they are read, and play no part. The
-order of the messages says nothing.
+it talks to. Further endpoints may receive the same frames: their directions are decoded, but no
+client is made for them. The order of the messages does not matter.
 """
 
 from __future__ import annotations
@@ -29,28 +29,28 @@ class Roles:
 
     @property
     def sent(self) -> Direction:
-        """What the client sends, and the device receives."""
+        """The direction from the client to the device."""
         return Direction(self.client, self.device)
 
     @property
     def received(self) -> Direction:
-        """What the device sends, and the client receives."""
+        """The direction from the device to the client."""
         return Direction(self.device, self.client)
 
     @property
     def directions(self) -> tuple[Direction, Direction]:
-        """Both, what the client sends first."""
+        """Both directions, the client's first."""
         return self.sent, self.received
 
 
 def settle(spec: Spec) -> Roles:
-    """Settle who is who. Needs a spec that keeps the rule endpoints."""
+    """Determine the roles. Needs a spec that keeps the rule endpoints."""
     client, device, *_ = spec.endpoints
     return Roles(client, device)
 
 
 def kinds(messages: Mapping[str, Message], roles: Roles) -> dict[str, Kind]:
-    """Tell a `query`, which is due a `reply`, from a `command` of the client's and a `report`."""
+    """Tell a `query`, which has a `reply`, from a `command` of the client's and a `report`."""
     replies = {message.reply for message in messages.values()}
 
     def kind(name: str, message: Message) -> Kind:

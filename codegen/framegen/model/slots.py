@@ -1,9 +1,9 @@
-"""What a frame is: an ordered list of slots, each of them bytes that belong together.
+"""Slots: a frame is an ordered list of them, each some bytes that belong together.
 
-What surrounds the fields and the fields themselves are the same kind of thing: a slot has a name, a
-role, and a place, which counts from the first byte of the frame, or, below zero, from its end.
-Everybody who needs to know what stands where walks the slots of a message with `lay_out`: a new
-kind of part is a role here, a case in the codec, and a case in each target that shows it.
+The envelope and the fields are the same kind of thing: a slot has a name, a role, and a place,
+which counts from the first byte of the frame or, below zero, from its end. Code that needs to know
+what stands where walks the slots of a message with `lay_out`: a new kind of part is a role here, a
+case in the codec, and a case in each target that shows it.
 """
 
 from __future__ import annotations
@@ -15,8 +15,8 @@ from typing import TYPE_CHECKING, ClassVar, Literal, TypeAlias
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator
 
-    from framegen.language.spec import GroupField, NumberField
-    from framegen.language.wiretypes import WireType
+    from framegen.language.number_types import NumberType
+    from framegen.language.spec import ListField, NumberField
 
 ByteOrder: TypeAlias = Literal["little", "big"]
 
@@ -37,50 +37,50 @@ class Constant:
 
     @property
     def size(self) -> int:
-        """How many bytes it has."""
+        """The size in bytes."""
         return len(self.data)
 
 
 @dataclass(frozen=True)
 class Number:
-    """A number: of the envelope, a field, or a field of an element, whose place it counts from.
+    """A number of the envelope, of a field, or of an element, whose place counts from the element.
 
-    `field` is what the spec says of it. `of` names the slots that it is worked out from: those that
-    a length counts, those that a checksum covers.
+    `field` is what the spec says of it. `of` names the slots that it is computed from: those that a
+    length counts, or those that a checksum covers.
     """
 
     name: str
     role: NumberRole
     at: int
-    wire: WireType
+    number_type: NumberType
     order: ByteOrder
     field: NumberField
     of: tuple[str, ...] = ()
 
     @property
     def size(self) -> int:
-        """How many bytes it has."""
-        return self.wire.size
+        """The size in bytes."""
+        return self.number_type.size
 
     @cached_property
     def low(self) -> int:
         """The lowest value allowed."""
-        return self.wire.low if self.field.range is None else self.field.range.low
+        return self.number_type.low if self.field.range is None else self.field.range.low
 
     @cached_property
     def high(self) -> int:
         """The highest value allowed."""
         declared = self.field.range
-        return self.wire.high if declared is None or declared.high is None else declared.high
+        return self.number_type.high if declared is None or declared.high is None else declared.high
 
     @property
     def narrowed(self) -> bool:
-        """Whether fewer values are allowed than the type holds."""
-        return (self.low, self.high) != (self.wire.low, self.wire.high)
+        """Whether fewer values are allowed than the type has."""
+        return (self.low, self.high) != (self.number_type.low, self.number_type.high)
 
     @property
     def is_field(self) -> bool:
-        """Whether it is a message's own; all others are of its envelope."""
+        """Whether it belongs to the message; all others belong to the envelope."""
         return self.role in ("count", "field")
 
     @property
@@ -89,28 +89,28 @@ class Number:
         return self.role in ("field", "address")
 
     def read(self, data: bytes) -> int:
-        """Read it from its bytes."""
-        return int.from_bytes(data, self.order, signed=self.wire.low < 0)
+        """Read the number from its bytes."""
+        return int.from_bytes(data, self.order, signed=self.number_type.low < 0)
 
     def read_in(self, frame: bytes) -> int:
-        """Read it where it stands in `frame`, which has all of it."""
+        """Read the number from `frame`, which holds all of it."""
         at = _from_front(self.at, len(frame))
         return self.read(frame[at : at + self.size])
 
     def is_in(self, data: bytes) -> bool:
-        """Whether all of it is there, in the beginning of a frame; never of what counts back."""
+        """Tell whether `data` holds all of it; never, if it is placed from the end."""
         return 0 <= self.at <= len(data) - self.size
 
     def write(self, value: int) -> bytes:
-        """Make the bytes that stand for `value`. OverflowError where they do not hold it."""
-        return value.to_bytes(self.size, self.order, signed=self.wire.low < 0)
+        """Write `value` as bytes. Raises OverflowError where it does not fit."""
+        return value.to_bytes(self.size, self.order, signed=self.number_type.low < 0)
 
 
 @dataclass(frozen=True)
 class Items:
-    """A list: as many elements as its counter says, each of the same fields.
+    """A list: as many elements as its counter says, each with the same fields.
 
-    `element` is what the spec calls an element with several fields, None for bare numbers.
+    `element` is the name of an element with several fields, None for bare numbers.
     """
 
     role: ClassVar = "list"
@@ -122,22 +122,22 @@ class Items:
     counter: Number
     low: int
     high: int
-    field: GroupField | NumberField
+    field: ListField | NumberField
 
     @cached_property
     def size(self) -> int:
-        """How many bytes an element has."""
+        """The size of an element in bytes."""
         return sum(field.size for field in self.fields)
 
     def path(self, index: int | str, field: Number) -> str:
-        """Name a number of the element at `index`: `targets[0].position`, or `ids[0]`."""
+        """Return the path of a number in an element: `targets[0].position`, or `ids[0]`."""
         inner = "" if self.element is None else f".{field.name}"
         return f"{self.name}[{index}]{inner}"
 
 
 @dataclass(frozen=True)
 class Body:
-    """Where the fields of a message stand, in an envelope that is nobody's yet."""
+    """The place of a message's fields in an envelope."""
 
     role: ClassVar = "body"
 
@@ -153,7 +153,7 @@ Slot: TypeAlias = MessageSlot | Body
 
 @dataclass(frozen=True, slots=True)
 class Placed:
-    """A slot in a frame of known size: what it is called there, and which bytes are its."""
+    """A slot in a frame of known size, with its path and its place."""
 
     path: str
     at: int
@@ -162,16 +162,16 @@ class Placed:
 
     @property
     def end(self) -> int:
-        """The offset behind its last byte."""
+        """The offset behind the last byte."""
         return self.at + self.size
 
     def of(self, frame: bytes) -> bytes:
-        """Its bytes, as far as they are there."""
+        """Return its bytes, as far as `frame` holds them."""
         return frame[self.at : self.end]
 
 
 def lay_out(slots: Iterable[Slot], size: int, count: int = 0) -> Iterator[Placed]:
-    """Say what stands where in a frame of `size` bytes with `count` elements, in its order."""
+    """Place the slots of a frame of `size` bytes with `count` elements, in order."""
     slots = list(slots)
     for slot in slots:
         at = _from_front(slot.at, size)
@@ -190,5 +190,5 @@ def lay_out(slots: Iterable[Slot], size: int, count: int = 0) -> Iterator[Placed
 
 
 def _from_front(at: int, size: int) -> int:
-    """Turn a place that may count from the end of a frame into one that counts from its front."""
+    """Convert a place that may count from the end of a frame into an offset."""
     return at if at >= 0 else size + at

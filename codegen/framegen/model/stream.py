@@ -1,7 +1,7 @@
-"""The reference stream decoder: what a line says, with whatever is no frame between its messages.
+"""The reference stream decoder: the messages of a stream, and the noise between them.
 
-Slow and plain: it weighs every place anew. Every decoder, in whatever language, is held to what it
-says, joined: where noise is cut depends on how the bytes came, and its sum does not.
+Slow and plain: it examines every offset anew. Every decoder in any language is tested against it,
+with neighbouring noise joined: where noise is cut depends on the chunks, and its sum does not.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, slots=True)
 class Event:
-    """A message, a frame of unknown id, or noise; `reason` says why those two are no message."""
+    """A message, a frame of unknown id, or noise; `reason` says why the latter are no message."""
 
     kind: Literal["message", "unknown", "noise"]
     at: int
@@ -33,9 +33,9 @@ class Event:
 
 @dataclass(frozen=True)
 class ReferenceDecoder:
-    """Decodes what is heard of `directions` on a line, by weighing every place of it anew.
+    """A decoder for a line that carries `directions`; it examines every offset anew.
 
-    Frames of more than `max_frame` bytes are refused by their length; None for any.
+    Frames of more than `max_frame` bytes are refused by their length; None for no bound.
     """
 
     model: Model
@@ -43,13 +43,13 @@ class ReferenceDecoder:
     max_frame: int | None = None
 
     def decode(self, data: bytes) -> list[Event]:
-        """Say what one stretch of the line held, after which it stays quiet."""
+        """Decode one stretch of the line, after which it stays quiet."""
         return self._read(data, quiet=True)
 
     def follow(self, parts: Iterable[bytes | None]) -> Iterator[Event | None]:
-        """Say what a line brings in pieces; None is where it goes quiet, in `parts` and here.
+        """Decode chunks; None is where the line goes quiet, in `parts` and in the result.
 
-        What is still held at the end is not told.
+        What is still held at the end is left out.
         """
         stretch = b""
         for part in parts:
@@ -62,9 +62,9 @@ class ReferenceDecoder:
         yield from self.decode_so_far(stretch)
 
     def decode_so_far(self, data: bytes) -> list[Event]:
-        """Say what can be told already while more may come; the rest of `data` is still held.
+        """Decode what is certain while more may follow; the rest is still held.
 
-        A decoder has told at least the messages among these.
+        A decoder has reported at least the messages among these.
         """
         return self._read(data, quiet=False)
 
@@ -100,14 +100,14 @@ class ReferenceDecoder:
         return events
 
     def _may_change(self, data: bytes, verdict: Verdict) -> bool:
-        """Tell whether more bytes could change what is to be done with what `data` begins."""
+        """Tell whether more bytes could change the verdict on what `data` begins."""
         unfinished = verdict.claim > len(data)
         return verdict.undecided or (unfinished and not self._has_message(data))
 
     def _lives(self, claimed: bytes) -> bool:
-        """Tell whether a frame begins, or may begin, behind the first of the bytes claimed.
+        """Tell whether a frame begins, or may begin, behind the first claimed byte.
 
-        What may, by these bytes alone, is worth more than a claim that nothing proves.
+        A possible frame takes precedence over a claim that nothing proves.
         """
         verdicts = (self.weigh(claimed[at:]) for at in range(1, len(claimed)))
         return any(verdict.message or verdict.undecided for verdict in verdicts)
@@ -117,7 +117,7 @@ class ReferenceDecoder:
 
 
 def _tell_noise(events: list[Event], at: int, data: bytes, reason: str) -> None:
-    """Tell noise, as one with what is in front of it if that is noise for the same reason."""
+    """Add noise, joined with noise of the same reason in front of it."""
     if events and events[-1].kind == "noise" and events[-1].reason == reason:
         before = events.pop()
         at, data = before.at, before.data + data

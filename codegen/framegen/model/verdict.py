@@ -1,7 +1,7 @@
-"""What can be told of bytes as the beginning of a frame: the one answer to "why is this none?".
+"""The verdict on bytes as the beginning of a frame, with the one reason why they are none.
 
-The bytes are tested in the order in which they come, and the first that no legal frame can have
-gives the reason and the place. Single frames and streams are judged by this alone.
+The bytes are examined in the order in which they arrive; the first that no legal frame can have
+gives the reason and the offset. Single frames and streams are judged by this alone.
 """
 
 from __future__ import annotations
@@ -12,7 +12,7 @@ from itertools import islice
 from typing import TYPE_CHECKING
 
 from framegen.model.slots import Constant, Number
-from framegen.wording import describe_range
+from framegen.pluralize import describe_range
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -34,15 +34,15 @@ OUT_OF_RANGE = "out of range"
 
 @dataclass(frozen=True, slots=True)
 class Verdict:
-    """What bytes begin: a message, nothing, or what may become one when more of them come.
+    """The verdict on some bytes: a message, no frame, or not yet decided.
 
     Of a message, `offset` is where its frame ends. Else `message` is None, and `reason` and
-    `offset` say where it shows that this is no frame: `too short` is what may become one.
+    `offset` say where it shows that this is no frame: `too short` may still become one.
     `expected` says what was due. `seen` are the slots that agreed up to there, and `likely` is the
-    message that they began, once that is known.
+    message that they began, if it is known.
 
-    Of a frame of unknown id, `claim` is how many bytes it says that it has, which nothing proves;
-    the least that a frame has, as long as its head is cut short; 0 where no frame has as many.
+    Of a frame of unknown id, `claim` is the size that it claims, which nothing proves; the size of
+    the smallest frame, as long as its head is cut short; 0 for a size that no frame has.
     """
 
     message: MessageLayout | None
@@ -76,7 +76,8 @@ def weigh(
     """Judge what `data` begins, sent in any of `directions`; it may go on behind the frame.
 
     Frames larger than `max_frame` bytes are refused by their length. A frame that is legal in
-    several directions is the first's; where none has it, the refusal that shows last is given.
+    several directions belongs to the first; where it is legal in none, the refusal with the
+    largest offset is given.
     """
     if data and data[0] != model.frame.header[0]:
         return _begins_otherwise(model.frame.opening)
@@ -93,7 +94,7 @@ def weigh(
 
 
 def weigh_whole(model: Model, directions: Sequence[Direction], data: bytes) -> Verdict:
-    """Judge `data` as exactly one frame: what comes behind one is refused, too."""
+    """Judge `data` as exactly one frame: bytes behind the frame are refused, too."""
     verdict = weigh(model, directions, data)
     if verdict.message is None or verdict.offset == len(data):
         return verdict
@@ -102,12 +103,12 @@ def weigh_whole(model: Model, directions: Sequence[Direction], data: bytes) -> V
 
 @lru_cache
 def _begins_otherwise(opening: str) -> Verdict:
-    """The verdict on most places of a line, made once."""
+    """Return the verdict on most offsets of a line, made once."""
     return Verdict(None, BAD_HEADER, 0, opening, (), None)
 
 
 class _Look:
-    """One place where a frame may begin, looked at slot by slot."""
+    """One offset where a frame may begin, examined slot by slot."""
 
     def __init__(
         self, model: Model, directions: Sequence[Direction], data: bytes, max_frame: int | None
@@ -122,7 +123,7 @@ class _Look:
         self.likely: MessageLayout | None = None
 
     def head(self) -> tuple[int, list[MessageLayout]]:
-        """Read what stands in front of the fields: the length, and which messages can have it."""
+        """Read the slots in front of the fields: the length, and the messages that can have it."""
         length: int | None = None
         candidates: list[MessageLayout] | None = None
         for placed in self.frame.placed_head:
@@ -143,7 +144,7 @@ class _Look:
         return length, candidates
 
     def claim(self) -> int:
-        """Tell how many bytes a frame of unknown id says that it has; 0 where no frame has them."""
+        """Return the size that a frame of unknown id claims; 0 for a size that no frame has."""
         if len(self.data) < self.frame.body_at:
             return self.frame.least
         size = self.frame.length.read_in(self.data) + self.frame.uncounted
@@ -191,7 +192,7 @@ class _Look:
         return [message for message in sent if message is not None]
 
     def _named(self) -> list[MessageLayout]:
-        """The messages that have the id of these bytes, whatever stands in front of it."""
+        """Return the messages that have the id of these bytes, whatever precedes it."""
         place = self.frame.id
         return self._messages(place.read_in(self.data)) if place.is_in(self.data) else []
 

@@ -1,1 +1,1 @@
-"""The only room that knows YAML: the text of a spec, its values, and where each of them stands."""
+"""The only package that knows YAML: the text of a spec, its values, and the position of each."""

@@ -1,4 +1,4 @@
-"""What can be said against a spec: a rule, a place, what is wrong there and how to mend it."""
+"""Findings about a spec: a rule, a place, what is wrong there and how to mend it."""
 
 from __future__ import annotations
 
@@ -7,8 +7,8 @@ from dataclasses import dataclass
 from difflib import get_close_matches
 from typing import TYPE_CHECKING
 
+from framegen.pluralize import pluralize
 from framegen.reading.text import shown
-from framegen.wording import counted
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator
@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, slots=True)
 class Related:
-    """A second place that a finding speaks of, such as the first use of a duplicate."""
+    """A second place that a finding mentions, such as the first use of a duplicate."""
 
     span: Span
     text: str
@@ -32,7 +32,7 @@ class Finding:
     """One thing wrong with a spec.
 
     `rule` is the stable id; `path` the dotted path of the value (`messages.ServoMove.id`).
-    What is repeated of the spec is cut short where nobody would read all of it.
+    Long quotations from the spec are cut short.
     """
 
     rule: str
@@ -64,18 +64,18 @@ class Finding:
 
 
 def in_order(findings: Iterable[Finding]) -> list[Finding]:
-    """Sort the findings from the top of the file down, each said once, and no more than help."""
+    """Sort the findings from the top of the file down, without duplicates, up to a limit."""
     unique = sorted(dict.fromkeys(findings), key=lambda f: (f.span, f.rule, f.message))
-    told, more = unique[:MOST_FINDINGS], unique[MOST_FINDINGS:]
+    shown, more = unique[:MOST_FINDINGS], unique[MOST_FINDINGS:]
     if more:
-        message = f"not shown: {counted(len(more), 'finding')} from here down"
+        message = f"not shown: {pluralize(len(more), 'finding')} from here down"
         hint = "mend those above, and check again"
-        told.append(Finding("many-findings", more[0].span, more[0].path, message, hint))
-    return told
+        shown.append(Finding("many-findings", more[0].span, more[0].path, message, hint))
+    return shown
 
 
 def did_you_mean(word: str, known: Iterable[str], *, otherwise: str = "") -> str:
-    """Hint at what a misspelt word was to be: its nearest neighbour, or else the choices."""
+    """Suggest what a misspelt word was meant to be: its nearest neighbour, or the choices."""
     choices = list(known)
     near = get_close_matches(word, choices)
     if near:

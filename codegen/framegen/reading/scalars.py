@@ -1,4 +1,4 @@
-"""What a plain YAML scalar means: only what YAML 1.1 and 1.2 agree on, and nothing by surprise.
+"""The values of plain YAML scalars: only what YAML 1.1 and 1.2 agree on.
 
 PyYAML reads YAML 1.1, editors read 1.2, and they differ on words (`no`), octals (`010`),
 sexagesimals (`1:30`) and more. A spec means the same to everybody, so whatever the two read
@@ -79,6 +79,6 @@ def resolve(text: str) -> str | int | bool | None:
 
 
 def _decimal(text: str) -> str:
-    """`-0_10` as `-10`: what the digits are when nobody can take them for octal."""
+    """Return `-0_10` as `-10`: the digits, where nobody can take them for octal."""
     sign = "-" if text.startswith("-") else ""
     return sign + (text.lstrip("+-").replace("_", "").lstrip("0") or "0")

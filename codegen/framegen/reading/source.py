@@ -1,4 +1,4 @@
-"""The text of a spec file, and places in it: what every finding points at."""
+"""The text of a spec file, and the places in it that findings point at."""
 
 from __future__ import annotations
 
@@ -18,10 +18,10 @@ class Span:
 
 @dataclass(frozen=True, slots=True)
 class Source:
-    """A spec as text. `name` is how its reader knows it: the path as it was given.
+    """A spec as text. `name` is the path as its reader gave it.
 
-    `path` is where it lies below the root of its project, wherever that is: spec/NAME, or NAME
-    for a spec that lies in no folder `spec`. Without one it follows from the name.
+    `path` is its place below the root of its project: spec/NAME, or NAME for a spec that lies in no
+    folder `spec`. If not given, it follows from the name.
     """
 
     name: str
@@ -36,14 +36,14 @@ class Source:
 
     @property
     def digest(self) -> str:
-        """SHA-256 of the text with LF line ends, so that a checkout on any platform agrees."""
+        """The SHA-256 of the text with LF line ends, the same for a checkout on any platform."""
         return sha256(self.text.encode()).hexdigest()
 
     def line(self, number: int) -> str:
-        """Line `number`, counted from 1; empty past the end of the text."""
+        """Return line `number`, counted from 1; empty past the end of the text."""
         return self.lines[number - 1] if 0 < number <= len(self.lines) else ""
 
 
 def below_root(file: PurePath) -> str:
-    """Give the path of a spec below the root of its project: the folder that holds spec/."""
+    """Return the path of a spec below the root of its project: the folder that holds spec/."""
     return f"spec/{file.name}" if file.parent.name == "spec" else file.name

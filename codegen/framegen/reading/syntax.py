@@ -1,7 +1,7 @@
-"""What is wrong where a text is no YAML, and what to do about it.
+"""Findings on text that is no YAML: what is wrong, and what to do about it.
 
-The parser's own words (`did not find expected key`) tell what it was doing, not what the author
-did. So the text around the place is looked at; the words are used where that shows nothing.
+The parser's own words (`did not find expected key`) say what it was doing, not what the author
+did. So the text around the place is examined; the parser's words are used where that shows nothing.
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ _RESERVED = "@`%*&!"
 
 
 def syntax_finding(error: yaml.MarkedYAMLError, source: Source) -> Finding:
-    """Say where the text stops being YAML, and how to mend it."""
+    """Return where the text stops being YAML, and how to mend it."""
     words = tuple(part for part in (error.context, error.problem) if part)
     at, begun = (_span(source, mark) for mark in (error.problem_mark, error.context_mark))
     slip = _Slip(source, at, begun, ", ".join(words))
@@ -36,7 +36,7 @@ def syntax_finding(error: yaml.MarkedYAMLError, source: Source) -> Finding:
 
 @dataclass(frozen=True, slots=True)
 class _Slip:
-    """Where the parser stopped, where what it was reading began, and its words for it."""
+    """Where the parser stopped, where the construct that it was reading began, and its words."""
 
     source: Source
     at: Span
@@ -55,13 +55,13 @@ class _Slip:
         return self.source.line(span.line)[span.column - 1 : span.column]
 
     def indent(self, number: int) -> int | None:
-        """By how many blanks a line is indented; None for one that is empty, or a comment."""
+        """Return the indentation of a line; None for one that is empty, or a comment."""
         line = self.source.line(number)
         rest = line.lstrip(" ")
         return None if not rest or rest.startswith("#") else len(line) - len(rest)
 
     def indents_above(self) -> list[int]:
-        """The indents of what the line could belong to, from the nearest outwards."""
+        """Return the indentations that the line could belong to, the nearest first."""
         found: list[int] = []
         for number in range(self.at.line - 1, 0, -1):
             indent = self.indent(number)
@@ -71,7 +71,7 @@ class _Slip:
 
 
 def _span(source: Source, mark: Any) -> Span:
-    """Find where a mark of the parser is; behind the last line, it is at the end of that."""
+    """Find the place of a parser's mark; behind the last line, it is at the end of that."""
     if mark is None:
         return Span(1, 1)
     if mark.line >= len(source.lines):
@@ -122,7 +122,7 @@ def _colon(slip: _Slip) -> Finding | None:
 
 
 def _swallowed(slip: _Slip) -> Finding | None:
-    """Look for a line that goes on with the value above it, because it is indented further."""
+    """Find a line that continues the value above it, because it is indented further."""
     here = slip.indent(slip.at.line)
     above = slip.indents_above()
     if here is None or not above or here <= above[0]:
@@ -166,7 +166,7 @@ def _no_colon(slip: _Slip) -> Finding | None:
 
 
 def _next_line(slip: _Slip) -> Finding | None:
-    """Look for what begins behind a key, and has to begin below it."""
+    """Find text behind a key that has to begin below it."""
     if slip.opening in ("|", ">") and "block scalar" in slip.words:
         return _finding(
             slip.at, f"the text behind `{slip.opening}` begins on the next line", "move it there"
@@ -178,7 +178,7 @@ def _next_line(slip: _Slip) -> Finding | None:
 
 
 def _indented(slip: _Slip) -> Finding | None:
-    """Look for a line that is indented like none that it could belong to, or for what it is not."""
+    """Find a line whose indentation matches none that it could belong to."""
     here, above = slip.indent(slip.at.line), slip.indents_above()
     if here is None or here != slip.at.column - 1 or not above:
         return None

@@ -1,4 +1,4 @@
-"""Characters that a reader cannot see: which a spec may not hold, and what is shown for them."""
+"""Invisible characters: which a spec may not hold, and what is shown for them."""
 
 from __future__ import annotations
 
@@ -26,18 +26,18 @@ _INVISIBLE = re.compile(f"[{''.join(f'{chr(low)}-{chr(high)}' for low, high in _
 
 
 def is_invisible(character: str) -> bool:
-    """Whether it is a control, a direction override or another character of no width."""
+    """Tell whether it is a control, a direction override or another character of no width."""
     return _INVISIBLE.match(character) is not None
 
 
 def first_invisible(text: str) -> str | None:
-    """Find the first character of `text` that may not stand in a spec; a line feed may."""
+    """Find the first character that may not occur in a spec; a line feed may."""
     found = _INVISIBLE.search(text)
     return None if found is None else found[0]
 
 
 def shown(text: str) -> str:
-    """Show white space as blanks and what cannot be seen as a mark, one for one, for a caret."""
+    """Replace white space by blanks, and what is invisible by a mark, one for one."""
     return "".join(
         " " if c in "\t\n\r\v\f" else c if c.isprintable() else "\N{REPLACEMENT CHARACTER}"
         for c in text

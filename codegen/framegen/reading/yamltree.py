@@ -1,4 +1,4 @@
-"""Reads YAML text into plain values, keeping for each of them the place where it stands.
+"""A YAML reader that keeps the position of each value and each key.
 
 Built on the parser's events, not on its loader: nothing is ever constructed from a tag, an alias
 cannot multiply, a duplicate key cannot hide, and depth is bounded before anything recurses.
@@ -29,9 +29,9 @@ MAX_DEPTH = 24
 
 
 class Unusable(Exception):  # noqa: N818 - says what the input is
-    """The input is no spec at all: not there, not text, not YAML, or not a mapping.
+    """Input or arguments that cannot be used at all, such as a file that is no YAML mapping.
 
-    `finding` tells the place where there is one to tell.
+    `finding` has the place, where there is one.
     """
 
     def __init__(self, message: str, *, hint: str = "", finding: Finding | None = None) -> None:
@@ -42,18 +42,18 @@ class Unusable(Exception):  # noqa: N818 - says what the input is
 
 @dataclass(slots=True)
 class Tree:
-    """The values of a YAML file, and where each value and each key stands."""
+    """The values of a YAML file, and the position of each value and each key."""
 
     data: dict[str, Any]
     values: dict[KeyPath, Span] = field(default_factory=dict)
     keys: dict[KeyPath, Span] = field(default_factory=dict)
 
     def value_at(self, path: KeyPath) -> Span:
-        """Where the value at `path` stands, or the nearest value around it."""
+        """Return the position of the value at `path`, or of the nearest value around it."""
         return self._nearest(path, self.values, self.keys)
 
     def key_at(self, path: KeyPath) -> Span:
-        """Where the key at `path` stands; in a list, where the element does."""
+        """Return the position of the key at `path`; in a list, of the element."""
         return self._nearest(path, self.keys, self.values)
 
     @staticmethod
@@ -75,7 +75,7 @@ def dotted(path: KeyPath) -> str:
 
 
 def read_tree(source: Source) -> tuple[Tree, list[Finding]]:
-    """Read one YAML document. Raises Unusable where there is none, or none that is a mapping."""
+    """Read one YAML document. Raises Unusable where there is none, or no mapping."""
     builder = _Builder(source)
     try:
         data = builder.document()
@@ -91,7 +91,7 @@ def read_tree(source: Source) -> tuple[Tree, list[Finding]]:
             else "holds " + ("a list" if isinstance(data, list) else "a single value")
         )
         raise Unusable(
-            f"the file {found}, where a spec is a mapping of keys",
+            f"the file {found}, but a spec is a mapping of keys",
             hint="begin with `framegen: 2` and `protocol:`; "
             "`framegen schema` prints the whole language",
         )
@@ -100,18 +100,18 @@ def read_tree(source: Source) -> tuple[Tree, list[Finding]]:
 
 
 def _hidden(source: Source, known: list[Finding]) -> Iterator[Finding]:
-    """Find what no reader can see outside of values: in comments, or between things."""
-    told = {finding.span.line for finding in known if finding.rule == "invisible-character"}
+    """Find invisible characters outside of values: in comments, or between tokens."""
+    reported = {finding.span.line for finding in known if finding.rule == "invisible-character"}
     for number, line in enumerate(source.lines, start=1):
         character = first_invisible(line.replace("\t", " "))
-        if character is not None and number not in told:
+        if character is not None and number not in reported:
             span = Span(number, line.index(character) + 1)
             message = f"U+{ord(character):04X} stands here, which no reader can see"
             yield Finding("invisible-character", span, "", message, "remove it")
 
 
 class _Builder:
-    """Turns the parser's events into values; one use."""
+    """A builder of values from the parser's events, for one use."""
 
     def __init__(self, source: Source) -> None:
         self._source = source
@@ -242,7 +242,7 @@ class _Builder:
         self.findings.append(Finding(rule, self._span(event), dotted(path), message, hint, related))
         if len(self.findings) >= MOST_FINDINGS:
             raise Unusable(
-                "the file is no spec: too much in it is not the YAML of a spec",
+                "the file is no spec: too many of its values are not those of a spec",
                 finding=self.findings[0],
             )
 

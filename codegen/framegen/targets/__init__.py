@@ -1,1 +1,1 @@
-"""What framegen writes: one folder for each kind of output."""
+"""The targets: one folder for each kind of output."""

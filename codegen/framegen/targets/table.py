@@ -1,4 +1,4 @@
-"""The targets that there are. A new one is a folder, and a row here."""
+"""The table of targets. A new one is a folder, and a row here."""
 
 from __future__ import annotations
 

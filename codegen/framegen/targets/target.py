@@ -1,4 +1,4 @@
-"""What a target is: one kind of output, such as a library for one language, or the reference."""
+"""The interface of a target: one kind of output, such as a library for one language."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ Snippets: TypeAlias = Mapping[str, Snippet]
 
 @dataclass(frozen=True, slots=True)
 class Comment:
-    """What stands around a line to make it a comment."""
+    """The text around a line that makes it a comment."""
 
     before: str
     after: str = ""
@@ -29,8 +29,8 @@ class Comment:
 class Reserved:
     """Words that a target has taken already, for names of one kind such as `field`.
 
-    `why` goes on where the name left off ("is a word of Python itself"); a name that is one of
-    them is written with `suffix` behind it.
+    `why` continues a sentence about the name ("is a word of Python itself"); a name that is one of
+    them gets `suffix` behind it.
     """
 
     kind: str
@@ -41,7 +41,7 @@ class Reserved:
 
 @dataclass(frozen=True, slots=True)
 class BentName:
-    """A name of a kind that a target writes otherwise, the place in the spec, and why."""
+    """A name that a target changes, its place in the spec, and the reason."""
 
     path: KeyPath
     kind: str

@@ -1,4 +1,4 @@
-"""The templates of a target: strict about names, and compiled once for many runs."""
+"""The templates of a target: strict about undefined names, and compiled once for many runs."""
 
 from __future__ import annotations
 
@@ -16,9 +16,9 @@ if TYPE_CHECKING:
 
 
 class _Compiled(FileSystemBytecodeCache):
-    """Templates as code, kept beside them as Python keeps its own modules, and where it may.
+    """A cache of compiled templates, kept beside them, where that is possible.
 
-    To compile the templates takes as long as all the rest of a run.
+    Compiling the templates takes as long as all the rest of a run.
     """
 
     def __init__(self, folder: Path, kind: str) -> None:
@@ -39,7 +39,7 @@ class _Compiled(FileSystemBytecodeCache):
 
 
 def environment(folder: Path, kind: str, **settings: Any) -> Environment:
-    """What renders the templates of a folder. What they show is escaped as `settings` say."""
+    """Return the renderer of the templates of a folder; `settings` say how it escapes."""
     return Environment(  # noqa: S701 - whoever calls this says what is escaped, and how
         loader=FileSystemLoader(folder),
         bytecode_cache=_Compiled(folder / "__pycache__", kind),

@@ -1,9 +1,10 @@
-"""Puts output on disk: what is framegen's own, and only that; nothing half-written, ever."""
+"""Writing of output: only what is framegen's own, and never half of a file."""
 
 from __future__ import annotations
 
 from framegen.writing.change import Change
+from framegen.writing.create import create
 from framegen.writing.survey import Survey, changes, survey
 from framegen.writing.write import Written, write
 
-__all__ = ["Change", "Survey", "Written", "changes", "survey", "write"]
+__all__ = ["Change", "Survey", "Written", "changes", "create", "survey", "write"]

@@ -1,4 +1,4 @@
-"""One file that differs from what is wanted: why, and whose work it would replace."""
+"""Changes: files that differ from what is wanted, and whose work would be replaced."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from io import StringIO
 from typing import TYPE_CHECKING, Literal
 
 from framegen.console import visible
-from framegen.wording import counted
+from framegen.pluralize import pluralize
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -33,7 +33,7 @@ class Change:
         return self.why not in ("edited by hand", "foreign")
 
     def diff(self) -> str:
-        """The change as a unified diff."""
+        """Return the change as a unified diff."""
         before = "/dev/null" if self.old is None else f"a/{visible(self.path)}"
         after = "/dev/null" if self.new is None else f"b/{visible(self.path)}"
         old, new = (list(StringIO(text or "")) for text in (self.old, self.new))
@@ -46,8 +46,8 @@ class Change:
 
 
 def describe(found: Sequence[Change]) -> str:
-    """Say what stands in the way, a line each; of many, how many more there are."""
+    """Describe the conflicts, a line each; of many, the number of further ones."""
     lines = [f"{change.why}: {visible(change.path)}" for change in found[:_NAMED]]
     if len(found) > len(lines):
-        lines.append(f"and {counted(len(found) - len(lines), 'more file')}")
+        lines.append(f"and {pluralize(len(found) - len(lines), 'more file')}")
     return "\n".join(f"  {line}" for line in lines)

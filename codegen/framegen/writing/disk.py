@@ -1,4 +1,4 @@
-"""The steps by which the disk is changed. Each is taken whole or not at all, save `write_file`."""
+"""The steps that change the disk. Each succeeds or fails as a whole, except `write_file`."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ def make_folder(folder: Path) -> None:
 
 
 def write_file(file: Path, data: bytes, *, flush: bool = False) -> None:
-    """Write a new file; with `flush`, see that it has reached the disk before what comes next."""
+    """Write a new file; with `flush`, wait until it has reached the disk."""
     with file.open("xb") as stream:
         stream.write(data)
         if flush:
@@ -24,7 +24,7 @@ def write_file(file: Path, data: bytes, *, flush: bool = False) -> None:
 
 
 def move(old: Path, new: Path) -> None:
-    """Give a file another name on the same file system; what had that name is gone."""
+    """Rename a file within its file system, and replace what had that name."""
     old.replace(new)
 
 

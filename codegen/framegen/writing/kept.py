@@ -1,4 +1,4 @@
-"""Files of others that stood in the way, and were kept: beside their place, under another name."""
+"""Files of others that were in the way, kept beside their place under another name."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ _NAME = re.compile(r".+\.mine(-\d+)?", re.DOTALL)
 
 
 def is_kept(path: str) -> bool:
-    """Whether a path is one that a file was kept under."""
+    """Tell whether a path is one that a file was kept under."""
     return _NAME.fullmatch(path) is not None
 
 

@@ -1,4 +1,4 @@
-"""The list of what framegen wrote, which is kept beside the output: by it, own files are known."""
+"""The manifest: the list of framegen's own files, kept beside the output."""
 
 from __future__ import annotations
 
@@ -23,21 +23,21 @@ _ASTRAY = re.compile(r"/|[A-Za-z]:|(?:.*/)?\.\.?(?:/|$)|.*(?:\\|//|/$)")
 
 
 def file_digest(data: bytes) -> str:
-    """SHA-256 of a file with LF line ends, so that a checkout with others is no edit."""
+    """Return the SHA-256 of a file with LF line ends, so that a checkout with others is no edit."""
     return sha256(data.replace(b"\r\n", b"\n")).hexdigest()
 
 
 def text_digest(text: str) -> str:
-    """SHA-256 of what is to be written."""
+    """Return the SHA-256 of text that is to be written."""
     return file_digest(text.encode())
 
 
 @dataclass(frozen=True, slots=True)
 class Manifest:
-    """What framegen wrote from a spec: by path, the digests by which a file there is its own.
+    """What framegen wrote from a spec: by path, the digests by which it knows a file as its own.
 
-    A path has several while a run is `under_way`, and where git has joined two lists; a file that
-    matches any is framegen's. `whole` is False where the text could not be read to the letter.
+    A path has several while a run is `under_way`, and where git has merged two lists; a file that
+    matches any is framegen's. `whole` is False where the text could not be read completely.
     """
 
     spec: str
@@ -49,12 +49,12 @@ class Manifest:
 
     @property
     def joined(self) -> frozenset[str]:
-        """Paths of which git has joined the lines of two lists, and maybe the files as well."""
+        """Paths whose lines git has merged from two lists, and maybe the files as well."""
         several = () if self.under_way else self.files
         return frozenset(path for path in several if len(self.files[path]) > 1)
 
     def text(self) -> str:
-        """The manifest as it is written, one sorted line a file."""
+        """Return the manifest as it is written, one sorted line for each file."""
         facts = {
             "spec": visible(self.spec),
             "spec-sha256": self.digest,
@@ -71,7 +71,7 @@ class Manifest:
 
 
 def read_manifest(data: bytes) -> Manifest:
-    """Read all that can be read; what cannot, such as the marks of a conflict, is passed over."""
+    """Read a manifest; what cannot be read, such as conflict markers, is skipped."""
     text = data.decode("utf-8", errors="replace").replace("\r\n", "\n")
     facts: dict[str, str] = {}
     files: dict[str, set[str]] = {}

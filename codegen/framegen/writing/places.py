@@ -1,4 +1,4 @@
-"""What stands where output goes, and that no path leads out of the root."""
+"""The places of output: what stands there, and that no path leads out of the root."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ _LITTER = frozenset(["__pycache__", ".DS_Store", "Thumbs.db"])
 
 @dataclass(frozen=True, slots=True)
 class Standing:
-    """What stands at a path: a file with its bytes, or whatever else in a word or two."""
+    """What stands at a path: a file with its bytes, or the kind of anything else."""
 
     data: bytes
     kind: str = ""
@@ -35,7 +35,7 @@ class Places:
         self._looked_at: set[PurePosixPath] = set()
 
     def at(self, path: str) -> Path:
-        """Give the place of a path, all folders above it being folders below the root."""
+        """Return the place of a path, all folders above it being folders below the root."""
         pure = PurePosixPath(path)
         if pure.parent not in self._looked_at:
             for folder in reversed(pure.parents[:-1]):
@@ -56,7 +56,7 @@ class Places:
             return
         if not stat.S_ISDIR(mode):
             raise Unusable(
-                f"{visible(str(folder))} is no folder, and output goes there",
+                f"{visible(str(folder))} is no folder, but output goes there",
                 hint="move it elsewhere; nothing was changed",
             )
 
@@ -70,7 +70,7 @@ class Places:
             )
 
     def look(self, path: str) -> Standing | None:
-        """See what stands at a path; None for nothing. Raises Unusable where it cannot be read."""
+        """Return what stands at a path; None for nothing. Raises Unusable if it cannot be read."""
         place = self.at(path)
         try:
             kind = _kind(place.lstat().st_mode)
@@ -84,12 +84,12 @@ class Places:
             raise Unusable(f"{visible(str(place))} cannot be read: {reason}") from None
 
     def listed(self, folder: str, pattern: str) -> list[str]:
-        """Give the files of a folder, not of those below, whose names match."""
+        """Return the files of a folder, not of those below, whose names match."""
         place = self.at(f"{folder}/x").parent
         return sorted(str(PurePosixPath(folder, file.name)) for file in place.glob(pattern))
 
     def files_below(self, folder: str) -> Iterator[str]:
-        """Walk through the files of a folder and those below it, through no link, in any order."""
+        """Yield the files of a folder and those below it, through no link, in any order."""
         top = self.at(f"{folder}/x").parent
         for above, folders, names in os.walk(top):
             folders[:] = sorted(set(folders) - _LITTER)
@@ -98,7 +98,7 @@ class Places:
 
 
 def _kind(mode: int) -> str:
-    """Name what is no plain file."""
+    """Name the kind of what is no plain file."""
     if stat.S_ISREG(mode):
         return ""
     if stat.S_ISDIR(mode):

@@ -1,4 +1,4 @@
-"""How the disk differs from what is wanted there, and whose each file is. Changes nothing."""
+"""The survey before writing: how the disk differs, and whose each file is. Changes nothing."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ Lines: TypeAlias = "dict[str, frozenset[str]]"
 
 @dataclass(slots=True)
 class Survey:
-    """What is to be done, in the order of the paths.
+    """The changes to make, in the order of the paths.
 
     `strangers` stand in folders of the output, in nobody's way. `left` are paths of what was
     removed, now or by a run that was killed: folders above them may be empty. `plans` are the
@@ -47,7 +47,7 @@ class Survey:
 
 
 def changes(root: Path, outputs: Sequence[Output]) -> list[Change]:
-    """How what is on disk differs from what is wanted there."""
+    """Return how the disk differs from what is wanted there."""
     return survey(root, outputs).changes
 
 
@@ -59,17 +59,17 @@ def survey(
     shared: bool = False,
     force: bool = False,
 ) -> Survey:
-    """Compare the disk with what is wanted. Raises Unusable where it cannot be looked at.
+    """Compare the disk with what is wanted. Raises Unusable where it cannot be read.
 
-    `all_of` names a folder all of whose specs are among `outputs`: what a manifest says is from
-    another spec of that folder is wanted no more. In a `shared` root other projects have output as
-    well, and all other manifests are theirs. `force` takes over what another spec has made.
+    `all_of` names a folder all of whose specs are among `outputs`: what a manifest assigns to
+    another spec of that folder is removed. In a `shared` root other projects have output as well,
+    and all other manifests are theirs. `force` takes over what another spec has made.
     """
     return _Surveyor(Places(root), outputs, all_of, shared=shared).look(force=force)
 
 
 class _Surveyor:
-    """One look at the disk: reads the manifests, then each file that they or the outputs name."""
+    """One pass over the disk: reads the manifests, then each file that they or the outputs name."""
 
     def __init__(
         self, places: Places, outputs: Sequence[Output], all_of: str | None, *, shared: bool
@@ -112,7 +112,7 @@ class _Surveyor:
         return None if standing is None or standing.kind else read_manifest(standing.data)
 
     def _expect_own(self, output: Output, *, force: bool) -> None:
-        """Refuse to take over what another spec, which is still there, has made."""
+        """Refuse to take over what another spec, which still exists, has made."""
         found = self._manifests[output.manifest]
         # Two specs of one run may have exchanged their names.
         if found is None or force or found.spec in {"", *self._specs}:
@@ -125,7 +125,7 @@ class _Surveyor:
             )
 
     def _former(self) -> Iterable[tuple[str, Manifest]]:
-        """Manifests of a spec at hand under the name that it had, and of specs that are gone."""
+        """Yield the manifests of a spec under its former name, and of specs that are gone."""
         if self._shared:
             return
         own = {path.casefold() for path in self._manifests}
@@ -158,11 +158,11 @@ class _Surveyor:
         if rebuilt and (manifest is not None or adopted or any(there)):
             state = "is not there" if manifest is None else "is damaged"
             self._found.notices.append(
-                f"{output.manifest} {state}: own files are told by what stands in them"
+                f"{output.manifest} {state}: files are recognised by their contents"
             )
 
     def _look_at_file(self, path: str, text: str, *, rebuilt: bool) -> bool:
-        """Compare one file that is wanted. Whether it is there, and nobody else's."""
+        """Compare one wanted file; tell whether it is there and framegen's own."""
         standing = self._places.look(path)
         if standing is None:
             self._found.changes.append(Change(path, "missing", None, text))
@@ -178,13 +178,13 @@ class _Surveyor:
         return why != "foreign"
 
     def _own(self, path: str, standing: Standing) -> None:
-        """Know a file by what it holds now, too."""
+        """Add the digest of a file's present content to those that are framegen's."""
         digests = frozenset([file_digest(standing.data)])
         self._known[path] = self._known.get(path, frozenset()) | digests
 
     def _why(self, path: str, standing: Standing, *, same: bool, rebuilt: bool) -> Why:
-        twin = self._folded.get(path.casefold(), path)
-        known = self._known.get(path, frozenset()) | self._known.get(twin, frozenset())
+        other_case = self._folded.get(path.casefold(), path)
+        known = self._known.get(path, frozenset()) | self._known.get(other_case, frozenset())
         if standing.kind:
             return "foreign"
         if same or file_digest(standing.data) in known:
@@ -199,7 +199,7 @@ class _Surveyor:
         return "edited by hand" if known else "foreign"
 
     def _look_at_orphan(self, path: str) -> None:
-        """What is listed, and wanted no more. What is no file any more is in nobody's way."""
+        """Plan the removal of a listed file that is no longer wanted, if it is a file."""
         if path in self._wanted or path in self._found.left:
             return
         self._found.left.add(path)
@@ -214,7 +214,7 @@ class _Surveyor:
         self._found.changes.append(Change(path, why, self._text(standing), None))
 
     def _others(self, output: Output, *, rebuilt: bool) -> Lines:
-        """The lines of what this run leaves as it is: those that are known, or can be told."""
+        """Return the lines of what this run leaves alone, as far as they are known."""
         kept = {}
         for path, text in output.others.items():
             if digests := self._known.get(path):
@@ -226,7 +226,7 @@ class _Surveyor:
         return kept
 
     def _look_around(self, output: Output, *, rebuilt: bool) -> list[str]:
-        """Find what is not listed in the output's folders: somebody's, or of a lost manifest."""
+        """Find unlisted files in the output's folders: a stranger's, or of a lost manifest."""
         adopted = []
         for folder in output.folders:
             for path in self._places.files_below(folder):
@@ -244,10 +244,10 @@ class _Surveyor:
                     adopted.append(path)
         return adopted
 
-    def _adopt(self, path: str, told: Callable[[bytes], bool]) -> bool:
-        """Take a file that nothing lists for an orphan, if what stands in it tells so."""
+    def _adopt(self, path: str, is_own: Callable[[bytes], bool]) -> bool:
+        """Treat an unlisted file as an orphan if its text shows that framegen wrote it."""
         standing = self._places.look(path)
-        if standing is None or standing.kind or not told(standing.data):
+        if standing is None or standing.kind or not is_own(standing.data):
             return False
         self._own(path, standing)
         self._found.left.add(path)
@@ -279,14 +279,14 @@ class _Surveyor:
 
     @staticmethod
     def _text(standing: Standing | None) -> str | None:
-        """The text of a file, every byte of it telling; None where there is none."""
+        """Return the text of a file, each byte a character; None where there is none."""
         if standing is None or standing.kind:
             return None
         return standing.data.decode("utf-8", errors="surrogateescape")
 
 
 def _owners(outputs: Sequence[Output]) -> dict[str, Output]:
-    """Who wants each path. Raises Unusable where two want the same, be it in other capitals."""
+    """Return the owner of each path. Raises Unusable where two want the same path in any case."""
     owners: dict[str, Output] = {}
     folded: dict[str, Output] = {}
     for output in outputs:

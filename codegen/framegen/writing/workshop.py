@@ -1,7 +1,6 @@
-"""The folder in the root in which a run prepares what it writes, and which only one run has.
+"""The folder in the root in which a run prepares its files, and which locks out other runs.
 
-It ignores itself in git, and is gone when the run is over; what a killed run has left in it is
-swept by the next one.
+It ignores itself in git, and is removed at the end; the next run removes what a killed run left.
 """
 
 from __future__ import annotations
@@ -34,7 +33,7 @@ _PAUSE = 0.05
 
 
 class Workshop:
-    """Where files are prepared, each on the file system that it will lie on."""
+    """A place to prepare files, each on the file system that it will lie on."""
 
     def __init__(self, root: Path) -> None:
         self.root = root
@@ -57,29 +56,29 @@ class Workshop:
         return self._folders[device]
 
     def _top(self, above: Path, device: int) -> Path:
-        """The root, or below it what another file system is mounted at."""
+        """Return the root, or the mount point below it."""
         while above != self.root and above.parent.stat().st_dev == device:
             above = above.parent
         return above
 
     def close(self) -> None:
-        """Remove what is left of it."""
+        """Remove the folder."""
         for folder in self._folders.values():
             _sweep(folder)
 
 
 def is_left_over(root: Path) -> bool:
-    """Whether there is a workshop in a root: of a run that is under way, or was killed."""
+    """Tell whether a workshop is in a root, of a run that is under way or was killed."""
     return os.path.lexists(root / NAME)
 
 
 @contextmanager
-def workshop(root: Path, patience: float) -> Iterator[Workshop]:
-    """Be the only run that writes in a root. Raises Unusable where another one goes on for long."""
+def workshop(root: Path, timeout: float) -> Iterator[Workshop]:
+    """Lock the root for one run. Raises Unusable where another run goes on for long."""
     missing = [folder for folder in (root, *root.parents) if not folder.exists()]
     for folder in reversed(missing):
         disk.make_folder(folder)
-    lock = _locked(root / NAME, patience)
+    lock = _locked(root / NAME, timeout)
     made = Workshop(root)
     try:
         _sweep_staged(root / NAME)
@@ -123,9 +122,9 @@ def _sweep(folder: Path) -> None:
             folder.rmdir()
 
 
-def _locked(folder: Path, patience: float) -> int:
-    """Give a descriptor that holds the lock, which the system takes back when the process ends."""
-    until = time.monotonic() + patience
+def _locked(folder: Path, timeout: float) -> int:
+    """Return a descriptor that holds the lock, which the system releases when the process ends."""
+    until = time.monotonic() + timeout
     while (lock := _attempt(folder)) is None:
         if time.monotonic() > until:
             raise Unusable(
@@ -163,7 +162,7 @@ def _attempt(folder: Path) -> int | None:
 if sys.platform == "win32":
 
     def _hold(lock: int) -> bool:
-        """Whether the lock could be taken."""
+        """Try to lock, and tell whether it succeeded."""
         os.lseek(lock, _LOCKED_BYTE, os.SEEK_SET)
         try:
             msvcrt.locking(lock, msvcrt.LK_NBLCK, 1)
@@ -176,7 +175,7 @@ if sys.platform == "win32":
 else:
 
     def _hold(lock: int) -> bool:
-        """Whether the lock could be taken, or the file system knows none and has nobody wait."""
+        """Try to lock, and tell whether it succeeded."""
         try:
             fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
         except OSError as error:
@@ -185,7 +184,7 @@ else:
 
 
 def _unlock(lock: int, folder: Path) -> None:
-    """Remove the lock's file while it is held: who waits for it sees that it is another one."""
+    """Remove the lock's file while it is held: a waiting run sees that it is another one."""
     try:
         with suppress(OSError):
             (folder / _IGNORE).unlink(missing_ok=True)

@@ -1,8 +1,8 @@
-"""Makes the disk agree with what is wanted, so that a run that is killed is finished by the next.
+"""Writes the output so that a run that is killed is finished by the next one.
 
-All files are prepared first, then the manifests say what is and what will be, then file after file
-is replaced by its new one, and the manifests say at last what is. A file that matches what a
-manifest says, before or after, is framegen's own.
+All files are prepared first, then the manifests list the old and the new digests, then file after
+file is replaced, and at last the manifests list the new ones alone. A file that matches a manifest,
+old or new, is framegen's own.
 """
 
 from __future__ import annotations
@@ -40,12 +40,12 @@ _STAYS = (
     errno.EBUSY,
 )
 # How long a run waits for another one to end, in seconds.
-PATIENCE = 10.0
+LOCK_TIMEOUT = 10.0
 
 
 @dataclass(slots=True)
 class Written:
-    """What was changed; `kept` tells where files of others are now that stood in the way."""
+    """The changes made; `kept` says where files of others are now that were in the way."""
 
     changes: list[Change] = field(default_factory=list)
     kept: dict[str, str] = field(default_factory=dict)
@@ -60,9 +60,9 @@ def write(
     all_of: str | None = None,
     shared: bool = False,
     force: bool = False,
-    patience: float = PATIENCE,
+    timeout: float = LOCK_TIMEOUT,
 ) -> Written:
-    """Make the disk agree, and tell what was changed. `all_of` and `shared` are as for `survey`.
+    """Write the output, and return what was changed. `all_of` and `shared` are as for `survey`.
 
     Raises Unusable, with nothing changed, where that would replace or remove what is not
     framegen's own; with `force` such files are kept beside. Where the disk fails in the middle,
@@ -73,7 +73,7 @@ def write(
         return Written(strangers=found.strangers, notices=found.notices)
     writer: _Writer | None = None
     try:
-        with workshop(root, patience) as at:
+        with workshop(root, timeout) as at:
             found = survey(root, outputs, all_of=all_of, shared=shared, force=force)
             if not force:
                 _expect_no_obstacle(found)
@@ -91,9 +91,9 @@ def _expect_no_obstacle(found: Survey) -> None:
     obstacles = [change for change in found.changes if not change.ours]
     if obstacles:
         raise Unusable(
-            f"the work of others would be lost, so nothing was written\n{describe(obstacles)}",
+            f"somebody's work would be lost, so nothing was written\n{describe(obstacles)}",
             hint="move it elsewhere or undo it; "
-            "or have it kept beside its place, as NAME.mine: --force",
+            "or use --force, which keeps it beside its place, as NAME.mine",
         )
 
 
@@ -150,7 +150,7 @@ class _Writer:
         self.done.changes.sort(key=lambda change: change.path)
 
     def progress(self) -> str:
-        """Say how far it got, and what is to be done."""
+        """Say how far the run got, and what is to be done."""
         if not self._begun:
             return "nothing was changed"
         done, all_of_them = len(self.done.changes), len(self._found.changes)
@@ -179,7 +179,7 @@ class _Writer:
         disk.move(staged, place)
 
     def _remove_empty_folders(self) -> None:
-        """Remove what Python made of files that are gone, and folders that held nothing else."""
+        """Remove what Python made of removed files, and empty folders."""
         for path in sorted(self._found.left, reverse=True):
             place = self._places.at(path)
             if place.suffix == ".py" and not place.exists():

@@ -40,11 +40,11 @@ is taken. Events are `message NAME HEX FIELDS...`, `unknown HEX`, `noise REASON 
 
 
 def add_arguments(_parser: ArgumentParser) -> None:
-    """Declares the arguments of the verb: none."""
+    """Declare the arguments of the verb: none."""
 
 
 def run(_arguments: Namespace) -> int:
-    """Answers until the input ends; goes on behind a question that makes no sense."""
+    """Answer until the input ends; continue after a question that makes no sense."""
     status = DONE
     for question in _questions():
         try:
@@ -67,7 +67,7 @@ def _questions() -> Iterator[str]:
 
 
 def answer(question: str) -> list[str]:
-    """The lines of an answer, without the `end`. Raises UsageError."""
+    """Return the lines of an answer, without the `end`. Raises UsageError."""
     verb, *words = question.split()
     if verb == "encode" and words:
         return [_encoded(words[0], words[1:])]
@@ -118,7 +118,7 @@ def _event(event: Message | Noise) -> str:
 
 
 def _text(value: Any) -> str:
-    """A number, or a list of numbers or of mappings of numbers."""
+    """Return the text of a number, or of a list of numbers or of mappings of numbers."""
     if not isinstance(value, list):
         return str(value)
     elements = [each.values() if isinstance(each, dict) else [each] for each in value]

@@ -34,16 +34,17 @@ if TYPE_CHECKING:
     from .checks.result import Result
 
 ENDS = link.ENDS | {NOT_ALL: "a check has failed"}
-ABOUT = """\
-Looks at ports, permissions, the rate, the replies, their times, and what is there behind the
-device, in the order of the guide to troubleshooting. Each line says `passed`, `failed` or
-`unknown`, what was seen, the bytes that show it, and what to do next. It only reads"""
+ABOUT = f"""\
+Makes these checks, one after the other:
+{", ".join(check.id for check in CHECKS)}.
+Each line says `passed`, `failed` or `unknown`, what was seen, the bytes that show it, and what to
+do next. It only reads"""
 ABOUT += "." if POSE is None else ";\n--move asks before it moves anything."
 _COLOURS = {PASSED: "green", FAILED: "red", UNKNOWN: "yellow"}
 
 
 def add_arguments(parser: ArgumentParser) -> None:
-    """Declares the arguments of the verb."""
+    """Declare the arguments of the verb."""
     add_port(parser, required=False)
     add_timeout(parser)
     if POSE is not None:
@@ -60,7 +61,7 @@ def add_arguments(parser: ArgumentParser) -> None:
 
 
 def run(arguments: Namespace) -> int:
-    """Makes the checks, prints what each has found, and writes the report."""
+    """Run the checks, print each result, and write the report."""
     checks = [*CHECKS]
     if POSE is not None and arguments.move is not None:
         _confirm(arguments, POSE)
@@ -94,7 +95,7 @@ def run(arguments: Namespace) -> int:
 
 
 def _next(found: Iterator[tuple[Check, Result]]) -> tuple[Check, Result] | None:
-    """What the next check has found; None behind the last."""
+    """Return the result of the next check; None behind the last."""
     with shown_progress(lambda waited: f"looking, {waited:.0f} s; Ctrl-C ends"):
         return next(found, None)
 
@@ -104,7 +105,7 @@ def _open(port: str, baud: float) -> Transport:
 
 
 def _confirm(arguments: Namespace, pose: Pose) -> None:
-    """Asks whether something may be moved. Raises UsageError where it may not."""
+    """Ask whether something may be moved. Raises UsageError if it may not."""
     if arguments.move not in pose.ids:
         told = f"{pose.noun}s have numbers from {pose.ids[0]} to {pose.ids[-1]}"
         raise UsageError(f"--move {arguments.move}: {told}")
@@ -145,7 +146,7 @@ def _as_json(check: Check, result: Result) -> str:
 
 
 def _as_text(check: Check, result: Result) -> str:
-    """The state, the check and what was seen; below it the bytes, and what to do."""
+    """Return the state, the check and the observation; below it the bytes, and what to do."""
     state = f"{result.state:8}"
     if takes_colour(sys.stdout):
         state = painted(state, _COLOURS[result.state])

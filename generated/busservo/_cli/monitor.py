@@ -11,13 +11,14 @@ from pathlib import Path
 from .._codec.careful_decoder import GAP
 from .._codec.decoder import StreamDecoder
 from .._frame.direction import RECEIVED
-from .._frame.wording import counted
+from .._frame.pluralize import pluralize
 from .._recording.entry import SENDERS
 from .._recording.file import EITHER, NOISE
 from ..messages import MESSAGES
 from . import link
 from .encode import message_named
 from .events import KINDS, UNKNOWN, names_of, sender_of, totals
+from .examples import VERBS
 from .exit_codes import DONE, INTERRUPTED
 from .lines import TIMES, Lines
 from .link import add_port, failures_told, open_line
@@ -41,14 +42,15 @@ ABOUT = """\
 One line for each frame and each piece of noise: the time, who sent it, what it says, its bytes.
 Ctrl-C ends it, and the totals follow on the error stream. Colours are for terminals alone, and for
 nobody who has set NO_COLOR."""
-# How long to read in one piece, so that Ctrl-C is noticed on every system.
+_READERS = "`decode` and `replay`" if "replay" in VERBS else "`decode`"
+# How long one read may take, so that Ctrl-C is noticed on every system.
 _POLL_INTERVAL = 0.25
 
 
 def add_arguments(parser: ArgumentParser) -> None:
-    """Declares the arguments of the verb."""
+    """Declare the arguments of the verb."""
     add_port(parser, client=False)
-    # Where nothing comes to a client, whoever looks at a line looks at what one sends.
+    # If nothing is sent to a client in this protocol, a monitor looks at what a client sends.
     comes = any(kind.DIRECTION is RECEIVED for kind in MESSAGES)
     usual = RECEIVED.sender if comes else "any"
     parser.add_argument(
@@ -83,8 +85,8 @@ def add_arguments(parser: ArgumentParser) -> None:
         "--log",
         type=Path,
         metavar="FILE",
-        help="record all of it, shown or not, for `decode` and `replay`; a FILE that holds "
-        "anything is never overwritten",
+        help=f"record all of it, shown or not, for {_READERS}; a FILE that holds anything is never "
+        "overwritten",
     )
     parser.add_argument("-n", type=at_least(1), metavar="N", help="end after so many lines")
     parser.add_argument(
@@ -95,8 +97,8 @@ def add_arguments(parser: ArgumentParser) -> None:
 
 
 def run(arguments: Namespace) -> int:
-    """Prints until Ctrl-C, -n or the loss of the line, and then the totals."""
-    # Names are read before a port is opened or a file begun.
+    """Print until Ctrl-C, -n or the loss of the line, and then the totals."""
+    # Names are checked before a port is opened or a file begun.
     monitor = Monitor(arguments, sys.stdout)
     with (
         failures_told(),
@@ -112,7 +114,7 @@ def run(arguments: Namespace) -> int:
 
 
 class Monitor:
-    """Shows what a transport brings, on a screen and by clocks that are handed in."""
+    """A view of what a transport receives, on a given screen and by given clocks."""
 
     def __init__(
         self,
@@ -134,7 +136,7 @@ class Monitor:
         self._lines = Lines(screen, arguments.time, as_json=arguments.json)
 
     def watch(self, line: Transport, recorder: Recorder) -> None:
-        """Reads and shows, until so many lines were shown; the totals come in any case."""
+        """Read and print, up to the given number of lines; the totals come in any case."""
         shown = self._clock()
         self._lines.begin(self._day() if self._absolute else shown)
         try:
@@ -145,7 +147,7 @@ class Monitor:
                 if data:
                     self._tell(self._decoder.feed(data), recorder, now)
                 elif self._decoder.pending:
-                    # Found empty for so long: half a frame must not grow together with the next.
+                    # Quiet for so long: half a frame must not grow together with the next.
                     self._tell(self._decoder.flush(), recorder, now)
                     recorder.quiet()
                 if self._lines.count != before:
@@ -155,13 +157,13 @@ class Monitor:
         finally:
             self._progress.end()
             try:
-                # What was held back in hope of the rest of a frame was heard as well.
+                # What was held back for the rest of a frame was received as well.
                 self._tell(self._decoder.flush(), recorder, self._clock())
             finally:
                 print(self._totals(), file=sys.stderr)
 
     def _tell(self, events: Sequence[Message | Noise], recorder: Recorder, now: float) -> None:
-        """Keeps them all, and prints those that are asked for."""
+        """Record all events, and print the chosen ones."""
         recorder.record(events, self._direction, now)
         when = self._day() if self._absolute else now
         for event in events:
@@ -174,7 +176,7 @@ class Monitor:
     def _wanted(self, event: Message | Noise) -> bool:
         who = sender_of(event, self._direction)
         names = {who, *names_of(event, self._direction)}
-        # An unknown frame is noise, too, and what either end may have sent is what each may have.
+        # An unknown frame counts as noise, too, and an event of either end as one of both.
         wider = names | {UNKNOWN: {NOISE}, EITHER: {*SENDERS}}.get(who, set())
         return (not self._only or bool(wider & self._only)) and not names & self._hidden
 
@@ -185,7 +187,7 @@ class Monitor:
         return f"nothing to show for {waited:.0f} s (Ctrl-C ends); {totals(seen)}"
 
     def _totals(self) -> str:
-        filtered = f"; {counted(self._lines.count, 'line')} shown"
+        filtered = f"; {pluralize(self._lines.count, 'line')} shown"
         return totals(self._decoder.counters) + (filtered if self._only or self._hidden else "")
 
 

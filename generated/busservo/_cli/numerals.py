@@ -19,21 +19,21 @@ _MOST_DIGITS = 100
 
 
 def whole(text: str) -> int:
-    """A whole number, in decimal. Raises ValueError."""
+    """Return a whole number, in decimal. Raises ValueError."""
     if len(text) > _MOST_DIGITS or _WHOLE.fullmatch(text) is None:
         raise ValueError(f"{text[:40]!r} is no whole number: write it like 12")
     return int(text)
 
 
 def whole_in_any_base(text: str) -> int:
-    """A whole number: in decimal, or such as 0x0C, 0o14 or 0b1100. Raises ValueError."""
+    """Return a whole number: in decimal, or such as 0x0C, 0o14 or 0b1100. Raises ValueError."""
     if len(text) > _MOST_DIGITS or _ANY_BASE.fullmatch(text) is None:
         raise ValueError(f"{text[:40]!r} is no whole number: write it like 12 or 0x0C")
     return int(text, 0)
 
 
 def at_least(lowest: int) -> Callable[[str], int]:
-    """A whole number with a bound, as an argument."""
+    """Return the argument type of a whole number with a lower bound."""
 
     def read(text: str) -> int:
         try:
@@ -48,7 +48,7 @@ def at_least(lowest: int) -> Callable[[str], int]:
 
 
 def above_zero(*, highest: float = math.inf, unit: str = "") -> Callable[[str], float]:
-    """A number above 0 and up to a bound, as an argument; inf only where there is none."""
+    """Return the argument type of a number above 0 and up to a bound; inf only without a bound."""
 
     def read(text: str) -> float:
         given = _decimal(text, unit)
@@ -61,7 +61,7 @@ def above_zero(*, highest: float = math.inf, unit: str = "") -> Callable[[str], 
 
 
 def from_zero(*, highest: float, unit: str) -> Callable[[str], float]:
-    """A number from 0 up to a bound, as an argument."""
+    """Return the argument type of a number from 0 up to a bound."""
 
     def read(text: str) -> float:
         given = _decimal(text, unit)

@@ -10,7 +10,7 @@ from itertools import chain, repeat
 from pathlib import Path
 
 from .._client.wire_time import WireTime
-from .._frame.wording import counted
+from .._frame.pluralize import pluralize
 from . import link
 from .exit_codes import DONE, INTERRUPTED
 from .limits import add_limits, limits_of
@@ -36,12 +36,12 @@ Moves to each pose of FILE, which `teach` has written, and waits for as long as 
 whole file is looked at before the first move. Ctrl-C commands the positions of that moment, so that
 nothing moves on. Give it room, and look at --dry-run first: nothing here knows what is in the way,
 and the way to the first pose is as long as it is."""
-# How long to sleep in one piece, so that Ctrl-C is noticed on every system.
+# How long one sleep may take, so that Ctrl-C is noticed on every system.
 _POLL_INTERVAL = 0.1
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """Declares the arguments of the verb."""
+    """Declare the arguments of the verb."""
     parser.add_argument("file", type=Path, metavar="FILE", help="poses that `teach` has recorded")
     add_port(parser, required=False)
     parser.add_argument(
@@ -67,7 +67,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def run(arguments: argparse.Namespace) -> int:
-    """Plays a file, or only prints what it would send."""
+    """Play a file, or only print what it would send."""
     pose, limits = the_pose(), limits_of(arguments)
     if not arguments.port and not arguments.dry_run:
         raise UsageError("play needs --port PORT, or --dry-run to see what it would send")
@@ -81,7 +81,7 @@ def run(arguments: argparse.Namespace) -> int:
         for step in chain.from_iterable(repeat(steps, arguments.repeat)):
             print(step.told(at), flush=True)
             at += step.wire + step.seconds
-        total = counted(len(steps) * arguments.repeat, "pose")
+        total = pluralize(len(steps) * arguments.repeat, "pose")
         print(f"{total} in {at:.3f} s: nothing was sent", file=sys.stderr)
         return DONE
     with failures_told(), open_client(arguments, limits=limits) as controller:
@@ -103,7 +103,7 @@ class _Step:
         self.wire = WireTime(arguments.baud).seconds(len(self.message.encode()))
 
     def told(self, at: float) -> str:
-        """The line that is printed for it."""
+        """Return the line that is printed for it."""
         what = f"{type(self.message).__name__} {fields_as_text(self.message)}"
         return f"{at:12.6f}  pose {self.number}  {what}"
 
@@ -131,12 +131,12 @@ def _play(
             print(f"\n{listed(pose, ids)} held", file=sys.stderr)
         return INTERRUPTED
     finally:
-        print(f"{done} of {counted(len(steps) * times, 'pose')} played", file=sys.stderr)
+        print(f"{done} of {pluralize(len(steps) * times, 'pose')} played", file=sys.stderr)
     return DONE
 
 
 def _wait(until: float) -> None:
-    """Waits for a moment; a long wait says so."""
+    """Wait until a time; show that the wait goes on if it is long."""
     with shown_progress(lambda _: f"the next pose in {until - time.monotonic():.0f} s"):
         while (left := until - time.monotonic()) > 0:
             time.sleep(min(left, _POLL_INTERVAL))

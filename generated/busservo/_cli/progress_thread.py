@@ -17,9 +17,9 @@ if TYPE_CHECKING:
 
 @contextmanager
 def shown_progress(tell: Callable[[float], str]) -> Iterator[None]:
-    """Shows each second what `tell` says of the seconds so far, while the body of the `with` waits.
+    """Show each second what `tell` returns for the seconds so far, while the body waits.
 
-    By a thread of its own: what waits there reads no clock of ours.
+    A thread of its own does so: the body reads no clock of ours.
     """
     waiting = Progress(sys.stderr)
     if not waiting.seen:

@@ -47,20 +47,20 @@ class AsyncController(AsyncClient):
         The controller interpolates: each servo listed travels from where it is to its position
         in the given time, or as fast as it can if the time is too short. It is never answered.
 
-        `targets`: The servos to turn and where to, in the order of the frame. 1..83 of them.
+        `targets`: The servos to turn and where to, in the order of the frame (1..83 items).
 
-        `time_ms`: How long the motion takes. 0..65535 ms. Most clients keep it within 0 to 30000
-        ms. (Client code in public repositories) Zero means "as fast as possible" to many; the
-        vendor's own library refuses it. (Client code in public repositories)
+        `time_ms`: How long the motion takes (0..65535 ms). Most clients keep it within 0 to
+        30000 ms. (Client code in public repositories) Zero means "as fast as possible" to many;
+        the vendor's own library refuses it. (Client code in public repositories)
 
-        `latest`: Does not wait for the line, and gives way to a newer one that is about the
-        same, as `send_latest` does.
+        `latest`: Do not wait for the line, and let a newer command for the same ids replace this
+        one, as `send_latest` does.
 
-        Returns once the frame is handed over; `delay` of the result is in how many seconds it
-        will be on the wire. `lasts` of the result is how long it goes on, and its `wait()`
-        returns once it is over, by calculation.
+        Returns once the frame is handed over; `delay` of the result is how many seconds later it
+        is on the wire. `lasts` of the result is how many seconds its effect lasts, and its
+        `wait()` returns once that is over, by calculation.
 
-        Raises EncodeError for what no frame can carry, and TransportError.
+        Raises EncodeError for values that no frame can carry, and TransportError.
 
         >>> sent = await controller.move_servos([(1, 800)], time_ms=1000)
         """
@@ -72,15 +72,15 @@ class AsyncController(AsyncClient):
         The controller repeats the same parameters as a report once the group starts. A group
         that ends by itself is reported too; one that runs for ever ends only by ActionGroupStop.
 
-        `group`: The number of the action group. 0..255.
+        `group`: The number of the action group (0..255).
 
-        `times`: How many times to run it. 0..65535. 0 (unlimited): Run until it is stopped.
+        `times`: How many times to run it (0..65535). 0 (unlimited): Run until it is stopped.
 
-        Returns once the frame is handed over; `delay` of the result is in how many seconds it
-        will be on the wire. `started` of the result says whether ActionGroupStarted has come for
-        it: False once it has not in time, on a line on which such reports have come before.
+        Returns once the frame is handed over; `delay` of the result is how many seconds later it
+        is on the wire. `started` of the result is True once ActionGroupStarted acknowledges it,
+        and False if none comes in time, on a line that has carried such reports before.
 
-        Raises EncodeError for what no frame can carry, and TransportError.
+        Raises EncodeError for values that no frame can carry, and TransportError.
 
         >>> sent = await controller.run_action_group(8, times=1)
         """
@@ -92,10 +92,10 @@ class AsyncController(AsyncClient):
         Reported by ActionGroupStopped when there was something to stop; otherwise nothing comes
         back.
 
-        Returns once the frame is handed over; `delay` of the result is in how many seconds it
-        will be on the wire.
+        Returns once the frame is handed over; `delay` of the result is how many seconds later it
+        is on the wire.
 
-        Raises EncodeError for what no frame can carry, and TransportError.
+        Raises EncodeError for values that no frame can carry, and TransportError.
 
         >>> sent = await controller.stop_action_group()
         """
@@ -108,15 +108,16 @@ class AsyncController(AsyncClient):
         servo has a highest speed of its own, and no percentage makes it faster than that. Never
         answered.
 
-        `group`: The number of the action group. 0..255. 255 (all): Every action group stored on
+        `group`: The number of the action group (0..255). 255 (all): Every action group stored on
         the controller.
 
-        `percent`: The speed, where 100 is the speed at which the group was recorded. 0..65535 %.
+        `percent`: The speed, where 100 is the speed at which the group was recorded (0..65535
+        %).
 
-        Returns once the frame is handed over; `delay` of the result is in how many seconds it
-        will be on the wire.
+        Returns once the frame is handed over; `delay` of the result is how many seconds later it
+        is on the wire.
 
-        Raises EncodeError for what no frame can carry, and TransportError.
+        Raises EncodeError for values that no frame can carry, and TransportError.
 
         >>> sent = await controller.set_action_group_speed(8, percent=50)
         """
@@ -128,9 +129,9 @@ class AsyncController(AsyncClient):
         Answered at once by BatteryVoltage, though a report about an action group may come first.
 
         Returns `voltage_mv` of the BatteryVoltage: The voltage at the controller's supply
-        terminals. 0..65535 mV, a step being 0.001 V.
+        terminals (0..65535 mV, in steps of 0.001 V).
 
-        Raises EncodeError for what no frame can carry, NoReplyError where no reply comes in
+        Raises EncodeError for values that no frame can carry, NoReplyError if no reply comes in
         time, and TransportError.
 
         >>> await controller.read_battery_voltage()
@@ -145,12 +146,12 @@ class AsyncController(AsyncClient):
         The servos stay limp until the next ServoMove. An arm held up by its servos falls. Never
         answered.
 
-        `servo_ids`: The servos to switch off. 1..252 of them.
+        `servo_ids`: The servos to switch off (1..252 items).
 
-        Returns once the frame is handed over; `delay` of the result is in how many seconds it
-        will be on the wire.
+        Returns once the frame is handed over; `delay` of the result is how many seconds later it
+        is on the wire.
 
-        Raises EncodeError for what no frame can carry, and TransportError.
+        Raises EncodeError for values that no frame can carry, and TransportError.
 
         >>> sent = await controller.unload_servos([1, 2, 3])
         """
@@ -162,17 +163,17 @@ class AsyncController(AsyncClient):
         Answered by ServoPositions. A request may name 252 servos, but a reply has room for 84: a
         request for more than 84 cannot be answered in full.
 
-        `servo_ids`: The servos asked about. 1..252 of them.
+        `servo_ids`: The servos asked about (1..252 items).
 
         Returns `positions` of the ServoPositions: The servos that answered and where they are,
-        in the order of the frame. 0..84 of them. Servos that did not answer may be missing from
+        in the order of the frame (0..84 items). Servos that did not answer may be missing from
         the list. (Client code in public repositories)
 
-        A reply has room for 84: more are asked for in several requests, one after the other.
+        A reply has room for 84: longer lists take several requests, one after the other.
 
-        Raises EncodeError for what no frame can carry, NoReplyError where no reply comes in
-        time, and TransportError. IncompleteReplyError where the reply leaves something out: it
-        says what, and keeps the rest.
+        Raises EncodeError for values that no frame can carry, NoReplyError if no reply comes in
+        time, and TransportError. IncompleteReplyError if the reply leaves something out: it says
+        what, and holds the rest.
 
         >>> answer = await controller.read_servo_positions([1, 2, 3, 4, 5, 6])
         """
@@ -180,13 +181,13 @@ class AsyncController(AsyncClient):
         return tuple(each for reply in replies for each in reply.positions)
 
     async def present_servos(self, servo_ids: Iterable[int] | None = None) -> tuple[int, ...]:
-        """Find out who is there, and not absent.
+        """Return the numbers of those that are present.
 
-        `servo_ids`: Those to look for; without it, 1..253. They are asked about in as many
-        requests as replies have room for.
+        `servo_ids`: Those to look for; by default 1..253. It takes several requests if one reply
+        has no room for all.
 
-        Returns their numbers, in the order asked. Silence is no answer: NoReplyError where no
-        reply comes in time, and TransportError.
+        They are in the order requested. Raises NoReplyError if no reply comes in time, and
+        TransportError.
         """
         if servo_ids is None:
             servo_ids = POSE.ids
@@ -194,31 +195,31 @@ class AsyncController(AsyncClient):
         return POSE.present_in(reply for _, reply in exchanged)
 
     async def hold_servos(self, servo_ids: Iterable[int], time_ms: int = HOLD_MS) -> AsyncMotion:
-        """Command the positions that are read at this moment.
+        """Read the current positions, and command them.
 
-        The nearest there is to stopping a motion where no message does that: what moves goes
-        back to where it was when it was read, a reply and a command ago.
+        This is the nearest to stopping a motion if the protocol has no message for that:
+        whatever moves goes back to where it was when it was read, a reply and a command ago.
 
-        `servo_ids`: Those to hold; all of them must be there. `time_ms`: How long the way back
+        `servo_ids`: Those to hold; all of them must be present. `time_ms`: How long the way back
         may take, in ms.
 
         Returns what `move_servos` does.
 
-        Raises, with nothing sent, AbsentError where one is off or missing, LimitError where one
-        is far out; NoReplyError where no reply comes in time, and TransportError.
+        Raises, with nothing sent, AbsentError if one is off or missing, LimitError if one is far
+        outside the limits; NoReplyError if no reply comes in time, and TransportError.
         """
         exchanged = await self._exchanged(ServoPositionsRead, servo_ids)
         targets = POSE.held(exchanged, self._limits)
         return await self.move_servos(targets=targets, time_ms=time_ms)
 
     def targets_of(self, positions: Iterable[ServoPosition]) -> list[tuple[int, int]]:
-        """Make targets of positions that were read, to go back there.
+        """Make targets of positions that were read, to move back to them.
 
-        What is absent is left out. What is read a little below zero, or a little outside the
-        limits of this client, is taken to the nearest position inside.
+        Those that are absent are left out. For a position a little below zero, or a little
+        outside the limits of this client, the target is the nearest position inside.
 
         Returns what `move_servos` takes as `targets`.
 
-        Raises LimitError for what is further out, and would be sent somewhere else.
+        Raises LimitError for a position that is further out.
         """
         return POSE.targets_of(positions, self._limits)

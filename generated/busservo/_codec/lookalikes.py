@@ -31,9 +31,9 @@ LOOKALIKES: tuple[Lookalike, ...] = (
 
 
 def recognise(data: bytes | bytearray | memoryview) -> str | None:
-    """The title of the look-alike whose frames `data` holds; None where it holds hardly any.
+    """Return the title of the look-alike whose frames `data` holds; None if it holds few.
 
     At least half of the bytes must be such frames, and none of them a message of this protocol.
-    Where the look-alike has a checksum, it proves each frame; where it has none, its commands tell.
+    If the look-alike has a checksum, it proves each frame; if it has none, its commands do.
     """
     return most_likely(LOOKALIKES, as_bytes(data))

@@ -22,7 +22,7 @@ _PACKAGE = __name__.partition("._frame")[0]
 
 
 class ProtocolError(Exception):
-    """The root of every error of this library."""
+    """The base of all errors of this library."""
 
     __module__ = _PACKAGE
 
@@ -49,7 +49,7 @@ class EncodeError(ProtocolError, ValueError):
 
 
 class LimitError(EncodeError):
-    """A value that a frame could carry, and that this end does not send: it is outside `limits`."""
+    """A value that a frame could carry, but that this end does not send: it is outside `limits`."""
 
     def __init__(self, path: str, value: object, limits: tuple[int, int], way_out: str) -> None:
         low, high = limits
@@ -62,9 +62,9 @@ class LimitError(EncodeError):
 
 
 class DecodeError(ProtocolError, ValueError):
-    """Bytes that are not the frame they were taken for.
+    """Bytes that are not the expected frame.
 
-    `reason` is the kind of trouble, and `offset` the first byte at which it shows, counted from 0.
+    `reason` is the kind of error, and `offset` the first byte at which it shows, counted from 0.
     """
 
     def __init__(self, reason: Reason, offset: int, problem: str) -> None:

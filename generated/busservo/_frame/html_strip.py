@@ -6,6 +6,7 @@ from __future__ import annotations
 from html import escape
 
 from .bytes_like import format_hex
+from .pluralize import pluralize
 from .protocol import (
     BODY_AT,
     COMMAND_AT,
@@ -16,7 +17,6 @@ from .protocol import (
     read_command,
     read_length,
 )
-from .wording import counted
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
@@ -96,14 +96,14 @@ def _strip(title: str, data: bytes, cells: list[Cell]) -> str:
     shown = cells[:_MOST_CELLS]
     left = sum(len(part) for part, _, _ in cells[_MOST_CELLS:])
     if left:
-        shown.append((b"", f"and {counted(left, 'byte')} more", ""))
+        shown.append((b"", f"and {pluralize(left, 'byte')} more", ""))
     rows = [
         _row("th", _HEAD, [name for _, name, _ in shown]),
         _row("td", _CELL, [_bytes(part) for part, _, _ in shown]),
         _row("td", _CELL, [says for _, _, says in shown]),
     ]
     table = "".join(row for row in rows if row)
-    caption = f"<div>{escape(title)}, {counted(len(data), 'byte')}</div>"
+    caption = f"<div>{escape(title)}, {pluralize(len(data), 'byte')}</div>"
     scrolled = f'<div style="overflow-x:auto"><table style="{_TABLE}">{table}</table></div>'
     return f"<div>{caption}{scrolled}</div>"
 
@@ -111,7 +111,7 @@ def _strip(title: str, data: bytes, cells: list[Cell]) -> str:
 def _bytes(part: bytes) -> str:
     text = format_hex(part[:_MOST_BYTES])
     left = len(part) - _MOST_BYTES
-    return f"{text} and {counted(left, 'byte')} more" if left > 0 else text
+    return f"{text} and {pluralize(left, 'byte')} more" if left > 0 else text
 
 
 def _row(tag: str, style: str, texts: list[str]) -> str:

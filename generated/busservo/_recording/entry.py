@@ -16,16 +16,16 @@ SENDERS = {direction.sender: direction for direction in Direction}
 
 
 class RecordingError(ValueError):
-    """What a recording holds makes no sense; the text says in which line, and why."""
+    """A recording that makes no sense; the text says in which line, and why."""
 
 
 class Entry:
     """One message or one piece of noise of a recording.
 
     `time` is seconds from the beginning of the recording, and `began` when that was, in seconds
-    since 1970; None where it does not say. `sender` is the name of the end that has sent it, None
-    where nobody can tell. `line` is the number of its line, None where lines mean nothing, and
-    `offset` counts the bytes of all events before it.
+    since 1970; None if it does not say. `sender` is the name of the end that has sent it, None if
+    it is unknown. `line` is the number of its line, None for input without lines, and `offset`
+    counts the bytes of all events before it.
     """
 
     __slots__ = ("began", "event", "line", "offset", "sender", "time")
@@ -49,7 +49,7 @@ class Entry:
 
     @property
     def direction(self) -> Direction | None:
-        """The direction of its sender; None where nobody can tell."""
+        """The direction of its sender; None if it is unknown."""
         return None if self.sender is None else SENDERS[self.sender]
 
     @property

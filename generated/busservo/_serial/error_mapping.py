@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
 
 class ErrorMapping:
-    """Passes everything on, and turns whatever is raised into the errors of this library."""
+    """A transport that passes everything on, and turns exceptions into TransportError."""
 
     def __init__(self, transport: Transport) -> None:
         self._transport = transport
@@ -28,19 +28,19 @@ class ErrorMapping:
         self._closed = False
 
     def read(self, timeout: float) -> bytes:
-        """As Transport.read."""
+        """Read, as Transport.read does."""
         return self._mapped(partial(self._transport.read, timeout))
 
     def write(self, data: bytes) -> None:
-        """As Transport.write."""
+        """Write, as Transport.write does."""
         self._mapped(partial(self._transport.write, data))
 
     def drain(self, timeout: float) -> None:
-        """As Transport.drain."""
+        """Drain, as Transport.drain does."""
         self._mapped(partial(self._transport.drain, timeout))
 
     def close(self) -> None:
-        """As Transport.close; what is gone cannot be closed any better."""
+        """Close, as Transport.close does; a failure to close a lost line is ignored."""
         self._closed = True
         try:
             self._mapped(self._transport.close)
@@ -49,7 +49,7 @@ class ErrorMapping:
 
     @property
     def reopen(self) -> Callable[[], ErrorMapping]:
-        """What opens the same line anew. Raises TypeError where the transport does not know how."""
+        """A function that reopens the line. Raises TypeError if the transport cannot."""
         reopen: Callable[[], Transport] | None = getattr(self._transport, "reopen", None)
         if reopen is None:
             raise TypeError(f"{self.name} has no method reopen(), and cannot be opened again")
@@ -62,7 +62,7 @@ class ErrorMapping:
             raise
         except Exception as error:
             if self._closed:
-                # Whatever a read says that was under way when it was closed.
+                # A read in progress when the transport was closed may fail in any way.
                 raise ClosedError(self.name, "it has been closed", "open it again") from error
             raise self._failed(error) from error
 

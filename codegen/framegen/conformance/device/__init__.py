@@ -1,1 +1,1 @@
-"""What real firmware is asked over a port, how its answers are judged, and how that is told."""
+"""Conformance tests of real firmware over a port: what is sent, how it is judged and reported."""

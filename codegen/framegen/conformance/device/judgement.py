@@ -1,4 +1,4 @@
-"""How what came back is judged: by the reference, against what was asked."""
+"""Judgement of a device's answers: by the reference, against what was requested."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from framegen.conformance.device.step import Malformed, data_of, excess, request
 from framegen.language.values import to_hex
 from framegen.model.codec import values_of
 from framegen.model.verdict import weigh
-from framegen.wording import counted
+from framegen.pluralize import pluralize
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
@@ -29,7 +29,7 @@ _SHOWN = 16
 
 @dataclass(frozen=True, slots=True)
 class Fault:
-    """Something that a device did not do as it should."""
+    """Something that a device did wrong."""
 
     kind: FaultKind
     text: str
@@ -37,9 +37,9 @@ class Fault:
 
 @dataclass(slots=True)
 class Judgement:
-    """What is wrong with what came back, what else came, and how long each reply took.
+    """The faults in an answer, what else arrived, and how long each reply took.
 
-    `has_echo` says that the line gave back what was sent.
+    `has_echo` says that the line returned what was sent.
     """
 
     faults: list[Fault] = field(default_factory=list)
@@ -49,19 +49,19 @@ class Judgement:
 
 
 def judge(model: Model, transcript: Transcript) -> Judgement:
-    """Judge what came back for one burst."""
+    """Judge the answer to one burst."""
     return _Judge(model, transcript).judged()
 
 
 class _Judge:
-    """One look at a transcript, event by event."""
+    """One pass through a transcript, event by event."""
 
     def __init__(self, model: Model, transcript: Transcript) -> None:
         self.model = model
         self.transcript = transcript
         self.found = Judgement()
         requests = requests_of(transcript.burst)
-        self.asked = [each for each in requests if each.reply is not None]
+        self.queries = [each for each in requests if each.reply is not None]
         limits = zip(requests, transcript.limits, strict=True)
         self.pending = [(each, limit) for each, limit in limits if each.reply is not None]
         # The request that was answered last, of those that have been answered.
@@ -70,7 +70,7 @@ class _Judge:
         self.reported: set[str] = set()
 
     def judged(self) -> Judgement:
-        """Go through what came in its order, and then through what did not come."""
+        """Judge what arrived, in its order, then what did not arrive."""
         for received in self.transcript.received:
             message = received.event.message
             if message is None:
@@ -115,43 +115,45 @@ class _Judge:
         latest = self.latest
         if latest is not None and self._place(request) < self._place(latest):
             later = latest.message.name
-            self._fault("wrong order", f"{name} came behind the reply to {later}, asked after it")
+            self._fault(
+                "wrong order", f"{name} came after the reply to {later}, which was requested later"
+            )
         else:
             self.latest = request
 
     def _place(self, request: Request) -> int:
-        return next(at for at, each in enumerate(self.asked) if each is request)
+        return next(at for at, each in enumerate(self.queries) if each is request)
 
     def _wrong(self, request: Request, received: Received) -> None:
         message = received.event.message
         if message is None:
             return
         values = values_of(message, received.event.data)
-        for asked, told in request.exchange.echoed:
-            beyond = excess(request, asked, told, values)
+        for requested, reported in request.exchange.echoed:
+            beyond = excess(request, requested, reported, values)
             if beyond:
                 these = ", ".join(map(str, beyond[:_SHOWN]))
-                what = f"{message.name} tells of {told} {these}, which was not asked"
+                what = f"{message.name} reports {reported} {these}, which was not requested"
                 self._fault("wrong reply", what)
 
     def _left_out(self, request: Request, received: Received) -> None:
-        """Note how much of what was asked a reply tells nothing of, which it may."""
+        """Note how much of the request a reply omits, which is allowed."""
         message = received.event.message
         items = request.message.items
         if message is None or message.items is None or items is None or not request.exchange.most:
             return
         values = values_of(message, received.event.data)
-        told, asked = len(values[message.items.name]), len(request.values[items.name])
-        if told < asked:
-            self.found.notes.append(f"{message.name} tells of {told} of {asked}")
+        reported, requested = len(values[message.items.name]), len(request.values[items.name])
+        if reported < requested:
+            self.found.notes.append(f"{message.name} reports {reported} of {requested}")
 
     def _unsolicited(self, received: Received) -> None:
         message = received.event.message
         if message is None:
             return
-        what = f"{message.name} came once more than it was asked"
-        if message not in [each.reply for each in self.asked]:
-            what = f"{message.name} came, which nothing had asked for"
+        what = f"{message.name} came once more than it was requested"
+        if message not in [each.reply for each in self.queries]:
+            what = f"{message.name} came unsolicited"
         if any(isinstance(piece, Malformed) for piece in self.transcript.burst):
             what += ": does it answer what is no frame?"
         self._fault("unsolicited reply", what)
@@ -167,7 +169,7 @@ class _Judge:
         self.noise.append(received)
         shown = to_hex(data[:_SHOWN]) + (" ..." if len(data) > _SHOWN else "")
         kind = "unknown frame" if event.kind == "unknown" else f"noise, {event.reason}"
-        self.found.notes.append(f"{kind}: {counted(len(data), 'byte')}, {shown}")
+        self.found.notes.append(f"{kind}: {pluralize(len(data), 'byte')}, {shown}")
 
     def _missing(self, request: Request, limit: float) -> None:
         name = "" if request.reply is None else request.reply.name
@@ -177,13 +179,13 @@ class _Judge:
             self._fault("no frame", f"{waited}; what came is none: {broken}")
         elif self.noise:
             size = sum(len(each.event.data) for each in self.noise)
-            problem = f"{counted(size, 'byte')} came without any header: is the baud rate right?"
+            problem = f"{pluralize(size, 'byte')} came without any header: is the baud rate right?"
             self._fault("silence", f"{waited}; {problem}")
         else:
             self._fault("silence", waited)
 
     def _broken(self, noise: Iterable[Received]) -> str:
-        """Why the first noise with a header is no frame; empty where there is none."""
+        """Return why the first noise with a header is no frame; empty without such noise."""
         header = self.model.frame.header
         for each in noise:
             at = each.event.data.find(header)

@@ -1,4 +1,4 @@
-"""Frames that are none, each followed at once by a query that a device must still hear.
+"""Malformed frames, each followed at once by a query that a device must still receive.
 
 They are made of queries alone, and each is one that the reference refuses: it must find the query
 behind the bytes that it gives up, without waiting until the line is quiet.
@@ -32,7 +32,7 @@ if TYPE_CHECKING:
 
 
 def malformed_steps(permission: Permission, after: Request) -> Iterator[Step]:
-    """One step for each way to be no frame; none for a way that no query of the spec has."""
+    """Yield a step for each way to be malformed; none where no query can be malformed so."""
     for about, reason, make in _WAYS:
         found = _first(permission, after, about, reason, make)
         if found is not None:
@@ -43,7 +43,7 @@ def malformed_steps(permission: Permission, after: Request) -> Iterator[Step]:
 def _first(
     permission: Permission, after: Request, about: str, reason: str, make: Maker
 ) -> Malformed | None:
-    """The first of its kind that does no harm, whatever becomes of its bytes."""
+    """Return the first malformed frame of its kind that is harmless whatever bytes are lost."""
     for request in requests(permission):
         for data in make(permission, request):
             if _is_fit(permission, data, reason, after):
@@ -59,10 +59,10 @@ def _is_fit(permission: Permission, data: bytes, reason: str, after: Request) ->
     around = after.frame + data + after.frame
     if permission.objection(around + after.frame):
         return False
-    heard = [
+    received = [
         event.data for event in ReferenceDecoder(model, sent).decode_so_far(around) if event.message
     ]
-    return heard == [after.frame, after.frame]
+    return received == [after.frame, after.frame]
 
 
 def _cut_in_fields(permission: Permission, request: Request) -> Iterator[bytes]:
@@ -76,7 +76,7 @@ def _cut_before(permission: Permission, request: Request) -> Iterator[bytes]:
 
 
 def _changed(role: str, by: int) -> Maker:
-    """Change the number that has this role by so much, where it has room for that."""
+    """Add to the number with this role, where the sum still fits."""
 
     def make(_permission: Permission, request: Request) -> Iterator[bytes]:
         for placed, slot in _numbers(request):
@@ -106,8 +106,8 @@ def _numbers(request: Request) -> Iterator[tuple[Placed, Number]]:
 
 
 def _with(request: Request, placed: Placed, slot: Number, value: int) -> Iterator[bytes]:
-    """The frame with another value in one place, where there is room for it."""
-    if slot.wire.low <= value <= slot.wire.high:
+    """Replace the value at one place of a frame, where there is room for it."""
+    if slot.number_type.low <= value <= slot.number_type.high:
         yield request.frame[: placed.at] + slot.write(value) + request.frame[placed.end :]
 
 

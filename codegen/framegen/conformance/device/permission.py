@@ -1,6 +1,6 @@
-"""Which frames may be sent to a device that does what it is told: the queries, and what is named.
+"""Permission to send frames to a device: queries always, commands only if the user names them.
 
-Whatever is sent is looked at here first, together with the bytes in front of it: a device takes
+Whatever is sent is checked here first, together with the bytes in front of it: a device receives
 bytes, not frames, and may have lost some of them.
 """
 
@@ -25,38 +25,38 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Permission:
-    """What may be sent: every query of the client, and the messages that the user has named."""
+    """What may be sent: every query of the client, and the messages that the user named."""
 
     model: Model
     named: tuple[str, ...] = ()
 
     @cached_property
     def queries(self) -> list[str]:
-        """The messages of the client that are due a reply."""
+        """The messages of the client that have a reply."""
         return [each.request.name for each in self.model.exchanges if each.reply is not None]
 
     @cached_property
     def commands(self) -> list[str]:
-        """All others of the client: what they do is done."""
+        """The client's other messages: a device acts on them."""
         return [each.request.name for each in self.model.exchanges if each.reply is None]
 
     @cached_property
     def allowed(self) -> list[str]:
-        """What is sent."""
+        """The messages that may be sent."""
         named = [name for name in self.commands if name in self.named]
         return [*self.queries, *named]
 
     @cached_property
     def refused(self) -> list[str]:
-        """What the client could send, and is not sent."""
+        """The messages of the client that may not be sent."""
         return [name for name in self.commands if name not in self.named]
 
     def objection(self, data: bytes) -> str:
-        """Why `data` must not be sent; empty where nothing speaks against it.
+        """Return why `data` must not be sent; empty if it may.
 
-        As it is, no device that goes by header and id may find anything else in it than what is
-        allowed, even one that tests neither length nor count. Should any one byte be lost on the
-        way, there must still be no legal frame in it that is not allowed.
+        A device that goes by header and id, and tests neither length nor count, must find only
+        allowed messages in it. If any one byte is lost on the way, there must still be no legal
+        frame in it that is not allowed.
         """
         head = self.model.frame.id.at + self.model.frame.id.size
         for at in self._headers(data, range(len(data))):
@@ -74,7 +74,7 @@ class Permission:
         return ""
 
     def _holds(self, data: bytes, places: range) -> str:
-        """The first message that must not be there of those that begin at these places."""
+        """Return the first forbidden message that begins at one of these places."""
         for at in self._headers(data, places):
             if self._id(data, at) not in self._guarded:
                 continue
@@ -92,13 +92,13 @@ class Permission:
             at = data.find(header, at + 1)
 
     def _id(self, data: bytes, at: int) -> int:
-        """The id of what begins at `at`; -1 where there is none yet."""
+        """Return the id of what begins at `at`; -1 where there is none yet."""
         place, begun = self.model.frame.id, data[at : at + self.model.frame.body_at]
         return place.read_in(begun) if place.is_in(begun) else -1
 
     @cached_property
     def _ways(self) -> list[Direction]:
-        """Where bytes of the client may be heard: by every end but itself."""
+        """The directions of the client's bytes: to every end but itself."""
         client = self.model.roles.client
         return [way for way in self.model.directions if way.receiver != client]
 
@@ -108,7 +108,7 @@ class Permission:
 
     @cached_property
     def _guarded(self) -> dict[int, MessageLayout]:
-        """By id, every message that a device may take and that is not allowed."""
+        """By id, every message that a device may receive and that is not allowed."""
         return {
             message.id: message
             for way in self._ways
@@ -137,7 +137,7 @@ class Permission:
 
     @cached_property
     def unknown_id(self) -> int | None:
-        """An id that means nothing to anybody, as far as is known; None where there is none."""
+        """An id that no message and no look-alike uses; None where there is none."""
         place = self.model.frame.id
         known = {message.id for message in self.model.messages.values()}
         # A header byte there could begin a header.
@@ -147,7 +147,7 @@ class Permission:
 
 
 def permit(model: Model, names: Iterable[str]) -> Permission:
-    """Allow all queries, and the messages of these names. Raises Unusable for names of no use."""
+    """Allow all queries, and the named messages. Raises Unusable for names of no use."""
     permission = Permission(model, tuple(names))
     can = [each.request.name for each in model.exchanges]
     for name in permission.named:
@@ -167,7 +167,7 @@ def permit(model: Model, names: Iterable[str]) -> Permission:
         )
     if not permission.allowed:
         raise Unusable(
-            f"{model.spec.protocol.name} has no query that could be asked",
+            f"{model.spec.protocol.name} has no query",
             hint=f"name what may be sent, as by --allow {can[0]}" if can else "",
         )
     return permission

@@ -1,4 +1,4 @@
-"""A serial port as a transport: pyserial, imported here alone, and its failures put in words."""
+"""A serial port as a transport: the only importer of pyserial, whose errors it explains."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ _GONE = (OSError, TypeError, ValueError, AttributeError)
 
 
 def open_port(name: str, link: Link, baud: int) -> Transport:
-    """Open a port by the name or the URL that pyserial knows it by. Raises Unusable."""
+    """Open a port by its name, or by a URL of pyserial. Raises Unusable."""
     try:
         import serial  # noqa: PLC0415 - only those who open a port need it
     except ModuleNotFoundError:
@@ -63,14 +63,14 @@ def open_port(name: str, link: Link, baud: int) -> Transport:
 
 
 class SerialPort:
-    """An open port of pyserial that does not wait by itself. Raises OSError."""
+    """An open port of pyserial that never blocks by itself. Raises OSError."""
 
     def __init__(self, port: Any) -> None:
         self._port = port
         self._handle = _handle_of(port)
 
     def read(self, timeout: float) -> bytes:
-        """What has arrived, waiting up to `timeout` seconds for the first byte of it."""
+        """Return what has arrived, waiting up to `timeout` seconds for the first byte."""
         try:
             return self._read(timeout)
         except _GONE as error:
@@ -102,7 +102,7 @@ class SerialPort:
 
 
 def _handle_of(port: Any) -> int | None:
-    """What `select` can wait for; None where there is no such thing, as for ports of Windows."""
+    """Return what `select` can wait for; None where there is none, as on Windows."""
     try:
         handle = port.fileno()
     except (*_GONE, NotImplementedError):
@@ -114,7 +114,7 @@ def _see_to_name(name: str, scheme: str) -> None:
     """Refuse what cannot be the name of a port. Raises Unusable."""
     # spy:// would write to any file that it names.
     if not name.strip() or scheme in ("spy", "hid"):
-        raise Unusable(f"{name!r} is no port that can be asked", hint=_NAMED)
+        raise Unusable(f"{name!r} is no port that can be tested", hint=_NAMED)
     if scheme in ("socket", "rfc2217"):
         try:
             parts = urlsplit(name)
@@ -139,11 +139,11 @@ def _not_opened(name: str, error: Exception) -> Unusable:
         why = text.removeprefix(f"Could not open port {name}: ")
         return Unusable(f"{name} cannot be reached: {why}", hint=_REACHED)
     if code in (errno.ENOENT, errno.ENXIO, errno.ENODEV) or "filenotfounderror" in low:
-        return Unusable(f"there is no port {name}", hint=_listed())
-    return Unusable(f"{name} is no serial port: {text}", hint=_listed())
+        return Unusable(f"there is no port {name}", hint=_ports_hint())
+    return Unusable(f"{name} is no serial port: {text}", hint=_ports_hint())
 
 
-def _listed() -> str:
+def _ports_hint() -> str:
     from serial.tools import list_ports  # noqa: PLC0415 - as above
 
     found = ", ".join(sorted(str(each.device) for each in list_ports.comports()))

@@ -1,4 +1,4 @@
-"""What is asked: each query with its examples, with lists of each size, again, and two at once."""
+"""The requests of a run: each query with its examples, each size of list, repeated and in pairs."""
 
 from __future__ import annotations
 
@@ -21,11 +21,11 @@ _MOST_ELEMENTS = 255
 
 
 def query_steps(permission: Permission) -> Iterator[Step]:
-    """Every query in every way that it is asked."""
-    asked = requests(permission)
-    for request in asked:
+    """Yield a step for every way of sending each query."""
+    queries = requests(permission)
+    for request in queries:
         yield Step(_titled(request), ((request,),))
-    firsts = list({request.message.name: request for request in reversed(asked)}.values())[::-1]
+    firsts = list({request.message.name: request for request in reversed(queries)}.values())[::-1]
     for request in firsts:
         yield Step(f"{_titled(request)}, twice in a row", ((request,), (request,)))
     for one, other in _pairs(firsts):
@@ -34,7 +34,7 @@ def query_steps(permission: Permission) -> Iterator[Step]:
 
 
 def command_steps(permission: Permission, after: Request | None) -> Iterator[Step]:
-    """The examples of what the user has allowed, and after each a query, where there is one."""
+    """Yield the examples of the allowed commands, each followed by a query."""
     for request in commands(permission):
         bursts = ((request,),) if after is None else ((request,), (after,))
         behind = "" if after is None else f", then {after.message.name}"
@@ -42,7 +42,7 @@ def command_steps(permission: Permission, after: Request | None) -> Iterator[Ste
 
 
 def requests(permission: Permission) -> list[Request]:
-    """Every query that is asked: those of the spec's examples, and one of each size of list."""
+    """Return every query that is sent: those of the examples, and one for each size of list."""
     found: dict[bytes, Request] = {}
     for exchange in _of(permission.model, permission.queries):
         for request in [*_examples(exchange), *_sized(permission.model, exchange)]:
@@ -51,7 +51,7 @@ def requests(permission: Permission) -> list[Request]:
 
 
 def commands(permission: Permission) -> list[Request]:
-    """The examples of the messages that the user has allowed: nothing else is made of them."""
+    """Return the examples of the messages that the user allowed, and nothing made of them."""
     names = [name for name in permission.allowed if name in permission.commands]
     exchanges = _of(permission.model, names)
     return [request for exchange in exchanges for request in _examples(exchange)]
@@ -66,7 +66,7 @@ def _titled(request: Request) -> str:
 
 
 def _pairs(firsts: list[Request]) -> Iterator[tuple[Request, Request]]:
-    """Each query with the next, and the last with the first; one alone with itself."""
+    """Pair each query with the next, and the last with the first; a single one with itself."""
     for index, one in enumerate(firsts if len(firsts) != 2 else firsts[:1]):
         yield one, firsts[(index + 1) % len(firsts)]
 
@@ -79,7 +79,7 @@ def _examples(exchange: Exchange) -> Iterator[Request]:
 
 
 def _sized(model: Model, exchange: Exchange) -> Iterator[Request]:
-    """With one element, two, and as many as a reply can tell of; without a list, the lowest values.
+    """Make requests with one element, with two, and with as many as a reply can report.
 
     A query without a list is only made up where no example shows it.
     """
@@ -99,7 +99,7 @@ def _sized(model: Model, exchange: Exchange) -> Iterator[Request]:
 
 
 def _pattern(exchange: Exchange) -> Mapping[str, Any]:
-    """Values to go by: those of the first example, or else the lowest of each field."""
+    """Return values to vary: those of the first example, or else the lowest of each field."""
     message = exchange.request
     if message.message.examples:
         return message.message.examples[0].values
@@ -110,7 +110,7 @@ def _pattern(exchange: Exchange) -> Mapping[str, Any]:
 
 
 def _elements(model: Model, exchange: Exchange, first: list[Any]) -> list[Any]:
-    """Elements that all differ in their first field, in the order of its values.
+    """Make elements that all differ in their first field, in the order of its values.
 
     Values that are a byte of the header are left out: a list could then look like a frame.
     """

@@ -1,4 +1,4 @@
-"""What a device sends, told apart by the reference while it comes, with the time of each event."""
+"""Events of what a device sends, decoded by the reference as it arrives, each with its time."""
 
 from __future__ import annotations
 
@@ -17,14 +17,14 @@ _MOST_HELD = 2048
 
 @dataclass(frozen=True, slots=True)
 class Received:
-    """An event, and when the last byte of it came."""
+    """An event, and when its last byte arrived."""
 
     at: float
     event: Event
 
 
 class Receiver:
-    """Takes what comes, chunk by chunk; a message is told as soon as it is whole."""
+    """A decoder for what arrives chunk by chunk; a message is reported as soon as it is whole."""
 
     def __init__(self, model: Model) -> None:
         self._line = ReferenceDecoder(model, [model.roles.received])
@@ -33,7 +33,7 @@ class Receiver:
         self._times: list[float] = []
 
     def feed(self, data: bytes, now: float) -> list[Received]:
-        """Take bytes in, and tell what is decided, up to the last frame among it."""
+        """Take bytes in, and return the events that are decided, up to the last frame."""
         self._held += data
         self._times += [now] * len(data)
         events = self._line.decode_so_far(self._held)
@@ -44,7 +44,7 @@ class Receiver:
         return self._taken(events)
 
     def flush(self) -> list[Received]:
-        """Tell what the bytes held are, now that the line is quiet."""
+        """Return the events of the bytes held, now that the line is quiet."""
         return self._taken(self._line.decode(self._held))
 
     def _taken(self, events: list[Event]) -> list[Received]:

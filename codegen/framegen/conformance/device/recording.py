@@ -1,4 +1,4 @@
-"""The recording of a run: what went over the line, both ways, written as it happens."""
+"""The recording of a run: both directions of the line, written as it happens."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ if TYPE_CHECKING:
 
 
 class Recording:
-    """A recording in the making, or none for no path; used in a `with`. Raises Unusable."""
+    """An open recording, or none for no path; a context manager. Raises Unusable."""
 
     def __init__(self, model: Model, path: Path | None) -> None:
         self._roles = model.roles
@@ -50,7 +50,7 @@ class Recording:
                 self._file.close()
 
     def begin(self, port: str) -> None:
-        """Note what is recorded, and that its time counts from now on."""
+        """Note what is recorded, and start its clock."""
         if self._file is not None:
             with self._failures_told():
                 self._file.begin(port)
@@ -62,7 +62,7 @@ class Recording:
                 self._file.note(text)
 
     def sent(self, burst: Burst, now: float) -> None:
-        """Note what is sent, each frame in its line; what is none is said to be noise."""
+        """Note what is sent, a line for each frame; malformed bytes are marked as noise."""
         for piece in burst:
             if isinstance(piece, Request):
                 self._write(piece.frame, now, self._roles.client, piece.text)
@@ -70,7 +70,7 @@ class Recording:
                 self._write(piece.frame, now, f"{self._roles.client} {NOISE}", piece.reason)
 
     def received(self, received: Received) -> None:
-        """Note an event of the device's."""
+        """Note an event of the device."""
         event = received.event
         if event.message is None:
             self._write(event.data, received.at, NOISE, event.reason)

@@ -1,4 +1,4 @@
-"""How a run on a device is told: each step in a line, the first that failed with its bytes."""
+"""The report of a run on a device: a line for each step, and the first failure with its bytes."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from framegen.conformance.language import fields
 from framegen.language.values import to_hex
 from framegen.model.codec import values_of
 from framegen.model.verdict import weigh
-from framegen.wording import counted
+from framegen.pluralize import pluralize
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator
@@ -28,7 +28,7 @@ _MOST_BYTES = 32
 
 @dataclass(slots=True)
 class Result:
-    """What became of one step: burst by burst; or why nothing of it was sent."""
+    """The result of one step, burst by burst; or why nothing of it was sent."""
 
     step: Step
     bursts: list[tuple[Transcript, Judgement]] = field(default_factory=list)
@@ -37,17 +37,17 @@ class Result:
 
     @property
     def has_passed(self) -> bool:
-        """Whether nothing is wrong with it."""
+        """Whether there are no faults."""
         return not any(judgement.faults for _, judgement in self.bursts)
 
     @property
     def said(self) -> list[str]:
-        """What is to be said of it besides: what came unasked, and what was left out."""
+        """Remarks on the step: what arrived unsolicited, and what was left out."""
         return [*(note for _, judgement in self.bursts for note in judgement.notes), *self.notes]
 
     @property
     def faults(self) -> list[str]:
-        """What is wrong."""
+        """The faults of all bursts."""
         return [
             f"{each.kind}: {each.text}" for _, judgement in self.bursts for each in judgement.faults
         ]
@@ -55,30 +55,30 @@ class Result:
 
 @dataclass(slots=True)
 class Report:
-    """A run: on which port, what may be sent, what was tried, and what came of it."""
+    """A run: its port, what may be sent, what was tried, and the results."""
 
     model: Model
     port: str
     baud: int
     permission: Permission
-    unasked: list[Received] = field(default_factory=list)
+    unsolicited: list[Received] = field(default_factory=list)
     results: list[Result] = field(default_factory=list)
     stopped: str = ""
 
     @property
     def has_passed(self) -> bool:
-        """Whether the device did all that was asked as it should."""
-        asked = any(result.bursts for result in self.results)
-        return asked and not self.stopped and all(result.has_passed for result in self.results)
+        """Whether the device passed every step."""
+        tried = any(result.bursts for result in self.results)
+        return tried and not self.stopped and all(result.has_passed for result in self.results)
 
 
 def opening(report: Report, steps: Iterable[Step]) -> Iterator[str]:
-    """What is said before anything is sent."""
+    """Yield what is reported before anything is sent."""
     link, permission = report.model.spec.link, report.permission
     frames = f"{link.data_bits}{link.parity[0].upper()}{link.stop_bits}"
     device = report.model.roles.device
     yield f"{report.model.spec.protocol.title}: {device} at {report.port}, {report.baud} {frames}"
-    yield f"will send: {_listed(permission.allowed)}"
+    yield f"will send: {_names_of(permission.allowed)}"
     pieces = [piece for step in steps for burst in step.bursts for piece in burst]
     for piece in pieces:
         if isinstance(piece, Request) and piece.reply is None:
@@ -87,17 +87,17 @@ def opening(report: Report, steps: Iterable[Step]) -> Iterator[str]:
         if not isinstance(piece, Request):
             yield f"  {piece.about}: {to_hex(piece.frame)} ({piece.reason})"
     if permission.refused:
-        yield f"will not send: {_listed(permission.refused)} (--allow NAME sends its examples)"
+        yield f"will not send: {_names_of(permission.refused)} (--allow NAME sends its examples)"
 
 
-def unasked(report: Report) -> Iterator[str]:
-    """What came before anything was sent."""
-    for received in report.unasked:
-        yield f"before anything was asked came {_event(report.model, received)}"
+def unsolicited(report: Report) -> Iterator[str]:
+    """Yield what the device sent before anything was sent to it."""
+    for received in report.unsolicited:
+        yield f"before anything was sent came {_event(report.model, received)}"
 
 
 def line_of(result: Result) -> Iterator[str]:
-    """A step, in a line, and others for what is to be said of it."""
+    """Yield a line for a step, and further ones for its remarks."""
     if result.not_sent:
         yield f"skipped  {result.step.title}: not sent: {result.not_sent}"
         return
@@ -109,7 +109,7 @@ def line_of(result: Result) -> Iterator[str]:
 
 
 def closing(report: Report) -> Iterator[str]:
-    """The first step that failed, with its bytes; and how many did."""
+    """Yield the first failed step with its bytes, and the number of failures."""
     failed = [result for result in report.results if not result.has_passed]
     if failed:
         yield ""
@@ -121,13 +121,13 @@ def closing(report: Report) -> Iterator[str]:
         yield f"stopped: {report.stopped}"
     passed = len(tried) - len(failed)
     skipped = len(report.results) - len(tried)
-    yield f"{passed} of {counted(len(tried), 'step')} passed" + (
+    yield f"{passed} of {pluralize(len(tried), 'step')} passed" + (
         f", {skipped} skipped" if skipped else ""
     )
 
 
 def _transcribed(model: Model, result: Result) -> Iterator[str]:
-    """All that went over the line in a step, with seconds from its beginning."""
+    """Yield all traffic of a step, with seconds from its beginning."""
     began = result.bursts[0][0].at
     width = max(len(model.roles.client), len(model.roles.device))
     for transcript, _ in result.bursts:
@@ -167,12 +167,12 @@ def _bytes(data: bytes) -> str:
     return f"{to_hex(data[:_MOST_BYTES])} ... ({len(data)} bytes)"
 
 
-def _listed(names: Iterable[str]) -> str:
+def _names_of(names: Iterable[str]) -> str:
     return ", ".join(names) or "nothing"
 
 
 def as_json(report: Report) -> dict[str, Any]:
-    """The whole run, with every byte."""
+    """Return the whole run, with every byte."""
     model, permission = report.model, report.permission
     return {
         "protocol": model.spec.protocol.name,
@@ -184,7 +184,7 @@ def as_json(report: Report) -> dict[str, Any]:
         "will_not_send": permission.refused,
         "passed": report.has_passed,
         "stopped": report.stopped or None,
-        "unasked": [_received_json(model, each) for each in report.unasked],
+        "unsolicited": [_received_json(model, each) for each in report.unsolicited],
         "steps": [_step_json(model, result) for result in report.results],
     }
 

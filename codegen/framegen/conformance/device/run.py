@@ -1,4 +1,4 @@
-"""A run from its first step to its last: each is sent, judged and told, until nobody answers."""
+"""A run from its first step to its last: each is sent, judged and reported."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from framegen.conformance.device.report import (
     closing,
     line_of,
     opening,
-    unasked,
+    unsolicited,
 )
 from framegen.conformance.device.step import requests_of
 
@@ -44,9 +44,9 @@ class Run:
         self._after = after
 
     def go(self, steps: Sequence[Step], progress: Progress) -> None:
-        """Try all of them, or stop where it is of no use to go on. Raises OSError."""
-        self._report.unasked = self._session.listen()
-        progress.say(unasked(self._report))
+        """Try all steps, or stop where going on is useless. Raises OSError."""
+        self._report.unsolicited = self._session.listen()
+        progress.say(unsolicited(self._report))
         for step in steps:
             self._recording.note(step.title)
             result = self._try(step)
@@ -72,7 +72,7 @@ class Run:
         return result
 
     def _objection(self, step: Step) -> str:
-        """Why a step must not be sent: for its own bytes, or with those of a query behind it."""
+        """Return why a step must not be sent, by itself or with a query behind it."""
         if self._has_echo() and any(len(requests_of(burst)) > 1 for burst in step.bursts):
             return "the line gives back what is sent, and so carries one thing at a time"
         behind = () if self._after is None else (self._after,)
@@ -105,27 +105,27 @@ class Run:
 
 
 class Progress:
-    """Tells of a run while it goes on; as JSON, all at its end, and what will be sent before it."""
+    """The printed progress of a run; as JSON, everything is printed at the end."""
 
     def __init__(self, *, as_json: bool) -> None:
         self._as_json = as_json
 
     def begin(self, report: Report, steps: Sequence[Step]) -> None:
-        """Tell what will be sent, before anything is."""
+        """Print what will be sent, before anything is."""
         stream = sys.stderr if self._as_json else sys.stdout
         for line in opening(report, steps):
             print(line, file=stream)
         stream.flush()
 
     def say(self, lines: Iterable[str]) -> None:
-        """Tell what has happened."""
+        """Print what has happened."""
         if not self._as_json:
             for line in lines:
                 print(line)
             sys.stdout.flush()
 
     def end(self, report: Report) -> None:
-        """Tell what came of it all."""
+        """Print the results."""
         if self._as_json:
             print(json.dumps(as_json(report)))
         else:

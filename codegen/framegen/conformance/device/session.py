@@ -1,4 +1,4 @@
-"""A line to a device: sends what is allowed, a burst at a time, and listens for what comes back."""
+"""A session with a device: sends what is allowed, a burst at a time, and reads the answers."""
 
 from __future__ import annotations
 
@@ -31,18 +31,18 @@ _RESTLESS = 1.0
 
 @dataclass(frozen=True, slots=True)
 class Timing:
-    """How long things may take: `timeout` seconds for a device to think, and the wire."""
+    """The time limits: `timeout` seconds for a device to respond, and the time on the wire."""
 
     baud: int
     bits_per_byte: int
     timeout: float
 
     def wire(self, size: int) -> float:
-        """Seconds that so many bytes are on the line."""
+        """Return the seconds that so many bytes take on the line."""
         return size * self.bits_per_byte / self.baud
 
     def limits(self, burst: Burst) -> list[float]:
-        """By request of a burst, when its reply has to be there, in seconds from its beginning."""
+        """Return, by request of a burst, when its reply is due, in seconds from its beginning."""
         limits = []
         due = self.wire(len(data_of(burst)))
         for request in requests_of(burst):
@@ -53,7 +53,7 @@ class Timing:
 
 @dataclass(frozen=True, slots=True)
 class Transcript:
-    """What was sent at once, at `at`, and all that came until the line was quiet again.
+    """What was sent at once, at `at`, and all that arrived until the line was quiet again.
 
     `limits` are, by request, the seconds within which its reply is due. All times are seconds from
     the beginning of the run.
@@ -66,7 +66,7 @@ class Transcript:
 
 
 class Session:
-    """A run on the device behind a transport. What the permission objects to is never written."""
+    """A session on a transport. What the permission objects to is never written."""
 
     def __init__(
         self,
@@ -94,16 +94,16 @@ class Session:
         return self._clock() - self._began
 
     def objection(self, burst: Burst) -> str:
-        """Why a burst must not be sent now; empty where nothing speaks against it."""
+        """Return why a burst must not be sent now; empty if it may."""
         return self.permission.objection(self._sent + data_of(burst))
 
     def listen(self) -> list[Received]:
-        """Hear what a device sends unasked, before anything is sent."""
+        """Read what a device sends unsolicited, before anything is sent."""
         self._read_until(self.now + _UNASKED)
         return self._end()
 
     def send(self, burst: Burst) -> Transcript:
-        """Send a burst, and listen until its replies are there or can be given up."""
+        """Send a burst, and read until its replies have arrived or are given up."""
         data = data_of(burst)
         if objection := self.objection(burst):
             raise AssertionError(f"{to_hex(data)} must not be sent: {objection}")
@@ -119,19 +119,19 @@ class Session:
         return Transcript(at, burst, limits, self._end())
 
     def _read_until(self, moment: float, due: Sequence[MessageLayout] = ()) -> None:
-        """Take in what comes until then, or until there are as many replies as are due."""
+        """Read until then, or until as many replies have arrived as are due."""
         while not (due and _has(due, self._received)) and (left := moment - self.now) > 0:
             self._read(left)
 
     def _read(self, timeout: float) -> bool:
-        """Take in what comes, and tell whether anything does."""
+        """Read once, and tell whether anything arrived."""
         data = self._transport.read(timeout)
         if data:
             self._note(self._receiver.feed(data, self.now))
         return bool(data)
 
     def _end(self) -> list[Received]:
-        """Wait until the line is quiet, and give what has come."""
+        """Wait until the line is quiet, and return what has arrived."""
         until = self.now + _RESTLESS
         while self._read(_QUIET) and self.now < until:
             pass
@@ -146,5 +146,5 @@ class Session:
 
 
 def _has(due: Sequence[MessageLayout], received: list[Received]) -> bool:
-    """Whether as many replies have come as are due, whatever they say."""
+    """Tell whether as many replies have arrived as are due, whatever they say."""
     return sum(each.event.message in due for each in received) >= len(due)

@@ -1,4 +1,4 @@
-"""One thing that is tried on a device: what is sent, piece by piece, and which replies are due."""
+"""One step of a run on a device: what is sent, and which replies are due."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Request:
-    """A frame of a message that is allowed. `about` says where its values are from."""
+    """A frame of an allowed message. `about` says where its values are from."""
 
     exchange: Exchange
     values: Mapping[str, Any]
@@ -30,7 +30,7 @@ class Request:
 
     @property
     def reply(self) -> MessageLayout | None:
-        """The message that is due for it."""
+        """The message that is due as its reply."""
         return self.exchange.reply
 
     @property
@@ -39,20 +39,20 @@ class Request:
         return " ".join([self.message.name, *fields(self.message, self.values)])
 
     def answered_by(self, message: MessageLayout, values: Mapping[str, Any]) -> bool:
-        """Whether a message can be its reply: it tells of nothing that was not asked."""
+        """Tell whether a message can be its reply: it reports only what was requested."""
         return message == self.reply and not any(
-            excess(self, path, told, values) for path, told in self.exchange.echoed
+            excess(self, path, reported, values) for path, reported in self.exchange.echoed
         )
 
     @property
     def reply_size(self) -> int:
-        """Bytes of the largest reply that it can have; 0 where none is due."""
+        """The size of the largest reply that it can have; 0 where none is due."""
         if self.reply is None:
             return 0
         items = self.reply.items
-        for asked, told in self.exchange.echoed:
-            if items is not None and told.partition(".")[0] == items.name:
-                count = len(column(self.values, asked))
+        for requested, reported in self.exchange.echoed:
+            if items is not None and reported.partition(".")[0] == items.name:
+                count = len(column(self.values, requested))
                 if count in self.reply.counts:
                     return self.reply.size_at(count)
         return self.reply.largest
@@ -60,7 +60,7 @@ class Request:
 
 @dataclass(frozen=True, slots=True)
 class Malformed:
-    """Bytes that are no frame, for a reason; `about` says in which way."""
+    """Bytes that are no frame, and the reason; `about` says in which way."""
 
     frame: bytes
     reason: str
@@ -74,29 +74,29 @@ Burst: TypeAlias = tuple[Piece, ...]
 
 @dataclass(frozen=True, slots=True)
 class Step:
-    """What is sent, a burst at a time, each once the replies to the one before it are there."""
+    """Bursts to send, each once the replies to the one before it have arrived."""
 
     title: str
     bursts: tuple[Burst, ...]
 
     @property
     def is_malformed(self) -> bool:
-        """Whether any of it is no frame."""
+        """Whether any of it is malformed."""
         return any(isinstance(piece, Malformed) for burst in self.bursts for piece in burst)
 
 
 def data_of(burst: Burst) -> bytes:
-    """The bytes of what is sent at once."""
+    """Return the bytes of a burst."""
     return b"".join(piece.frame for piece in burst)
 
 
 def requests_of(burst: Burst) -> list[Request]:
-    """What of it a device is to answer, or to do."""
+    """Return the requests of a burst that a device must answer or carry out."""
     return [piece for piece in burst if isinstance(piece, Request)]
 
 
 def column(values: Mapping[str, Any], path: str) -> list[int]:
-    """The values of a field, by path: one number, or one for each element of a list."""
+    """Return the values of a field, by path: one number, or one for each element of a list."""
     name, _, inner = path.partition(".")
     value = values[name]
     if inner:
@@ -104,14 +104,14 @@ def column(values: Mapping[str, Any], path: str) -> list[int]:
     return list(value) if isinstance(value, list) else [value]
 
 
-def excess(request: Request, asked: str, told: str, values: Mapping[str, Any]) -> list[int]:
-    """What a reply with these values tells beyond what was asked, each as often as it is too much.
+def excess(request: Request, requested: str, reported: str, values: Mapping[str, Any]) -> list[int]:
+    """Return what a reply with these values reports beyond the request, with how often.
 
-    What is left out is not looked at: a device may have nothing to tell of it.
+    What it omits does not count: a device may have nothing to report of it.
     """
-    left = column(request.values, asked)
+    left = column(request.values, requested)
     found = []
-    for value in column(values, told):
+    for value in column(values, reported):
         if value in left:
             left.remove(value)
         else:

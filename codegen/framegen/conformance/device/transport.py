@@ -1,4 +1,4 @@
-"""What a line to a device has to offer."""
+"""The interface of a line to a device."""
 
 from __future__ import annotations
 
@@ -6,10 +6,10 @@ from typing import Protocol
 
 
 class Transport(Protocol):
-    """Carries bytes both ways; raises OSError where it cannot any more."""
+    """A line for bytes both ways; raises OSError once it is lost."""
 
     def read(self, timeout: float) -> bytes:
-        """What has arrived, waiting up to `timeout` seconds for the first byte of it."""
+        """Return what has arrived, waiting up to `timeout` seconds for the first byte."""
         ...
 
     def write(self, data: bytes) -> None:
@@ -17,5 +17,5 @@ class Transport(Protocol):
         ...
 
     def close(self) -> None:
-        """Give the line back."""
+        """Close the line."""
         ...

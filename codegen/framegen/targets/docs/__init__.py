@@ -1,11 +1,11 @@
-"""The reference: Markdown to be read where the project lies, and pages that need no network."""
+"""The reference: Markdown for forges and editors, and HTML pages that need no network."""
 
 from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from framegen.targets.docs.markdown_pages import markdown_files
 from framegen.targets.docs.site import SiteView
-from framegen.targets.docs.twin import markdown_files
 from framegen.targets.filenames import file_stem
 from framegen.targets.target import Comment, Target
 
@@ -16,14 +16,14 @@ if TYPE_CHECKING:
 
 
 def render(compiled: Compiled, snippets: Snippets) -> dict[str, str]:
-    """The reference in Markdown, by path below the project's root."""
+    """Render the reference in Markdown, by path below the project's root."""
     (root,) = folders(compiled.model)
     files = markdown_files(SiteView(compiled, snippets))
     return {f"{root}/{path}": text for path, text in files.items()}
 
 
 def folders(model: Model) -> tuple[str, ...]:
-    """The folder of the protocol's reference."""
+    """Return the folder of the protocol's reference."""
     return (f"docs/reference/{file_stem(model.spec.protocol.name)}",)
 
 

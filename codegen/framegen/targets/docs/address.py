@@ -1,4 +1,4 @@
-"""Where the page of a message lies."""
+"""The addresses of message pages."""
 
 from __future__ import annotations
 
@@ -6,5 +6,5 @@ from framegen.targets.filenames import file_stem
 
 
 def message_page(name: str) -> str:
-    """The page of a message, from the root of the reference, whatever it is written in."""
+    """Return the page of a message from the root of the reference, without its suffix."""
     return f"messages/{file_stem(name)}"

@@ -1,4 +1,4 @@
-"""Where a fact is known from, and where in the spec it is written down."""
+"""Citations: the source of a fact, and its place in the spec."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, slots=True)
 class CiteView:
-    """A citation; `marked` says that it is not the source which decides."""
+    """A citation; `marked` says that its source is not the one that decides."""
 
     name: str
     title: str
@@ -43,7 +43,7 @@ def cite_view(spec: Spec, cite: Citation) -> CiteView:
 
 @dataclass(frozen=True, slots=True)
 class Place:
-    """A place in the spec, by the keys that lead to it: it stays where lines come and go."""
+    """A place in the spec, by the keys that lead to it, which stays when lines move."""
 
     keys: KeyPath
 
@@ -54,5 +54,5 @@ class Place:
 
     @property
     def html(self) -> str:
-        """The address in the reference, without the way to its root."""
+        """The address in the reference, relative to its root."""
         return f"spec.html#{self.text}"

@@ -1,4 +1,4 @@
-"""The protocol as the page's own decoder reads it: slots as plain values, nothing of prose."""
+"""The protocol as data for the decoder page: slots as plain values, without prose."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ _REASONS = {
 
 
 def protocol_data(model: Model) -> dict[str, Any]:
-    """Everything that decoding and encoding need.
+    """Return all that decoding and encoding need.
 
     The slots of a message are those of `frame`, with its fields where the body is. Its frame has
     `size` bytes and those of as many elements as `counts` allows.
@@ -62,7 +62,7 @@ def _message(message: MessageLayout) -> dict[str, Any]:
 
 
 def _example(message: MessageLayout) -> dict[str, Any]:
-    """Values to begin with: those of the first example, or else the lowest."""
+    """Return values to begin with: those of the first example, or else the lowest."""
     if message.message.examples:
         return dict(message.message.examples[0].values)
     return {
@@ -72,7 +72,7 @@ def _example(message: MessageLayout) -> dict[str, Any]:
 
 
 def _slot(slot: Slot) -> dict[str, Any]:
-    """A slot: `at` counts from the first byte of the frame or, below zero, from its end.
+    """Return a slot; `at` counts from the first byte of the frame or, below zero, from its end.
 
     In an element of a list it counts from the first byte of the element.
     """
@@ -93,7 +93,7 @@ def _number(number: Number) -> dict[str, Any]:
     said, scale = number.field, number.field.scale
     return {
         "order": number.order,
-        "signed": number.wire.low < 0,
+        "signed": number.number_type.low < 0,
         "low": number.low,
         "high": number.high,
         "unit": said.unit,

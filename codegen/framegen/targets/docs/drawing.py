@@ -1,4 +1,4 @@
-"""Sequences as pictures: who says what to whom, and in which order, drawn to scale for SVG."""
+"""Sequence diagrams: who sends what to whom, and in which order, as SVG coordinates."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ _HEAD = 7
 
 @dataclass(frozen=True, slots=True)
 class Arrow:
-    """One message on its way. `sure` is whether it always comes; `head` are the tip's points."""
+    """One message on its way. `sure` says that it always comes."""
 
     message: str
     note: str
@@ -28,19 +28,19 @@ class Arrow:
 
     @property
     def head(self) -> str:
-        """The corners of the tip."""
+        """The corners of the arrow head."""
         back = self.end + (-_HEAD if self.end > self.start else _HEAD)
         return f"{self.end},{self.y} {back},{self.y - 4} {back},{self.y + 4}"
 
     @property
     def middle(self) -> int:
-        """Where the label is centred."""
+        """The centre of the label."""
         return (self.start + self.end) // 2
 
 
 @dataclass(frozen=True, slots=True)
 class Lifeline:
-    """One end, as a line down the picture."""
+    """One endpoint, as a line down the picture."""
 
     name: str
     x: int
@@ -48,7 +48,7 @@ class Lifeline:
 
 @dataclass(frozen=True, slots=True)
 class Drawing:
-    """One sequence: `caption` says in words what the picture shows."""
+    """One sequence; `caption` says in words what the picture shows."""
 
     id: str
     title: str
@@ -58,24 +58,24 @@ class Drawing:
 
     @property
     def width(self) -> int:
-        """Of the picture, in its own units."""
+        """The width of the picture, in its own units."""
         return _WIDTH
 
     @property
     def height(self) -> int:
-        """Of the picture, in its own units."""
+        """The height of the picture, in its own units."""
         return _TOP + _STEP * len(self.arrows) + _BOTTOM
 
 
 def drawing(model: Model, name: str) -> Drawing | None:
-    """Draw what a message sets off; None for one that is itself set off by another."""
+    """Draw what follows a message; None for a reply or a report."""
     message = model.messages[name]
     kind = model.kind(name)
     if kind not in ("query", "command"):
         return None
     steps = [(name, "", True)]
     if message.message.reply is not None:
-        steps.append((message.message.reply, "always", True))
+        steps.append((message.message.reply, "reply", True))
     steps += [(report, "may follow", False) for report in message.message.reports]
     return _drawn(model, name, steps, _caption(model, name))
 
@@ -89,7 +89,7 @@ def interruption(model: Model) -> Drawing | None:
             continue
         for report, sent in reports.items():
             if sent.direction == model.messages[reply].direction:
-                steps = [(name, "", True), (report, "unasked", False), (reply, "always", True)]
+                steps = [(name, "", True), (report, "report", False), (reply, "reply", True)]
                 caption = (
                     f"{report} may arrive at any time, also between {name} and {reply}: whoever "
                     f"waits for {reply} must look at what arrived, not only that something did."

@@ -1,4 +1,4 @@
-"""Makes text from a spec safe for the place where it goes: HTML, Markdown, or JSON in a script."""
+"""Escaping of text from a spec for HTML, for Markdown, and for JSON in a script."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ class Safe(str):
 
 
 def markdown(value: object) -> str:
-    """What stands for `value` in Markdown: no mark-up, no HTML, no link, and all on one line."""
+    """Escape `value` for Markdown: no mark-up, no HTML, no link, and all on one line."""
     if isinstance(value, Safe):
         return value
     folded = " ".join(str(value).split())
@@ -63,7 +63,7 @@ def named(name: str, root: str) -> Safe:
 
 
 def linked(text: str, addresses: Mapping[str, str], root: str) -> Markup:
-    """`text` as HTML, in which every word that is the name of a message leads to its page."""
+    """Return `text` as HTML, in which every message name is a link to its page."""
     result = Markup()
     for word in re.split(r"(\w+)", text):
         address = addresses.get(word)
@@ -75,12 +75,12 @@ def linked(text: str, addresses: Mapping[str, str], root: str) -> Markup:
 
 
 def anchor(text: str) -> str:
-    """`text` as part of an anchor: what is no letter, digit or dot becomes a dash."""
+    """Return `text` as part of an anchor: what is no letter, digit or dot becomes a dash."""
     return re.sub(r"[^\w.]+", "-", text)
 
 
 def script_json(value: Any) -> Markup:
-    """`value` as JSON inside a script element, which nothing in it can close."""
+    """Return `value` as JSON inside a script element, which nothing in it can close."""
     text = json.dumps(value, ensure_ascii=True, separators=(",", ":"))
     for character in "<>&":
         text = text.replace(character, f"\\u{ord(character):04x}")

@@ -1,4 +1,4 @@
-"""Fields as a reader looks them up: where, what type, which values, what they mean, says who."""
+"""The table of fields: offset, type, values, meaning and source."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from framegen.targets.docs.strip import place_in_each
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from framegen.language.spec import GroupField
+    from framegen.language.spec import ListField
     from framegen.model.layout import MessageLayout
     from framegen.model.model import Model
     from framegen.model.slots import Number
@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, slots=True)
 class ValueView:
-    """A number with a meaning of its own; `cite` is None where it is known from the message's."""
+    """A named value; `cite` is None where its source is the message's."""
 
     name: str
     value: int
@@ -32,7 +32,7 @@ class ValueView:
 
 @dataclass(frozen=True, slots=True)
 class NoteView:
-    """What else is known, and from where."""
+    """A further fact about a field, and its source."""
 
     text: str
     cite: CiteView
@@ -40,7 +40,7 @@ class NoteView:
 
 @dataclass(frozen=True, slots=True)
 class FieldView:
-    """One row of the table of fields. A list of elements has no type of its own."""
+    """One row of the table. A list of elements has no type of its own."""
 
     path: str
     offset: str
@@ -57,12 +57,12 @@ class FieldView:
 
     @property
     def anchor(self) -> str:
-        """Stable as long as the field keeps its name."""
+        """The anchor, stable as long as the field keeps its name."""
         return "field-" + self.path.replace("[i]", "").replace(".", "-")
 
 
 def field_views(model: Model, message: MessageLayout) -> list[FieldView]:
-    """Every field of a message in the order of the frame; those of an element after their list."""
+    """Return every field in the order of the frame; those of an element follow their list."""
     maker = _Maker(model, message)
     views: list[FieldView] = []
     for slot in message.fields:
@@ -102,14 +102,14 @@ class _Maker:
             path,
             offset,
             key,
-            field.wire.name,
+            field.number_type.name,
             bounds,
             derived=field.role == "count",
         )
 
     def view(
         self,
-        field: NumberField | GroupField,
+        field: NumberField | ListField,
         path: str,
         offset: str,
         key: KeyPath,
@@ -146,15 +146,15 @@ class _Maker:
         )
 
 
-def _beside(name: str, field: NumberField | GroupField) -> list[str]:
-    """What the library makes of a number besides the number itself."""
+def _beside(name: str, field: NumberField | ListField) -> list[str]:
+    """Say what the library offers for a number besides the number itself."""
     if not isinstance(field, NumberField):
         return []
     found: list[str] = []
     if field.limits is not None:
         others = [f"{who} take {range_}" for who, range_ in field.limits.others.items()]
-        told = "; ".join(["unless told otherwise", *others])
-        found.append(f"A client sends {field.limits.usual} {told}.")
+        limits = "; ".join(["unless told otherwise", *others])
+        found.append(f"A client sends {field.limits.usual} {limits}.")
     if field.signed_as is not None:
         found.append(f"The property signed_{name} has it as {field.signed_as}.")
     marked = [str(value.value) for value in field.values.values() if value.absent]

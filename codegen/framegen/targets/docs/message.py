@@ -1,4 +1,4 @@
-"""One message as its page shows it."""
+"""The page of one message."""
 
 from __future__ import annotations
 
@@ -6,15 +6,15 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING
 
+from framegen.pluralize import describe_range
 from framegen.targets.docs.address import message_page
 from framegen.targets.docs.cite import CiteView, Place, cite_view
 from framegen.targets.docs.drawing import Drawing, drawing
 from framegen.targets.docs.escape import paragraphs
-from framegen.targets.docs.exchange import ExampleView, example_views
+from framegen.targets.docs.examples import ExampleView, example_views
 from framegen.targets.docs.field import FieldView, field_views
 from framegen.targets.docs.strip import Cell, pattern_strip
 from framegen.targets.docs.timing import milliseconds
-from framegen.wording import describe_range
 
 if TYPE_CHECKING:
     from framegen.language.spec import Message
@@ -24,8 +24,8 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True)
-class MessageView:
-    """The facts of one message, each ready to be shown."""
+class MessagePage:
+    """The facts of one message, ready to be shown."""
 
     model: Model
     layout: MessageLayout
@@ -33,52 +33,52 @@ class MessageView:
 
     @property
     def said(self) -> Message:
-        """What the spec says of it: name, summary, since and the like."""
+        """The message in the spec: name, summary, since and the like."""
         return self.layout.message
 
     @property
     def name(self) -> str:
-        """Its name, which is also its anchor."""
+        """The name, which is also the anchor."""
         return self.layout.name
 
     @property
     def page(self) -> str:
-        """Its page, from the root of the reference, whatever it is written in."""
+        """The page, from the root of the reference, without its suffix."""
         return message_page(self.name)
 
     @property
-    def code(self) -> int:
-        """Its code."""
+    def id(self) -> int:
+        """The id of the message."""
         return self.layout.id
 
     @property
     def hex(self) -> str:
-        """Its code in hex, as wide as the frame has it."""
-        return f"0x{self.code:0{2 * self.layout.frame.id.size}X}"
+        """The id in hex, as wide as in the frame."""
+        return f"0x{self.id:0{2 * self.layout.frame.id.size}X}"
 
     @property
     def direction(self) -> str:
-        """Who sends it to whom."""
+        """The sender and the receiver."""
         return f"{self.layout.direction.sender} to {self.layout.direction.receiver}"
 
     @property
     def kind(self) -> str:
-        """Command, query, reply or report."""
+        """The kind: command, query, reply or report."""
         return self.model.kind(self.name)
 
     @property
     def description(self) -> list[str]:
-        """Its description, a paragraph an item."""
+        """The description, a paragraph an item."""
         return paragraphs(self.said.description)
 
     @property
     def cite(self) -> CiteView:
-        """Where it is known from."""
+        """The source of the message."""
         return cite_view(self.model.spec, self.said.cite)
 
     @property
     def place(self) -> Place:
-        """Where the spec says all this."""
+        """The place of the message in the spec."""
         return Place(("messages", self.name))
 
     @property
@@ -99,7 +99,7 @@ class MessageView:
 
     @property
     def posed(self) -> list[str]:
-        """The methods of a client that send it besides its own."""
+        """The methods for poses that send it besides its own."""
         pose = self.model.spec.pose
         if pose is None:
             return []
@@ -127,22 +127,22 @@ class MessageView:
 
     @cached_property
     def cells(self) -> list[Cell]:
-        """What every frame of it looks like."""
+        """The byte strip of any frame of the message."""
         return pattern_strip(self.layout)
 
     @property
     def parameters(self) -> list[Cell]:
-        """Of those cells, the ones between the code and the end."""
+        """The cells between the id and the end."""
         return [cell for cell in self.cells if cell.role in ("field", "count", "repeated")]
 
     @cached_property
     def fields(self) -> list[FieldView]:
-        """Its fields, in the order of the frame."""
+        """The fields, in the order of the frame."""
         return field_views(self.model, self.layout)
 
     @cached_property
     def examples(self) -> list[ExampleView]:
-        """Its documented frames."""
+        """The documented frames."""
         return example_views(self.model, self.layout)
 
     @property
@@ -160,19 +160,19 @@ class MessageView:
 
     @property
     def drawing(self) -> Drawing | None:
-        """What it sets off, as a picture."""
+        """The sequence diagram of what follows it."""
         return drawing(self.model, self.name)
 
     @property
     def words(self) -> str:
-        """What a search finds it by, in lower case."""
+        """The words that a search finds it by, in lower case."""
         names = [field.path.replace("[i]", "") for field in self.fields]
         return " ".join(
             [self.name, self.said.vendor_name, self.kind, self.direction, *names]
         ).lower()
 
     @property
-    def codes(self) -> str:
-        """Its code in every way that people write it."""
+    def id_spellings(self) -> str:
+        """The id as people may write it in a search."""
         digits = self.hex.removeprefix("0x").lower()
-        return " ".join(dict.fromkeys([str(self.code), digits, f"0x{digits}", f"0x{self.code:x}"]))
+        return " ".join(dict.fromkeys([str(self.id), digits, f"0x{digits}", f"0x{self.id:x}"]))

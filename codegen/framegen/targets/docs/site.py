@@ -1,4 +1,4 @@
-"""The reference as a whole: the protocol, its pages, and what all of them show."""
+"""The reference as a whole: the protocol, its pages, and what all of them share."""
 
 from __future__ import annotations
 
@@ -8,21 +8,21 @@ from typing import TYPE_CHECKING
 
 from framegen.targets.docs.cite import CiteView, cite_view
 from framegen.targets.docs.drawing import Drawing, interruption
+from framegen.targets.docs.errata import ErratumView, UnknownView, erratum_views, unknown_views
 from framegen.targets.docs.escape import paragraphs
-from framegen.targets.docs.exchange import Exchange, exchanges
-from framegen.targets.docs.lessons import Lesson, lessons
-from framegen.targets.docs.listing import Line, listing
-from framegen.targets.docs.message import MessageView
-from framegen.targets.docs.quirks import (
-    ErratumView,
-    LookalikeView,
-    UnknownView,
-    erratum_views,
-    lookalike_views,
-    unknown_views,
-)
+from framegen.targets.docs.examples import ExampleSequence, example_sequences
+from framegen.targets.docs.lookalikes import LookalikeEntry, lookalike_views
+from framegen.targets.docs.message import MessagePage
+from framegen.targets.docs.spec_listing import SpecLine, listing
+from framegen.targets.docs.stream_examples import StreamExample, stream_examples
 from framegen.targets.docs.strip import Cell, parts_strip
-from framegen.targets.docs.timing import RoundTrip, Timing, bytes_a_second, round_trips, timings
+from framegen.targets.docs.timing import (
+    FrameTiming,
+    RoundTrip,
+    bytes_a_second,
+    round_trips,
+    timings,
+)
 from framegen.targets.filenames import file_stem
 
 if TYPE_CHECKING:
@@ -37,80 +37,80 @@ _TO_ROOT = "../../../"
 
 @dataclass(frozen=True, slots=True)
 class PageView:
-    """One page: its name below the root, its template, what leads to it, and its scripts."""
+    """One page: its name below the root, its template, title, link text and scripts."""
 
     name: str
     template: str
     title: str
     label: str
     scripts: tuple[str, ...] = ("page",)
-    twin: bool = True
-    message: MessageView | None = None
+    in_markdown: bool = True
+    message: MessagePage | None = None
 
     @property
     def html(self) -> str:
-        """Its file in HTML, from the root of the reference."""
+        """The file in HTML, from the root of the reference."""
         return f"{self.name}.html"
 
     @property
     def markdown(self) -> str:
-        """Its file in Markdown; what forges show of a folder is its README."""
+        """The file in Markdown; forges show the README of a folder."""
         return "README.md" if self.name == "index" else f"{self.name}.md"
 
     @property
     def root(self) -> str:
-        """The way from the page to the root of the reference."""
+        """The path from the page to the root of the reference."""
         return "../" * self.name.count("/")
 
 
 @dataclass(frozen=True, slots=True)
 class HidBoardView:
-    """Boards that show as a USB HID device, and where that is known from."""
+    """Boards that appear as a USB HID device, and the source of that."""
 
     said: HidBoard
     cite: CiteView | None
 
     @property
     def text(self) -> str:
-        """How they are found, and what they send."""
-        told = f"{self.said.ids}, a frame in each report of {self.said.report_size} bytes"
-        return f"{told}. {self.said.about}" if self.said.about else told
+        """The ids and report size, and a description."""
+        text = f"{self.said.ids}, a frame in each report of {self.said.report_size} bytes"
+        return f"{text}. {self.said.about}" if self.said.about else text
 
 
 @dataclass(frozen=True, slots=True)
 class ReservedView:
-    """A code that must not be used, and why."""
+    """A reserved id or name, and why it is reserved."""
 
     said: Reserved
     cite: CiteView | None
 
     @property
     def way(self) -> str:
-        """The direction in which it is kept free, if only one."""
+        """The direction in which it is reserved, if only one."""
         way = self.said.direction
         return "" if way is None else f"{way.sender} to {way.receiver}"
 
 
 @dataclass(frozen=True)
 class SiteView:
-    """Everything that pages are made of."""
+    """The content of all pages."""
 
     compiled: Compiled
     snippets: Snippets
 
     @property
     def model(self) -> Model:
-        """What follows from the spec."""
+        """The model of the protocol."""
         return self.compiled.model
 
     @property
     def protocol(self) -> Protocol:
-        """Its name, title, version and summary."""
+        """The protocol's name, title, version and summary."""
         return self.model.spec.protocol
 
     @property
     def folder(self) -> str:
-        """Where its pages lie, beside those of other protocols."""
+        """The folder of the pages, beside those of other protocols."""
         return file_stem(self.protocol.name)
 
     @property
@@ -120,34 +120,34 @@ class SiteView:
 
     @property
     def spec_link(self) -> str:
-        """The way from the root of the reference to the spec; empty where it lies elsewhere."""
+        """The path from the root of the reference to the spec; empty where it lies elsewhere."""
         return f"{_TO_ROOT}{self.spec}" if self.spec.startswith("spec/") else ""
 
     @property
     def description(self) -> list[str]:
-        """What a newcomer should know, a paragraph an item."""
+        """The introduction, a paragraph an item."""
         return paragraphs(self.protocol.description)
 
     @property
     def endpoints(self) -> dict[str, str]:
-        """Who talks."""
+        """The endpoints, by name, with their descriptions."""
         return self.model.spec.endpoints
 
     @property
     def sources(self) -> dict[str, SourceDocument]:
-        """What facts are cited from."""
+        """The sources that facts are cited from."""
         return self.model.spec.sources
 
     @property
     def link(self) -> str:
-        """The serial line, as people write it."""
+        """The settings of the serial line, as people write them."""
         link = self.model.spec.link
         letter = {"none": "N", "even": "E", "odd": "O"}[link.parity]
         return f"{link.baud} baud, {link.data_bits}{letter}{link.stop_bits}"
 
     @property
     def hid_boards(self) -> list[HidBoardView]:
-        """Boards that have no serial port."""
+        """The boards that have no serial port."""
         spec = self.model.spec
         return [
             HidBoardView(board, None if board.cite is None else cite_view(spec, board.cite))
@@ -156,12 +156,12 @@ class SiteView:
 
     @property
     def bytes_a_second(self) -> str:
-        """What the line carries."""
+        """The bytes a second that the line carries."""
         return bytes_a_second(self.model)
 
     @property
     def byte_order(self) -> str:
-        """Little or big."""
+        """The byte order: little or big."""
         return self.model.spec.byte_order
 
     @property
@@ -171,31 +171,31 @@ class SiteView:
 
     @property
     def parts(self) -> list[tuple[str, str]]:
-        """The parts that have something said of them."""
+        """The parts that the spec describes."""
         return [(name, part.about) for name, part in self.model.spec.frame.items() if part.about]
 
     @property
     def length_name(self) -> str:
-        """What the length is called."""
+        """The name of the length: `length`, say."""
         return self.model.frame.length.name
 
     @property
     def id_name(self) -> str:
-        """What the code is called."""
+        """The name of the id: `command`, say."""
         return self.model.frame.id.name
 
     @cached_property
-    def messages(self) -> list[MessageView]:
+    def messages(self) -> list[MessagePage]:
         """Every message, in the order of the spec."""
         return [
-            MessageView(self.model, message, self.snippets)
+            MessagePage(self.model, message, self.snippets)
             for message in self.model.messages.values()
         ]
 
     @cached_property
-    def by_code(self) -> list[MessageView]:
-        """Every message, by code; where two share one, in the order of the spec."""
-        return sorted(self.messages, key=lambda message: message.code)
+    def by_id(self) -> list[MessagePage]:
+        """Every message, by id; where two share one, in the order of the spec."""
+        return sorted(self.messages, key=lambda message: message.id)
 
     @cached_property
     def addresses(self) -> dict[str, str]:
@@ -203,56 +203,56 @@ class SiteView:
         return {message.name: f"{message.page}.html" for message in self.messages}
 
     @cached_property
-    def exchanges(self) -> list[Exchange]:
-        """Every documented frame, requests with what comes back."""
-        return exchanges(self.model)
+    def example_sequences(self) -> list[ExampleSequence]:
+        """Every documented frame, requests with what follows them."""
+        return example_sequences(self.model)
 
     @cached_property
-    def lessons(self) -> list[Lesson]:
-        """How a stream is decoded."""
-        return lessons(self.model)
+    def stream_examples(self) -> list[StreamExample]:
+        """Examples of how a stream is decoded."""
+        return stream_examples(self.model)
 
     @property
     def drawings(self) -> list[Drawing]:
         """Every sequence that has more than one message, and a report that interrupts one."""
         found = [message.drawing for message in self.messages]
-        told = [drawing for drawing in found if drawing and len(drawing.arrows) > 1]
+        shown = [drawing for drawing in found if drawing and len(drawing.arrows) > 1]
         between = interruption(self.model)
-        return [*told, between] if between else told
+        return [*shown, between] if between else shown
 
     @property
     def silent(self) -> list[str]:
-        """The commands that nothing comes back from."""
+        """The commands that nothing follows."""
         return [message.name for message in self.messages if message.silent]
 
     @property
-    def timings(self) -> list[Timing]:
-        """What each message costs."""
+    def timings(self) -> list[FrameTiming]:
+        """The frame sizes and times of each message."""
         return timings(self.model)
 
     @property
     def round_trips(self) -> list[RoundTrip]:
-        """What a question and its answer cost."""
+        """The times of a request with its reply."""
         return round_trips(self.model)
 
     @cached_property
     def errata(self) -> list[ErratumView]:
-        """Where the documents are wrong."""
+        """The mistakes in the documents."""
         return erratum_views(self.model)
 
     @cached_property
     def unknowns(self) -> list[UnknownView]:
-        """What nobody has written down."""
+        """The questions that no source answers."""
         return unknown_views(self.model)
 
     @cached_property
-    def lookalikes(self) -> list[LookalikeView]:
-        """Protocols easily taken for this one."""
+    def lookalikes(self) -> list[LookalikeEntry]:
+        """The protocols easily taken for this one."""
         return lookalike_views(self.model)
 
     @property
     def reserved(self) -> list[ReservedView]:
-        """Codes and names that are kept free."""
+        """The reserved ids and names."""
         spec = self.model.spec
         return [
             ReservedView(
@@ -263,30 +263,32 @@ class SiteView:
 
     @property
     def releases(self) -> list[Release]:
-        """What changed, the latest version first."""
+        """The history, the latest version first."""
         return self.model.spec.history[::-1]
 
     @property
-    def listing(self) -> list[Line]:
-        """The spec itself."""
+    def listing(self) -> list[SpecLine]:
+        """The text of the spec."""
         return listing(self.compiled.source, self.compiled.tree)
 
     @cached_property
     def pages(self) -> list[PageView]:
-        """The pages that the navigation leads to."""
-        # The decoder needs a script, the cheat sheet paper, and the spec is YAML: no twin.
+        """The pages in the navigation."""
+        # The decoder needs a script, the cheat sheet paper, and the spec is YAML: HTML alone.
         decoder = ("codec", "page", "decoder")
         return [
             PageView("index", "index", self.protocol.title, "Frames"),
             PageView("examples", "examples", "Examples, byte by byte", "Examples"),
-            PageView("decoder", "decoder", "Decoder and encoder", "Decoder", decoder, twin=False),
+            PageView(
+                "decoder", "decoder", "Decoder and encoder", "Decoder", decoder, in_markdown=False
+            ),
             PageView("stream", "stream", "How the stream is decoded", "Stream"),
             PageView("sequences", "sequences", "Sequences and timing", "Sequences"),
             PageView("errata", "errata", "Errata and unknowns", "Errata"),
             PageView("lookalikes", "lookalikes", "Is this your protocol?", "Look-alikes"),
-            PageView("cheatsheet", "cheatsheet", "Cheat sheet", "Cheat sheet", twin=False),
+            PageView("cheatsheet", "cheatsheet", "Cheat sheet", "Cheat sheet", in_markdown=False),
             PageView("changelog", "changelog", "Changelog", "Changelog"),
-            PageView("spec", "spec", "The spec", "Spec", (), twin=False),
+            PageView("spec", "spec", "The spec", "Spec", (), in_markdown=False),
         ]
 
     @cached_property

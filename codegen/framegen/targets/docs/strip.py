@@ -44,7 +44,7 @@ def _cell(row: Row) -> Cell:
 
 
 def pattern_strip(message: MessageLayout) -> list[Cell]:
-    """Cut what every frame of a message looks like into cells; a list is shown once."""
+    """Cut the general form of a message's frames into cells; a list is shown once."""
     cells: list[Cell] = []
     for slot in message.slots:
         if isinstance(slot, Items):
@@ -65,23 +65,25 @@ def _pattern(message: MessageLayout, slot: Constant | Number) -> Cell:
             data = to_hex(slot.write(message.lengths[0])) if fixed else _dots(slot.size)
             value = str(message.formula)
         case _:
-            data, value = _dots(slot.size), slot.wire.name
+            data, value = _dots(slot.size), slot.number_type.name
     return Cell(_place(slot), data, slot.name, value, slot.role)
 
 
 def _in_each(items: Items, field: Number) -> Cell:
     offset = place_in_each(items, field.at)
-    return Cell(offset, _dots(field.size), items.path("i", field), field.wire.name, "repeated")
+    return Cell(
+        offset, _dots(field.size), items.path("i", field), field.number_type.name, "repeated"
+    )
 
 
 def place_in_each(items: Items, at: int = 0) -> str:
-    """Say where something stands in each element: `7 + 3i`."""
+    """Return the offset of a number in each element of a list: `7 + 3i`."""
     step = "i" if items.size == 1 else f"{items.size}i"
     return f"{items.at + at} + {step}"
 
 
 def parts_strip(envelope: Envelope) -> list[Cell]:
-    """Cut an envelope into cells: which part stands where, whatever the message."""
+    """Cut an envelope into cells, whatever the message."""
     return [
         Cell(_place(slot), _shown(slot), slot.name, slot.role, slot.role) for slot in envelope.slots
     ]
@@ -98,7 +100,7 @@ def _shown(slot: Slot) -> str:
 
 
 def _place(slot: Slot) -> str:
-    """Say where a slot stands; what follows a list has no offset of its own."""
+    """Return the offset of a slot; `end` for one behind the fields."""
     return str(slot.at) if slot.at >= 0 else "end"
 
 

@@ -1,11 +1,11 @@
-"""How long frames are on the line, and how many of them it carries in a second."""
+"""Timing: how long frames take on the line, and how many of them it carries in a second."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from framegen.wording import counted
+from framegen.pluralize import pluralize
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -15,8 +15,8 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True, slots=True)
-class Timing:
-    """One size of a message: what it holds, its bytes, and what they cost."""
+class FrameTiming:
+    """One size of a message: its contents, its bytes, and its time on the line."""
 
     message: str
     what: str
@@ -27,7 +27,7 @@ class Timing:
 
 @dataclass(frozen=True, slots=True)
 class RoundTrip:
-    """A request and its reply with nothing between them: the best that the line allows."""
+    """A request and its reply without a pause: the best that the line allows."""
 
     request: str
     reply: str
@@ -43,20 +43,20 @@ def milliseconds(seconds: float) -> str:
 
 
 def bytes_a_second(model: Model) -> str:
-    """Say what the line carries, as `960`."""
+    """Return the bytes a second that the line carries, as text: `960`."""
     link = model.spec.link
     return _trimmed(link.baud / link.bits_per_byte)
 
 
-def timings(model: Model) -> list[Timing]:
-    """Every message at its smallest, as its examples have it, and at its largest."""
+def timings(model: Model) -> list[FrameTiming]:
+    """Return the times of every message at its smallest, as in its examples, and at its largest."""
     return [
         _timing(message, count) for message in model.messages.values() for count in _sizes(message)
     ]
 
 
 def round_trips(model: Model) -> list[RoundTrip]:
-    """Every request with its reply; lists of the same length where both have one."""
+    """Return the times of every request with its reply, lists of both at the same count."""
     return [trip for message in model.messages.values() for trip in _trips(model, message)]
 
 
@@ -76,15 +76,15 @@ def _trips(model: Model, request: MessageLayout) -> Iterator[RoundTrip]:
         )
 
 
-def _timing(message: MessageLayout, count: int) -> Timing:
+def _timing(message: MessageLayout, count: int) -> FrameTiming:
     size = message.size_at(count)
     seconds = message.wire_seconds(size)
     what = _what(message, count)
-    return Timing(message.name, what, size, milliseconds(seconds), _trimmed(1 / seconds))
+    return FrameTiming(message.name, what, size, milliseconds(seconds), _trimmed(1 / seconds))
 
 
 def _sizes(message: MessageLayout) -> list[int]:
-    """Counts worth showing: the fewest, those of the examples, the most."""
+    """Return the counts worth showing: the fewest, those of the examples, the most."""
     items = message.items
     if items is None:
         return [0]
@@ -93,7 +93,7 @@ def _sizes(message: MessageLayout) -> list[int]:
 
 
 def _what(message: MessageLayout, count: int) -> str:
-    return "" if message.items is None else f"{counted(count, 'item')} in {message.items.name}"
+    return "" if message.items is None else f"{pluralize(count, 'item')} in {message.items.name}"
 
 
 def _trimmed(number: float) -> str:

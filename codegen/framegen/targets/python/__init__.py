@@ -29,16 +29,17 @@ _HERE = Path(__file__).parent
 _SHARED = {
     "_cli/colour.py": "colour.py",
     "_cli/console.py": "console.py",
+    "_cli/shell_completion.py": "shell_completion.py",
     "_codec/hextext.py": "hextext.py",
     "_recording/file.py": "recording_file.py",
-    "_frame/wording.py": "wording.py",
+    "_frame/pluralize.py": "pluralize.py",
 }
 # What only a protocol with poses has a use for.
 _FOR_POSES = {"_cli/play.py", "_cli/posefile.py", "_cli/positions.py", "_cli/teach.py"}
 
 
 def render(compiled: Compiled, _snippets: Snippets) -> dict[str, str]:
-    """The library's files, by path below the project's root."""
+    """Render the library's files, by path below the project's root."""
     library = LibraryView(names_of(compiled.model).library)
     poses = compiled.model.spec.pose is not None
     copied = {name: text for name, text in _runtime().items() if poses or name not in _FOR_POSES}
@@ -48,13 +49,13 @@ def render(compiled: Compiled, _snippets: Snippets) -> dict[str, str]:
 
 
 def folders(model: Model) -> tuple[str, ...]:
-    """The folder of the package."""
+    """Return the folder of the package."""
     return (f"generated/{package_of(model)}",)
 
 
 @cache
 def _runtime() -> dict[str, str]:
-    """The files that are the same for every protocol, copied as they are, and so read once."""
+    """Return the files that are the same for every protocol; read once."""
     root = _HERE / "runtime"
     files = {file.relative_to(root).as_posix(): file for file in sorted(root.rglob("*.py"))}
     files |= {name: _HERE.parents[1] / shared for name, shared in _SHARED.items()}

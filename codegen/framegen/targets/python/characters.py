@@ -1,7 +1,7 @@
-"""Which characters stand for themselves in Python source, and how many columns they take.
+"""Characters in Python source: which are shown as they are, and how many columns they take.
 
 Linters refuse characters that look like others (a Cyrillic letter in an ASCII word), and no two
-tools agree on the width of rare ones. The tables are our own, not those of the Python that runs:
+tools agree on the width of rare ones. The tables are our own, not those of the running Python:
 the same spec must give the same text everywhere.
 """
 
@@ -66,19 +66,19 @@ _UNBROKEN = re.compile(f"[{_WIDE}]?[{_ALIKE}]+[{_WIDE}]?|[{_WIDE}]|[^{_WIDE}]+")
 
 
 def shown(text: str) -> str:
-    """Replace by escapes what does not stand for itself; quotes and backslashes stay."""
+    """Escape what is not shown as it is; quotes and backslashes stay."""
     if text.isascii() and text.isprintable():
         return text
     return _WORD.sub(_of_its_script, _ODD.sub(_escaped, text))
 
 
 def columns(text: str) -> int:
-    """How many columns `text` takes, which `shown` has written."""
+    """Return the number of columns of `text`, which `shown` has escaped."""
     return len(text) if text.isascii() else len(text) + len(_ANY_WIDE.findall(text))
 
 
 def unbroken(text: str) -> list[str]:
-    """The parts of `text` that a line break must not divide, where there are no blanks."""
+    """Split `text` into parts that a line break must not divide, where there are no blanks."""
     return [text] if text.isascii() else _UNBROKEN.findall(text)
 
 

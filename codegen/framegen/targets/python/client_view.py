@@ -1,4 +1,4 @@
-"""What the templates of the two clients show: one method for each message of the client.
+"""The clients as their templates show them: one method for each message of the client.
 
 Both clients are made of this one description; they differ in `async`, `await` and their base class.
 """
@@ -13,7 +13,7 @@ from framegen.targets.python.escape import Bracketed, Part, Text, literal
 from framegen.targets.python.exports import relative_import
 from framegen.targets.python.method_view import Flavour, MethodView
 from framegen.targets.python.pose_view import PoseView
-from framegen.targets.python.words import direction_member
+from framegen.targets.python.spelling import direction_member
 
 if TYPE_CHECKING:
     from framegen.language.values import Range
@@ -77,12 +77,12 @@ class ClientView:
 
     @property
     def pose(self) -> PoseView | None:
-        """The methods for positions of the client for threads, where there are any."""
+        """The pose methods of the client for threads, where there are any."""
         return self._pose(self.FLAVOURS["Controller"])
 
     @property
     def async_pose(self) -> PoseView | None:
-        """The same of the client for asyncio."""
+        """The pose methods of the client for asyncio."""
         return self._pose(self.FLAVOURS["AsyncController"])
 
     def _pose(self, flavour: Flavour) -> PoseView | None:
@@ -91,7 +91,7 @@ class ClientView:
 
     @property
     def limits(self) -> str:
-        """What describes the limits of what is sent."""
+        """The limits of what is sent, as expressions."""
         limited = {
             each.request.name: each.request.limited
             for each in self.model.exchanges
@@ -114,17 +114,17 @@ class ClientView:
 
     @property
     def entries(self) -> list[str]:
-        """What comes back for each message, as the entries of a dict."""
+        """The exchanges, as the entries of a dict."""
         return [_entry(each) for each in self.model.exchanges]
 
     @property
     def received(self) -> str:
-        """The direction of what comes to the client, as a member of the enumeration."""
+        """The direction to the client, as a member of the enumeration."""
         return direction_member(self.model.roles.received)
 
     @property
     def import_messages(self) -> str:
-        """The messages that exchanges are about."""
+        """The messages of the exchanges."""
         names = {each.request.name for each in self.model.exchanges}
         names |= {each.reply.name for each in self.model.exchanges if each.reply is not None}
         for each in self.model.exchanges:
@@ -140,7 +140,7 @@ class ClientView:
 
     @property
     def import_elements(self) -> str:
-        """The classes of elements that the methods return; empty where they return none."""
+        """The element classes that the methods return; empty where they return none."""
         shown = " ".join(method.returns for method in self.methods)
         lists = [each.items for each in self.model.messages.values()]
         elements = {each.element for each in lists if each is not None and each.element is not None}
@@ -162,17 +162,17 @@ class ClientView:
 
     @property
     def async_typing(self) -> bool:
-        """Whether the client for asyncio does."""
+        """Whether the client for asyncio imports anything for its annotations alone."""
         return bool(self.iterables or self.import_elements or self.async_import_results)
 
     @property
     def import_results(self) -> list[str]:
-        """The classes of what commands of the client for threads return."""
+        """The result classes of commands of the client for threads."""
         return _results(self.methods)
 
     @property
     def async_import_results(self) -> list[str]:
-        """The classes of what commands of the client for asyncio return."""
+        """The result classes of commands of the client for asyncio."""
         return _results(self.async_methods)
 
 
@@ -186,7 +186,7 @@ def _results(methods: list[MethodView]) -> list[str]:
 
 
 def _bounds(range_: Range) -> str:
-    """A pair of numbers as Python writes it."""
+    """Return a pair of numbers as Python code."""
     return f"({range_.low}, {range_.high})"
 
 

@@ -1,4 +1,4 @@
-"""The verbs of the command: what each is for, and command lines for its help."""
+"""The verbs of the command: what each is for, and example command lines for its help."""
 
 from __future__ import annotations
 
@@ -19,18 +19,22 @@ _Line: TypeAlias = tuple[str, str]
 # What each verb is for.
 _ABOUT = {
     "answer": "Answer questions on standard input: a codec for programs in any language.",
-    "bench-line": "Measure how long questions take on a line, against what it allows.",
-    "decode": "Tell what bytes mean: messages, noise, and why noise is noise.",
-    "doctor": "Find out what is wrong with a port, a line or a device.",
+    "bench-line": "Measure how long queries take on a line, compared with what it allows.",
+    "decode": "Decode bytes: messages, and noise with the reason.",
+    "doctor": "Diagnose a port, a line or a device.",
     "encode": "Make the frame of a message.",
-    "monitor": "Show what a line carries, as it comes.",
-    "play": "Move through poses that were recorded.",
-    "ports": "List what is plugged in: serial ports, and devices that have none.",
-    "replay": "Send once more what was recorded of a line.",
-    "send": "Send a message to a port, and print the reply.",
+    "monitor": "Show the traffic of a line as it arrives.",
+    "play": "Play recorded poses.",
+    "ports": "List the serial ports, and devices that have none.",
+    "replay": "Send a recording again.",
+    "send": "Send a message to a port.",
     "simulate": "Run a virtual device to talk to.",
-    "teach": "Let go, and record poses by hand.",
+    "teach": "Release the device, and record poses set by hand.",
 }
+
+
+# What a verb does where there are questions.
+_OF_QUESTIONS = {"send": "Send a message to a port, and print the reply."}
 
 
 @dataclass(frozen=True, slots=True)
@@ -43,30 +47,31 @@ class VerbView:
 
     @property
     def entry(self) -> str:
-        """Its examples as the entry of a dict."""
+        """The examples as the entry of a dict."""
         return Bracketed(f"{literal(self.name)}: (", [*self.examples], "),", lone=",").fitted(4)
 
 
 def verbs(model: Model) -> list[VerbView]:
-    """The verbs that have something to do in this protocol, in the order of the alphabet."""
+    """Return the verbs that this protocol has a use for, in alphabetical order."""
     program = model.spec.protocol.name
+    about = _ABOUT | (_OF_QUESTIONS if _questions(model) else {})
     found: list[VerbView] = []
     for verb, lines in sorted(_examples(model).items()):
-        shown = [(f"{program} {verb} {words}".rstrip(), about) for words, about in lines]
-        found.append(VerbView(verb, _ABOUT[verb], _pairs(shown)))
+        shown = [(f"{program} {verb} {words}".rstrip(), told) for words, told in lines]
+        found.append(VerbView(verb, about[verb], _pairs(shown)))
     return found
 
 
 def _examples(model: Model) -> dict[str, list[_Line]]:
-    """What stands behind each verb in its examples, and what it does."""
+    """Return the example arguments of each verb, and what they do."""
     commands, questions = _commands(model), _questions(model)
     found = {
-        "answer": [("", "what is asked on standard input, until that ends")],
+        "answer": [("", "questions on standard input, until it ends")],
         "decode": _decode_lines(model),
         "doctor": [
-            ("", "the port that is plugged in, and the device behind it"),
+            ("", "the only port, and the device behind it"),
             ("--port COM7", "this port"),
-            ('--port COM7 --model "V1.3" --report line.hex', "a report to be sent in"),
+            ('--port COM7 --model "V1.3" --report line.hex', "a report to send in"),
             ("--port COM7 --json", "for a program to read"),
         ],
         "encode": _encode_lines(model),
@@ -74,7 +79,7 @@ def _examples(model: Model) -> dict[str, list[_Line]]:
             ("--port COM7", "every frame and all noise"),
             ("--port COM7 -t delta -n 5", "five, and their distances"),
             ("--port COM7 --only noise", "what is no frame"),
-            ("--port COM7 --log line.hex", "kept for `decode`"),
+            ("--port COM7 --log line.hex", "recorded for `decode`"),
             ("--port COM7 --direction any -t absolute", "both ends of a line, the time of day"),
             ("--port COM7 --hide noise --json", "messages, for a program to read"),
         ],
@@ -84,41 +89,44 @@ def _examples(model: Model) -> dict[str, list[_Line]]:
         ],
         "simulate": [
             ("", "a device behind a port, whose name is printed first"),
-            ("--help", "what else it can do"),
+            ("--help", "all its options"),
         ],
     }
     if commands or questions:
         found["send"] = [*commands[:4], *((words, about) for words, about, _ in questions)]
         found["replay"] = [
             ("line.hex --dry-run", "what would be sent, and when"),
-            ("line.hex --port COM7", "what was recorded, once more"),
-            ("line.hex --port COM7 --speed 0.5", "at half the pace"),
-            ("line.bin --port COM7 --skip-noise", "raw bytes, of which some are no frames"),
+            ("line.hex --port COM7", "the recording again"),
+            ("line.hex --port COM7 --speed 0.5", "at half the speed"),
+            ("line.bin --port COM7 --skip-noise", "raw bytes, without the noise"),
         ]
     if questions:
         found["bench-line"] = [
-            (f"{words} -n 20" if at else words, f"how long {reply} takes to come")
+            (f"{words} -n 20" if at else words, f"how long {reply} takes to arrive")
             for at, (words, _, reply) in enumerate(questions)
         ]
     if model.spec.pose is not None:
-        found["doctor"].append(("--port COM7 --move 1", "also whether that moves; asks first"))
+        found["doctor"].append(("--port COM7 --move 1", "also move that id, after asking"))
         found["play"] = [
             ("poses.json --dry-run", "what would be sent, and when"),
             ("poses.json --port COM7", "from pose to pose, each in a second"),
-            ("poses.json --port COM7 --time-ms 500 --pause 1 --repeat 3", "faster, and thrice"),
+            (
+                "poses.json --port COM7 --time-ms 500 --pause 1 --repeat 3",
+                "faster, and three times",
+            ),
         ]
         found["teach"] = [
-            ("poses.json --port COM7", "all that are there, at each Enter"),
-            ("poses.json --port COM7 --ids 1-3 --append", "three, behind what is recorded"),
+            ("poses.json --port COM7", "all ids that answer, at each Enter"),
+            ("poses.json --port COM7 --ids 1-3 --append", "three ids, added to the file"),
         ]
     return found
 
 
 def _decode_lines(model: Model) -> list[_Line]:
-    """The ways to hand over bytes."""
+    """Return the ways to pass bytes."""
     frame = _messages(model)[0].example.hex
     return [
-        (frame.hex(" ").upper(), "bytes in hex, however they are written"),
+        (frame.hex(" ").upper(), "bytes in hex, in any notation"),
         ("line.bin", "a recording, hex or raw bytes"),
         (f"--direction {model.directions[0].sender} -", "what arrives on standard input"),
         ("--json line.bin", "a line of JSON for each message and noise"),
@@ -128,7 +136,7 @@ def _decode_lines(model: Model) -> list[_Line]:
 
 
 def _encode_lines(model: Model) -> list[_Line]:
-    """An example of each shape of message."""
+    """Return an example of each shape of message."""
     shapes: dict[tuple[bool, bool], _Line] = {}
     for message in _messages(model):
         shape = bool(message.numbers), message.items is not None
@@ -138,7 +146,7 @@ def _encode_lines(model: Model) -> list[_Line]:
 
 
 def _commands(model: Model) -> list[_Line]:
-    """An example of each message of the client that is not answered, and what it does."""
+    """Return an example of each message of the client without a reply, and what it does."""
     return [
         (f"--port COM7 {_words(message)}", message.layout.message.summary)
         for exchange, message in _sent(model)
@@ -147,7 +155,7 @@ def _commands(model: Model) -> list[_Line]:
 
 
 def _questions(model: Model) -> list[tuple[str, str, str]]:
-    """An example of each question, what it does, and its reply."""
+    """Return an example of each query, what it does, and its reply."""
     return [
         (f"--port COM7 {_words(message)}", message.layout.message.summary, exchange.reply.name)
         for exchange, message in _sent(model)
@@ -160,7 +168,7 @@ def _sent(model: Model) -> list[tuple[Exchange, MessageView]]:
 
 
 def _words(message: MessageView) -> str:
-    """A message as the command takes it, with the values of its example."""
+    """Return a message as the command accepts it, with the values of its example."""
     return " ".join([message.name, *message.command_words(message.example.values)])
 
 

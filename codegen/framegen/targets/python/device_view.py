@@ -1,4 +1,4 @@
-"""What the template of the device's end shows: who asks, what it handles, what it can say."""
+"""The device's end as its template shows it: handlers, and the messages that it sends."""
 
 from __future__ import annotations
 
@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING
 from framegen.model.exchanges import snake_case
 from framegen.targets.python.escape import Bracketed
 from framegen.targets.python.exports import relative_import
+from framegen.targets.python.spelling import direction_member
 from framegen.targets.python.union_view import type_alias
-from framegen.targets.python.words import direction_member
 
 if TYPE_CHECKING:
     from framegen.language.values import Direction
@@ -25,17 +25,17 @@ class HandlerView:
 
     @property
     def message(self) -> str:
-        """The class that it takes."""
+        """The message class that it handles."""
         return self.layout.name
 
     @property
     def name(self) -> str:
-        """`on_servo_move` for ServoMove."""
+        """The name: `on_servo_move` for ServoMove."""
         return f"on_{snake_case(self.layout.name)}"
 
     @property
     def signature(self) -> str:
-        """How it is declared: with a reply where the spec names one."""
+        """The declaration, with a reply where the spec names one."""
         reply = self.layout.message.reply
         returns = f"{reply} | None" if reply else "None"
         given = ["self", f"message: {self.message}"]
@@ -43,19 +43,19 @@ class HandlerView:
 
     @property
     def doc(self) -> list[str]:
-        """What it is asked, what it may return, and what may be sent later."""
+        """The docstring: the request, what may be returned, and what may be sent later."""
         message = self.layout.message
         found = [message.summary]
         if message.reply:
-            found.append(f"Return the {message.reply} that answers it, or None to stay silent.")
+            found.append(f"Return the {message.reply} as the reply, or None to stay silent.")
         if message.reports:
-            found.append(f"May be followed, by `send`: {', '.join(message.reports)}.")
+            found.append(f"`send` may follow with: {', '.join(message.reports)}.")
         return found
 
 
 @dataclass(frozen=True, slots=True)
 class DeviceView:
-    """The end of the line that the library's user talks to."""
+    """The device's end of the line."""
 
     model: Model
 
@@ -74,9 +74,9 @@ class DeviceView:
         """The docstring of the class."""
         roles = self.model.roles
         use = (
-            f"Bytes of the {roles.client} go in by `receive`, and what there is to send comes "
-            "back. A handler that is not overridden does nothing and answers nothing. "
-            "What is no message is counted in `rejects`, by reason."
+            f"`receive` takes bytes of the {roles.client}, and returns the bytes to send back. "
+            "A handler that is not overridden does nothing and answers nothing. "
+            "Rejected input is counted in `rejects`, by reason."
         )
         what = f"The {roles.device}'s end of the line: override a handler to say what it does."
         return [what, use]

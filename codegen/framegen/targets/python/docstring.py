@@ -1,4 +1,4 @@
-"""Docstrings that say what a spec says: text that can end none, run nothing, and lints clean."""
+"""Docstrings with text of a spec, which can neither end them nor run anything, and lints clean."""
 
 from __future__ import annotations
 
@@ -38,7 +38,7 @@ _HEADING = re.compile(
 
 
 def prose(text: str) -> str:
-    """`text` for the inside of a docstring: no quote can end it, no example in it be run."""
+    """Escape `text` for the inside of a docstring: no quote can end it, no example in it be run."""
     folded = " ".join(text.translate(TYPOGRAPHY).split())
     # doctest runs what follows three of these, so prose must not be able to say them.
     safe = shown(folded.replace("\\", "\\u005c").replace(">>>", "> > >"))
@@ -53,12 +53,12 @@ def docstring(
     *,
     function: str = "",
 ) -> str:
-    """A docstring, quotes and all: a summary of one line, then a paragraph for each further block.
+    """Return a docstring with quotes: a summary of one line, then a paragraph for each block.
 
-    The summary is the first paragraph, or its first sentences. Where those can be none, since they
-    are too long, ask, or begin with a quote, `otherwise` is the summary, and they follow it.
-    `example` goes to the end as it is: lines of Python that the generator wrote itself. `function`
-    is the name of what is documented, where that is a function.
+    The summary is the first paragraph, or its first sentences. Where it is too long, is a question,
+    or begins with a quote, `otherwise` is the summary, and the paragraphs follow it. `example` goes
+    to the end as it is: lines of Python that the generator wrote itself. `function` is the name of
+    what is documented, where that is a function.
     """
     paragraphs = [prose(part) for block in blocks for part in block.split("\n\n") if part.strip()]
     room = WIDTH - indent - 6
@@ -77,7 +77,7 @@ def docstring(
 
 
 def _summary(paragraph: str, room: int, function: str) -> tuple[str, str] | None:
-    """As many whole sentences of `paragraph` as fit into `room`, and the rest; or None."""
+    """Split `paragraph` into as many whole sentences as fit into `room`, and the rest; or None."""
     sentences = _SENTENCE_END.split(paragraph)
     for number in range(len(sentences), 0, -1):
         summary = " ".join(sentences[:number])
@@ -103,7 +103,7 @@ def _capital(text: str) -> str:
 
 
 def _wrapped(text: str, width: int) -> list[str]:
-    """Break prose into lines; what has no blanks and is longer has a line of its own."""
+    """Break prose into lines; a longer word without blanks has a line of its own."""
     lines = [""]
     for word in text.split(" "):
         blank = " "

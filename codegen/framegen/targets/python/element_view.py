@@ -1,4 +1,4 @@
-"""What the templates show of the class of an element: a tuple whose parts have names."""
+"""The class of an element as the templates show it: a tuple with named parts."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ class ElementView:
 
     @property
     def types(self) -> list[str]:
-        """The types of its parts."""
+        """The types of the parts."""
         return ["int" for _ in self.fields]
 
     @property
@@ -47,11 +47,11 @@ class ElementView:
 
     @property
     def made(self) -> str:
-        """What makes one of the arguments of its signature."""
+        """The expression that makes an element of the arguments of its signature."""
         names = Bracketed("(", [field.name for field in self.fields], ")", lone=",")
         return Bracketed("return tuple.__new__(", ["cls", names], ")").fitted(8)
 
     @property
     def absent(self) -> AbsentView | None:
-        """What tells whether an element is absent, where one can be."""
+        """The property that tells whether an element is absent, where one can be."""
         return absent_view([*self.fields])

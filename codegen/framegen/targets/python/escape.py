@@ -1,4 +1,4 @@
-"""Makes text of a spec safe for the place where it goes in Python code; fits code to lines."""
+"""Escaping of text of a spec for Python code, and line breaks of code."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ _WORD = re.compile(r"\s*\S*")
 
 
 def literal(text: str) -> str:
-    """`text` as a string literal, in the quotes that the formatter would choose."""
+    """Return `text` as a string literal, in the quotes that the formatter would choose."""
     quote, other = "'\"" if text.count('"') > text.count("'") else "\"'"
     if _ALARMING.match(text):
         rest = text[1:].replace("{", "{{").replace("}", "}}")
@@ -27,12 +27,12 @@ def literal(text: str) -> str:
 
 
 def byte_literal(data: bytes) -> str:
-    """Bytes as a literal, each as an escape."""
+    """Return bytes as a literal, each as an escape."""
     return 'b"' + "".join(f"\\x{byte:02x}" for byte in data) + '"'
 
 
 def assigned(text: str, name: str, indent: int) -> str:
-    """The assignment of a text to `name`, in brackets where it takes several lines."""
+    """Return the assignment of a text to `name`, in brackets where it takes several lines."""
     line = f"{name} = {literal(text)}"
     if indent + columns(line) <= WIDTH:
         return line
@@ -61,7 +61,7 @@ class Text:
         return f"{self.before}{literal(self.text)}{self.after}"
 
     def fitted(self, indent: int, *, last: str = "") -> str:
-        """On one line where it fits, `last` included, or else a literal a line."""
+        """Format it on one line where it fits, `last` included, or else a literal a line."""
         if indent + columns(str(self)) + len(last) <= WIDTH:
             return str(self)
         margin = "\n" + " " * indent
@@ -96,7 +96,7 @@ class Sum:
         return " + ".join(self.terms)
 
     def fitted(self, indent: int, *, last: str = "") -> str:
-        """On one line where it fits, `last` included, or else a term a line: as formatters do."""
+        """Format it on one line where it fits, `last` included, or else a term a line."""
         fits = indent + columns(str(self)) + len(last) <= WIDTH
         return str(self) if fits else f"\n{' ' * indent}+ ".join(self.terms)
 
@@ -121,7 +121,7 @@ class Bracketed:
         return f"{self.before}{inside}{self.after}"
 
     def fitted(self, indent: int, *, last: str = "") -> str:
-        """On one line where it fits, `last` included, or else an item a line: as formatters do."""
+        """Format it on one line where it fits, `last` included, or else an item a line."""
         whole = str(self)
         if not self.items or indent + columns(whole) + len(last) <= WIDTH:
             return whole
@@ -138,7 +138,7 @@ class Bracketed:
 
 
 def session(call: Bracketed, indent: int) -> list[str]:
-    """A call as lines of an interactive session that stand behind `indent` blanks."""
+    """Return a call as lines of an interactive session that are indented by `indent`."""
     first, *others = call.fitted(indent + len(">>> ")).split("\n")
     return [f">>> {first}", *(f"... {line[indent + len('... ') :]}" for line in others)]
 

@@ -1,4 +1,4 @@
-"""What every library exports, from which modules, and how names of a module are imported."""
+"""The exports of a library, and the imports of their names."""
 
 from __future__ import annotations
 
@@ -61,22 +61,22 @@ HOMES = {
 
 
 def export_order(name: str) -> _Order:
-    """The place of a name among those that a package exports, as linters want them."""
+    """Return the sort key of a name among those that a package exports, as linters want it."""
     return _kind(name), _natural(name), ""
 
 
 def import_order(name: str) -> _Order:
-    """The place of a name among those that are imported from a module."""
+    """Return the sort key of a name among those that are imported from a module."""
     return _kind(name), _natural(name.lower()), name
 
 
 def _kind(name: str) -> int:
-    """Constants stand before classes, and classes before all else."""
+    """Return the rank of a name: constants before classes, and classes before all else."""
     return 0 if name.isupper() and len(name) > 1 else 1 if name[0].isupper() else 2
 
 
 def _natural(name: str) -> tuple[tuple[str, int, str], ...]:
-    """The order in which X9 stands before X10: numbers by their size, unless they begin with 0."""
+    """Return a sort key by which X9 precedes X10: numbers by size, unless they begin with 0."""
     return tuple(
         (text, 0 if number.startswith("0") else len(number), number)
         for text, number in _NUMBERED.findall(name)
@@ -84,7 +84,7 @@ def _natural(name: str) -> tuple[tuple[str, int, str], ...]:
 
 
 def relative_import(module: str, names: Iterable[str], indent: int = 0) -> str:
-    """An import, indented but for its first line, an item a line where it needs to."""
+    """Return an import, indented except its first line, an item a line where it is too long."""
     names = sorted(names, key=import_order)
     line = f"from .{module} import {', '.join(names)}"
     if indent + len(line) <= WIDTH:

@@ -1,4 +1,4 @@
-"""What the templates show of the library as a whole: its messages, what it imports and exports."""
+"""The library as a whole as the templates show it: messages, imports and exports."""
 
 from __future__ import annotations
 
@@ -12,8 +12,8 @@ from framegen.targets.python.exports import HOMES, export_order, import_order, r
 from framegen.targets.python.list_view import ListView
 from framegen.targets.python.lookalike_view import LookalikeView
 from framegen.targets.python.message_view import MessageView
+from framegen.targets.python.spelling import direction_member, struct_order
 from framegen.targets.python.union_view import UnionView, type_alias, unions
-from framegen.targets.python.words import direction_member, struct_order
 
 if TYPE_CHECKING:
     from framegen.language.spec import Link
@@ -121,7 +121,7 @@ class LibraryView:
 
     @property
     def _homes(self) -> dict[str, str]:
-        """Every name that the package exports from its modules, in the order that linters want."""
+        """Every exported name and its module, in the order that linters want."""
         elements = [element.name for element in self.elements]
         classes = [*(message.name for message in self.messages), *elements]
         types = [union.name for union in self.unions]
@@ -135,12 +135,12 @@ class LibraryView:
 
     @property
     def homes(self) -> list[str]:
-        """The entries of a dict: each name that the package exports, and its module."""
+        """The entries of a dict: each exported name and its module."""
         return [f"{literal(name)}: {literal(module)}," for name, module in self._homes.items()]
 
     @property
     def exports(self) -> list[str]:
-        """The imports of all of those, each under its own name: to stubs, that is to export it."""
+        """The imports of all exported names."""
         homes = sorted(self._homes.items(), key=lambda home: (home[1], import_order(home[0])))
         return [relative_import(module, [f"{name} as {name}"]) for name, module in homes]
 
@@ -152,17 +152,17 @@ class LibraryView:
 
     @property
     def command_summary(self) -> str:
-        """What the command is for."""
+        """The summary of the command."""
         return f"Send, read and replay frames of: {self.model.spec.protocol.title}."
 
     @property
     def verbs(self) -> list[VerbView]:
-        """What the command can do."""
+        """The verbs of the command."""
         return verbs(self.model)
 
     @property
     def lookalikes(self) -> str:
-        """The tuple of the protocols that are easily taken for this one."""
+        """The tuple of the look-alikes, as code."""
         entries = [
             LookalikeView(lookalike, self.model.lookalikes[name]).entry
             for name, lookalike in self.model.spec.lookalikes.items()
@@ -178,7 +178,7 @@ class LibraryView:
 
     @property
     def hid_devices(self) -> str:
-        """An assignment: vendor, product and the bytes of a report, of each."""
+        """An assignment: vendor, product and report size of each HID board."""
         boards = [
             f"(0x{board.vendor:04X}, 0x{board.product:04X}, {board.report_size})"
             for board in self.link.usb_hid

@@ -1,4 +1,4 @@
-"""What the templates show of the list of a message: how it is declared, given and read."""
+"""The list of a message as the templates show it: how it is declared, given and read."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 from framegen.model.slots import Items, Number
 from framegen.targets.python.element_view import ElementView
 from framegen.targets.python.escape import WIDTH, Bracketed, Part
-from framegen.targets.python.number_view import RETURN, NumberView
+from framegen.targets.python.number_view import RETURN, NumberView, bounded
 
 if TYPE_CHECKING:
     from typing import Any
@@ -16,11 +16,11 @@ if TYPE_CHECKING:
     from framegen.language.spec import Spec
     from framegen.targets.python.number_view import Constant
 
-_COLUMNS_FOR = "For arrays and plots of a recording: several times as fast as"
+_COLUMNS_FOR = "For arrays and plots of a recording: several times as fast as reading"
 
 
 def given(argument: Number | Items, value: Any, before: str = "") -> Part:
-    """A value of an example as an argument, behind `before`; elements as plain tuples."""
+    """Return a value of an example as an argument, behind `before`; elements as plain tuples."""
     if isinstance(argument, Number):
         return f"{before}{value}"
     if argument.element is None:
@@ -50,7 +50,7 @@ class ListView:
 
     @property
     def element(self) -> ElementView | None:
-        """The class of its elements, where they are no bare numbers."""
+        """The class of its elements, where they are not bare numbers."""
         name = self.slot.element
         return None if name is None else ElementView(name, self.name, self.fields)
 
@@ -61,7 +61,7 @@ class ListView:
 
     @property
     def described(self) -> str:
-        """The call that makes the field: its place, what it is a list of, how many there may be."""
+        """The call that makes the field: its offset, its elements, and its bounds."""
         of: Part = self.element.name if self.element else self.fields[0].call([])
         bounds = [str(self.slot.low), str(self.slot.high), f"count={self.count}"]
         items = [str(self.slot.at), of, *bounds]
@@ -69,21 +69,21 @@ class ListView:
 
     @property
     def count(self) -> str:
-        """What its count is called."""
+        """The name of its count."""
         return self.slot.counter.name
 
     @property
     def doc(self) -> list[str]:
-        """What it is, and what else is known of it, or of the numbers that it is a list of."""
+        """The description of the list, or of the numbers in it."""
         if self.element is None:
             return self.fields[0].doc
         return [" ".join([self.slot.field.about, *self._notes])]
 
     @property
     def argument_doc(self) -> list[str]:
-        """The same for an argument of a method, whose declaration does not say how many may be."""
-        bounds = f"{self.slot.low}..{self.slot.high} of them."
-        return [self.slot.field.about, bounds, *self._notes]
+        """The description as an argument of a method, with the bounds of its count."""
+        about = bounded(self.slot.field.about, f"{self.slot.low}..{self.slot.high} items")
+        return [about, *self._notes]
 
     @property
     def _notes(self) -> list[str]:
@@ -94,7 +94,7 @@ class ListView:
 
     @property
     def argument(self) -> Part:
-        """How it is declared as an argument."""
+        """The declaration as an argument."""
         if self.element is None:
             return f"{self.name}: Iterable[int]"
         element = Bracketed("tuple[", self.element.types, "]")
@@ -102,33 +102,33 @@ class ListView:
 
     @property
     def read_as(self) -> str:
-        """The type that reading it gives."""
+        """The type of its value."""
         return f"tuple[{self.slot.element or 'int'}, ...]"
 
     @property
     def taken(self) -> str:
-        """The argument of what makes one list of all numbers."""
+        """The argument of the function that flattens its elements."""
         return _only_argument(f"flat = cls.{self.name}.flat(", self.name)
 
     @property
     def per_element(self) -> str:
-        """What divides the count of those numbers by the numbers of an element."""
+        """The division of the number of values by the numbers of an element."""
         return f" // {len(self.fields)}" if len(self.fields) > 1 else ""
 
     @property
     def read_from(self) -> str:
-        """The argument of what reads all its numbers."""
+        """The argument of the function that reads its numbers."""
         return _only_argument(f"numbers = type(self).{self.name}.numbers(", "self._frame")
 
     @property
     def column_types(self) -> str:
-        """The types of its columns, as many as there is room for in the line."""
+        """The types of its columns, as many as fit on the line."""
         types = ", ".join("Column" for _ in self.fields)
         return types if len(self.fields) <= 6 else "Column, ..."
 
     @property
     def columns(self) -> str:
-        """The columns, of all the numbers in the order of the frame."""
+        """The expression for its columns, made of all its numbers."""
         width = len(self.fields)
         parts = [f"numbers[{place}::{width}]" for place in range(width)]
         line = ", ".join(parts)
@@ -138,15 +138,15 @@ class ListView:
 
     @property
     def columns_doc(self) -> list[str]:
-        """What its columns are, and what they are for."""
+        """The description of its columns."""
         *others, last = [field.name for field in self.fields]
         fields = f"{', '.join(others)} and {last}" if others else last
         return [
-            f"The {self.name} as columns of plain numbers.",
+            f"Return the {self.name} as columns of plain numbers.",
             f"One for each field: {fields}. {_COLUMNS_FOR} `{self.name}`.",
         ]
 
 
 def _only_argument(call: str, argument: str) -> str:
-    """The argument of a call in a body, broken where the line would be too long."""
+    """Return the argument of a call in a body, broken where the line would be too long."""
     return Bracketed(call, [argument], ")").fitted(8).removeprefix(call).removesuffix(")")

@@ -1,4 +1,4 @@
-"""What the templates show of the look-alikes: where the slots of their frames stand."""
+"""The look-alikes as the templates show them: the places of their frames' slots."""
 
 from __future__ import annotations
 
@@ -57,7 +57,7 @@ class LookalikeView:
         ]
 
     def _covered(self, checksum: Number) -> Bracketed:
-        """The places of what a checksum is worked out from."""
+        """Return the places that a checksum is computed from."""
         slots = {slot.name: slot for slot in self.frame.slots}
         places = _joined(self._place(slots[name]) for name in checksum.of)
         return Bracketed("(", [_slice(place) for place in places], ")", lone=",")
@@ -66,14 +66,14 @@ class LookalikeView:
         return _slice(self._place(slot))
 
     def _place(self, slot: Constant | Number | Body) -> _Place:
-        """Where a slot begins and ends: from the front, and behind the body from the end."""
+        """Return where a slot begins and ends: from the front, or behind the body from the end."""
         if isinstance(slot, Body):
             return slot.at, -sum(each.size for each in self.frame.tail)
         return slot.at, slot.at + slot.size
 
 
 def _joined(places: Iterable[_Place]) -> list[_Place]:
-    """The places, those that follow each other as one."""
+    """Join places that follow each other."""
     joined: list[_Place] = []
     for start, end in places:
         if joined and joined[-1][1] == start != 0:
@@ -84,6 +84,6 @@ def _joined(places: Iterable[_Place]) -> list[_Place]:
 
 
 def _slice(place: _Place) -> str:
-    """A place as code; 0 for an end is the end of the frame."""
+    """Return a place as code; 0 for an end is the end of the frame."""
     start, end = place
     return f"slice({start}, {end or None})"

@@ -1,4 +1,4 @@
-"""What the templates show of a message: its class, its strategy, its examples."""
+"""A message as the templates show it: its class, its strategy, its examples."""
 
 from __future__ import annotations
 
@@ -7,12 +7,12 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from framegen.model.slots import Constant, Items, Number
+from framegen.pluralize import describe_range
 from framegen.targets.python.escape import Bracketed, Part, Sum, byte_literal, literal, session
 from framegen.targets.python.list_view import ListView, given
 from framegen.targets.python.names import strategy_name
 from framegen.targets.python.number_view import AbsentView, NumberView, absent_view
-from framegen.targets.python.words import direction_member, range_expression, struct_order
-from framegen.wording import describe_range
+from framegen.targets.python.spelling import direction_member, range_expression, struct_order
 
 if TYPE_CHECKING:
     from typing import Any
@@ -41,7 +41,7 @@ class MessageView:
 
     @property
     def doc(self) -> list[str]:
-        """The summary, and below it a paragraph each for what its user should know."""
+        """The summary, and a paragraph for each further fact."""
         message, frame, formula = self.layout.message, self.layout.frame, self.layout.formula
         found = [message.summary, message.description]
         if message.deprecated:
@@ -80,12 +80,12 @@ class MessageView:
 
     @property
     def fields(self) -> list[NumberView | ListView]:
-        """Its fields in the order of the frame, the count among them."""
+        """The fields in the order of the frame, the count among them."""
         return [self._view(slot) for slot in self.layout.fields]
 
     @property
     def arguments(self) -> list[NumberView | ListView]:
-        """Those that a user gives."""
+        """The fields that a user gives."""
         return [self._view(slot) for slot in self.layout.arguments]
 
     def _view(self, slot: Number | Items) -> NumberView | ListView:
@@ -99,13 +99,13 @@ class MessageView:
 
     @property
     def items(self) -> ListView | None:
-        """Its list, where it has one."""
+        """The list, where it has one."""
         items = self.layout.items
         return None if items is None else ListView(items, self.model.spec)
 
     @property
     def absent(self) -> AbsentView | None:
-        """What tells whether the message says that there is nothing to tell of, where it can."""
+        """The property that tells whether there is nothing to report, where there is one."""
         return absent_view(self.numbers)
 
     @property
@@ -115,7 +115,7 @@ class MessageView:
 
     @property
     def signature(self) -> str:
-        """The declaration of what makes it of the values that a user gives."""
+        """The declaration of the constructor."""
         given = [
             each.argument if isinstance(each, ListView) else f"{each.name}: int"
             for each in self.arguments
@@ -124,7 +124,7 @@ class MessageView:
 
     @property
     def packing(self) -> str:
-        """The arguments of what packs its frame: the notation, the head, and the fields."""
+        """The arguments of the call that packs its frame: format, head and fields."""
         head = [self._in_front(slot) for slot in self.layout.frame.head]
         fields = [slot.name for slot in self.layout.fields if isinstance(slot, Number)]
         items: list[Part] = [
@@ -138,20 +138,20 @@ class MessageView:
 
     @property
     def _notation(self) -> list[str]:
-        """How its slots are packed, as `struct` has it; those of the list as often as counted."""
+        """The format of its slots for `struct`; those of the list once for each element."""
         fixed, listed = struct_order(self.model.spec.byte_order), []
         for slot in self.layout.slots:
             if isinstance(slot, Constant):
                 fixed += f"{slot.size}s"
             elif isinstance(slot, Number):
-                fixed += slot.wire.code
+                fixed += slot.number_type.code
             else:
-                codes = "".join(field.wire.code for field in slot.fields)
+                codes = "".join(field.number_type.code for field in slot.fields)
                 listed = [f"{slot.counter.name} * {literal(codes)}"]
         return [literal(fixed), *listed]
 
     def _in_front(self, slot: Constant | Number) -> str:
-        """A slot of the envelope, as what is packed for it."""
+        """Return the packed expression for a slot of the envelope."""
         if isinstance(slot, Constant):
             return "HEADER" if slot.data == self.layout.frame.header else byte_literal(slot.data)
         return str(self.layout.formula) if slot.role == "length" else str(self.layout.id)
@@ -171,11 +171,11 @@ class MessageView:
         return [*session(call, 4), f"'{frame[:_SHOWN].hex(' ')}'"]
 
     def given_values(self, values: dict[str, Any]) -> list[Part]:
-        """The arguments that make the message of an example."""
+        """Return the arguments that make the message of an example."""
         return [given(each, values[each.name], f"{each.name}=") for each in self.layout.arguments]
 
     def command_words(self, values: dict[str, Any]) -> list[str]:
-        """The fields of an example as the command takes them: `targets=1:800,9:800`."""
+        """Return the fields of an example as the command accepts them: `targets=1:800,9:800`."""
         words: list[str] = []
         for argument in self.layout.arguments:
             value = values[argument.name]
@@ -196,6 +196,6 @@ class MessageView:
 
     @property
     def strategy_declared(self) -> str:
-        """The declaration of that function."""
+        """The declaration of its strategy."""
         before = f"def {self.function}() -> SearchStrategy["
         return Bracketed(before, [self.name], "]:", comma="").fitted(0)

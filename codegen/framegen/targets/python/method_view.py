@@ -1,4 +1,4 @@
-"""What the templates of the two clients show of a method, which sends one message."""
+"""A client's method as the templates show it: it sends one message."""
 
 from __future__ import annotations
 
@@ -15,34 +15,34 @@ if TYPE_CHECKING:
     from framegen.model.model import Model
 
 _HANDED_OVER = (
-    "Returns once the frame is handed over; `delay` of the result is in how many seconds it will "
-    "be on the wire."
+    "Returns once the frame is handed over; `delay` of the result is how many seconds later it is "
+    "on the wire."
 )
 _LASTS = (
-    "`lasts` of the result is how long it goes on, and its `wait()` returns once it is over, by "
-    "calculation."
+    "`lasts` of the result is how many seconds its effect lasts, and its `wait()` returns once "
+    "that is over, by calculation."
 )
 _LATEST = (
-    "`latest`: Does not wait for the line, and gives way to a newer one that is about the same, as "
-    "`send_latest` does."
+    "`latest`: Do not wait for the line, and let a newer command for the same ids replace this "
+    "one, as `send_latest` does."
 )
 _ACKNOWLEDGED = (
-    "`started` of the result says whether {} has come for it: False once it has not in time, on a "
-    "line on which such reports have come before."
+    "`started` of the result is True once {} acknowledges it, and False if none comes in time, on "
+    "a line that has carried such reports before."
 )
-_REFUSED = "Raises EncodeError for what no frame can carry"
-_LATE = "NoReplyError where no reply comes in time, and TransportError."
-_SPLIT = "more are asked for in several requests, one after the other."
+_REFUSED = "Raises EncodeError for values that no frame can carry"
+_LATE = "NoReplyError if no reply comes in time, and TransportError."
+_SPLIT = "longer lists take several requests, one after the other."
 _PARTLY = (
-    " IncompleteReplyError where the reply leaves something out: it says what, and keeps the rest."
+    " IncompleteReplyError if the reply leaves something out: it says what, and holds the rest."
 )
 
 
 @dataclass(frozen=True, slots=True)
 class Flavour:
-    """How one of the clients is written: what stands before a definition, a call and an example.
+    """The style of one of the clients: what precedes a definition, a call and an example.
 
-    `motion` is what it returns for a message that lasts.
+    `motion` is the result for a message that lasts.
     """
 
     define: str
@@ -60,12 +60,12 @@ class MethodView:
 
     @property
     def name(self) -> str:
-        """How it is called."""
+        """The name of the method."""
         return self.exchange.method.name
 
     @property
     def signature(self) -> str:
-        """Its declaration."""
+        """The declaration."""
         given = [self._declared(self._argument(name)) for name in self._names]
         latest = [] if self.exchange.lasts is None else ["*", "latest: bool = False"]
         before = f"{self.flavour.define}{self.name}("
@@ -91,7 +91,7 @@ class MethodView:
 
     @property
     def doc(self) -> list[str]:
-        """What it does; its arguments with their units; what it returns, and what it raises."""
+        """The docstring: what it does, its arguments with units, its result, and its errors."""
         message = self.exchange.request.message
         found = [message.summary, message.description]
         if message.deprecated:
@@ -106,11 +106,11 @@ class MethodView:
         reply, result = self.exchange.reply, self._result
         if reply is None:
             return [*self._handed_over, f"{_REFUSED}, and TransportError."]
-        told = f"Returns the {reply.name}."
+        returned = f"Returns the {reply.name}."
         if result is not None:
             about, *rest = self._shown(result).argument_doc
-            told = " ".join([f"Returns `{result.name}` of the {reply.name}: {about}", *rest])
-        lines = [told]
+            returned = " ".join([f"Returns `{result.name}` of the {reply.name}: {about}", *rest])
+        lines = [returned]
         if self.exchange.split is not None:
             lines.append(f"A reply has room for {self.exchange.most}: {_SPLIT}")
         partly = any("." in path for _, path in self.exchange.echoed)
@@ -139,16 +139,16 @@ class MethodView:
 
     @property
     def in_parts(self) -> bool:
-        """Whether it may take several requests, whose replies are put together."""
+        """Whether it may send several requests, whose replies are joined."""
         return self.exchange.split is not None
 
     @property
     def result(self) -> str:
-        """The field of the reply that it returns; empty where it returns the reply, or has none."""
+        """The field of the reply that it returns; empty where it returns the reply or nothing."""
         return self.exchange.method.result
 
     @property
-    def asked(self) -> str:
+    def query(self) -> str:
         """What a question is asked with; empty for a command."""
         reply, split = self.exchange.reply, self.exchange.split
         if reply is None:
@@ -162,7 +162,7 @@ class MethodView:
 
     @property
     def joined(self) -> str:
-        """What the replies to several requests say, put together."""
+        """The expression that joins the replies to several requests."""
         clauses = ["each", "for reply in replies", f"for each in reply.{self.result}"]
         line = " ".join(clauses)
         if len(f"        return tuple({line})") <= WIDTH:
@@ -173,13 +173,13 @@ class MethodView:
 
     @property
     def sent(self) -> str:
-        """What a command is sent with."""
+        """The message of a command, as an expression."""
         latest = [] if self.exchange.lasts is None else ["latest=latest"]
         return self._given("return ", self.sender, [self._made, *latest])
 
     @property
     def sender(self) -> str:
-        """What a command is sent by."""
+        """The function that sends a command."""
         if self.exchange.lasts is not None:
             return "_move"
         return "send" if self.exchange.acknowledged is None else "_run"
@@ -194,7 +194,7 @@ class MethodView:
         return Bracketed(f"{self._request}(", given, ")")
 
     def _given(self, before: str, method: str, arguments: list[Part]) -> str:
-        """The arguments of a call in the body, broken where the line would be too long."""
+        """Return the arguments of a call in the body, broken where the line would be too long."""
         call = f"{before}{self.flavour.wait}self.{method}("
         return Bracketed(call, arguments, ")").fitted(8).removeprefix(call).removesuffix(")")
 
@@ -229,7 +229,7 @@ class MethodView:
         return argument.argument if isinstance(argument, ListView) else f"{argument.name}: int"
 
     def _session(self, before: str) -> list[str]:
-        """A call of it in an interactive session: the first argument by place, others by name."""
+        """Return a call in an interactive session: the first argument by place, others by name."""
         values = self.exchange.request.message.examples[0].values
         shown = [
             given(self._field(name), values[name], f"{name}=" if at else "")

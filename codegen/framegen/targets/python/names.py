@@ -1,8 +1,7 @@
-"""What the names of a spec are in the library: here alone it is decided, and a name is bent.
+"""The names of a spec in the library: the one place where a name that is taken is changed.
 
 The library is made of a model in which every name is the library's own already, so that whatever
-shows one shows it as it is in code. What is on the wire, the test vectors and the reference keep
-the author's names.
+shows one shows it as it is in code. Frames, test vectors and the reference keep the author's names.
 """
 
 from __future__ import annotations
@@ -11,7 +10,7 @@ from dataclasses import dataclass, replace
 from functools import cached_property, lru_cache
 from typing import TYPE_CHECKING
 
-from framegen.language.spec import GroupField
+from framegen.language.spec import ListField
 from framegen.language.values import Direction, Method
 from framegen.model.exchanges import arguments_of, method_of, snake_case
 from framegen.model.roles import Roles
@@ -36,34 +35,34 @@ _CLASSES = ("message", "element")
 
 @lru_cache(maxsize=4)
 def names_of(model: Model) -> Names:
-    """The names of a model's library; the same object for the same model."""
+    """Return the names of a model's library; the same object for the same model."""
     return Names(model)
 
 
 def bent(model: Model) -> list[BentName]:
-    """The names that are another in the library, in the order of the spec."""
+    """Return the names that differ in the library, in the order of the spec."""
     return names_of(model).bent
 
 
 def package_of(model: Model) -> str:
-    """The name of the package."""
+    """Return the name of the package."""
     return names_of(model).of("package", model.spec.protocol.name)
 
 
 def strategy_name(message: str) -> str:
-    """The function that makes any message of a class: `servo_move` for ServoMove."""
+    """Return the name of a message's strategy: `servo_move` for ServoMove."""
     name = snake_case(message)
     return _behind(_TAKEN.get(("strategy", name)), name)
 
 
 def constant_name(field: str, value: str) -> str:
-    """The constant of a named value: `TIMES_UNLIMITED`."""
+    """Return the constant of a named value: `TIMES_UNLIMITED`."""
     name = f"{_plain(field)}_{value}".upper()
     return _behind(_TAKEN.get(("constant", name)), name)
 
 
 def signed_name(field: str) -> str:
-    """The property that reads a field as signed."""
+    """Return the property that reads a field as signed."""
     return f"signed_{_plain(field)}"
 
 
@@ -73,7 +72,7 @@ def union_name(endpoint: str) -> str:
 
 
 def _plain(name: str) -> str:
-    """A name that may have been bent, as it stands in the middle of another."""
+    """Return a name that may have been changed, as it is in the middle of another."""
     return name.rstrip("_")
 
 
@@ -88,7 +87,7 @@ class Names:
     model: Model
 
     def of(self, kind: str, name: str) -> str:
-        """What a name of a kind is in the library; the kinds are those of RESERVED."""
+        """Return a name of a kind as it is in the library; the kinds are those of RESERVED."""
         why, suffix = self._taken(kind, name)
         if not why:
             return name
@@ -98,7 +97,7 @@ class Names:
         return found
 
     def _taken(self, kind: str, name: str) -> tuple[str, str]:
-        """Why a name cannot stand as it is, and what stands behind it then; empty if it can."""
+        """Return why a name is taken, and the suffix that it gets; empty if it is free."""
         row = _TAKEN.get((kind, name))
         if row is not None:
             return row.why, row.suffix
@@ -115,7 +114,7 @@ class Names:
 
     @cached_property
     def _classes(self) -> frozenset[str]:
-        """In lower case, since those that differ only in capitals are one word as functions."""
+        """The classes in lower case: those that differ only in capitals clash as functions."""
         lists = (message.items for message in self.model.messages.values())
         elements = [items.element for items in lists if items is not None and items.element]
         return frozenset(name.lower() for name in (*self.model.messages, *elements))
@@ -127,7 +126,7 @@ class Names:
 
     @cached_property
     def _signed(self) -> frozenset[str]:
-        """The properties that read a field as signed, of whichever message."""
+        """The properties that read a field as signed, of any message."""
         return frozenset(
             signed_name(number.name)
             for message in self.model.messages.values()
@@ -137,7 +136,7 @@ class Names:
 
     @cached_property
     def _posed(self) -> frozenset[str]:
-        """What the method that holds positions has of its own, where a field is an argument of it.
+        """The names in the pose methods that a field must not have where it is an argument of them.
 
         Elsewhere such a field is as good as any other.
         """
@@ -151,7 +150,7 @@ class Names:
 
     @cached_property
     def bent(self) -> list[BentName]:
-        """Each name that is another here, by the places that give it."""
+        """Each name that differs here, by its places in the spec."""
         found = []
         for path, kind, name in self._given():
             written = self.of(kind, name)
@@ -160,7 +159,7 @@ class Names:
         return found
 
     def _given(self) -> Iterator[tuple[KeyPath, str, str]]:
-        """Each name that something is called after in the library: its place, kind and itself."""
+        """Yield each name that something in the library is called after: place, kind, name."""
         spec = self.model.spec
         yield ("protocol", "name"), "package", spec.protocol.name
         for name in spec.endpoints:
@@ -180,7 +179,7 @@ class Names:
 
     @cached_property
     def library(self) -> Model:
-        """The model in these names; where none is bent, the very model that they are of."""
+        """The model in these names; the same model where no name differs."""
         if not self.bent:
             return self.model
         spec = self._spec()
@@ -195,18 +194,18 @@ class Names:
         )
 
     def message(self, name: str) -> MessageLayout:
-        """A message of the spec, in the names of the library."""
+        """Return a message of the spec, in the names of the library."""
         return self.library.messages[self.of("message", name)]
 
     def values(self, message: str, values: dict[str, Any]) -> dict[str, Any]:
-        """The values of an example of a message, by the names that its fields have here."""
+        """Return the values of an example, by the names of the fields in the library."""
         fields = self.model.spec.messages[message].fields
         return {
             self.of("field", name): [
                 {self.of("field of an element", inner): number for inner, number in item.items()}
                 for item in value
             ]
-            if isinstance(fields[name], GroupField)
+            if isinstance(fields[name], ListField)
             else value
             for name, value in values.items()
         }
@@ -245,7 +244,7 @@ class Names:
                 "acknowledged": message.acknowledged and self.of("message", message.acknowledged),
                 "lasts": message.lasts and self.of("field", message.lasts),
                 "echoed": {
-                    self._path(asked): self._path(told) for asked, told in message.echoed.items()
+                    self._path(own): self._path(echo) for own, echo in message.echoed.items()
                 },
                 "method": self._method(name, message) if sent else None,
                 "fields": {self.of("field", n): self._field(f) for n, f in message.fields.items()},
@@ -271,7 +270,7 @@ class Names:
 
     def _field(self, field: AnyField) -> AnyField:
         counted_by = field.counted_by and self.of("field", field.counted_by)
-        if not isinstance(field, GroupField):
+        if not isinstance(field, ListField):
             return field.model_copy(update={"counted_by": counted_by})
         inner = {self.of("field of an element", name): each for name, each in field.fields.items()}
         element = self.of("element", field.element)
@@ -280,7 +279,7 @@ class Names:
         )
 
     def _layout(self, layout: MessageLayout, message: Message) -> MessageLayout:
-        """A message in its frame: all stands where it stood."""
+        """Return the layout of a message in these names; no slot moves."""
         numbers: dict[str, Number] = {}
         slots: list[MessageSlot] = []
         for slot in layout.slots:
@@ -297,7 +296,7 @@ class Names:
     def _items(self, items: Items, numbers: dict[str, Number], message: Message) -> Items:
         name = self.of("field", items.name)
         field = message.fields[name]
-        if isinstance(field, GroupField):
+        if isinstance(field, ListField):
             fields = [self._number("field of an element", f, field.fields) for f in items.fields]
         else:
             fields = [self._number("field", each, message.fields) for each in items.fields]
@@ -321,7 +320,7 @@ _POSE_METHODS = ("hold", "present", "targets")
 
 def _field_names(path: KeyPath, name: str, field: AnyField) -> Iterator[tuple[KeyPath, str, str]]:
     yield path, "field", name
-    if not isinstance(field, GroupField):
+    if not isinstance(field, ListField):
         for value in field.values:
             yield (*path, "values", value), "constant", f"{name}_{value}".upper()
         return

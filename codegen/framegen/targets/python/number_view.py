@@ -1,11 +1,11 @@
-"""What the templates show of a number: how it is declared, documented and read as signed."""
+"""A number as the templates show it: how it is declared, documented and read as signed."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from framegen.language.wiretypes import WIRE_TYPES
+from framegen.language.number_types import NUMBER_TYPES
 from framegen.targets.python.escape import WIDTH, Bracketed, Part, Text, literal
 from framegen.targets.python.names import constant_name, signed_name
 
@@ -38,7 +38,7 @@ class SignedView:
 
 @dataclass(frozen=True, slots=True)
 class AbsentView:
-    """What tells whether there is nothing to tell of, as a property."""
+    """The property that tells whether there is nothing to report."""
 
     doc: list[str]
     read: str
@@ -46,7 +46,7 @@ class AbsentView:
 
 @dataclass(frozen=True, slots=True)
 class NumberView:
-    """A number: of a message, or of an element."""
+    """A number of a message, or of an element."""
 
     slot: Number
     spec: Spec
@@ -57,20 +57,20 @@ class NumberView:
 
     @property
     def doc(self) -> list[str]:
-        """What it is, and what else is known of it; its range and unit stand in the code above."""
+        """The description; its range and unit are in the code above it."""
         field = self.slot.field
         scale = [f"A step is {field.scale}."] if field.scale else []
         return [" ".join([field.about, *scale, *self._sent, *self._notes])]
 
     @property
     def argument_doc(self) -> list[str]:
-        """The same for an argument of a method, whose declaration says only that it is a number."""
+        """The description as an argument of a method, with its range and unit."""
         field = self.slot.field
         unit = f" {field.unit}" if field.unit else ""
-        scale = f", a step being {field.scale}" if field.scale else ""
-        range_ = f"{self.slot.low}..{self.slot.high}{unit}{scale}."
+        scale = f", in steps of {field.scale}" if field.scale else ""
+        about = bounded(field.about, f"{self.slot.low}..{self.slot.high}{unit}{scale}")
         named = [f"{value.value} ({name}): {value.about}" for name, value in field.values.items()]
-        return [field.about, range_, *self._sent, *named, *self._notes]
+        return [about, *self._sent, *named, *self._notes]
 
     @property
     def _notes(self) -> list[str]:
@@ -81,18 +81,18 @@ class NumberView:
 
     @property
     def _sent(self) -> list[str]:
-        """What a client sends of it unless told otherwise."""
+        """The values that a client sends unless its limits are changed."""
         limits = self.slot.field.limits
         if limits is None:
             return []
         others = [f"{name} take {range_}" for name, range_ in limits.others.items()]
-        told = f" ({', '.join(others)})" if others else ""
-        return [f"A client sends {limits.usual} unless its `limits` say otherwise{told}."]
+        devices = f" ({', '.join(others)})" if others else ""
+        return [f"A client sends {limits.usual} unless its `limits` say otherwise{devices}."]
 
     @property
     def type(self) -> str:
         """The class of the field: `U16`."""
-        return self.slot.wire.name.upper()
+        return self.slot.number_type.name.upper()
 
     @property
     def described(self) -> str:
@@ -100,11 +100,11 @@ class NumberView:
         return self.call([str(self.slot.at)]).fitted(4, last=f"{self.name} = ")
 
     def call(self, place: list[str]) -> Bracketed:
-        """That call, with what the type alone does not say."""
+        """Return that call, with the arguments that the type does not imply."""
         slot, field = self.slot, self.slot.field
         items: list[Part] = [*place]
-        items += [f"low={slot.low}"] if slot.low != slot.wire.low else []
-        items += [f"high={slot.high}"] if slot.high != slot.wire.high else []
+        items += [f"low={slot.low}"] if slot.low != slot.number_type.low else []
+        items += [f"high={slot.high}"] if slot.high != slot.number_type.high else []
         items += [Text(field.unit, before="unit=")] if field.unit else []
         names = [
             f"{literal(name)}: {constant.name}"
@@ -122,12 +122,12 @@ class NumberView:
 
     @property
     def signed(self) -> SignedView | None:
-        """What reads it as signed, where it can be."""
+        """The property that reads it as signed, where there is one."""
         signed_as = self.slot.field.signed_as
         if signed_as is None:
             return None
-        wire = WIRE_TYPES[signed_as]
-        sign = wire.high + 1
+        number_type = NUMBER_TYPES[signed_as]
+        sign = number_type.high + 1
         rest = "; one that is `absent` has none" if self.absent_values else ""
         doc = [f"`{self.name}` read as {signed_as}, which may be below zero{rest}."]
         read = _signed(f"self.{self.name} ^ {sign:#x}", f" - {sign:#x}")
@@ -135,17 +135,21 @@ class NumberView:
 
     @property
     def absent_values(self) -> list[int]:
-        """The values that say that there is nothing to tell of."""
+        """The values that mark absence."""
         return [each.value for each in self.slot.field.values.values() if each.absent]
 
 
+def bounded(about: str, bounds: str) -> str:
+    """Return a description with its bounds before the full stop: `How long it takes (0..9 s).`."""
+    return f"{about.removesuffix('.')} ({bounds})."
+
+
 def absent_view(fields: list[NumberView]) -> AbsentView | None:
-    """What tells whether an element, or a message, with these numbers is absent."""
+    """Return the property that tells whether an element or a message is absent."""
     for field in fields:
         values = field.absent_values
         if values:
-            named = field.slot.field.values
-            about = [each.about for each in named.values() if each.absent]
+            names = [each.name for each in field.constants if each.value in values]
             whole = f"self.{field.name}"
             test = (
                 f"{whole} == {values[0]}"
@@ -154,15 +158,12 @@ def absent_view(fields: list[NumberView]) -> AbsentView | None:
                     8, last=RETURN
                 )
             )
-            return AbsentView(
-                [f"Whether `{field.name}` says that there is nothing to tell of.", *about],
-                test,
-            )
+            return AbsentView([f"Whether `{field.name}` is {' or '.join(names)}."], test)
     return None
 
 
 def _signed(inner: str, outer: str) -> str:
-    """The difference of `(inner)` and `outer`, in three lines where it is too long for one."""
+    """Return the difference of `(inner)` and `outer`, in three lines where one is too long."""
     line = f"({inner}){outer}"
     if 8 + len(RETURN) + len(line) <= WIDTH:
         return line

@@ -1,4 +1,4 @@
-"""What the templates of the two clients show of a pose: three methods beside those of messages."""
+"""The pose methods of the clients as the templates show them."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from framegen.model.exchanges import arguments_of
 from framegen.targets.python.escape import Bracketed, Part, literal
 from framegen.targets.python.method_view import MethodView
 from framegen.targets.python.names import signed_name
-from framegen.targets.python.words import range_expression
+from framegen.targets.python.spelling import range_expression
 
 if TYPE_CHECKING:
     from framegen.language.spec import Pose
@@ -19,12 +19,12 @@ if TYPE_CHECKING:
     from framegen.model.slots import Items
     from framegen.targets.python.method_view import Flavour
 
-_RAISED = "NoReplyError where no reply comes in time, and TransportError."
+_RAISED = "NoReplyError if no reply comes in time, and TransportError."
 
 
 @dataclass(frozen=True, slots=True)
 class PoseView:
-    """The methods of a client that read and command the positions of many."""
+    """The methods of a client that read and command many positions."""
 
     pose: Pose
     model: Model
@@ -32,7 +32,7 @@ class PoseView:
 
     @property
     def entry(self) -> str:
-        """What describes it to the runtime."""
+        """The description of the pose for the runtime."""
         pose = self.pose
         items: list[str | Bracketed] = [
             f"read={pose.read}",
@@ -41,8 +41,8 @@ class PoseView:
             f"ids={self._ids}",
         ]
         names = {
-            "asked": self.asked,
-            "told": self.told.name,
+            "asked": self.requested,
+            "told": self.reported.name,
             "position": self._position,
             "moved": self._moved.name,
             "time": self.time,
@@ -53,17 +53,17 @@ class PoseView:
 
     @property
     def read(self) -> str:
-        """The message that asks for positions."""
+        """The message that requests positions."""
         return self.pose.read
 
     @property
-    def asked(self) -> str:
+    def requested(self) -> str:
         """The numbers that are asked about."""
         [name] = arguments_of(self._message(self.pose.read).message)
         return name
 
     @property
-    def told(self) -> Items:
+    def reported(self) -> Items:
         """The list of positions in the reply."""
         found = self._message(self._exchange(self.pose.read).request.message.reply or "").items
         if found is None:
@@ -73,11 +73,11 @@ class PoseView:
     @property
     def element(self) -> str:
         """The class of one position."""
-        return self.told.element or ""
+        return self.reported.element or ""
 
     @property
     def time(self) -> str:
-        """The argument that says how long a motion takes."""
+        """The argument for the duration of a motion."""
         lists = [self._moved.name]
         [name] = [
             each
@@ -93,12 +93,12 @@ class PoseView:
 
     @property
     def moves(self) -> str:
-        """What that method returns."""
+        """The return type of that method."""
         return MethodView(self._exchange(self.pose.move), self.model, self.flavour).returns
 
     @property
     def call(self) -> str:
-        """What sends it."""
+        """The expression that sends the request."""
         given = {
             self._moved.name: "targets",
             self.time: self.time,
@@ -111,53 +111,53 @@ class PoseView:
 
     @property
     def exchanged(self) -> str:
-        """What asks about all that was given, and has the replies."""
+        """The expression that sends all requests and returns the replies."""
         before = f"exchanged = {self.flavour.wait}self._exchanged("
-        return Bracketed(before, [self.pose.read, self.asked], ")").fitted(8)
+        return Bracketed(before, [self.pose.read, self.requested], ")").fitted(8)
 
     @property
     def hold(self) -> str:
-        """The declaration of the method that commands what it reads."""
-        given = ["self", f"{self.asked}: Iterable[int]", f"{self.time}: int = HOLD_MS"]
+        """The declaration of the method that commands the positions that it reads."""
+        given = ["self", f"{self.requested}: Iterable[int]", f"{self.time}: int = HOLD_MS"]
         before = f"{self.flavour.define}{self.pose.hold}("
         return Bracketed(before, given, f") -> {self.moves}:").fitted(4)
 
     @property
     def present(self) -> str:
-        """The declaration of the method that finds who is there."""
-        given = ["self", f"{self.asked}: Iterable[int] | None = None"]
+        """The declaration of the method that finds which ids answer."""
+        given = ["self", f"{self.requested}: Iterable[int] | None = None"]
         before = f"{self.flavour.define}{self.pose.present}("
         return Bracketed(before, given, ") -> tuple[int, ...]:").fitted(4)
 
     @property
     def targets(self) -> str:
         """The declaration of the method that makes targets of positions."""
-        told = Bracketed(f"{self.told.name}: Iterable[", [self.element], "]", comma="")
-        given: list[Part] = ["self", told]
+        positions = Bracketed(f"{self.reported.name}: Iterable[", [self.element], "]", comma="")
+        given: list[Part] = ["self", positions]
         return Bracketed(f"def {self.pose.targets}(", given, ") -> list[tuple[int, int]]:").fitted(
             4
         )
 
     @property
     def limited(self) -> str:
-        """What targets are made of: the positions, and the limits of the client."""
+        """The arguments that targets are made from: the positions, and the client's limits."""
         call = "return POSE.targets_of("
-        given = [self.told.name, "self._limits"]
+        given = [self.reported.name, "self._limits"]
         return Bracketed(call, given, ")").fitted(8).removeprefix(call).removesuffix(")")
 
     @property
     def hold_doc(self) -> list[str]:
         nearest = (
-            "The nearest there is to stopping a motion where no message does that: what moves goes "
-            "back to where it was when it was read, a reply and a command ago."
+            "This is the nearest to stopping a motion if the protocol has no message for that: "
+            "whatever moves goes back to where it was when it was read, a reply and a command ago."
         )
         given = (
-            f"`{self.asked}`: Those to hold; all of them must be there. `{self.time}`: How long "
-            "the way back may take, in ms."
+            f"`{self.requested}`: Those to hold; all of them must be present. `{self.time}`: "
+            "How long the way back may take, in ms."
         )
-        raised = "AbsentError where one is off or missing, LimitError where one is far out"
+        raised = "AbsentError if one is off or missing, LimitError if one is far outside the limits"
         return [
-            "Command the positions that are read at this moment.",
+            "Read the current positions, and command them.",
             nearest,
             given,
             f"Returns what `{self.move_method}` does.",
@@ -167,26 +167,26 @@ class PoseView:
     @property
     def present_doc(self) -> list[str]:
         given = (
-            f"`{self.asked}`: Those to look for; without it, {self.pose.ids}. They are asked "
-            "about in as many requests as replies have room for."
+            f"`{self.requested}`: Those to look for; by default {self.pose.ids}. It takes several "
+            "requests if one reply has no room for all."
         )
         return [
-            "Find out who is there, and not absent.",
+            "Return the numbers of those that are present.",
             given,
-            f"Returns their numbers, in the order asked. Silence is no answer: {_RAISED}",
+            f"They are in the order requested. Raises {_RAISED}",
         ]
 
     @property
     def targets_doc(self) -> list[str]:
         taken = (
-            "What is absent is left out. What is read a little below zero, or a little outside the "
-            "limits of this client, is taken to the nearest position inside."
+            "Those that are absent are left out. For a position a little below zero, or a little "
+            "outside the limits of this client, the target is the nearest position inside."
         )
         return [
-            "Make targets of positions that were read, to go back there.",
+            "Make targets of positions that were read, to move back to them.",
             taken,
             f"Returns what `{self.move_method}` takes as `{self._moved.name}`.",
-            "Raises LimitError for what is further out, and would be sent somewhere else.",
+            "Raises LimitError for a position that is further out.",
         ]
 
     @property
@@ -196,7 +196,7 @@ class PoseView:
 
     @property
     def _position(self) -> str:
-        field = self.told.fields[1]
+        field = self.reported.fields[1]
         return signed_name(field.name) if field.field.signed_as else field.name
 
     @property

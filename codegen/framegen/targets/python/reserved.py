@@ -1,6 +1,6 @@
-"""The words that Python, its linters or the generated library have taken, by kind of name.
+"""The names that Python, its linters or the generated library have taken, by kind of name.
 
-Written out rather than asked of the running Python: the same spec gives the same library from every
+Written out rather than read from the running Python: the same spec gives the same library on every
 version. Modules are those of Python 3.10 to 3.13 on all systems, keywords and builtins likewise.
 """
 

@@ -1,4 +1,4 @@
-"""Python that sends or receives a message, on the bytes of a documented example."""
+"""Python snippets that send or receive a message, with the bytes of a documented example."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from framegen.model.slots import Number
 from framegen.targets.python.escape import Bracketed
 from framegen.targets.python.message_view import MessageView
 from framegen.targets.python.names import names_of
-from framegen.targets.python.words import direction_member
+from framegen.targets.python.spelling import direction_member
 
 if TYPE_CHECKING:
     from framegen.language.spec import Example
@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
 
 def snippet(model: Model, message: MessageLayout, example: Example) -> str:
-    """Make what the library's user sends; find what it receives: in the library's own names."""
+    """Write code that makes what the user sends, or finds what the user receives."""
     show = _sending if message.direction == model.roles.sent else _receiving
     names = names_of(model)
     values = names.values(message.name, example.values)
@@ -27,7 +27,7 @@ def snippet(model: Model, message: MessageLayout, example: Example) -> str:
 
 
 def _sending(model: Model, message: MessageLayout, example: Example) -> str:
-    """Make the frame of an example."""
+    """Write code that makes the frame of an example."""
     given = MessageView(message, model).given_values(example.values)
     return (
         f"from {model.spec.protocol.name} import {message.name}\n\n"
@@ -37,7 +37,7 @@ def _sending(model: Model, message: MessageLayout, example: Example) -> str:
 
 
 def _receiving(model: Model, message: MessageLayout, example: Example) -> str:
-    """Find an example in what the line brings."""
+    """Write code that finds an example in a stream."""
     names = sorted([message.name, "Direction", "StreamDecoder"])
     return (
         f"from {model.spec.protocol.name} import {', '.join(names)}\n\n"

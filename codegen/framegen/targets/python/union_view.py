@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from framegen.targets.python.escape import WIDTH, Bracketed
 from framegen.targets.python.names import union_name
-from framegen.targets.python.words import direction_member
+from framegen.targets.python.spelling import direction_member
 
 if TYPE_CHECKING:
     from framegen.language.values import Direction

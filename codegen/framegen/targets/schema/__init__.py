@@ -1,4 +1,4 @@
-"""The spec language as JSON Schema, for completion and help in any editor that reads one.
+"""The spec language as JSON Schema, for completion and help in editors.
 
 Only the keywords listed here are passed on, in this order: what pydantic adds for other readers is
 left out, and every version of it gives the same text.
@@ -9,8 +9,8 @@ from __future__ import annotations
 import json
 from typing import TYPE_CHECKING, Any
 
+from framegen.language.number_types import NUMBER_TYPES
 from framegen.language.spec import Spec
-from framegen.language.wiretypes import WIRE_TYPES
 from framegen.output import banner
 from framegen.reading.yamltree import Unusable
 from framegen.targets.target import Target
@@ -47,12 +47,12 @@ _KEYWORDS = (
 
 
 def render(_compiled: Compiled, _snippets: Snippets) -> dict[str, str]:
-    """The schema, by path below the project's root: beside the spec, where editors look for it."""
+    """Render the schema, by path below the project's root: beside the spec, where editors look."""
     return {"spec/framegen.schema.json": schema_text()}
 
 
 def schema_text() -> str:
-    """Give the schema as JSON text, with a final newline: the same text for the same language.
+    """Return the schema as JSON text, with a final newline: the same for the same language.
 
     Raises Unusable where Python was told to drop docstrings, which the descriptions are.
     """
@@ -64,9 +64,9 @@ def schema_text() -> str:
     schema = _tidied(Spec.model_json_schema(by_alias=True, mode="validation"))
     for model in schema["$defs"].values():
         if "type" in model["properties"]:
-            model["properties"]["type"]["enum"] = list(WIRE_TYPES)
+            model["properties"]["type"]["enum"] = list(NUMBER_TYPES)
         if "signed_as" in model["properties"]:
-            signed = [name for name, wire in WIRE_TYPES.items() if wire.low < 0]
+            signed = [name for name, number_type in NUMBER_TYPES.items() if number_type.low < 0]
             model["properties"]["signed_as"]["anyOf"][0]["enum"] = signed
     schema["$schema"] = "https://json-schema.org/draft/2020-12/schema"
     schema["$comment"] = banner("")
@@ -75,7 +75,7 @@ def schema_text() -> str:
 
 
 def _tidied(schema: dict[str, Any]) -> dict[str, Any]:
-    """Without what repeats the key (`title`) or says nothing (an empty default)."""
+    """Remove what repeats the key (`title`) or says nothing (an empty default)."""
     return {
         keyword: _mapped(keyword, value, _tidied)
         for keyword, value in schema.items()
@@ -92,7 +92,7 @@ def _ordered(schema: dict[str, Any]) -> dict[str, Any]:
 
 
 def _mapped(keyword: str, value: Any, change: Callable[[dict[str, Any]], dict[str, Any]]) -> Any:
-    """Give the value of a keyword, with `change` made to every schema in it."""
+    """Return the value of a keyword, with `change` made to every schema in it."""
     if keyword == "properties":
         return {name: change(schema) for name, schema in value.items()}
     if keyword == "$defs":

@@ -1,7 +1,7 @@
-"""Test vectors for codecs in any language: frames, what is none, and lines of both.
+"""Test vectors for codecs in any language: frames, invalid frames, and streams.
 
 Made from the spec's examples and the ends of its ranges by the reference codec, never by a
-generated library, so that a library can be held to them.
+generated library, so that a library can be tested against them.
 """
 
 from __future__ import annotations
@@ -32,7 +32,7 @@ if TYPE_CHECKING:
 
 
 def render(compiled: Compiled, _snippets: Snippets) -> dict[str, str]:
-    """The file of vectors, by path below the project's root."""
+    """Render the file of vectors, by path below the project's root."""
     model = compiled.model
     protocol = model.spec.protocol
     document = {
@@ -40,7 +40,7 @@ def render(compiled: Compiled, _snippets: Snippets) -> dict[str, str]:
         "protocol": protocol.name,
         "version": protocol.version,
         "valid": [_valid(frame) for frame in valid_frames(model)],
-        "unencodable": [_unencodable(asked) for asked in unencodable(model)],
+        "unencodable": [_unencodable(values) for values in unencodable(model)],
         "invalid": [_invalid(frame) for frame in invalid_frames(model)],
         "streams": [_stream(model, case) for case in streams(model)],
     }
@@ -48,7 +48,7 @@ def render(compiled: Compiled, _snippets: Snippets) -> dict[str, str]:
 
 
 def _one_vector_a_line(document: dict[str, Any]) -> str:
-    """JSON in which a changed vector is a changed line."""
+    """Format JSON so that a changed vector is a changed line."""
     parts: list[str] = []
     for key, value in document.items():
         shown = json.dumps(value)
@@ -68,8 +68,8 @@ def _valid(frame: ValidFrame) -> dict[str, Any]:
     }
 
 
-def _unencodable(asked: UnencodableValues) -> dict[str, Any]:
-    return {"title": asked.title, "message": asked.message.name, "fields": asked.values}
+def _unencodable(values: UnencodableValues) -> dict[str, Any]:
+    return {"title": values.title, "message": values.message.name, "fields": values.values}
 
 
 def _invalid(frame: InvalidFrame) -> dict[str, Any]:

@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 
 
 def _look(diagnosis: Diagnosis) -> Result:
-    # This is where it is opened: what went wrong besides is told by the checks that follow.
+    # The port is opened here: other errors of that are for the checks that follow.
     try:
         diagnosis.connect()
     except PortPermissionError as error:

@@ -37,7 +37,7 @@ def _look(diagnosis: Diagnosis) -> Result:
     )
     if not early:
         return passed(told)
-    # Where a reply to an earlier question was taken for another's, that one's own is left over.
+    # If a reply to an earlier question was taken for another's, one reply is left over.
     if all(len(trip.replies) == 1 for trip in answered):
         return unknown(
             f"{told}: this is no line of that rate, but one such as TCP, a pseudo terminal or USB",

@@ -21,14 +21,14 @@ if TYPE_CHECKING:
 
 
 def timed_events(pieces: Pieces, left_out: range = range(0)) -> list[TimedEvent]:
-    """What is in bytes that came in pieces, each with the time at which it was complete.
+    """Return the events in bytes that came in pieces, each with the time at which it was complete.
 
-    The bytes in `left_out` are no part of it.
+    The bytes in `left_out` are skipped.
     """
     data = b"".join(piece for _, piece in pieces)
     ends = [*accumulate(len(piece) for _, piece in pieces)]
     decoder = StreamDecoder(RECEIVED)
-    # All at once, so that what is noise comes in one piece.
+    # All at once, so that consecutive noise is one piece.
     events = decoder.feed(data[: left_out.start] + data[left_out.stop :])
     found: list[TimedEvent] = []
     end = 0
@@ -40,7 +40,7 @@ def timed_events(pieces: Pieces, left_out: range = range(0)) -> list[TimedEvent]
 
 
 class Trip:
-    """What came after a question that was sent at `sent_at`, in pieces, each with its time."""
+    """A round trip: what came after a question sent at `sent_at`, in pieces, each with its time."""
 
     def __init__(self, question: Message, sent_at: float, pieces: Pieces) -> None:
         self.question = question
@@ -57,7 +57,7 @@ class Trip:
 
     @property
     def replies(self) -> list[tuple[float, Message]]:
-        """What answers the question, each with the seconds that it took to be complete."""
+        """The replies to the question, each with the seconds that it took to be complete."""
         exchange = EXCHANGES[type(self.question)]
         return [
             (at - self.sent_at, event)
@@ -67,12 +67,12 @@ class Trip:
 
     @property
     def noise(self) -> list[Noise]:
-        """What is no message."""
+        """The noise after the question."""
         return [event for _, event in self.events if isinstance(event, Noise)]
 
     @property
     def others(self) -> list[Message]:
-        """Messages that do not answer the question."""
+        """The messages that do not answer the question."""
         replies = {id(reply) for _, reply in self.replies}
         return [
             event

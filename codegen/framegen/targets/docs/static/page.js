@@ -32,10 +32,10 @@ const searchField = document.getElementById("search");
 if (searchField) {
   const rows = [...document.querySelectorAll("[data-words]")];
   const search = () => {
-    const asked = searchField.value.toLowerCase().split(/\s+/).filter(Boolean);
+    const words = searchField.value.toLowerCase().split(/\s+/).filter(Boolean);
     for (const row of rows) {
-      const codes = row.dataset.codes.split(" ");
-      row.hidden = !asked.every((word) => row.dataset.words.includes(word) || codes.includes(word));
+      const ids = row.dataset.ids.split(" ");
+      row.hidden = !words.every((word) => row.dataset.words.includes(word) || ids.includes(word));
     }
     const found = rows.filter((row) => !row.hidden).length;
     document.getElementById("found").textContent = `${found} of ${rows.length} frames`;

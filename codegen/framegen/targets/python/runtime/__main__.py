@@ -1,4 +1,4 @@
-"""The package run as a program: the same as its command."""
+"""Run the package as a program: the same as its command."""
 
 import sys
 

@@ -1,4 +1,4 @@
-"""The log of this library, in `logging`, which is imported when there is something to say."""
+"""The log of this library, in `logging`, which is imported when there is something to log."""
 
 from __future__ import annotations
 
@@ -10,12 +10,12 @@ if TYPE_CHECKING:
 
 
 def log() -> Logger:
-    """What the library logs to: it is named after the package."""
+    """Return the logger of this library: it is named after the package."""
     from logging import getLogger
 
     return getLogger(__package__)
 
 
 def shows_frames() -> bool:
-    """Whether every frame is to be logged: nobody has asked who has not imported `logging`."""
+    """Return whether every frame is logged; never while `logging` is not imported."""
     return "logging" in sys.modules and log().isEnabledFor(sys.modules["logging"].DEBUG)

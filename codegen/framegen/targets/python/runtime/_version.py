@@ -1,4 +1,4 @@
-"""Which version this library is: that of what is installed, or else that of the specification."""
+"""The version of this library: of the installed package, or else of the specification."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 
 
 def version_of(folder: Path) -> str:
-    """The version of the package in `folder`; a copy of what is installed is not installed."""
+    """Return the version of the package in `folder`; a copy of an installed package has none."""
     try:
         installed = distribution(folder.name)
     except PackageNotFoundError:

@@ -1,10 +1,10 @@
-"""Reads what was recorded of a line: a client's `trace`, a log of `monitor`, hex, or raw bytes.
+"""Read recordings of a line: a client's `trace`, a log of `monitor`, hex, or raw bytes.
 
     for entry in read("line.hex"):
         print(entry.time, entry.sender, entry.event)
 
-It is read as it comes, and never held as a whole. A line of a recording says when its bytes came
-and from whom: bytes of two lines are never joined. Plain hex and raw bytes are one stream.
+A recording is read piece by piece, and never held as a whole. Each line of one says when its bytes
+came and from whom: bytes of two lines are never joined. Plain hex and raw bytes are one stream.
 """
 
 from __future__ import annotations
@@ -57,11 +57,11 @@ def read(
     form: str = "auto",
     direction: Direction | None = None,
 ) -> Iterator[Entry]:
-    """Each message and each piece of noise of a recording, in order.
+    """Return each message and each piece of noise of a recording, in order.
 
-    `source` is the name of a file, or a stream of bytes. `form` is one of FORMS. `direction` is who
-    sent the bytes, where the recording does not say so itself. While it is read, raises
-    RecordingError for what makes no sense, and OSError for a file that cannot be read.
+    `source` is the name of a file, or a stream of bytes. `form` is one of FORMS. `direction` is the
+    sender of bytes for which the recording names none. While it is read, raises RecordingError for
+    content that makes no sense, and OSError for a file that cannot be read.
     """
     if form not in FORMS:
         raise ValueError(f"{form!r} is none of the forms {', '.join(FORMS)}")
@@ -90,14 +90,14 @@ def _read(
 
 
 def _chunks(stream: Readable) -> Iterator[bytes]:
-    # read1 gives what there is: on a live line nobody waits for a full buffer.
+    # read1 returns what there is: on a live line nobody waits for a full buffer.
     read_some = getattr(stream, "read1", stream.read)
     while chunk := read_some(_CHUNK):
         yield chunk
 
 
 def _streamed(decoded: Iterable[list[Event]], direction: Direction | None) -> Iterator[Entry]:
-    """The entries of a stream, which says neither when its bytes came nor from whom."""
+    """Yield the entries of a stream, which says neither when its bytes came nor from whom."""
     offset = 0
     for events in decoded:
         for event in events:
@@ -118,7 +118,7 @@ def _raw(chunks: Iterable[bytes], decoder: StreamDecoder) -> Iterator[list[Event
 
 
 def _text(text: Iterator[str], direction: Direction | None) -> Iterator[Entry]:
-    """The entries of text: it is a recording if its first line that has bytes has a time."""
+    """Yield the entries of text: it is a recording if its first line with bytes has a time."""
     before: list[str] = []
     for block in text:
         before.append(block)

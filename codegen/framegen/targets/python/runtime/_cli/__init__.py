@@ -1,4 +1,4 @@
-"""The command of this library. Each verb is a module, imported only when it is asked for."""
+"""The command of this library. Each verb is a module, imported only when it is called."""
 
 from __future__ import annotations
 
@@ -11,6 +11,7 @@ from .._frame.protocol import PROTOCOL_VERSION
 from . import console
 from .examples import EXAMPLES, PROGRAM, SUMMARY, VERBS
 from .exit_codes import DONE, MEANINGS, UNUSABLE
+from .shell_completion import add_option
 from .usage_error import UsageError
 from .verbs import verbs
 
@@ -19,11 +20,9 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
     from typing import Any
 
-_SHELLS = ("bash", "zsh", "tcsh", "fish")
-
 
 def main(argv: Sequence[str] | None = None) -> int:
-    """Runs the command line, and returns its exit status: one of those in `exits`."""
+    """Run the command line, and return its exit status: one of those in `exits`."""
     words = sys.argv[1:] if argv is None else list(argv)
     return console.run(PROGRAM, lambda: _run(words))
 
@@ -32,7 +31,7 @@ def _run(words: Sequence[str]) -> int:
     try:
         return _run_verb(words[0], words[1:]) if words and words[0] in VERBS else _run_none(words)
     except UsageError as error:
-        # What was printed before it comes first; if that fails, console.run says so.
+        # Earlier output comes first; if that fails, console.run reports it.
         with suppress(OSError):
             sys.stdout.flush()
         console.complain(PROGRAM, str(error))
@@ -45,7 +44,7 @@ def _run_verb(name: str, words: Sequence[str]) -> int:
         handed: int = verb.hand_over(words)
         return handed
     parser = _parser(name, verb)
-    # Intermixed, so that an option may stand between the words that it is about.
+    # Intermixed, so that an option may stand between the words that it belongs to.
     code: int = verb.run(parser.parse_intermixed_args(words))
     return code
 
@@ -85,16 +84,11 @@ def _run_none(words: Sequence[str]) -> int:
             )
         ),
     )
-    # Not argparse's: the version is looked up only when it is asked for.
+    # Not argparse's: the version is looked up only when it is printed.
     parser.add_argument(
         "--version", action="store_true", help="show program's version number and exit"
     )
-    parser.add_argument(
-        "--print-completion",
-        choices=_SHELLS,
-        metavar="SHELL",
-        help=f"print what a shell needs to complete this command ({', '.join(_SHELLS)})",
-    )
+    add_option(parser)
     parser.add_argument("verb", nargs="?", metavar="VERB", help=argparse.SUPPRESS)
     known, _ = parser.parse_known_args(words)
     if known.version:
@@ -102,7 +96,7 @@ def _run_none(words: Sequence[str]) -> int:
         print(f"{PROGRAM} {version}, spec {PROTOCOL_VERSION}")
         return DONE
     if known.print_completion is not None:
-        print(_module("completion").script(known.print_completion))
+        print(_module("completion").completion(known.print_completion))
         return DONE
     if known.verb is None:
         parser.print_help(sys.stderr)

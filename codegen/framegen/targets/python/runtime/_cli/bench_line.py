@@ -1,4 +1,4 @@
-"""The verb `bench-line`: how long questions take on a line, and how long they would have to."""
+"""The verb `bench-line`: how long requests take on a line, beside the time that the wire needs."""
 
 from __future__ import annotations
 
@@ -11,8 +11,8 @@ from .._client.exchanges import EXCHANGES
 from .._client.long_question import left_out
 from .._client.wire_time import WireTime
 from .._frame.errors import EncodeError
+from .._frame.pluralize import pluralize
 from .._frame.protocol import BAUD
-from .._frame.wording import counted
 from .._serial.link_errors import NoReplyError
 from . import link
 from .console import visible
@@ -39,7 +39,7 @@ bytes of question and answer take on the wire. Questions change nothing."""
 
 
 def add_arguments(parser: ArgumentParser) -> None:
-    """Declares the arguments of the verb."""
+    """Declare the arguments of the verb."""
     add_port(parser)
     usual = _usual()
     default = "" if usual is None else f" (default: {usual.__name__})"
@@ -55,7 +55,7 @@ def add_arguments(parser: ArgumentParser) -> None:
 
 
 def run(arguments: Namespace) -> int:
-    """Asks, and prints what came of it, also when it ended early."""
+    """Send the requests, and print the result, also when it ended early."""
     trips = Trips(_question(arguments), arguments.port, arguments.baud)
     with failures_told(), open_client(arguments, settle=0) as client:
         try:
@@ -69,7 +69,7 @@ def run(arguments: Namespace) -> int:
 
 
 def _usual() -> type[Message] | None:
-    """The question to ask where none is named: the first that needs no fields."""
+    """Return the default request: the first that needs no fields."""
     questions = (kind for kind, exchange in EXCHANGES.items() if exchange.reply is not None)
     return next((kind for kind in questions if not kind.__match_args__), None)
 
@@ -94,23 +94,23 @@ def _question(arguments: Namespace) -> Message:
 
 
 class Trips:
-    """Round trips of one question on a port, as many as were made."""
+    """Round trips of one request on a port, as many as were made."""
 
     def __init__(self, question: Message, port: str, baud: float = BAUD) -> None:
         self._question = question
         self._port = port
         self._baud = baud
         self._wire = WireTime(baud)
-        # Of each that was answered: the seconds it took, and the size of question and answer.
+        # For each that was answered: the seconds it took, and the size of request and reply.
         self._taken: list[float] = []
         self._sizes: list[int] = []
         self._whole = 0.0
-        # Replies that answer nothing, and questions with one sooner than the wire allows.
+        # Replies that answer nothing, and requests with one sooner than the wire allows.
         self._unsolicited = self._impossible = 0
         self.errors: dict[str, int] = {}
 
     def make(self, client: Client, count: int) -> None:
-        """Asks so often. Raises TransportError once the line is lost."""
+        """Make `count` round trips. Raises TransportError once the line is lost."""
         began = time.perf_counter()
         try:
             with shown_progress(lambda _: f"{self._asked} of {count} asked; Ctrl-C ends"):
@@ -141,7 +141,7 @@ class Trips:
         return len(self._taken) + self.errors.get("no reply", 0)
 
     def as_record(self) -> dict[str, Any]:
-        """The result, for JSON: times in seconds."""
+        """Return the result, for JSON: times in seconds."""
         taken = self._taken
         needed = [self._wire.seconds(size) for size in self._sizes]
         return {
@@ -161,7 +161,7 @@ class Trips:
         }
 
     def as_text(self) -> str:
-        """The result, for people."""
+        """Return the result, for people."""
         found = self.as_record()
         name = " ".join(filter(None, [found["question"], fields_as_text(self._question)]))
         lines = [
@@ -184,10 +184,10 @@ class Trips:
                 f"  rate            {rate}{hint}",
             ]
         if self._unsolicited:
-            slips = counted(self._unsolicited, "reply", "replies")
+            slips = pluralize(self._unsolicited, "reply", "replies")
             lines.append(f"  slips           {slips} to nothing, sent twice or too late: dropped")
         if self._impossible:
-            early = counted(self._impossible, "question")
+            early = pluralize(self._impossible, "question")
             lines.append(
                 f"  too soon        {early} had a reply that no such wire can have carried"
             )

@@ -1,4 +1,4 @@
-"""What a shell needs to complete the command line, made by shtab, an extra."""
+"""Shell completion of the command line: verbs, options, messages, fields and ports."""
 
 from __future__ import annotations
 
@@ -9,58 +9,114 @@ from .._client.exchanges import EXCHANGES
 from ..messages import MESSAGES
 from .events import KINDS
 from .examples import PROGRAM, SUMMARY
+from .shell_completion import CompletionError, Files, Function, Words, script
 from .usage_error import UsageError
 from .verbs import verbs
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
     from argparse import Action
-    from typing import Any
 
-_FILES = {"FILE", "HEX|FILE", "PORT"}
+    from .shell_completion import Candidates
+
+_FILES = {"FILE", "HEX|FILE", "PATH"}
 
 
-def script(shell: str) -> str:
-    """The script for a shell. Raises UsageError where shtab is not installed or too old."""
-    try:
-        shtab = import_module("shtab")
-    except ModuleNotFoundError:
-        raise UsageError(
-            "completion is made by shtab, which is not installed here: "
-            f"pip install '{PROGRAM}[completion]', or pip install shtab"
-        ) from None
-    # All verbs in one parser; the command itself imports only the one that is asked for.
-    parser = _Parser(prog=PROGRAM, description=SUMMARY)
+def completion(shell: str) -> str:
+    """Return the script for a shell. Raises UsageError if shtab is missing or too old."""
+    # All verbs in one parser; the command itself imports only the one that is called.
+    parser = ArgumentParser(prog=PROGRAM, description=SUMMARY)
     parser.add_argument("--version", action="store_true", help="show the version")
     parts = parser.add_subparsers()
     for name, about in verbs().items():
         verb = import_module(f"{__package__}.{name.replace('-', '_')}")
-        part = parts.add_parser(name, help=about)
-        if hasattr(verb, "add_arguments"):
-            verb.add_arguments(part)
+        verb.add_arguments(parts.add_parser(name, help=about))
     try:
-        made: str = shtab.complete(parser, shell=shell)
-    except NotImplementedError:
-        raise UsageError(
-            f"this shtab is too old to know {shell}: pip install --upgrade shtab"
-        ) from None
-    return made
+        return script(parser, shell, _candidates)
+    except CompletionError as error:
+        raise UsageError(str(error)) from None
 
 
-class _Parser(ArgumentParser):
-    """Notes what stands where, as far as help says it in words: files, ports, messages."""
+def _candidates(command: str, action: Action) -> Candidates | None:
+    if "--port" in action.option_strings:
+        return _ports()
+    if action.metavar == "FIELD=VALUE":
+        return _fields()
+    if action.metavar == "MESSAGE":
+        # Anything can be encoded; what has to do with a port is for what is sent from here.
+        kinds = MESSAGES if command.endswith(" encode") else tuple(EXCHANGES)
+        return Words([kind.__name__ for kind in kinds])
+    if action.metavar == "NAME":
+        return Words([*KINDS, *(kind.__name__ for kind in MESSAGES)])
+    return Files() if action.metavar in _FILES else None
 
-    def add_argument(self, *names: Any, **about: Any) -> Action:
-        """As ever."""
-        metavar = about.get("metavar")
-        if metavar == "MESSAGE":
-            # Anything can be encoded; what has to do with a port is for what is sent from here.
-            kinds = MESSAGES if self.prog.endswith(" encode") else tuple(EXCHANGES)
-            about["choices"] = [kind.__name__ for kind in kinds]
-        elif metavar == "NAME":
-            about["choices"] = [*KINDS, *(kind.__name__ for kind in MESSAGES)]
-        action = super().add_argument(*names, **about)
-        if metavar in _FILES:
-            # A port is a file where it has no other name: /dev/ttyUSB0.
-            vars(action)["complete"] = import_module("shtab").FILE
-        return action
+
+def _fields() -> Function:
+    """Return the fields of the message that stands before."""
+    fields = {kind.__name__: " ".join(f"{n}=" for n in kind.__match_args__) for kind in MESSAGES}
+    name = f"_{PROGRAM}_fields"
+    bash = "\n".join(f'      {kind}) names="{names}" ;;' for kind, names in fields.items())
+    zsh = "\n".join(f"      {kind}) names=({names}) ;;" for kind, names in fields.items())
+    fish = "\n".join(f"      case {kind}\n        set names {n}" for kind, n in fields.items())
+    texts = {
+        "bash": f"""
+{name}() {{
+  local word names=""
+  for word in "${{COMP_WORDS[@]}}"; do
+    case $word in
+{bash}
+    esac
+  done
+  compgen -W "$names" -- "$1"
+}}""",
+        "zsh": f"""
+{name}() {{
+  local word
+  local -a names
+  for word in $words; do
+    case $word in
+{zsh}
+    esac
+  done
+  compadd "$@" -S '' -- $names
+}}""",
+        "fish": f"""
+function {name}
+  set -l names
+  for word in (commandline -opc)
+    switch $word
+{fish}
+    end
+  end
+  string join \\n -- $names
+end""",
+    }
+    return Function(name, texts)
+
+
+def _ports() -> Function:
+    """Return the ports that are plugged in, or files once a path is begun."""
+    # bash takes what a function of such a name finds for files: behind a folder comes no blank.
+    name, listed = f"_{PROGRAM}_port_files", f"{PROGRAM} ports 2>/dev/null"
+    texts = {
+        "bash": f"""
+{name}() {{
+  compgen -W "$({listed} | while read -r port about; do echo "$port"; done)" -- "$1"
+  if [[ $1 == */* ]]; then compgen -f -- "$1"; fi
+}}""",
+        "zsh": f"""
+{name}() {{
+  local -a names
+  names=(${{${{(f)"$({listed})"}}%% *}})
+  compadd "$@" -- $names
+  if [[ $PREFIX == */* ]]; then _files; fi
+}}""",
+        "fish": f"""
+function {name}
+  {listed} | string replace -r ' .*' ''
+  if string match -q '*/*' -- (commandline -ct)
+    __fish_complete_path (commandline -ct)
+  end
+end""",
+    }
+    return Function(name, texts)

@@ -1,4 +1,4 @@
-"""The verb `decode`: what bytes mean, frame by frame, with nothing left out."""
+"""The verb `decode`: the meaning of bytes, frame by frame, with nothing left out."""
 
 from __future__ import annotations
 
@@ -36,7 +36,7 @@ _KEPT = 16384
 
 
 def add_arguments(parser: ArgumentParser) -> None:
-    """Declares the arguments of the verb."""
+    """Declare the arguments of the verb."""
     parser.add_argument(
         "input",
         nargs="*",
@@ -72,7 +72,7 @@ def add_arguments(parser: ArgumentParser) -> None:
 
 
 def run(arguments: Namespace) -> int:
-    """Prints every message and all noise, and to the error stream the totals."""
+    """Print every message and all noise, and the totals on the error stream."""
     form = "json" if arguments.json else "csv" if arguments.csv else "text"
     lines = EntryLines(sys.stdout, form, arguments.time)
     seen, begun = Counters(0, 0, 0, 0), b""
@@ -106,7 +106,7 @@ def _count(seen: Counters, event: Message | Noise, size: int) -> None:
 
 @contextmanager
 def _recording(arguments: Namespace) -> Iterator[tuple[Recording, str]]:
-    """What to decode, and what it holds."""
+    """Open the input, and return it with its form."""
     words: list[str] = arguments.input
     file: Path | None = arguments.file
     if file is not None and words:
@@ -126,7 +126,7 @@ def _recording(arguments: Namespace) -> Iterator[tuple[Recording, str]]:
 
 
 def _is_file(word: str) -> bool:
-    """Whether a word names a file, rather than bytes."""
+    """Return whether a word names a file, rather than bytes."""
     try:
         return not is_hex(word) and Path(word).is_file()
     except (OSError, ValueError):

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
 
 def add_arguments(parser: ArgumentParser) -> None:
-    """Declares the arguments of the verb."""
+    """Declare the arguments of the verb."""
     parser.add_argument("message", metavar="MESSAGE", help="its name, such as it has in Python")
     parser.add_argument(
         "fields", nargs="*", metavar="FIELD=VALUE", help="numbers, names of values, or lists"
@@ -26,7 +26,7 @@ def add_arguments(parser: ArgumentParser) -> None:
 
 
 def run(arguments: Namespace) -> int:
-    """Prints the frame in hex, or with --raw writes its bytes."""
+    """Print the frame in hex, or write its bytes with --raw."""
     frame = message_from_text(message_named(arguments.message), arguments.fields).encode()
     if arguments.raw:
         sys.stdout.buffer.write(frame)
@@ -36,7 +36,7 @@ def run(arguments: Namespace) -> int:
 
 
 def message_named(name: str) -> type[Message]:
-    """The message of that name, however its words are joined."""
+    """Return the message of that name, however its words are joined."""
     for kind in MESSAGES:
         if _folded(kind.__name__) == _folded(name):
             return kind

@@ -1,4 +1,4 @@
-"""Prints the entries of a recording, as text, as JSON or as CSV, with the times that it holds."""
+"""Print the entries of a recording, as text, as JSON or as CSV, with the times that it holds."""
 
 from __future__ import annotations
 
@@ -22,12 +22,12 @@ if TYPE_CHECKING:
     _Said = TypeVar("_Said")
 
 COLUMNS = ("offset", "time", "from", "direction", "message", "or", "fields", "hex", "reason")
-# What a recording says again and again is put in words once, as long as it is not too much.
+# The text of events that a recording repeats is remembered, up to this many.
 _REMEMBERED = 2048
 
 
 class EntryLines:
-    """A line for each entry, on a screen that is handed in.
+    """A line for each entry, on a given screen.
 
     `form` is text, json or csv. `times` is one of TIMES, None for whatever times there are.
     """
@@ -46,12 +46,12 @@ class EntryLines:
             self._rows.writerow(COLUMNS)
 
     def show(self, entry: Entry) -> None:
-        """Prints an entry; whoever waits for it flushes."""
+        """Print an entry; the caller flushes."""
         self._count += 1
         self._say(entry, self._time(entry))
 
     def problems(self, name: str) -> Iterator[str]:
-        """Which times were asked for and are not there."""
+        """Yield which of the chosen times are missing."""
         if self._with_time < self._count:
             yield f"{name} holds no times: the first column is the byte at which each begins"
         elif self._times == "absolute" and self._with_day < self._count:

@@ -1,4 +1,4 @@
-"""What was on a line, in words and as JSON: messages, noise, and frames of unknown command."""
+"""Events of a line, in words and as JSON: messages, noise, and frames of unknown command."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ import json
 from .._codec.codec import table_for, twins
 from .._codec.noise import Noise, UnknownFrame
 from .._frame.bytes_like import format_hex
-from .._frame.wording import counted
+from .._frame.pluralize import pluralize
 from .._recording.entry import SENDERS
 from .._recording.file import EITHER, NOISE
 from .values import fields_as_text, fields_in_json
@@ -20,18 +20,18 @@ if TYPE_CHECKING:
     from .._frame.direction import Direction
     from .._frame.message import Message
 
-# What is no message, but has the shape of one.
+# Noise that has the shape of a frame.
 UNKNOWN = "unknown"
 KINDS = [*SENDERS, EITHER, NOISE, UNKNOWN]
 
 
 def bytes_of(event: Message | Noise) -> bytes:
-    """The bytes that it is made of."""
+    """Return the bytes of an event."""
     return event.data if isinstance(event, Noise) else event.encode()
 
 
 def names_of(event: Message | Noise, direction: Direction | None) -> list[str]:
-    """The messages that it may be; none for noise."""
+    """Return the names of the messages that it may be; none for noise."""
     if isinstance(event, Noise):
         return []
     name = type(event).__name__
@@ -39,14 +39,14 @@ def names_of(event: Message | Noise, direction: Direction | None) -> list[str]:
 
 
 def sender_of(event: Message | Noise, direction: Direction | None) -> str:
-    """Who sent it; `either` where nobody can tell; or that it is noise."""
+    """Return who sent it; `either` if that is unknown; or that it is noise."""
     if isinstance(event, Noise):
         return UNKNOWN if isinstance(event, UnknownFrame) else NOISE
     return origin_of(event, direction)[0]
 
 
 def origin_of(event: Message | Noise, direction: Direction | None) -> tuple[str, list[str]]:
-    """Who sent it, noise or no, `either` where nobody can tell; and the messages it may be."""
+    """Return who sent it, noise or not, `either` if that is unknown; and the messages it may be."""
     if isinstance(event, Noise):
         return EITHER if direction is None else direction.sender, []
     names = names_of(event, direction)
@@ -54,7 +54,7 @@ def origin_of(event: Message | Noise, direction: Direction | None) -> tuple[str,
 
 
 def in_words(event: Message | Noise, direction: Direction | None) -> str:
-    """What it says: the name and the fields with their units; for noise, why it is noise."""
+    """Return the name and the fields with their units; for noise, why it is noise."""
     if isinstance(event, UnknownFrame):
         return f"command={event.command} parameters={format_hex(event.parameters) or 'none'}"
     if isinstance(event, Noise):
@@ -64,7 +64,7 @@ def in_words(event: Message | Noise, direction: Direction | None) -> str:
 
 
 def in_json(event: Message | Noise, direction: Direction | None) -> str:
-    """What it says, as the text of a JSON object: who sent it, noise or no, and what it is."""
+    """Return the text of a JSON object: who sent it, noise or not, and what it holds."""
     sender, names = origin_of(event, direction)
     if isinstance(event, Noise):
         record: dict[str, Any] = {"from": sender, "noise": format_hex(event.data)}
@@ -82,16 +82,16 @@ def in_json(event: Message | Noise, direction: Direction | None) -> str:
 
 
 def totals(seen: Counters) -> str:
-    """What a decoder has seen."""
+    """Return what a decoder has seen, in words."""
     unknown = (
-        f", {counted(seen.unknown_frames, 'unknown frame')} in it" if seen.unknown_frames else ""
+        f", {pluralize(seen.unknown_frames, 'unknown frame')} in it" if seen.unknown_frames else ""
     )
-    told = f"{counted(seen.fed, 'byte')}: {counted(seen.messages, 'message')}"
-    return f"{told}, {counted(seen.noise, 'byte')} of noise{unknown}"
+    told = f"{pluralize(seen.fed, 'byte')}: {pluralize(seen.messages, 'message')}"
+    return f"{told}, {pluralize(seen.noise, 'byte')} of noise{unknown}"
 
 
 def _why(noise: Noise, direction: Direction | None) -> str:
-    """The reason, and what was expected, where the bytes themselves tell."""
+    """Return the reason, and what was expected, if the bytes show it."""
     table = table_for(direction)
     verdict = table.weigh(noise.data)
     if verdict.kind is None and verdict.reason is noise.reason:

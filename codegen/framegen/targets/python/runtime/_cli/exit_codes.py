@@ -1,4 +1,4 @@
-"""How the command ends: the numbers that a shell gets to see, the same for every verb."""
+"""Exit statuses of the command, the same for every verb."""
 
 from __future__ import annotations
 

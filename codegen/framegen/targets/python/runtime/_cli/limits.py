@@ -1,4 +1,4 @@
-"""The option that says how far from here anything may be sent to go."""
+"""The option that limits which positions are sent."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ _ANY = "none"
 
 
 def add_limits(parser: argparse.ArgumentParser) -> None:
-    """Declares the option, where the protocol has limits."""
+    """Declare the option, if the protocol has limits."""
     if LIMITS.usual is None:
         return
     others = "".join(f"; {_written(each)} for {name}" for name, each in LIMITS.others.items())
@@ -32,18 +32,18 @@ def add_limits(parser: argparse.ArgumentParser) -> None:
 
 
 def limits_of(arguments: argparse.Namespace) -> Bounds | None:
-    """The limits that were chosen."""
+    """Return the limits that were chosen."""
     chosen: Bounds | None = getattr(arguments, "limits", None)
     return chosen
 
 
 def refused(error: LimitError) -> UsageError:
-    """What was refused, in the words of the command line."""
+    """Return the error for a refused value, in the words of the command line."""
     return outside(error.path, error.value, error.limits)
 
 
 def outside(place: str, value: object, limits: Bounds) -> UsageError:
-    """That a value is outside the limits, and which others there are."""
+    """Return the error for a value outside the limits, with the other limits there are."""
     known = {"what is usual": LIMITS.usual, **LIMITS.others}
     others = [
         f"--limits {_written(each)} is for {name}"

@@ -1,4 +1,4 @@
-"""Lines of text for what comes and goes on a line: time, who, what it says, and its bytes."""
+"""Lines of text for the events of a line: time, sender, meaning and bytes."""
 
 from __future__ import annotations
 
@@ -29,10 +29,10 @@ _COLOURS = {
 
 
 class Lines:
-    """Prints one line for each event, at once, so that a pipe has it when it comes.
+    """One printed line for each event, at once, so that a pipe has it when it comes.
 
-    `times` is one of TIMES. Times are handed in as seconds, of the day's clock for `absolute` and
-    of any clock for the others.
+    `times` is one of TIMES. Times are given in seconds, of the day's clock for `absolute` and of
+    any clock for the others.
     """
 
     def __init__(self, screen: TextIO, times: str = "zero", *, as_json: bool = False) -> None:
@@ -44,11 +44,11 @@ class Lines:
         self.count = 0
 
     def begin(self, now: float) -> None:
-        """Says from when on time counts."""
+        """Set the time from which on times count."""
         self._began = self._last = now
 
     def show(self, event: Message | Noise, direction: Direction | None, now: float) -> None:
-        """Prints an event that was heard in a direction; None for one of two that share a line."""
+        """Print an event that was received in a direction; None for a line with both."""
         self.count += 1
         since = {"absolute": 0.0, "delta": self._last, "zero": self._began}[self._times]
         at, self._last = now - since, now
@@ -72,12 +72,12 @@ class Lines:
 
 
 def in_line(event: Message | Noise, direction: Direction | None) -> str:
-    """What every verb says of an event, behind its time or place: who, what, and its bytes."""
+    """Return the text of an event, behind its time or place: sender, meaning and bytes."""
     who, what = sender_of(event, direction), in_words(event, direction)
     return f"{who:10}  {visible(what)} | {format_hex(bytes_of(event))}"
 
 
 def time_of_day(now: float) -> str:
-    """The time that a clock on the wall shows, as HH:MM:SS.ffffff."""
+    """Return the time of day, as HH:MM:SS.ffffff."""
     whole, part = divmod(round(now * 1_000_000), 1_000_000)
     return f"{time.strftime('%H:%M:%S', time.localtime(whole))}.{part:06d}"

@@ -1,4 +1,4 @@
-"""What the verbs with a port share: how it is named and opened, and what is shown when it fails."""
+"""Options for naming and opening a port, and its errors, for all verbs with a port."""
 
 from __future__ import annotations
 
@@ -32,16 +32,16 @@ ENDS = {
     LINE_LOST: "the line was lost: a cable pulled, a device gone, the other end hung up",
     TERMINATED: "ended by SIGTERM, as `timeout 10 ...` does",
 }
-# The longest wait that can be asked for, so that none is without end.
+# The longest wait that can be chosen, so that none is without end.
 _LONGEST = 3600.0
 
 
 def add_port(
     parser: argparse.ArgumentParser, *, required: bool = True, client: bool = True
 ) -> None:
-    """Declares the options that name the port and say what its line is like.
+    """Declare the options that name the port and describe its line.
 
-    `client` is whether a client is opened on it; only that knows what to do about a local echo.
+    `client` is whether a client is opened on it; only a client handles a local echo.
     """
     parser.add_argument(
         "--port",
@@ -65,12 +65,12 @@ def add_port(
 
 
 def _rate(text: str) -> float:
-    """A rate, as an argument: a whole number of baud, or inf."""
+    """Return a rate, as an argument: a whole number of baud, or inf."""
     return math.inf if text == "inf" else at_least(1)(text)
 
 
 def add_timeout(parser: argparse.ArgumentParser) -> None:
-    """Declares the option that says how long an answer may take."""
+    """Declare the option for how long a reply may take."""
     parser.add_argument(
         "--timeout",
         type=above_zero(highest=_LONGEST, unit="seconds"),
@@ -82,7 +82,7 @@ def add_timeout(parser: argparse.ArgumentParser) -> None:
 
 
 def open_line(port: str, baud: float = BAUD) -> Transport:
-    """Opens a port, and shows that it is at it: an address that is far away may take a while.
+    """Open a port, and show that while it takes long: an address may be far away.
 
     Raises UsageError for a rate that no port can be set to.
     """
@@ -100,7 +100,7 @@ def open_client(
     limits: Bounds | None = LIMITS.usual,
     settle: float | None = None,
 ) -> Client:
-    """As open_line, for a client that waits as long as the arguments say."""
+    """Open a client as open_line does, with the times that the arguments give."""
     logger = logging.getLogger(Client.__module__.rpartition(".")[0])
     if not any(isinstance(each, _Warnings) for each in logger.handlers):
         logger.addHandler(_Warnings(logging.WARNING))
@@ -116,7 +116,7 @@ def open_client(
 
 
 class _Warnings(logging.Handler):
-    """Prints what the library has to say of a line as the command prints everything else."""
+    """A log handler that prints the library's warnings as the command prints everything else."""
 
     def emit(self, record: logging.LogRecord) -> None:
         print(f"{PROGRAM}: {visible(record.getMessage())}", file=sys.stderr)
@@ -124,15 +124,16 @@ class _Warnings(logging.Handler):
 
 @contextmanager
 def failures_told() -> Iterator[None]:
-    """Turns what goes wrong with a port into one line that says what to do.
+    """Turn errors of a port into one line that says what to do.
 
-    SIGTERM ends it as Ctrl-C does: totals are printed, and ports and the terminal given back.
+    SIGTERM ends the body as Ctrl-C does: totals are printed, the port closed, the terminal
+    restored.
     """
     try:
         with _ended_by_sigterm():
             yield
     except (ClosedError, DisconnectedError, WriteStuckError) as error:
-        # The library would say `reconnect()`, which is nothing that can be typed here.
+        # The library would say `reconnect()`, which cannot be typed here.
         advice = "see to the cable and the power, then run this again"
         raise LineLostError(f"{error.port}: {error.happened}; {advice}") from None
     except TransportError as error:

@@ -1,4 +1,4 @@
-"""Sends what was recorded, each part when its time has come, and shows what comes back."""
+"""Send a recording, each part when its time has come, and show what comes back."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ import time
 from .._codec.careful_decoder import GAP
 from .._codec.decoder import StreamDecoder
 from .._frame.direction import RECEIVED
-from .._frame.wording import counted
+from .._frame.pluralize import pluralize
 from .._serial.link_errors import TransportError
 from .events import bytes_of, totals
 from .lines import Lines
@@ -26,29 +26,29 @@ if TYPE_CHECKING:
     from .._serial.transport import Transport
     from ..recordings import Entry
 
-# How long the last answer may take.
+# How long the last reply may take.
 _QUIET = 0.25
-# How long to wait in one piece, so that Ctrl-C is noticed on every system.
+# How long one wait may take, so that Ctrl-C is noticed on every system.
 _POLL_INTERVAL = 0.1
 
 
 class Playback:
-    """One replay, on a screen that is handed in."""
+    """One replay, on a given screen."""
 
     def __init__(self, screen: TextIO) -> None:
         self._lines = Lines(screen)
         self._progress = Progress(sys.stderr)
         self._decoder = StreamDecoder(RECEIVED)
-        # What the listener has heard: bytes, or the error that ended it; and when.
+        # What the listener has received: bytes, or the error that ended it; and when.
         self._heard: queue.SimpleQueue[tuple[bytes | TransportError, float]] = queue.SimpleQueue()
         self._over = threading.Event()
         self._last = 0.0
 
     def play(self, line: Transport, entries: Iterable[tuple[Entry, float]], count: int) -> None:
-        """Sends each of so many entries at its time; the totals come in any case."""
+        """Send each of `count` entries at its time; the totals come in any case."""
         sent = size = 0
         # Reading in a thread of its own, since a read may take longer than the time up to the next
-        # frame, and that one is not to be late.
+        # frame, which must not be late.
         listener = threading.Thread(target=self._listen, args=(line,), daemon=True)
         listener.start()
         began = self._last = time.monotonic()
@@ -67,7 +67,7 @@ class Playback:
             self._over.set()
             listener.join(1.0)
             self._progress.end()
-            told = f"{sent} of {counted(count, 'frame')} sent, {counted(size, 'byte')}"
+            told = f"{sent} of {pluralize(count, 'frame')} sent, {pluralize(size, 'byte')}"
             try:
                 self._show(self._decoder.flush(), time.monotonic())
             finally:
@@ -84,7 +84,7 @@ class Playback:
                 self._heard.put((data, time.monotonic()))
 
     def _wait(self, until: float, what: str) -> None:
-        """Shows what comes back up to a moment. Raises TransportError once the line is lost."""
+        """Show what comes back until a time. Raises TransportError once the line is lost."""
         began = time.monotonic()
         while (left := until - time.monotonic()) > 0:
             try:

@@ -9,7 +9,6 @@ from .._frame.protocol import HID_DEVICES
 from .._serial.hid_devices import UNSEEN, hid_devices_at_hand
 from .._serial.serial_port import serial_ports
 from .console import visible
-from .examples import PROGRAM
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
@@ -23,12 +22,12 @@ if TYPE_CHECKING:
 
 
 def add_arguments(parser: ArgumentParser) -> None:
-    """Declares the arguments of the verb."""
+    """Declare the arguments of the verb."""
     parser.add_argument("--json", action="store_true", help="print each port as a line of JSON")
 
 
 def run(arguments: Namespace) -> int:
-    """Prints a line for each port: its name, VID:PID where it has them, what it is."""
+    """Print a line for each port: its name, VID:PID if it has them, what it is."""
     serial = [(each.name, each.usb, each.product) for each in serial_ports()]
     devices = hid_devices_at_hand()
     for name, usb, about in [*serial, *_by_hid(devices or [])]:
@@ -40,13 +39,13 @@ def run(arguments: Namespace) -> int:
         print("no serial port is plugged in", file=sys.stderr)
     if devices is None and HID_DEVICES and not any(usb for _, usb, _ in serial):
         known = ", ".join(f"{vendor:04X}:{product:04X}" for vendor, product, _ in HID_DEVICES)
-        told = f"USB HID devices ({known}) have no serial port, and are not listed without an"
-        print(f"{told} extra: pip install '{PROGRAM}[hid]'", file=sys.stderr)
+        told = f"USB HID devices ({known}) have no serial port, and are not listed without"
+        print(f"{told} hidapi: pip install hidapi", file=sys.stderr)
     return 0
 
 
 def _by_hid(devices: list[HidDevice]) -> Iterator[Row]:
-    """Devices without a serial port, each by an address that opens it."""
+    """Yield each device without a serial port, by an address that opens it."""
     for each in devices:
         alone = len([other for other in devices if other.ids == each.ids]) == 1
         about = f"{each.product}, USB HID, no serial port ({UNSEEN})".removeprefix(", ")

@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 
 FORMAT = f"{PROGRAM} poses"
 VERSION = 1
-# The longest that a motion may be waited for after its end.
+# The longest pause that a motion may be followed by.
 LONGEST_PAUSE = 3600.0
 
 
@@ -32,7 +32,7 @@ LONGEST_PAUSE = 3600.0
 class Recorded:
     """One pose: positions by number; how long the way there takes, and the pause after it.
 
-    None where the file leaves that to whoever plays it.
+    None if the file leaves that to `play`.
     """
 
     positions: dict[int, int]
@@ -41,7 +41,7 @@ class Recorded:
 
 
 def read_poses(path: Path, pose: Pose) -> list[Recorded]:
-    """All poses of a file, each one that could be sent. Raises UsageError with the place."""
+    """Return all poses of a file, proven sendable. Raises UsageError with the place."""
     try:
         text = path.read_text(encoding="utf-8")
     except (OSError, UnicodeDecodeError) as error:
@@ -58,13 +58,13 @@ def read_poses(path: Path, pose: Pose) -> list[Recorded]:
 
 
 def write_poses(path: Path, poses: Sequence[Recorded]) -> None:
-    """Writes them, a pose a line, and leaves no half file behind. Raises UsageError."""
+    """Write the poses, one a line, and leave no half file behind. Raises UsageError."""
     lines = ",\n".join(f"    {json.dumps(_plain(each))}" for each in poses)
     text = (
         f'{{\n  "format": {json.dumps(FORMAT)},\n  "version": {VERSION},\n  "poses": [\n'
         f"{lines}\n  ]\n}}\n"
     )
-    # Where a link leads, the link stays.
+    # A link stays a link: the file that it leads to is written.
     whole = path.resolve()
     beside = whole.with_name(f".{whole.name}.{os.getpid()}")
     try:
@@ -77,7 +77,7 @@ def write_poses(path: Path, poses: Sequence[Recorded]) -> None:
 
 
 def check_limits(path: Path, poses: Iterable[Recorded], limits: Bounds | None) -> None:
-    """Raises UsageError for the first position that is outside the limits."""
+    """Raise UsageError for the first position that is outside the limits."""
     if limits is None:
         return
     for at, pose in enumerate(poses):
@@ -96,7 +96,7 @@ def _plain(pose: Recorded) -> dict[str, Any]:
 
 
 def _without_doubles(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
-    """An object of the file. Raises ValueError where a key is there twice."""
+    """Return an object of the file. Raises ValueError if a key is there twice."""
     made: dict[str, Any] = {}
     for key, value in pairs:
         if key in made:
@@ -106,7 +106,7 @@ def _without_doubles(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
 
 
 class _Reader:
-    """Takes a file apart, and says at which place something is wrong."""
+    """A reader of the file's objects, with errors that name the place."""
 
     def __init__(self, path: Path, pose: Pose) -> None:
         self._path = path
@@ -161,7 +161,7 @@ class _Reader:
         return checked
 
     def _object(self, data: Any, place: str, known: list[str] | None, *, needed: int = 0) -> None:
-        """Raises UsageError unless it has the first `needed` of the known keys, and no other."""
+        """Raise UsageError unless it has the first `needed` of the known keys, and no other."""
         if not isinstance(data, dict):
             raise self._wrong(place, f"{_shown(data)} is no object {{...}}")
         if known is None:

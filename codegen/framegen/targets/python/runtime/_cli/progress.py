@@ -1,4 +1,4 @@
-"""One line on a terminal that says how far something is, gone before anything else is printed."""
+"""One line of progress on a terminal, cleared before anything else is printed."""
 
 from __future__ import annotations
 
@@ -10,12 +10,12 @@ TYPE_CHECKING = False
 if TYPE_CHECKING:
     from typing import TextIO
 
-# How long a wait may be before it is worth a word, and how often the word changes.
+# How long a wait goes on before it is shown, and how often that changes.
 PROGRESS_INTERVAL = 1.0
 
 
 class Progress:
-    """The line that says that a wait goes on. Where there is no terminal, it says nothing."""
+    """The line that says that a wait goes on. Without a terminal, it says nothing."""
 
     def __init__(self, screen: TextIO) -> None:
         self._screen = screen
@@ -23,24 +23,24 @@ class Progress:
         self.seen = screen.isatty()
 
     def show(self, text: str) -> None:
-        """Says it, in place of what was said before."""
+        """Show a text, in place of the one before."""
         if not self.seen:
             return
-        # A line that is longer than the terminal is wide could not be taken back.
+        # A line that is longer than the terminal is wide could not be cleared.
         text = visible(text)[: _columns(self._screen) - 1]
         if text != self._shown:
             blank = " " * (len(self._shown) - len(text))
             self._shown = text
-            # A carriage return and spaces: every terminal knows these, escapes or no.
+            # A carriage return and spaces: every terminal knows these, with escapes or without.
             self._write(f"\r{text}{blank}")
 
     def clear(self) -> None:
-        """Takes back what was said."""
+        """Clear the text."""
         if self._shown:
             self.end()
 
     def end(self) -> None:
-        """Clears the line even if nothing was said: a terminal has shown ^C there, perhaps."""
+        """Clear the line even if nothing was shown: a terminal may have printed ^C there."""
         if self.seen:
             self._write(f"\r{' ' * (len(self._shown) + len('^C'))}\r")
             self._shown = ""

@@ -1,4 +1,4 @@
-"""What is sent from here, from its name and its fields on the command line."""
+"""Messages that this end sends, from the name and the fields on the command line."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
 
 def exchange_named(name: str) -> tuple[type[Message], Exchange]:
-    """A message that this end sends, and what answers it. Raises UsageError for all others."""
+    """Return a message that this end sends, with its exchange. Raises UsageError for others."""
     kind = message_named(name)
     exchange = EXCHANGES.get(kind)
     if exchange is None:
@@ -26,9 +26,9 @@ def exchange_named(name: str) -> tuple[type[Message], Exchange]:
 
 
 def in_parts(name: str, words: list[str]) -> list[Message]:
-    """The message; or several, where a question about a list is longer than a reply has room for.
+    """Return the message, or several if one reply has no room for all that it requests.
 
-    As the client's own method for that question does it. Raises UsageError.
+    It is split as the client's own method splits it. Raises UsageError.
     """
     kind, exchange = exchange_named(name)
     items = kind.SHAPE.items

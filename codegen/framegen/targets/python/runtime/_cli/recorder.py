@@ -1,4 +1,4 @@
-"""Writes what a line carries to a file: a line of hex for each event, and in a comment what it is.
+"""Write what a line carries to a file: a line of hex for each event, with a comment on it.
 
 A trace of the client has the same form.
 """
@@ -26,7 +26,7 @@ if TYPE_CHECKING:
 
 
 class Recorder:
-    """A recording in the making, or none at all; to be used in a `with`. Raises UsageError."""
+    """A recording in progress, or none at all; to be used in a `with`. Raises UsageError."""
 
     def __init__(self, path: Path | None) -> None:
         self._path = path
@@ -46,12 +46,12 @@ class Recorder:
         traceback: TracebackType | None,
     ) -> None:
         if self._file is not None:
-            # What went wrong before it is what is told.
+            # The earlier error is the one to report.
             with self._failures_told() if kind is None else suppress(OSError):
                 self._file.close()
 
     def begin(self, port: str, now: float) -> None:
-        """Notes where it was recorded, and when that began, by the clock of `now` and the day's."""
+        """Write where it was recorded, and when that began, by the clock of `now` and the day's."""
         self._began = now
         if self._file is not None:
             with self._failures_told():
@@ -60,13 +60,14 @@ class Recorder:
     def record(
         self, events: Iterable[Message | Noise], direction: Direction | None, now: float
     ) -> None:
-        """Writes what was heard in a direction, or in either for None."""
+        """Write events that were received in a direction, or in either for None."""
         if self._file is None:
             return
         for event in events:
             who, what = sender_of(event, direction), " or ".join(names_of(event, direction))
             if isinstance(event, Noise):
-                # What the device sends is never sent to it, noise or no; all else is to be read.
+                # Frames of the device are never sent to it, noise or not; all others are marked as
+                # received.
                 sender = EITHER if direction is None else direction.sender
                 who = NOISE if direction is RECEIVED else f"{sender} {NOISE}"
                 what = event.reason.value
@@ -76,7 +77,7 @@ class Recorder:
                 self._file.write(bytes_of(event), now - self._began, who, what)
 
     def quiet(self) -> None:
-        """Notes that half a frame was given up: what follows is not its other half."""
+        """Write that half a frame was given up: what follows is not its other half."""
         if self._file is not None:
             with self._failures_told():
                 self._file.quiet()

@@ -1,4 +1,4 @@
-"""What the verbs read, a file or standard input: opened, read as it comes, and failures told."""
+"""The input of the verbs, a file or standard input: opened, read as it comes, errors reported."""
 
 from __future__ import annotations
 
@@ -23,8 +23,8 @@ if TYPE_CHECKING:
 class Recording:
     """A recording that is open; `again` says whether it can be read more than once.
 
-    What was printed is shown before it waits for more. Where that leaves a terminal empty for long,
-    it says there how far it has come.
+    Output so far is flushed before it waits for more. If that leaves a terminal empty for long, it
+    shows there how far it has come.
     """
 
     def __init__(self, stream: BinaryIO, name: str) -> None:
@@ -38,7 +38,7 @@ class Recording:
         self._shown = time.monotonic()
 
     def entries(self, form: str, direction: Direction | None) -> Iterator[Entry]:
-        """What it holds, from its beginning on. Raises UsageError."""
+        """Yield the entries, from the beginning on. Raises UsageError."""
         self._done = 0
         if self.again:
             self._stream.seek(0)
@@ -50,7 +50,7 @@ class Recording:
             self._progress.clear()
 
     def read(self, size: int) -> bytes:
-        """What there is, and at most so many bytes. Raises UsageError."""
+        """Return what there is, at most `size` bytes. Raises UsageError."""
         sys.stdout.flush()
         try:
             data: bytes = self._read(size)
@@ -66,7 +66,7 @@ class Recording:
 
 @contextmanager
 def opened(path: Path) -> Iterator[Recording]:
-    """The file of that name, or standard input for `-`. Raises UsageError."""
+    """Open the file of that name, or standard input for `-`. Raises UsageError."""
     name = "standard input" if str(path) == "-" else str(path)
     if name != str(path) and sys.stdin is None:
         raise UsageError("standard input is closed; name a file")

@@ -1,4 +1,4 @@
-"""The verb `replay`: sends what was recorded once more, at the pace at which it was recorded."""
+"""The verb `replay`: sends a recording once more, at the pace at which it was recorded."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from .._client.exchanges import EXCHANGES
 from .._client.wire_time import WireTime
 from .._codec.noise import Noise
 from .._frame.direction import RECEIVED
-from .._frame.wording import counted
+from .._frame.pluralize import pluralize
 from .._recording.entry import SENDERS
 from .._recording.file import EITHER, NOISE
 from ..recordings import FORMS
@@ -45,7 +45,7 @@ room, and look at --dry-run first."""
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """Declares the arguments of the verb."""
+    """Declare the arguments of the verb."""
     parser.add_argument("file", type=Path, metavar="FILE", help="a recording; - is standard input")
     add_port(parser, required=False, client=False)
     parser.add_argument(
@@ -81,13 +81,13 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def run(arguments: argparse.Namespace) -> int:
-    """Sends what is to be sent; or only prints it."""
+    """Send the chosen entries, or only print them."""
     port = arguments.port or ""
     if not port and not arguments.dry_run:
         raise UsageError("replay needs --port PORT, or --dry-run to see what it would send")
     direction = SENDERS.get(arguments.direction)
     with opened(arguments.file) as given, rereadable(given) as recording:
-        # All of it is looked at before any of it is sent.
+        # All of it is checked before any of it is sent.
         count = _survey(recording.entries(arguments.format, direction), recording.name, arguments)
         entries = (
             entry
@@ -107,12 +107,12 @@ def run(arguments: argparse.Namespace) -> int:
 
 
 def _survey(entries: Iterable[Entry], name: str, arguments: argparse.Namespace) -> int:
-    """How many are to be sent. Raises UsageError for what must not be, and if there are none."""
+    """Return how many entries are sent. Raises UsageError for a bad one, or if there is none."""
     before = 0.0
     chosen = 0
     left: dict[str, int] = {}
     for entry in entries:
-        # What came to this end may be told late: a client does so when it has opened a line anew.
+        # A client may record late what it has received, as when it has reopened a line.
         if entry.time is not None and entry.sender != RECEIVED.sender:
             if entry.time < before:
                 raise UsageError(
@@ -133,7 +133,7 @@ def _survey(entries: Iterable[Entry], name: str, arguments: argparse.Namespace) 
 
 
 def _is_chosen(entry: Entry, name: str, arguments: argparse.Namespace) -> bool:
-    """Whether it is to be sent. Raises UsageError where nobody could say so."""
+    """Return whether an entry is sent. Raises UsageError if that is undecided."""
     own = {kind.DIRECTION.sender for kind in EXCHANGES}
     if arguments.raw:
         return True
@@ -157,14 +157,15 @@ def _is_chosen(entry: Entry, name: str, arguments: argparse.Namespace) -> bool:
 
 
 def _kinds(found: dict[str, int]) -> str:
-    """How much there is of each kind, in words."""
-    told = [f"{counted(n, 'frame')} of {sender}" for sender, n in found.items() if sender != NOISE]
-    told += [f"{counted(found[NOISE], 'piece')} of noise"] if NOISE in found else []
-    return ", ".join(told) or "nothing at all"
+    """Return how many there are of each kind, in words."""
+    senders = [(sender, number) for sender, number in found.items() if sender != NOISE]
+    kinds = [f"{pluralize(number, 'frame')} of {sender}" for sender, number in senders]
+    kinds += [f"{pluralize(found[NOISE], 'piece')} of noise"] if NOISE in found else []
+    return ", ".join(kinds) or "nothing at all"
 
 
 def _timed(entries: Iterable[Entry], speed: float, baud: float) -> Iterator[tuple[Entry, float]]:
-    """Each, and when it is sent, in seconds from the first: as recorded, one after the other."""
+    """Yield each entry with its time, in seconds from the first: as recorded, without overlap."""
     wire = WireTime(baud)
     first: float | None = None
     for entry in entries:
@@ -174,12 +175,12 @@ def _timed(entries: Iterable[Entry], speed: float, baud: float) -> Iterator[tupl
 
 
 def _show(timed: Iterable[tuple[Entry, float]], baud: float) -> None:
-    """Prints what would be sent, and when."""
+    """Print what would be sent, and when."""
     lines, wire = Lines(sys.stdout), WireTime(baud)
     size, ends = 0, 0.0
     for entry, at in timed:
         lines.show(entry.event, entry.direction, at)
         size += len(bytes_of(entry.event))
         ends = at + wire.seconds(len(bytes_of(entry.event)))
-    told = f"{counted(lines.count, 'frame')}, {counted(size, 'byte')} in {ends:.3f} s"
+    told = f"{pluralize(lines.count, 'frame')}, {pluralize(size, 'byte')} in {ends:.3f} s"
     print(f"{told}: nothing was sent", file=sys.stderr)

@@ -1,4 +1,4 @@
-"""Makes a recording readable more than once, whatever it comes from."""
+"""Make a recording readable more than once, whatever it comes from."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ _CHUNK = 65536
 
 @contextmanager
 def rereadable(recording: Recording) -> Iterator[Recording]:
-    """The recording itself, or a copy on disk of one that comes from a pipe."""
+    """Return the recording itself, or a copy on disk of one that comes from a pipe."""
     if recording.again:
         yield recording
         return

@@ -1,4 +1,4 @@
-"""The verb `send`: sends any message of this end, and prints the reply where there is one."""
+"""The verb `send`: sends any message of this end, and prints its reply, if it has one."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ ENDS = link.ENDS | {NOT_ALL: "no reply came in time, or it told less than was as
 
 
 def add_arguments(parser: ArgumentParser) -> None:
-    """Declares the arguments of the verb."""
+    """Declare the arguments of the verb."""
     add_port(parser)
     parser.add_argument("message", metavar="MESSAGE", help="its name, such as it has in Python")
     parser.add_argument(
@@ -49,7 +49,7 @@ def add_arguments(parser: ArgumentParser) -> None:
 
 
 def run(arguments: Namespace) -> int:
-    """Sends the message, and prints what answers it."""
+    """Send the message, and print the reply."""
     messages = in_parts(arguments.message, arguments.fields)
     if len(messages) > 1:
         told = f"asked in {len(messages)} requests: one reply has no room for so much"
@@ -88,7 +88,7 @@ def run(arguments: Namespace) -> int:
 
 
 def _answer(controller: Client, message: Message) -> Message | None:
-    """The reply to a question; None for a command, which has none."""
+    """Return the reply to a request; None for a command, which has none."""
     reply = EXCHANGES[type(message)].reply
     if reply is None:
         controller.send(message)

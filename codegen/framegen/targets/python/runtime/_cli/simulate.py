@@ -1,4 +1,4 @@
-"""The verb `simulate`: hands over to the virtual device, which is a package of its own."""
+"""The verb `simulate`: runs the virtual device, which is a package of its own."""
 
 from __future__ import annotations
 
@@ -10,14 +10,28 @@ from .verbs import SIMULATOR
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
+    from argparse import ArgumentParser
     from collections.abc import Sequence
+    from typing import Any
 
 
 def hand_over(words: Sequence[str]) -> int:
-    """Runs the simulator's own command line."""
+    """Run the simulator's own command line."""
+    code: int = _simulator().main(list(words), program=f"{PROGRAM} simulate")
+    return code
+
+
+def add_arguments(parser: ArgumentParser) -> None:
+    """Declare the simulator's own arguments, if it tells them, to complete them."""
+    declare = getattr(_simulator(), "add_arguments", None)
+    if declare is not None:
+        declare(parser)
+
+
+def _simulator() -> Any:
     module = f"{SIMULATOR}.cli"
     try:
-        simulator = import_module(module)
+        return import_module(module)
     except ModuleNotFoundError as error:
         if error.name not in {SIMULATOR, module}:
             raise
@@ -25,5 +39,3 @@ def hand_over(words: Sequence[str]) -> int:
             f"the package {SIMULATOR} is not installed here: install it, or else make a virtual "
             f"device of {PROGRAM}.Device"
         ) from None
-    code: int = simulator.main(list(words), program=f"{PROGRAM} simulate")
-    return code

@@ -1,4 +1,4 @@
-"""The verb `teach`: lets go, and records where everything is each time that Enter is pressed."""
+"""The verb `teach`: releases the device, and records its positions each time Enter is pressed."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ import argparse
 import sys
 from pathlib import Path
 
-from .._frame.wording import counted
+from .._frame.pluralize import pluralize
 from .._serial.link_errors import NoReplyError
 from . import link
 from .examples import PROGRAM
@@ -41,7 +41,7 @@ to be edited. A file that is there already is left alone unless an option says o
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """Declares the arguments of the verb."""
+    """Declare the arguments of the verb."""
     parser.add_argument("file", type=Path, metavar="FILE", help="where the poses go")
     add_port(parser)
     parser.add_argument(
@@ -62,7 +62,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def run(arguments: argparse.Namespace) -> int:
-    """Records as long as somebody presses Enter."""
+    """Record as long as somebody presses Enter."""
     pose = the_pose()
     kept = _kept(arguments, pose)
     with failures_told(), open_client(arguments, limits=limits_of(arguments)) as controller:
@@ -108,7 +108,7 @@ class _Lesson:
         self._limits = limits
 
     def give(self, *, hold_after: bool) -> int:
-        """Lets go, and records until the end is asked for; says in any case what is limp now."""
+        """Release, and record until the user ends it; report in any case what is limp then."""
         who = listed(self._pose, self._ids)
         left = f"{who} {'is' if len(self._ids) == 1 else 'are'} limp"
         self._controller.send(self._pose.letting_go(self._ids))
@@ -122,14 +122,14 @@ class _Lesson:
             return INTERRUPTED
         finally:
             recorded = len(self._poses) - self._before
-            print(f"{counted(recorded, 'pose')} recorded; {left}", file=sys.stderr)
+            print(f"{pluralize(recorded, 'pose')} recorded; {left}", file=sys.stderr)
             if recorded:
                 told = f"`{PROGRAM} play {self._path} --dry-run` shows what would be sent"
                 print(told, file=sys.stderr)
         return DONE
 
     def _record(self) -> bool:
-        """Records at each Enter; whether the end was asked for, and not just the input over."""
+        """Record at each Enter; return whether the user ended it, rather than the input."""
         prompt = "Enter records a pose, q and Enter ends"
         while (line := _line(f"{prompt}: ")) is not None:
             word = line.strip().lower()
@@ -160,7 +160,7 @@ class _Lesson:
 
 
 def _kept(arguments: argparse.Namespace, pose: Pose) -> list[Recorded]:
-    """The poses that are to stay. Raises UsageError where a file would be lost."""
+    """Return the poses that are kept. Raises UsageError if a file would be lost."""
     path: Path = arguments.file
     if path.exists() and not path.is_file():
         raise UsageError(f"{path} is no file that could be written anew: name another")
@@ -176,13 +176,13 @@ def _kept(arguments: argparse.Namespace, pose: Pose) -> list[Recorded]:
 
 
 def _agreed(question: str) -> bool:
-    """The answer to a question; no, where nobody answers."""
+    """Return the answer to a yes-or-no question; no if there is none."""
     line = _line(f"{question} [y/N] ")
     return line is not None and line.strip().lower() in {"y", "yes"}
 
 
 def _line(prompt: str) -> str | None:
-    """A line that somebody types; None once there is no more."""
+    """Return a line that the user types; None once there is no more."""
     print(prompt, end="", file=sys.stderr, flush=True)
     try:
         line = sys.stdin.readline()
@@ -196,7 +196,7 @@ def _line(prompt: str) -> str | None:
 
 
 def _numbers(text: str) -> tuple[int, ...]:
-    """`1-6,9` as an argument."""
+    """Return the numbers of an argument such as `1-6,9`."""
     pose = the_pose()
     found: dict[int, None] = {}
     for part in text.split(","):

@@ -1,4 +1,4 @@
-"""The errors of the command line: one line for the user, and a number for the shell."""
+"""The errors of the command line: one line for the user, and an exit status."""
 
 from __future__ import annotations
 
@@ -6,12 +6,12 @@ from .exit_codes import LINE_LOST, UNUSABLE
 
 
 class UsageError(Exception):
-    """What was given on the command line, or to read, is of no use. The text says why."""
+    """Arguments or input that cannot be used. The text says why."""
 
     code = UNUSABLE
 
 
 class LineLostError(UsageError):
-    """The line was there and is gone: nothing was wrong with what was given."""
+    """The line was lost after it was opened: the arguments are not to blame."""
 
     code = LINE_LOST

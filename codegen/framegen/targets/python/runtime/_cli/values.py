@@ -1,4 +1,4 @@
-"""The fields of a message as text: shown with units and names, read back from the same notation."""
+"""The fields of a message as text: printed with units and names, and read from that notation."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
 
 def fields_in_json(message: Message) -> str:
-    """What `to_dict` gives, as the text of a JSON object: many times as fast."""
+    """Return what `to_dict` gives as the text of a JSON object, many times as fast."""
     items = message.SHAPE.items
     shown: list[str] = []
     for name in message.__match_args__:
@@ -29,7 +29,7 @@ def fields_in_json(message: Message) -> str:
 
 
 def fields_as_text(message: Message) -> str:
-    """The fields as `delay=10 ms items=1:20,2:30`."""
+    """Return the fields as `delay=10 ms items=1:20,2:30`."""
     items = message.SHAPE.items
     shown: list[str] = []
     for name in message.__match_args__:
@@ -42,14 +42,14 @@ def fields_as_text(message: Message) -> str:
 
 
 def _listed(items: Items[Any], message: Message, element: str, comma: str) -> str:
-    """The elements of a list, each in a form with a %d for each of its numbers, all at once."""
+    """Return the elements of a list as text; `element` has a %d for each of its numbers."""
     numbers = items.numbers(message.encode())
     text: str = comma.join([element] * (len(numbers) // items.width)) % numbers
     return text
 
 
 def _json_of(items: Items[Any]) -> str:
-    """The form of an element in JSON."""
+    """Return the format of an element in JSON."""
     if items.element is None:
         return "%d"
     fields = ", ".join([f'"{field.name}": %d' for field in items.fields])
@@ -65,7 +65,7 @@ def _number_as_text(number: Number, value: int) -> str:
 
 
 def message_from_text(kind: type[Message], words: list[str]) -> Message:
-    """The message with the fields given as `delay=10 items=1:20,2:30`."""
+    """Return the message with the fields given as `delay=10 items=1:20,2:30`."""
     given = fields_from_text(kind, words)
     try:
         return kind(**given)
@@ -74,7 +74,7 @@ def message_from_text(kind: type[Message], words: list[str]) -> Message:
 
 
 def fields_from_text(kind: type[Message], words: list[str]) -> dict[str, Any]:
-    """The fields of a message, all of them, by name; whether a frame can carry them is not seen."""
+    """Return all fields of a message by name, not checked against their ranges."""
     given: dict[str, Any] = {}
     for word in words:
         name, equals, text = word.partition("=")

@@ -1,4 +1,4 @@
-"""Whether the commands were taken that a report acknowledges."""
+"""Match commands with the reports that acknowledge them."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from .request import Request, Sent
     from .wire_time import WireTime
 
-# How many commands may wait for a report at once; the oldest are then no longer followed.
+# How many commands may wait for a report at once; the oldest beyond that are no longer followed.
 _PENDING = 64
 _KINDS = frozenset(each.acknowledged for each in EXCHANGES.values())
 
@@ -38,11 +38,11 @@ class _Pending:
 
 
 class Acknowledgements:
-    """The commands that wait for such a report, and the reports that have come so far.
+    """The commands that wait for an acknowledging report, and the reports that have come so far.
 
-    A report may come `reply_timeout` seconds after the wire time of both, and as much later as
-    other bytes take that come before it. Only a line that has seen one can miss one: a device may
-    never send any.
+    A report may come `reply_timeout` seconds after the time on the wire of both, and later by the
+    time that other bytes take that come before it. Only a line that has carried such a report can
+    miss one: a device may never send any.
     """
 
     def __init__(self, wire_time: WireTime, reply_timeout: float) -> None:
@@ -52,22 +52,22 @@ class Acknowledgements:
         self._pending: deque[_Pending] = deque(maxlen=_PENDING)
 
     def expect(self, request: Request, delay: float, duration: float) -> Run:
-        """What a command returns that is sent now; its time begins when the port has it."""
+        """Return the result of a command that is sent now; its time begins when the port has it."""
         run = Run(request.message, delay, duration)
         run.started = None
         kind = request.exchange.acknowledged
-        # Nobody is given the result of what may be overtaken.
+        # A result that a newer command may replace goes to nobody.
         if kind is not None and not request.latest:
             self._pending.append(_Pending(run, kind))
         return run
 
     @property
     def unwritten(self) -> bool:
-        """Whether the port is yet to take one of the commands."""
+        """Whether the port has still to take one of the commands."""
         return any(each.until is None for each in self._pending)
 
     def written(self, now: float, last: Sent | None = None) -> None:
-        """Takes in that the port has the commands up to `last` only `now`, or all so far."""
+        """Record that the port has the commands up to `last` (None: all so far) only at `now`."""
         for each in self._pending:
             if each.until is None:
                 left_at = max(self._wire_time.free_at, now + each.run.duration)
@@ -77,13 +77,13 @@ class Acknowledgements:
                 return
 
     def delay(self, size: int) -> None:
-        """Takes in that `size` bytes have come, which kept the line from carrying a report."""
+        """Extend the deadlines by the time of `size` bytes, which kept the line busy."""
         for each in self._pending:
             if each.until is not None:
                 each.until += self._wire_time.seconds(size)
 
     def add(self, report: Message) -> None:
-        """Takes in a report. It acknowledges the first command that it can."""
+        """Take in a report. It acknowledges the first command that it matches."""
         if type(report) not in _KINDS:
             return
         self._seen.add(type(report))
@@ -94,7 +94,7 @@ class Acknowledgements:
                 return
 
     def tick(self, now: float) -> None:
-        """Takes in that it is `now`, and that all which arrived before has been added."""
+        """Advance the time to `now`; all that arrived before must have been added."""
         for each in [each for each in self._pending if each.until is not None]:
             if each.until is not None and now >= each.until:
                 self._pending.remove(each)
@@ -103,12 +103,12 @@ class Acknowledgements:
 
     @property
     def tick_at(self) -> float | None:
-        """When to call `tick` again, at the latest."""
+        """The latest time at which to call `tick` again."""
         if not self._pending:
             return None
         return min((each.until for each in self._pending if each.until is not None), default=None)
 
     def restart(self) -> None:
-        """Begins anew on another line: what the old one may have carried is never known."""
+        """Begin anew on another line: what the old one may have carried is never known."""
         self._pending.clear()
         self._seen.clear()

@@ -1,4 +1,4 @@
-"""A client of the line for asyncio: the loop holds the conversation, two threads carry bytes."""
+"""A client of the line for asyncio: the event loop runs the session, two threads carry bytes."""
 
 from __future__ import annotations
 
@@ -39,12 +39,12 @@ if TYPE_CHECKING:
     from .report_filter import Kinds
     from .request import Sent
 
-    # Frames to write, who is to hear that those before are written, and None for the end.
+    # Frames to write, a future to resolve once those before it are written, and None for the end.
     _Outbox: TypeAlias = SimpleQueue[bytes | Request | asyncio.Future[None] | None]
 
 _PACKAGE = __name__.partition(".")[0]
 logger = logging.getLogger(_PACKAGE)
-# While the loop is busy, what is due may stay so: the reading thread is not to spin meanwhile.
+# While the loop is busy, work that is due stays due: the reading thread must not spin meanwhile.
 _SHORTEST_READ = 0.002
 _Reply = TypeVar("_Reply", bound="Message")
 _Second = TypeVar("_Second", bound="Message")
@@ -52,13 +52,13 @@ _Third = TypeVar("_Third", bound="Message")
 
 
 class AsyncClient:
-    """Sends messages over a transport, matches replies, and keeps reports.
+    """A client that sends messages over a transport, matches replies, and keeps reports.
 
     Safe to share between the tasks of one event loop: that in which it is first used. A call that
     is cancelled leaves the line usable for the others. Nothing waits for ever: every call ends with
-    what it is for, or with an error, in a time that its arguments and `reply_timeout` bound. Better
-    used in an `async with`; `close` waits until the last byte is out. What nobody holds any more is
-    closed with a ResourceWarning.
+    its result, or with an error, in a time that its arguments and `reply_timeout` bound. Better
+    used in an `async with`; `close` waits until the last byte is out. A client that is dropped
+    without `close` is closed with a ResourceWarning.
 
     `transport` is anything with the methods of Transport; it may block, since threads of its own
     read and write it. The other arguments are those of the client for threads.
@@ -97,17 +97,18 @@ class AsyncClient:
         self._loop: asyncio.AbstractEventLoop | None = None
         self._threads: list[threading.Thread] = []
         self._outbox: _Outbox = SimpleQueue()
-        # When the reading thread should say, at the latest, that time has passed and nothing come.
+        # When the reading thread should report, at the latest, that time has passed and nothing
+        # come.
         self._tick_at: float | None = None
-        # Until when nothing can be complete that is arriving.
+        # Until when nothing that is arriving can be complete.
         self._resting_until = float("-inf")
         self._timer: asyncio.TimerHandle | None = None
         self._watchers: set[asyncio.Future[None]] = set()
-        # What waits until the frames before it have been handed over.
+        # Futures that wait until the frames before them have been handed over.
         self._handing: set[asyncio.Future[None]] = set()
         self._callbacks: list[Callable[[Message], object]] = []
         self._failure: TransportError | None = None
-        # Whether the line is being opened again: the port is one, whoever wants it back.
+        # Whether the line is being reopened: there is one port, so one task does it for all.
         self._reopening = asyncio.Lock()
         self._ending: asyncio.Future[None] | None = None
 
@@ -128,7 +129,7 @@ class AsyncClient:
         return f"<{type(self).__name__} on {self._name}, {state}>"
 
     def __del__(self, warn: Callable[..., None] = warnings.warn) -> None:
-        # One that could not be made has nothing to give back.
+        # A client whose construction failed has nothing to close.
         if getattr(self, "_ending", True) is not None:
             return
         try:
@@ -149,11 +150,11 @@ class AsyncClient:
         return self._session.counters
 
     async def send(self, message: Message) -> Sent:
-        """Sends a command, as soon as the frames before it have left: no lag builds up unseen.
+        """Send a command, as soon as the frames before it have left: no lag builds up unseen.
 
         Returns when it has been handed over; `delay` of the result is when it will be on the wire.
         The result is an AsyncMotion for a command that lasts, and a Run for one that is
-        acknowledged. Raises LimitError for what is outside the limits, and TransportError.
+        acknowledged. Raises LimitError for values outside the limits, and TransportError.
         """
         request = await self._done(message, None)
         if request.sent is None:
@@ -161,16 +162,16 @@ class AsyncClient:
         return request.sent if request.exchange.lasts is None else self._motion(request)
 
     def send_latest(self, message: Message) -> None:
-        """Sends a command when the line is free, unless a newer one overtakes it; does not wait.
+        """Send a command when the line is free, unless a newer one replaces it; do not wait.
 
-        It takes the place of what waits here of the same class for the same ids, or for fewer.
-        So a stream of commands faster than the line is thinned out instead of falling behind.
-        Raises LimitError for what is outside the limits.
+        It replaces a waiting command of the same class for the same ids, or for fewer. So a stream
+        of commands faster than the line is thinned out instead of falling behind. Raises LimitError
+        for values outside the limits.
         """
         self._submit_latest(message)
 
     async def request(self, message: Message, *, retries: int | None = None) -> Message:
-        """Sends a question and returns the reply, which may tell less than was asked.
+        """Send a request and return the reply, which may hold less than was requested.
 
         Raises NoReplyError where none came in time, and TransportError.
         """
@@ -180,7 +181,7 @@ class AsyncClient:
         return done.reply
 
     async def reports(self, timeout: float | None = None) -> AsyncIterator[Message]:
-        """The reports, as they come: each goes to one iterator, and first those already here.
+        """Yield the reports as they come, those kept so far first; each goes to one iterator.
 
         The iterator ends when none has come for `timeout` seconds; without one, when this is
         closed. Reports that nobody takes are kept up to the limit; then the oldest are dropped, and
@@ -201,10 +202,10 @@ class AsyncClient:
             yield report
 
     def on_report(self, callback: Callable[[Message], object]) -> Callable[[], None]:
-        """Has `callback` called with every report from now on; returns what ends that.
+        """Call `callback` with every report from now on; return a function that ends that.
 
-        It is called in the event loop, in order, and must not block. What it raises is logged, and
-        hurts nobody else.
+        It is called in the event loop, in order, and must not block. Its exceptions are logged, and
+        do not reach anybody else.
         """
         self._callbacks.append(callback)
 
@@ -240,15 +241,15 @@ class AsyncClient:
     async def wait_for(self, kind: Kinds, *, timeout: float, **fields: int) -> Message: ...
 
     async def wait_for(self, kind: Kinds, *, timeout: float, **fields: int) -> Message:
-        """Waits for a report of a class, with these fields, and returns it.
+        """Wait for a report of a class, with these field values, and return it.
 
         `kind` may be a tuple of classes: the first report of any of them is returned, and a field
-        is not asked of a class that lacks it.
+        that a class lacks is not compared.
 
         A report that has already come counts, if it came after the latest command that causes such
-        reports (with these fields, if any) and no earlier wait was satisfied by it. It is still
-        there for reports(). Raises NoReportError after `timeout` seconds, which says what came
-        instead, and TransportError.
+        reports (with these values, if any) and satisfied no earlier wait. It remains available to
+        reports(). Raises NoReportError after `timeout` seconds, which says what came instead, and
+        TransportError.
         """
         self._start()
         wanted = ReportFilter(kind, fields)
@@ -267,25 +268,25 @@ class AsyncClient:
             await self._change(began + timeout)
 
     async def close(self) -> None:
-        """Sends what is still to be sent, waits until the last byte is out, and closes the line.
+        """Send what still waits to be sent, wait until the last byte is out, and close the line.
 
-        Questions of other tasks end with ClosedError. May be called again, and by several tasks at
-        once: each of them returns once the line is closed. Where the loop that it was used in has
-        ended, it may be closed in another.
+        Requests of other tasks end with ClosedError. May be called again, and by several tasks at
+        once: each of them returns once the line is closed. If the event loop in which it was used
+        has ended, it may be closed in another.
         """
         if self._ending is None:
             self._ending = asyncio.ensure_future(self._end())
-        # It is closed as well where the loop ended in the middle of that.
+        # It is closed as well if the loop ended in the middle of closing it.
         if not self._ending.cancelled():
-            # Once begun, it is done in full: half a frame on the line would spoil the next one.
+            # Once begun, it is completed: half a frame on the line would spoil the next one.
             await asyncio.shield(self._ending)
 
     async def reconnect(self) -> None:
-        """Opens the same port again, after the line was lost; what was under way has failed.
+        """Open the same port again after the line was lost; all that was in progress has failed.
 
-        Reports and counters are kept, and so are callbacks. Where several tasks ask for it at the
-        same time, it is done once. A transport of your own needs a method `reopen()`, which
-        returns the next one. Raises TransportError where that fails, and may then be called again.
+        Reports, callbacks and counters are kept. If several tasks call it at the same time, it is
+        done once. A transport of your own needs a method `reopen()`, which returns the next one.
+        Raises TransportError if that fails, and may then be called again.
         """
         before = self._transport
         async with self._reopening:
@@ -316,7 +317,7 @@ class AsyncClient:
             self._start()
 
     async def _move(self, message: Message, *, latest: bool) -> AsyncMotion:
-        """Sends a command that lasts."""
+        """Send a command that lasts."""
         if latest:
             return self._motion(self._submit_latest(message))
         return self._motion(await self._done(message, None))
@@ -325,27 +326,27 @@ class AsyncClient:
         return AsyncMotion(request, self._session.wire_time, time.monotonic, self._live)
 
     async def _run(self, message: Message) -> Run:
-        """Sends a command that is acknowledged."""
+        """Send a command that is acknowledged."""
         sent = await self.send(message)
         if not isinstance(sent, Run):
             raise TypeError(f"{message!r} is acknowledged by nothing")
         return sent
 
     async def _live(self, until: float | None) -> None:
-        """Lets time pass, until then at the latest. Raises TransportError."""
+        """Let time pass, until then at the latest. Raises TransportError."""
         self._check()
         await self._change(until)
 
     def _submit_latest(self, message: Message) -> Request:
         self._start()
         request = self._session.submit(message, question=False, latest=True)
-        # Whoever waits for it must hear that it has been sent or replaced.
+        # Whoever waits for it must learn that it has been sent or replaced.
         request.notify = self._wake
         self._advance()
         return request
 
     async def _ask(self, message: Message, kind: type[_Reply]) -> _Reply:
-        """The reply to a question, whole. Raises IncompleteReplyError."""
+        """Return the reply to a request, complete. Raises IncompleteReplyError."""
         reply = await self._reply(message, kind)
         asked, missing, arrived = left_out(message, reply)
         if missing:
@@ -355,7 +356,7 @@ class AsyncClient:
     async def _ask_in_parts(
         self, kind: type[Message], reply: type[_Reply], items: Iterable[Any]
     ) -> list[_Reply]:
-        """The replies to a question that is too long for one. Raises IncompleteReplyError."""
+        """Return the replies to a request that is too long for one. Raises IncompleteReplyError."""
         replies: list[_Reply] = []
         asked, missing, arrived = "", [], []
         for message in parts_of(kind, items):
@@ -372,7 +373,7 @@ class AsyncClient:
     async def _exchanged(
         self, kind: type[Message], items: Iterable[Any]
     ) -> list[tuple[Message, Message]]:
-        """Each request that a question about a list takes, with its reply, whole or not."""
+        """Return the requests for a long list, each with its reply, complete or not."""
         return [(each, await self.request(each)) for each in parts_of(kind, items)]
 
     async def _reply(self, message: Message, kind: type[_Reply]) -> _Reply:
@@ -382,7 +383,7 @@ class AsyncClient:
         return reply
 
     async def _done(self, message: Message, retries: int | None) -> Request:
-        """Submits a message, a command where `retries` is None, and waits until it is done."""
+        """Submit a message, a command where `retries` is None, and wait until it is done."""
         self._start()
         request = self._session.submit(message, question=retries is not None, retries=retries or 0)
         done: asyncio.Future[None] = asyncio.get_running_loop().create_future()
@@ -404,12 +405,12 @@ class AsyncClient:
         return request
 
     async def _handed_over(self) -> None:
-        """Waits until the port has taken all frames so far. Raises TransportError if it did not."""
+        """Wait until the port has taken all frames so far. Raises TransportError if it did not."""
         taken: asyncio.Future[None] = asyncio.get_running_loop().create_future()
         self._handing.add(taken)
         self._outbox.put(taken)
         try:
-            # A line that fails lets go of whoever waits here.
+            # A line that fails releases whoever waits here.
             if self._failure is None:
                 await taken
         finally:
@@ -418,7 +419,7 @@ class AsyncClient:
             raise self._failure.again()
 
     def _start(self) -> None:
-        """Binds this to the running loop, and starts the threads, on first use."""
+        """Bind this to the running loop, and start the threads, on first use."""
         self._check()
         loop = asyncio.get_running_loop()
         if self._loop is loop:
@@ -428,7 +429,8 @@ class AsyncClient:
         self._loop = loop
         self._outbox = SimpleQueue()
         line = _Connection(self._transport, self._outbox)
-        # They hold this only while they are at work, so that it can end when nobody else does.
+        # They hold a reference only while they work, so that the client can end when nobody else
+        # has one.
         reading = weakref.WeakMethod(self._read_once)
         written = weakref.WeakMethod(self._session.written)
         lost = weakref.WeakMethod(self._lost)
@@ -441,7 +443,7 @@ class AsyncClient:
             thread.start()
 
     def _advance(self) -> None:
-        """Sends what is due, sees when to look again, and tells whoever waits for news."""
+        """Send what is due, schedule the next look at the clock, and wake those who wait."""
         now = time.monotonic()
         frames = self._session.outgoing(now)
         for frame in frames:
@@ -483,7 +485,7 @@ class AsyncClient:
             self._let_go()
 
     def _let_go(self) -> None:
-        """Tells all who wait that the line has failed."""
+        """Wake all who wait: the line has failed."""
         for taken in self._handing:
             _set(taken)
         self._wake()
@@ -493,7 +495,7 @@ class AsyncClient:
             _set(watcher)
 
     async def _change(self, until: float | None) -> None:
-        """Waits until a report has come or the line has failed, or until a time."""
+        """Wait until a report has come or the line has failed, or until a time."""
         watcher: asyncio.Future[None] = asyncio.get_running_loop().create_future()
         self._watchers.add(watcher)
         try:
@@ -514,7 +516,7 @@ class AsyncClient:
             await loop.run_in_executor(None, self._shut, longest)
             await self._given_back()
         except asyncio.CancelledError:
-            # The loop is about to end; the port is given back all the same.
+            # The loop is about to end; the port is closed all the same.
             self._shut(0.0)
             raise
         finally:
@@ -526,10 +528,10 @@ class AsyncClient:
             self._trace.close()
 
     async def _drain(self) -> None:
-        """Waits until all commands have been sent, and have had their time on the wire."""
+        """Wait until all commands have been sent, and have had their time on the wire."""
         until = time.monotonic() + DRAIN_TIMEOUT
         while self._failure is None:
-            # What is due goes first, even where the machine has paused for longer than that.
+            # What is due goes first, even if the machine has paused for longer than that.
             self._advance()
             now, free_at = time.monotonic(), self._session.wire_time.free_at
             sent = self._session.idle and now >= free_at
@@ -538,13 +540,13 @@ class AsyncClient:
             await asyncio.sleep(min(POLL_INTERVAL, max(0.001, free_at - now)))
 
     async def _given_back(self) -> None:
-        """Waits for whoever is opening the line again, finds it closed, and gives the port back."""
+        """Wait until a reconnection in progress finds the client closed, and closes the port."""
         until = time.monotonic() + DRAIN_TIMEOUT
         while self._reopening.locked() and time.monotonic() < until:
             await asyncio.sleep(POLL_INTERVAL)
 
     def _shut(self, timeout: float) -> None:
-        """Ends the threads and closes the transport, which may take a moment: not in the loop."""
+        """End the threads and close the transport, which may take a moment: not in the loop."""
         self._outbox.put(None)
         for thread in self._threads[1:]:
             thread.join(DRAIN_TIMEOUT)
@@ -568,8 +570,8 @@ class AsyncClient:
         return ClosedError(self._name, "it has been closed", "open it again")
 
     def _read_once(self, loop: asyncio.AbstractEventLoop, line: _Connection) -> bool:
-        """Carries bytes from the transport to the loop; False once one of them has ended."""
-        # Bytes that come one by one are not worth waking up for, each by itself.
+        """Carry bytes from the transport to the loop; return False once one of them has ended."""
+        # Single bytes are not worth waking up for, each by itself.
         rest = self._resting_until - time.monotonic()
         if rest > 0:
             time.sleep(min(rest, POLL_INTERVAL))
@@ -588,7 +590,7 @@ class AsyncClient:
 
 
 class _Connection:
-    """One connection: what its threads use, while the client may be on to the next."""
+    """One connection: what its threads use, while the client may already use the next."""
 
     __slots__ = ("outbox", "transport")
 
@@ -603,7 +605,7 @@ def _run_writer(
     written: weakref.WeakMethod[Callable[[Request, float], None]],
     lost: weakref.WeakMethod[Callable[[_Connection, TransportError], None]],
 ) -> None:
-    """Carries frames from the loop to the transport, until there is None."""
+    """Carry frames from the loop to the transport, until a None comes."""
     while (item := line.outbox.get()) is not None:
         try:
             if isinstance(item, bytes):
@@ -618,7 +620,7 @@ def _run_writer(
 
 
 def close_late(opened: asyncio.Future[Any]) -> None:
-    """Closes what was opened for somebody who no longer waits for it."""
+    """Close a transport that was opened for somebody who no longer waits for it."""
     if not opened.cancelled() and opened.exception() is None:
         opened.result().close()
 
@@ -632,7 +634,7 @@ def _set(future: asyncio.Future[None]) -> None:
 def _post(
     loop: asyncio.AbstractEventLoop, call: Callable[..., None] | None, *arguments: object
 ) -> bool:
-    """Has the loop call something; False where that or the loop is no more."""
+    """Schedule a call in the loop; return False where that or the loop is no more."""
     if call is None:
         return False
     try:

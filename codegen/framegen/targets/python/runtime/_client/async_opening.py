@@ -1,4 +1,4 @@
-"""Opens a port, and gives a client of the device behind it, for asyncio."""
+"""Open a port for asyncio, and return a client of the device behind it."""
 
 from __future__ import annotations
 
@@ -61,7 +61,7 @@ class Opening:
         await self._controller.close()
 
     async def _opened(self) -> AsyncController:
-        # Opening may take a while (a socket, a slow adapter), and would hold up the loop.
+        # Opening may take a while (a socket, a slow adapter), and would block the loop.
         opened = asyncio.get_running_loop().run_in_executor(None, self._open)
         try:
             transport = await asyncio.shield(opened)
@@ -89,10 +89,10 @@ def open_async_controller(
     local_echo: bool = False,
     settle: float | None = None,
 ) -> Opening:
-    """Opens the port of a device, to be used in an `async with`.
+    """Open the port of a device, to be used in an `async with`.
 
-    It may also be awaited, and the client closed by hand. The arguments and
-    the errors are those of open_controller; the errors come when it is entered or awaited.
+    It may also be awaited, and the client closed by hand. The arguments and the errors are those of
+    open_controller; the errors come when it is entered or awaited.
     """
     opener = partial(open_transport, port, baud=baud, exclusive=exclusive)
     make = partial(

@@ -48,39 +48,38 @@ if TYPE_CHECKING:
 _PACKAGE = __name__.partition(".")[0]
 REPLY_TIMEOUT = 0.25
 REPORT_LIMIT = 1024
-# How long one read may take, so that whoever waits for something else is not forgotten.
+# How long one read may take, so that whoever waits for something else is not delayed.
 POLL_INTERVAL = 0.02
-# How long to wait for another thread's word, though it always tells: so that a mistake costs no
+# How long to wait for another thread's notification, which always comes: so that a mistake costs no
 # more than this.
 _LONGEST_WAIT = 0.25
-# How long a line may take to be drained, beyond what its bytes take by calculation.
+# How long draining may take, beyond the calculated time of the bytes.
 DRAIN_TIMEOUT = 1.0
 NEVER_CLOSED = "use the client in a `with`, or call close()"
 
 
 class Client:
-    """Sends messages over a transport, matches replies, and keeps reports.
+    """A client that sends messages over a transport, matches replies, and keeps reports.
 
-    Safe to share between threads. Nothing blocks for ever: every call ends with what it is for, or
-    with an error, in a time that its arguments and `reply_timeout` bound. Better used in a `with`;
-    `close` waits until the last byte is out. What nobody holds any more is closed with a
-    ResourceWarning.
+    Safe to share between threads. Nothing blocks for ever: every call ends with its result, or with
+    an error, in a time that its arguments and `reply_timeout` bound. Better used in a `with`;
+    `close` waits until the last byte is out. A client that is dropped without `close` is closed
+    with a ResourceWarning.
 
     `transport` is anything with the methods of Transport. `baud` is the rate that deadlines and
-    pacing are worked out from (math.inf for a line that takes no time), `reply_timeout` the seconds
-    that a reply may take besides, `retries` how often a question is asked again that was not
-    answered, `trace` a file that every frame is recorded in, for `recordings` and `decode` to read
-    (what it holds already is never overwritten: FileExistsError), `report_limit` how many reports
-    are kept,
-    `limits` the lowest and the highest value that is sent of what has limits, None for any.
-    With `background`, a thread listens while nobody waits; without, only calls read the line, and
-    `clock` may be of any kind.
+    pacing are calculated from (math.inf for a line that takes no time), `reply_timeout` the seconds
+    that a reply may take beyond its time on the wire, `retries` how often a request without a reply
+    is sent again, `trace` a file that every frame is recorded in, for `recordings` and `decode` to
+    read (an existing recording is never overwritten: FileExistsError), `report_limit` how many
+    reports are kept, `limits` the lowest and the highest value that is sent in fields that have
+    limits, None for any. With `background`, a thread listens while nobody waits; without, only
+    calls read the line, and `clock` may be of any kind.
 
-    `local_echo` says that the line gives back what is sent, as half-duplex adapters do: it is then
-    expected, compared and dropped, and EchoError raised where it does not come. `settle` is for how
-    many seconds after opening nothing is asked, so that no reply to a program before this one is
-    taken for ours: None for one reply time, where the first request is a question or something was
-    heard before it; 0 for not at all.
+    `local_echo` says that the line returns what is sent, as half-duplex adapters do: the echo is
+    then expected, compared and dropped, and EchoError raised if it does not come. `settle` is for
+    how many seconds after opening no request is sent, so that no reply to an earlier program is
+    taken for ours: None for one reply time, if the first message is a request or bytes came before
+    it; 0 for not at all.
     """
 
     def __init__(
@@ -118,13 +117,13 @@ class Client:
             now=clock(),
         )
         self._session.largest_frame = self._transport.largest_frame
-        # Held for every touch of the session, never for a read; again by a handler of signals that
-        # closes this in the middle of anything. Entered itself, not by one of the conditions:
-        # Ctrl-C between getting it and being told so would keep it for ever.
+        # Held for every access to the session, never for a read; acquired again by a signal handler
+        # that closes this in the middle of anything. Entered itself, not by one of the conditions:
+        # Ctrl-C between acquiring it and returning from that would keep it for ever.
         self._lock = threading.RLock()
-        # Told whenever anything changed.
+        # Notified whenever anything changed.
         self._changed = threading.Condition(self._lock)
-        # Each question is waited for on a condition of its own: nobody wakes for another's reply.
+        # Each request is waited for on a condition of its own: nobody wakes for another's reply.
         self._asking: list[threading.Condition] = []
         # How many wait, and so read; the listener, which reads for nobody, waits for its turn.
         self._waiters = 0
@@ -135,7 +134,7 @@ class Client:
         self._telling = False
         self._background = background
         self._listener: threading.Thread | None = None
-        # Held while the line is opened again: the port is one, whoever wants it back.
+        # Held while the line is reopened: there is one port, so one thread does it for all.
         self._reopening = threading.Lock()
         self._closing = False
         # Which thread closes it, and whether that has been done.
@@ -159,7 +158,7 @@ class Client:
         return f"<{type(self).__name__} on {self._name}, {state}>"
 
     def __del__(self, warn: Callable[..., None] = warnings.warn) -> None:
-        # One that could not be made has nothing to give back.
+        # A client whose construction failed has nothing to close.
         if getattr(self, "_closing", True):
             return
         self._closing = True
@@ -180,11 +179,11 @@ class Client:
         return self._session.counters
 
     def send(self, message: Message) -> Sent:
-        """Sends a command, as soon as the frames before it have left: no lag builds up unseen.
+        """Send a command, as soon as the frames before it have left: no lag builds up unseen.
 
         Returns when it has been handed over; `delay` of the result is when it will be on the wire.
         The result is a Motion for a command that lasts, and a Run for one that is acknowledged.
-        Raises LimitError for what is outside the limits, and TransportError.
+        Raises LimitError for values outside the limits, and TransportError.
         """
         request = self._done(message, None)
         if request.sent is None:
@@ -192,16 +191,16 @@ class Client:
         return request.sent if request.exchange.lasts is None else self._motion(request)
 
     def send_latest(self, message: Message) -> None:
-        """Sends a command when the line is free, unless a newer one overtakes it; does not wait.
+        """Send a command when the line is free, unless a newer one replaces it; do not wait.
 
-        It takes the place of what waits here of the same class for the same ids, or for fewer.
-        So a stream of commands faster than the line is thinned out instead of falling behind.
-        Raises LimitError for what is outside the limits.
+        It replaces a waiting command of the same class for the same ids, or for fewer. So a stream
+        of commands faster than the line is thinned out instead of falling behind. Raises LimitError
+        for values outside the limits.
         """
         self._submit_latest(message)
 
     def request(self, message: Message, *, retries: int | None = None) -> Message:
-        """Sends a question and returns the reply, which may tell less than was asked.
+        """Send a request and return the reply, which may hold less than was requested.
 
         Raises NoReplyError where none came in time, and TransportError.
         """
@@ -211,7 +210,7 @@ class Client:
         return reply
 
     def reports(self, timeout: float | None = None) -> Iterator[Message]:
-        """The reports, as they come: each goes to one iterator, and first those already here.
+        """Yield the reports as they come, those kept so far first; each goes to one iterator.
 
         The iterator ends when none has come for `timeout` seconds; without one, when this is
         closed. Reports that nobody takes are kept up to the limit; then the oldest are dropped, and
@@ -233,11 +232,11 @@ class Client:
             yield report
 
     def on_report(self, callback: Callable[[Message], object]) -> Callable[[], None]:
-        """Has `callback` called with every report from now on; returns what ends that.
+        """Call `callback` with every report from now on; return a function that ends that.
 
         It is called in order, one at a time, in whichever thread has read the report, and may use
-        this client. What it raises is logged, and hurts nobody else. As many reports as are kept
-        wait for a callback that is slow; then the oldest of them are dropped.
+        this client. Its exceptions are logged, and do not reach anybody else. As many reports as
+        are kept wait for a callback that is slow; then the oldest of them are dropped.
         """
         with self._lock:
             self._callbacks.append(callback)
@@ -277,15 +276,15 @@ class Client:
         def wait_for(self, kind: Kinds, *, timeout: float, **fields: int) -> Message: ...
 
     def wait_for(self, kind: Kinds, *, timeout: float, **fields: int) -> Message:
-        """Waits for a report of a class, with these fields, and returns it.
+        """Wait for a report of a class, with these field values, and return it.
 
         `kind` may be a tuple of classes: the first report of any of them is returned, and a field
-        is not asked of a class that lacks it.
+        that a class lacks is not compared.
 
         A report that has already come counts, if it came after the latest command that causes such
-        reports (with these fields, if any) and no earlier wait was satisfied by it. It is still
-        there for reports(). Raises NoReportError after `timeout` seconds, which says what came
-        instead, and TransportError.
+        reports (with these values, if any) and satisfied no earlier wait. It remains available to
+        reports(). Raises NoReportError after `timeout` seconds, which says what came instead, and
+        TransportError.
         """
         wanted = ReportFilter(kind, fields)
         began = self._clock()
@@ -309,9 +308,9 @@ class Client:
         return found
 
     def close(self) -> None:
-        """Sends what is still to be sent, waits until the last byte is out, and closes the line.
+        """Send what still waits to be sent, wait until the last byte is out, and close the line.
 
-        Questions of other threads end with ClosedError. May be called again, and by several threads
+        Requests of other threads end with ClosedError. May be called again, and by several threads
         at once: each of them returns once the line is closed.
         """
         with self._lock:
@@ -319,7 +318,7 @@ class Client:
             if closer is None:
                 self._closer = threading.current_thread()
         if closer is not None:
-            # Whoever closes waits for the listener, and for itself nobody can wait.
+            # Whoever closes waits for the listener, and no thread can wait for itself.
             if threading.current_thread() not in (closer, self._listener):
                 self._closed_now.wait()
             return
@@ -329,11 +328,11 @@ class Client:
             self._closed_now.set()
 
     def reconnect(self) -> None:
-        """Opens the same port again, after the line was lost; what was under way has failed.
+        """Open the same port again after the line was lost; all that was in progress has failed.
 
-        Reports and counters are kept, and so are callbacks. Where several threads ask for it at
-        the same time, it is done once. A transport of your own needs a method `reopen()`, which
-        returns the next one. Raises TransportError where that fails, and may then be called again.
+        Reports, callbacks and counters are kept. If several threads call it at the same time, it is
+        done once. A transport of your own needs a method `reopen()`, which returns the next one.
+        Raises TransportError if that fails, and may then be called again.
         """
         before = self._transport
         with self._reopening:
@@ -362,21 +361,21 @@ class Client:
             self._listen()
 
     def _move(self, message: Message, *, latest: bool) -> Motion:
-        """Sends a command that lasts."""
+        """Send a command that lasts."""
         return self._motion(self._submit_latest(message) if latest else self._done(message, None))
 
     def _motion(self, request: Request) -> Motion:
         return Motion(request, self._session.wire_time, self._clock, self._live)
 
     def _run(self, message: Message) -> Run:
-        """Sends a command that is acknowledged."""
+        """Send a command that is acknowledged."""
         sent = self.send(message)
         if not isinstance(sent, Run):
             raise TypeError(f"{message!r} is acknowledged by nothing")
         return sent
 
     def _live(self, until: float | None) -> None:
-        """Lets time pass, until then or for a moment less. Raises TransportError."""
+        """Let time pass, until then or for a moment less. Raises TransportError."""
         with self._lock, self._waiting():
             self._check()
             self._wait(until)
@@ -386,14 +385,14 @@ class Client:
         with self._lock:
             self._check()
             request = self._session.submit(message, question=False, latest=True)
-            # Whoever waits for it must hear that it has been sent or replaced.
+            # Whoever waits for it must learn that it has been sent or replaced.
             request.notify = self._changed.notify_all
             self._send_due()
             self._changed.notify_all()
         return request
 
     def _ask(self, message: Message, kind: type[_Reply]) -> _Reply:
-        """The reply to a question, whole. Raises IncompleteReplyError."""
+        """Return the reply to a request, complete. Raises IncompleteReplyError."""
         reply = self._reply(message, kind)
         asked, missing, arrived = left_out(message, reply)
         if missing:
@@ -403,7 +402,7 @@ class Client:
     def _ask_in_parts(
         self, kind: type[Message], reply: type[_Reply], items: Iterable[Any]
     ) -> list[_Reply]:
-        """The replies to a question that is too long for one. Raises IncompleteReplyError."""
+        """Return the replies to a request that is too long for one. Raises IncompleteReplyError."""
         replies: list[_Reply] = []
         asked, missing, arrived = "", [], []
         for message in parts_of(kind, items):
@@ -420,7 +419,7 @@ class Client:
     def _exchanged(
         self, kind: type[Message], items: Iterable[Any]
     ) -> list[tuple[Message, Message]]:
-        """Each request that a question about a list takes, with its reply, whole or not."""
+        """Return the requests for a long list, each with its reply, complete or not."""
         return [(each, self.request(each)) for each in parts_of(kind, items)]
 
     def _reply(self, message: Message, kind: type[_Reply]) -> _Reply:
@@ -430,7 +429,7 @@ class Client:
         return reply
 
     def _done(self, message: Message, retries: int | None) -> Request:
-        """Submits a message, a command where `retries` is None, and waits until it is done."""
+        """Submit a message, a command where `retries` is None, and wait until it is done."""
         with self._lock, self._waiting():
             self._check()
             request = self._session.submit(
@@ -455,7 +454,7 @@ class Client:
 
     @contextmanager
     def _waiting(self) -> Iterator[None]:
-        """Around whatever calls `_wait`: in the end somebody else must read. With the lock held."""
+        """Enclose calls of `_wait`: at the end another waiter must read. Needs the lock."""
         self._waiters += 1
         try:
             yield
@@ -464,15 +463,15 @@ class Client:
             self._hand_over()
 
     def _hand_over(self) -> None:
-        """Wakes one of those who wait, to read for all, unless somebody does."""
+        """Wake one of the waiting threads, to read for all, unless one reads already."""
         if not self._reading:
             next(iter(self._asking), self._changed).notify()
 
     def _wait(self, until: float | None, answered: threading.Condition | None = None) -> None:
-        """Lets something happen: sends what is due, then reads or lets another thread read.
+        """Let something happen: send what is due, then read or let another thread read.
 
-        Comes back soon, whether or not anything did. The lock is held, and let go meanwhile.
-        `answered` is told when the question that is waited for is over.
+        Returns soon, whether or not anything happened. The lock is held, and released meanwhile.
+        `answered` is notified when the request that is waited for is done.
         """
         if self._send_due():
             return
@@ -496,11 +495,11 @@ class Client:
         self._read(pause)
 
     def _read(self, timeout: float) -> None:
-        """Reads once, for everyone. What had arrived before counts before any deadline does."""
+        """Read once, for everyone. What had arrived before counts before any deadline does."""
         transport, began = self._transport, self._clock()
         failure: TransportError | None = None
         data, arrived = b"", began
-        # Bytes that come one by one are not worth waking up for, each by itself.
+        # Single bytes are not worth waking up for, each by itself.
         rest = self._session.resting_until(began) - began if self._real_time else 0.0
         self._reading = True
         self._lock.release()
@@ -527,11 +526,11 @@ class Client:
         if self._session.counters.reports != reports:
             self._changed.notify_all()
             self._idle.notify()
-        # Whoever asks next need not be waited for.
+        # The next request of this thread need not be waited for.
         self._send_due()
 
     def _send_due(self) -> bool:
-        """Writes what is due; whether there was anything."""
+        """Write what is due; return whether there was anything."""
         frames = self._session.outgoing(self._clock())
         for frame in frames:
             try:
@@ -558,10 +557,10 @@ class Client:
         except TransportError as error:
             log().debug("%s could not be drained: %s", self._name, error)
         finally:
-            # Whatever interrupts the wait, the port is given back.
+            # Whatever interrupts the wait, the port is closed.
             self._transport.close()
             self._stop_listening()
-            # Whoever is opening the line again finds it closed, and gives the port back.
+            # A reconnection in progress finds the client closed, and closes the port.
             if self._reopening.acquire(timeout=DRAIN_TIMEOUT):
                 self._reopening.release()
             with self._lock:
@@ -570,10 +569,10 @@ class Client:
             self._trace.close()
 
     def _drain(self) -> None:
-        """Sends all commands that wait, and lets the time pass that they take on the wire."""
+        """Send all commands that wait, and let their time on the wire pass."""
         until = self._clock() + DRAIN_TIMEOUT
         while self._failure is None:
-            # What is due goes first, even where the machine has paused for longer than that.
+            # What is due goes first, even if the machine has paused for longer than that.
             self._send_due()
             now = self._clock()
             free_at = self._session.wire_time.free_at
@@ -598,7 +597,7 @@ class Client:
         return ClosedError(self._name, "it has been closed", "open it again")
 
     def _tell(self) -> None:
-        """Calls the callbacks for the reports that have come, unless another thread does."""
+        """Call the callbacks for the reports that have come, unless another thread does."""
         while True:
             with self._lock:
                 if self._telling or not self._session.callback_queue:
@@ -621,7 +620,7 @@ class Client:
             self._listener.start()
 
     def _listen_once(self) -> bool:
-        """Reads if nobody else does, so that reports are heard and late commands sent."""
+        """Read if nobody else does, so that reports are received and late commands sent."""
         with self._lock:
             if self._closing or self._failure is not None:
                 return False
@@ -644,7 +643,7 @@ class Client:
 
 
 def repeat(step: weakref.WeakMethod[Callable[..., bool]], *arguments: object) -> None:
-    """Calls a method until it gives False, or until nobody but this holds its object any more."""
+    """Call a method until it returns False, or until only this still refers to its object."""
     while (call := step()) is not None and call(*arguments):
         del call
 

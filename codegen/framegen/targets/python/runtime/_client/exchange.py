@@ -1,4 +1,4 @@
-"""What comes back for a request, and how it is told from what comes back for another."""
+"""What comes back for a request, and how it is distinguished from what comes back for another."""
 
 from __future__ import annotations
 
@@ -13,15 +13,15 @@ if TYPE_CHECKING:
 
 
 class Exchange:
-    """One message of the client, and its answers.
+    """One message of the client, with its reply and its reports.
 
     `method` is the method of the client that sends it and `arguments` their order; `result` is the
     field of the reply that the method returns, or empty. `reply` is the message that answers it,
-    None where none does; `reports` are messages that may follow it, and `acknowledged` is that of
-    them which says that it was taken. `lasts` is the field that says how long what it starts
-    goes on, and how many steps of it make a second. `echoed` pairs what was asked with where the
-    reply repeats it (`ids` with `items.id`); `most` is how many elements of the request a reply has
-    room for, 0 where that does not matter.
+    None if none does; `reports` are messages that may follow it, and `acknowledged` is that of
+    them which acknowledges it. `lasts` is the field that says how long its effect lasts, and how
+    many units of it make a second. `echoed` pairs each requested field with the field of the reply
+    that repeats it (`ids` with `items.id`); `most` is how many elements of the request fit into one
+    reply, 0 where that does not matter.
     """
 
     __slots__ = (
@@ -60,7 +60,7 @@ class Exchange:
         self.most = most
 
     def check(self, request: Message) -> None:
-        """Raises EncodeError where no reply has room for the answer to `request`."""
+        """Raise EncodeError if no reply has room for the answer to `request`."""
         items = request.SHAPE.items
         if self.most and items is not None and len(getattr(request, items.name)) > self.most:
             size = len(getattr(request, items.name))
@@ -68,7 +68,7 @@ class Exchange:
             raise EncodeError(items.name, getattr(request, items.name), problem)
 
     def answers(self, request: Message, message: Message) -> bool:
-        """Whether `message` can be the reply to `request`: it tells of nothing not asked."""
+        """Return whether `message` can be the reply: it holds nothing that was not requested."""
         if self.reply is None or type(message) is not self.reply:
             return False
         for asked, told in self.echoed:
@@ -80,7 +80,7 @@ class Exchange:
         return True
 
     def missing(self, request: Message, reply: Message) -> Iterator[tuple[str, int]]:
-        """What was asked and is not in the reply, each with the field that asked for it."""
+        """Yield each requested value that is not in the reply, with the field that requested it."""
         for asked, told in self.echoed:
             there = set(column(reply, told))
             for value in dict.fromkeys(column(request, asked)):
@@ -88,7 +88,7 @@ class Exchange:
                     yield asked, value
 
     def seconds(self, request: Message) -> float:
-        """How long what `request` starts goes on; 0.0 where it says nothing of that."""
+        """Return how many seconds the effect of `request` lasts; 0.0 if it has no such field."""
         if self.lasts is None:
             return 0.0
         name, steps_per_second = self.lasts
@@ -96,7 +96,7 @@ class Exchange:
         return steps / steps_per_second
 
     def reply_size(self, request: Message) -> int:
-        """The bytes of the largest frame that can answer `request`."""
+        """Return the size in bytes of the largest frame that can answer `request`."""
         if self.reply is None:
             return 0
         items = self.reply.SHAPE.items
@@ -111,7 +111,7 @@ class Exchange:
 
 
 def column(message: Message, path: str) -> list[int]:
-    """The values of a field, by path: one number, or one for each element of a list."""
+    """Return the values of a field, by path: one number, or one for each element of a list."""
     name, _, inner = path.partition(".")
     value = getattr(message, name)
     if inner:

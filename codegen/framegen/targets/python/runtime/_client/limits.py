@@ -1,4 +1,4 @@
-"""What this end sends unless told otherwise: less than the wire carries, for safety."""
+"""The limits of what this end sends by default: less than the wire carries, for safety."""
 
 from __future__ import annotations
 
@@ -20,9 +20,9 @@ if TYPE_CHECKING:
 class Limits:
     """The limits of a protocol: the usual ones, those of other devices, and the fields they are of.
 
-    `fields` has the paths of the fields (`items.level`) by the message that they are in,
-    `targets` is what makes targets of positions that were read, or empty. A protocol without limits
-    has none of these.
+    `fields` has the paths of the fields (`items.level`) by the message that they are in, `targets`
+    is the name of the function that makes targets of positions that were read, or empty. A protocol
+    without limits has none of these.
     """
 
     __slots__ = ("fields", "others", "targets", "usual")
@@ -41,7 +41,7 @@ class Limits:
         self.targets = targets
 
     def chosen(self, bounds: Bounds | None) -> Bounds | None:
-        """Limits that were given as an argument. Raises ValueError for what can be none."""
+        """Return the limits given as an argument. Raises ValueError for an impossible pair."""
         if bounds is None:
             return None
         if not self.fields:
@@ -58,7 +58,7 @@ class Limits:
         return low, high
 
     def check(self, message: Message, bounds: Bounds | None) -> None:
-        """Raises LimitError for what is in a message and outside `bounds`; None allows all."""
+        """Raise LimitError for a value of a message outside `bounds`; None allows all."""
         if bounds is None:
             return
         low, high = bounds
@@ -70,7 +70,7 @@ class Limits:
                 raise LimitError(at, values[place], bounds, self.way_out(values[place]))
 
     def way_out(self, value: int, *, read: bool = False) -> str:
-        """What to do about a value that was refused, or was read and cannot be sent back."""
+        """Return what to do about a refused value; `read` says that it was read from the device."""
         known = {"what is usual": self.usual, **self.others}
         takers = [
             f"limits={bounds} is for {name}"
@@ -84,7 +84,7 @@ class Limits:
 
 
 def placed(message: Message, path: str, place: int) -> str:
-    """Where a value of a field stands in a message: `items[1].level`, or just `level`."""
+    """Return the place of a value in a message: `items[1].level`, or just `level`."""
     name, dot, inner = path.partition(".")
     items = message.SHAPE.items
     listed = items is not None and items.name == name
@@ -92,6 +92,6 @@ def placed(message: Message, path: str, place: int) -> str:
 
 
 def nearest(value: int, bounds: Bounds) -> int:
-    """The value within `bounds` that is nearest to `value`."""
+    """Return the value within `bounds` that is nearest to `value`."""
     low, high = bounds
     return min(max(value, low), high)

@@ -1,4 +1,4 @@
-"""Lines that give back what is sent on them, as adapters for half-duplex wires do."""
+"""Lines with a local echo: they return what is sent, as adapters for half-duplex wires do."""
 
 from __future__ import annotations
 
@@ -14,34 +14,34 @@ if TYPE_CHECKING:
 
 
 class LocalEcho:
-    """Expects every frame back that is sent, and takes it out of what arrives.
+    """The echoes that are expected: one for every frame sent, taken out of what arrives.
 
-    Whatever the other end says comes through: in front of an echo, behind it, and in its place.
+    Bytes of the other end pass through: in front of an echo, behind it, and in its place.
     """
 
     def __init__(self) -> None:
-        # What was sent and has not come back, each with its frame and when it is given up.
+        # What was sent and has not come back, each with its frame and its deadline.
         self._expected: deque[tuple[Request, bytes, float]] = deque()
-        # The last bytes that have arrived, where they may be the start of an echo.
+        # The last bytes that have arrived, if they may be the start of an echo.
         self._held = b""
 
     @property
     def due(self) -> float | None:
-        """When the next echo is given up; None while none is expected."""
+        """The deadline of the next echo; None while none is expected."""
         return self._expected[0][2] if self._expected else None
 
     def expects(self, request: Request) -> bool:
-        """Whether the echo of a request is still to come."""
+        """Return whether the echo of a request is still to come."""
         return any(each is request for each, _, _ in self._expected)
 
     def sent(self, request: Request, frame: bytes, until: float) -> None:
-        """Takes note that a frame has been sent, whose echo may come up to a time."""
+        """Expect the echo of a frame that was sent, until a deadline."""
         self._expected.append((request, frame, until))
 
     def take_out(self, data: bytes) -> tuple[bytes, list[Request], list[Request]]:
-        """What of `data` the other end has sent, whose echoes came, and whose should have before.
+        """Return the bytes of the other end, the requests whose echo came, and those whose is lost.
 
-        Frames come back in order: where the echo of a later one comes, those before it are lost.
+        Frames come back in order: if the echo of a later one comes, those before it are lost.
         """
         data, self._held = self._held + data, b""
         others = b""
@@ -67,11 +67,11 @@ class LocalEcho:
         return others + data, came, lost
 
     def forget(self, request: Request) -> None:
-        """No longer expects the echo of a request."""
+        """Stop expecting the echo of a request."""
         self._expected = deque(each for each in self._expected if each[0] is not request)
 
     def expire(self, now: float) -> tuple[bytes, list[Request]]:
-        """What was held back in vain, and the requests whose echo should have come by now."""
+        """Return the bytes held back in vain, and the requests whose echo did not come by now."""
         lost: list[Request] = []
         while self._expected and self._expected[0][2] <= now:
             lost.append(self._expected.popleft()[0])
@@ -81,7 +81,7 @@ class LocalEcho:
         return held, lost
 
     def clear(self) -> list[Request]:
-        """Forgets what was expected, and gives whose echoes those were."""
+        """Forget all expected echoes, and return their requests."""
         waiting = [request for request, _, _ in self._expected]
         self._expected.clear()
         self._held = b""
@@ -89,19 +89,18 @@ class LocalEcho:
 
 
 class EchoWatch:
-    """Sees that a line gives back what is sent, although nobody has said that it would.
+    """A watch for echoes on a line that was not said to have them.
 
-    By the return of a frame that the other end cannot send, and by nothing else: the others may be
-    its reports.
+    Only a returned frame that the other end cannot send shows an echo: any other may be a report.
     """
 
     def __init__(self) -> None:
-        # What was sent last, and what of it would be a sign: all, or nothing.
+        # The frame sent last, and the same if it would prove an echo, otherwise nothing.
         self._sent = self._sign = b""
         self._noise = b""
 
     def sent(self, frame: bytes) -> None:
-        """Takes note that a frame has been sent."""
+        """Record that a frame has been sent."""
         self._noise = b""
         if frame == self._sent:
             return  # the same question, again and again
@@ -114,7 +113,7 @@ class EchoWatch:
             self._sign = b""
 
     def comes_back(self, noise: bytes) -> bool:
-        """Whether the frame that was sent last is in the noise that has come since."""
+        """Return whether the frame that was sent last is in the noise that has come since."""
         if not self._sign:
             return False
         self._noise = (self._noise + noise)[-4 * len(self._sign) :]
@@ -125,6 +124,6 @@ class EchoWatch:
 
 
 def _overlap(data: bytes, frame: bytes) -> int:
-    """How many of the last bytes of `data` are the first of `frame`, and not the whole of it."""
+    """Return how many of the last bytes of `data` begin `frame`; less than all of it."""
     longest = min(len(data), len(frame) - 1)
     return next((size for size in range(longest, 0, -1) if frame.startswith(data[-size:])), 0)

@@ -1,4 +1,4 @@
-"""A question about a list: the requests that it takes, and what a reply to one leaves out."""
+"""A request about a long list: the requests that it takes, and what a reply leaves out."""
 
 from __future__ import annotations
 
@@ -14,14 +14,14 @@ if TYPE_CHECKING:
 
 
 def parts_of(kind: type[Message], items: Iterable[Any]) -> list[Message]:
-    """A question about a list, as several, each about as much as a reply has room for.
+    """Return a request about a list as several, each as long as a reply has room for.
 
     Raises EncodeError, which names the place in the whole list.
     """
     (name,) = kind.__match_args__
     most = EXCHANGES[kind].most
     whole = as_tuple(items)
-    # What is no list, or is empty, is for the message to refuse.
+    # A value that is no list, or an empty one, is for the message to refuse.
     if not whole or kind.SHAPE.items is None:
         return [kind(**{name: items})]
     for position, item in enumerate(whole):
@@ -30,7 +30,7 @@ def parts_of(kind: type[Message], items: Iterable[Any]) -> list[Message]:
 
 
 def left_out(request: Message, reply: Message) -> tuple[str, list[int], list[Any]]:
-    """What a reply leaves out: the field that asked for it, what is missing, and what is there."""
+    """Return the field that a reply answers in part, what is missing in it, and what is there."""
     found = list(EXCHANGES[type(request)].missing(request, reply))
     items = reply.SHAPE.items
     arrived = [] if items is None else list(getattr(reply, items.name))

@@ -1,4 +1,4 @@
-"""What a command returns whose effect takes a time that it says: when it will be over."""
+"""The result of a command whose effect takes a time that it says: when it will be over."""
 
 from __future__ import annotations
 
@@ -16,11 +16,11 @@ if TYPE_CHECKING:
 class Timed(Sent):
     """A command that starts something which goes on for `lasts` seconds.
 
-    When that is over is worked out, from when the last byte has left and from what the command
-    says: nothing on the line tells. What cannot be done in that time takes longer.
+    Its end is calculated from when the last byte has left and from what the command says: nothing
+    on the line reports it. What cannot be done in that time takes longer.
 
-    Where it was sent with `latest`, it may still wait for the line: `delay` is then how long it
-    will wait at least, and `ends_at` is not known yet.
+    If it was sent with `latest`, it may still wait for the line: `delay` is then how long it will
+    wait at least, and `ends_at` is not known yet.
     """
 
     __slots__ = ("_clock", "_request", "lasts")
@@ -44,7 +44,7 @@ class Timed(Sent):
 
     @property
     def remaining(self) -> float | None:
-        """The seconds until it is over, and 0.0 from then on; None where `ends_at` is None."""
+        """The seconds until it is over, and 0.0 from then on; None while `ends_at` is None."""
         ends_at = self.ends_at
         return None if ends_at is None else max(0.0, ends_at - self._clock())
 
@@ -55,7 +55,7 @@ class Timed(Sent):
         return request.done and request.sent is None and request.error is None
 
     def _over(self) -> bool:
-        """Whether there is nothing left to wait for. Raises the error that has kept it back."""
+        """Return whether there is nothing left to wait for. Raises the error that stopped it."""
         error = self._request.error
         if error is not None:
             raise error.again() if isinstance(error, TransportError) else error
@@ -66,7 +66,7 @@ class Timed(Sent):
 
 
 class Motion(Timed):
-    """A command that starts something which goes on for `lasts` seconds, and can be waited for."""
+    """A command that starts something which goes on for `lasts` seconds; it can be waited for."""
 
     __slots__ = ("_live",)
 
@@ -82,9 +82,9 @@ class Motion(Timed):
         self._live = live
 
     def wait(self) -> bool:
-        """Returns once it is over: True, or False where a newer one has taken its place.
+        """Wait until it is over: return True, or False if a newer one has taken its place.
 
-        Reports that come meanwhile are kept. Raises TransportError where the line is lost or closed
+        Reports that come meanwhile are kept. Raises TransportError if the line is lost or closed
         before the end.
         """
         while not self._over():
@@ -93,7 +93,7 @@ class Motion(Timed):
 
 
 class AsyncMotion(Timed):
-    """A command that starts something which goes on for `lasts` seconds, and can be waited for."""
+    """A command that starts something which goes on for `lasts` seconds; it can be waited for."""
 
     __slots__ = ("_live",)
 
@@ -108,9 +108,9 @@ class AsyncMotion(Timed):
         self._live = live
 
     async def wait(self) -> bool:
-        """Returns once it is over: True, or False where a newer one has taken its place.
+        """Wait until it is over: return True, or False if a newer one has taken its place.
 
-        Reports that come meanwhile are kept. Raises TransportError where the line is lost or closed
+        Reports that come meanwhile are kept. Raises TransportError if the line is lost or closed
         before the end.
         """
         while not self._over():

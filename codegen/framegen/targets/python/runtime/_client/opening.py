@@ -1,4 +1,4 @@
-"""Opens a port, and gives a client of the device behind it."""
+"""Open a port, and return a client of the device behind it."""
 
 from __future__ import annotations
 
@@ -29,13 +29,13 @@ def open_controller(
     local_echo: bool = False,
     settle: float | None = None,
 ) -> Controller:
-    """Opens the port of a device, to be used in a `with`.
+    """Open the port of a device, to be used in a `with`.
 
     `port` is a name or a URL that pyserial knows: `/dev/ttyUSB0`, `COM7`, `hwgrep://CH340`,
     `socket://host:port`, `rfc2217://host:port`, `loop://`; `hid://` is a USB HID device, which
-    needs the extra `hid`, and was not seen on hardware yet. With `exclusive`, nobody else can have
-    it meanwhile. The rest is explained at Controller. Raises TransportError, which names the port,
-    what happened and what to do.
+    needs the extra `hid`, and has not been tried on hardware yet. With `exclusive`, no other
+    program can have the port meanwhile. The other arguments are explained at Controller. Raises
+    TransportError, which names the port, what happened and what to do.
     """
     transport = open_transport(port, baud=baud, exclusive=exclusive)
     try:

@@ -1,4 +1,4 @@
-"""Whether a line is as slow as its stated rate says, learnt from when its replies come."""
+"""An estimate of whether a line is as slow as its stated rate, from the times of its replies."""
 
 from __future__ import annotations
 
@@ -8,21 +8,21 @@ TYPE_CHECKING = False
 if TYPE_CHECKING:
     from .._frame.message import Message
 
-# So many questions in a row, each answered by one reply sooner than the wire allows, show that the
-# line is no such wire: a socket, a pty, a USB link that only calls itself a serial port.
+# So many requests in a row, each with one reply sooner than the wire allows, show that the line is
+# no such wire: a socket, a pty, a USB link that only calls itself a serial port.
 _FAST_AFTER = 3
-# So many in a row that took the time they must show that it is one.
+# So many replies in a row that took at least the time on the wire show that it is one.
 _PACED_AFTER = 8
 
 
-# So many of the latest replies of a kind are what is usual; fewer than that at first say nothing.
+# So many of the latest replies of a kind show the usual delay; fewer than that at first do not.
 _USUAL, _ENOUGH = 16, 4
 
 
 class Pace:
-    """What has been learnt of one line.
+    """The observed pace of one line.
 
-    `fast`: the stated rate says nothing about it. `paced`: it has kept to that rate so long that a
+    `fast`: the stated rate means nothing there. `paced`: it has kept to that rate so long that a
     reply which came sooner was meant for somebody else. On a line of which neither is known, such a
     reply is believed if no other comes.
     """
@@ -36,11 +36,11 @@ class Pace:
         self._delays: dict[type[Message], deque[float]] = {}
 
     def answered_in_time(self, kind: type[Message], delay: float, step: float) -> float:
-        """A question was answered, `delay` seconds later than the wire allows at the soonest.
+        """Record a reply that came `delay` seconds later than the wire allows at the soonest.
 
-        Gives how much later replies of this kind usually come, where this one has come sooner than
-        all of the latest by more than `step`: it may be one that was meant for another question,
-        and the right one still to come. Else 0.
+        Returns how much later replies of this kind usually come, if this one has come sooner than
+        all of the latest by more than `step`: it may be one that was meant for another request, and
+        the right one still to come. Otherwise 0.
         """
         self._impossible = 0
         self._possible += 1
@@ -52,17 +52,17 @@ class Pace:
         return later
 
     def answered_too_soon(self) -> None:
-        """A question had one reply alone, and sooner than the wire allows."""
+        """Record a request whose only reply came sooner than the wire allows."""
         self._possible = 0
         self._impossible += 1
         if self._impossible >= _FAST_AFTER:
             self.fast, self.paced = True, False
 
     def not_answered(self) -> None:
-        """A question had no reply at all."""
+        """Record a request without any reply."""
         self._impossible = 0
 
     def surplus(self) -> None:
-        """A reply came that answers nothing: how soon others came tells nothing any more."""
+        """Record a reply that answers nothing: earlier delays prove nothing any more."""
         self._impossible = 0
         self.fast = False

@@ -1,4 +1,4 @@
-"""Positions that were read, made into what can be commanded: who is there, and where to."""
+"""Poses: positions that were read, turned into targets that can be commanded."""
 
 from __future__ import annotations
 
@@ -19,21 +19,22 @@ if TYPE_CHECKING:
 HOLD_MS = 100
 """How long a motion takes, in milliseconds, that only holds what is there."""
 
-# How far outside the limits what is at its stop may be read: this part of what they allow.
+# How far outside the limits a position at its stop may be read: this part of their range.
 _SLACK = 20
 
 
 class Pose:
-    """How the positions of a protocol are read, commanded and let go, and under which names.
+    """How the positions of a protocol are read, commanded and released, and under which names.
 
-    `read`, `move` and `release` are the messages that do so. `asked` is the list of numbers that
-    `read` and `release` are given, `told` the list of positions that answers `read`, each a number
-    and a position; `moved` the list that `move` is given, and `time` the milliseconds that it may
-    take. `position` is the property that tells a position, below zero included. `ids` are all
-    numbers that there can be, `limits` those of the positions that are commanded.
+    `read`, `move` and `release` are the messages that do so. `asked` is the list of numbers in
+    `read` and `release`, `told` the list of positions in the reply to `read`, each a number and a
+    position; `moved` the list in `move`, and `time` the milliseconds that the motion takes.
+    `position` is the property that gives a position, below zero included. `ids` are all possible
+    numbers, `limits` those of the positions that are commanded.
 
-    Of what is commanded, `item` is the number that says whose a position is, `place` the position,
-    `duration` the milliseconds that a motion may take, and `room` how many one can move.
+    In an element of `move`, `item` is the number that says whose position it is and `place` the
+    position; `duration` is the milliseconds that a motion may take, and `room` how many elements
+    fit.
     """
 
     __slots__ = (
@@ -84,28 +85,28 @@ class Pose:
 
     @property
     def noun(self) -> str:
-        """What one of those is called whose positions these are."""
+        """The name of one of those whose positions these are."""
         return self.item.name.removesuffix("_id").replace("_", " ")
 
     def motion(self, targets: Iterable[tuple[int, int]], time_ms: int) -> Message:
-        """The command that moves to these targets. Raises EncodeError."""
+        """Return the command that moves to these targets. Raises EncodeError."""
         return self.move(**{self.moved: list(targets), self.time: time_ms})
 
     def letting_go(self, ids: Iterable[int]) -> Message:
-        """The command that lets go of these. Raises EncodeError."""
+        """Return the command that releases these. Raises EncodeError."""
         return self.release(**{self.asked: list(ids)})
 
     def there(self, replies: Iterable[Message]) -> list[Any]:
-        """The positions that replies tell, without those that are told to be absent."""
+        """Return the positions in the replies, without those that are reported absent."""
         told = [each for reply in replies for each in getattr(reply, self.told)]
         return [each for each in told if not getattr(each, "absent", False)]
 
     def present_in(self, replies: Iterable[Message]) -> tuple[int, ...]:
-        """The numbers of those that are there, in the order of the replies."""
+        """Return the numbers of those that are present, in the order of the replies."""
         return tuple(number for number, _ in self.there(replies))
 
     def targets_of(self, positions: Iterable[Any], limits: Bounds | None) -> list[tuple[int, int]]:
-        """Where to send those that are there, to be where they were.
+        """Return the targets that send those which are present to where they were.
 
         One that is absent is left out. One at its stop may be read a little below zero, or a little
         outside the limits: it is sent to the nearest position inside. Raises LimitError for one
@@ -130,9 +131,9 @@ class Pose:
     def held(
         self, exchanged: Sequence[tuple[Message, Message]], limits: Bounds | None
     ) -> list[tuple[int, int]]:
-        """What holds all that was asked about, by the replies to it.
+        """Return the targets that hold everything requested, by the replies.
 
-        Raises AbsentError where one is not there, and LimitError where one is outside the limits.
+        Raises AbsentError if one is not there, and LimitError if one is outside the limits.
         """
         asked = [number for request, _ in exchanged for number in getattr(request, self.asked)]
         replies = [reply for _, reply in exchanged]

@@ -1,4 +1,4 @@
-"""Which reports somebody waits for: of some classes, with some values in their fields."""
+"""A filter for the reports that somebody waits for: of some classes, with some field values."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 class ReportFilter:
     """Reports of one class, or of any of a tuple of them, with these values in these fields.
 
-    A field is not asked of a class that lacks it. Raises TypeError for a class that never comes to
+    A field that a class lacks is not compared. Raises TypeError for a class that never comes to
     this end, and for a field that none of the classes has.
     """
 
@@ -43,19 +43,19 @@ class ReportFilter:
         )
 
     def asked_of(self, kind: type[Message]) -> dict[str, int]:
-        """The values asked for, in those fields that messages of a class have."""
+        """Return the values required, in those fields that messages of a class have."""
         known = kind.__match_args__
         return {name: value for name, value in self.fields.items() if name in known}
 
     def is_met_by(self, message: Message) -> bool:
-        """Whether this is one of the reports."""
+        """Return whether this is one of the reports."""
         kind = type(message)
         return kind in self.kinds and self._agrees(message)
 
     def may_follow(self, command: Message, reports: tuple[type[Message], ...]) -> bool:
-        """Whether a command that causes such reports may cause one of these.
+        """Return whether a command that causes such reports may cause one of these.
 
-        Where a command and a report share a field, such as a number, it must be the one asked for.
+        A field that command and report share, such as a number, must have the required value.
         """
         return not set(reports).isdisjoint(self.kinds) and self._agrees(command)
 

@@ -1,4 +1,4 @@
-"""The reports that have come: kept for whoever asks for them, up to a limit."""
+"""The reports that have come: kept for whoever takes them, up to a limit."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ class _Entry:
 class ReportLog:
     """The latest `limit` reports, each numbered from 0 on.
 
-    Where more come, the oldest go; those that nobody had taken are counted in `lost`.
+    If more come, the oldest go; those that nobody had taken are counted in `lost`.
     """
 
     def __init__(self, limit: int) -> None:
@@ -38,7 +38,7 @@ class ReportLog:
         self.lost = 0
 
     def add(self, message: Message) -> None:
-        """Takes in a report."""
+        """Take in a report."""
         self._kept.append(_Entry(self.next_number, message))
         self.next_number += 1
         oldest = self._kept[0].number
@@ -47,11 +47,11 @@ class ReportLog:
             self._taken = oldest
 
     def caused(self, command: Message, reports: tuple[type[Message], ...]) -> None:
-        """Takes note that a command has been sent that may be followed by such reports."""
+        """Record that a command has been sent which such reports may follow."""
         self._causes.append((self.next_number, command, reports))
 
     def take(self) -> Message | None:
-        """The oldest report that has not been taken yet."""
+        """Return the oldest report that has not been taken yet, and mark it as taken."""
         if self._taken >= self.next_number:
             return None
         entry = self._kept[self._taken - self._kept[0].number]
@@ -59,10 +59,10 @@ class ReportLog:
         return entry.message
 
     def since(self, wanted: ReportFilter) -> int:
-        """The number from which on a report answers the latest command that may cause it.
+        """Return the number of the first report that may result from the latest matching command.
 
-        A command that is about what is asked for, such as a number, goes before one that is about
-        nothing of it: the former begins a story that the latter may end.
+        A command with the wanted values, such as a number, goes before one with none of them: the
+        former begins what the latter may end.
         """
         latest: int | None = None
         for number, command, reports in reversed(self._causes):
@@ -74,9 +74,9 @@ class ReportLog:
         return self.next_number if latest is None else latest
 
     def find(self, wanted: ReportFilter, *, since: int, asked_at: int) -> Message | None:
-        """The first report that is wanted, from number `since` on.
+        """Return the first matching report, from number `since` on.
 
-        One that came before number `asked_at` satisfies only one wait: the next wants another.
+        One that came before number `asked_at` satisfies only one wait: the next needs another.
         """
         for entry in self._kept:
             if entry.number < since or (entry.awaited and entry.number < asked_at):
@@ -87,7 +87,7 @@ class ReportLog:
         return None
 
     def instead_of(self, wanted: ReportFilter, *, since: int) -> dict[Message, int]:
-        """What else came from number `since` on, and how often each; as far as it is kept."""
+        """Return how often each of the other reports came, from number `since` on."""
         counts: dict[Message, int] = {}
         for entry in self._kept:
             if entry.number >= since and not wanted.is_met_by(entry.message):

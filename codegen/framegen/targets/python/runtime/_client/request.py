@@ -1,4 +1,4 @@
-"""One message on its way to the device, and what has become of it."""
+"""One message on its way to the device, and its result."""
 
 from __future__ import annotations
 
@@ -33,15 +33,15 @@ class Sent:
 
 
 class Run(Sent):
-    """A command that has been handed to the line, and whether its receiver has taken it.
+    """A command that has been handed to the line, and whether its receiver has accepted it.
 
     `started` is True once the report has come that acknowledges it, with the same values. It is
-    False where none came in the time of a reply, though others have come over this line before: the
+    False if none came in the time of a reply, though others have come over this line before: the
     command was ignored. It is None while neither is known; on a line over which no such report has
     ever come, that is for ever.
 
-    It is found out when the line is read: by a client that listens in the background, or while a
-    call waits. The report names nobody: another command with the same values has the same.
+    It changes when the line is read: by a client that listens in the background, or while a call
+    waits. The report does not name its command: another one with the same values has the same.
     """
 
     __slots__ = ("started",)
@@ -53,7 +53,7 @@ class Run(Sent):
 
 
 class Request:
-    """What a session was asked to send. Once `done`, it has `sent`, a `reply` or an `error`."""
+    """A message that a session is to send. Once `done`, it has `sent`, a `reply` or an `error`."""
 
     __slots__ = (
         "after_lost",
@@ -82,10 +82,10 @@ class Request:
     ) -> None:
         self.message = message
         self.exchange = exchange
-        # How many bytes its reply can have at most; 0 where there is none.
+        # How many bytes its reply can have at most; 0 if there is none.
         self.reply_size = exchange.reply_size(message)
         self.retries = retries
-        # Whether it gives way to a newer one of its kind.
+        # Whether a newer one of its kind replaces it.
         self.latest = latest
         self.attempts = 0
         # Whether the port is known to have the frame of the latest attempt.
@@ -94,15 +94,15 @@ class Request:
         self.sent: Sent | None = None
         self.reply: Message | None = None
         self.error: Exception | None = None
-        # When it was handed over first, when the last byte of it has left, and when to give up.
+        # When it was handed over first, when the last byte of it has left, and its deadline.
         self.sent_at = self.left_at = self.deadline = 0.0
         # When the last byte of the first attempt can have left at the soonest.
         self.left_soonest = 0.0
         # Whether a reply came that is impossible; whether the reply to an earlier one, which never
-        # came, may come yet; and what had been counted when it was sent.
+        # came, may come yet; and the counters when it was sent.
         self.doubted = self.after_lost = False
         self.counted: tuple[int, int, int] = (0, 0, 0)
-        # What to call once it is done.
+        # A function to call once it is done.
         self.notify: Callable[[], None] | None = None
 
     def finish(
@@ -112,18 +112,18 @@ class Request:
         reply: Message | None = None,
         error: Exception | None = None,
     ) -> None:
-        """Says what has become of it."""
+        """Set its result, and mark it as done."""
         self.sent = sent
         self.reply = reply
         self.error = error
-        # Last, for those who look from other threads.
+        # Last, for other threads that look at it.
         self.done = True
         if self.notify is not None:
             self.notify()
 
 
 def check_room(message: Message, largest_frame: int | None) -> None:
-    """Raises EncodeError for a frame of more bytes than this; None is for a line of any."""
+    """Raise EncodeError for a frame of more bytes than `largest_frame`; None allows any."""
     size = len(message.encode())
     if largest_frame is None or size <= largest_frame:
         return

@@ -1,30 +1,32 @@
 """The conversation with a device, without a line and without a clock.
 
-Whoever drives it hands in the bytes that arrive and the time, and takes out the bytes to write. One
-question is under way at a time; commands, which nothing answers, do not wait for it.
+Its driver hands in the bytes that arrive and the time, and takes out the bytes to write. A request
+that has a reply is a question. One question is in progress at a time; commands, which nothing
+answers, do not wait for it.
 
-How a reply is known. It has the class that answers the request, and tells of nothing that was not
-asked. A message of such a class that is no reply to what is under way answers nothing: it is
-counted as unsolicited and dropped, and never taken for anything else. Everything else is a report.
+How a reply is recognised. It has the class that answers the question, and holds nothing that was
+not requested. A message of such a class that is no reply to the question in progress is
+unsolicited: it is counted and dropped, and never taken for anything else. All others are reports.
 
-A reply must be possible. It cannot be complete before the question and itself have fitted on the
-wire. One that is was meant for somebody else, as where the reply before came twice, or much too
-late; or the line is no wire of the stated rate. It is held for one reply time. If a second one
-comes, that is the answer, and the first is unsolicited. If none comes, what is known of the line
-decides: see Pace. Of several replies that are read at once, the last is the answer. And after one
-that is possible, but sooner than is usual on this line, the next question of its kind waits a
-moment, so that the right one, if there is another, is not taken for the reply to that.
+A reply must be possible. It cannot be complete before the question and itself have had their time
+on the wire. A reply that is complete sooner was meant for somebody else, as when the reply before
+came twice, or much too late; or the line is no wire of the stated rate. It is held for one reply
+time. If a second one comes, that is the answer, and the first is unsolicited. If none comes, what
+is known of the line decides: see Pace. Of several replies that are read at once, the last is the
+answer. And after a reply that is possible, but sooner than is usual on this line, the next question
+of its kind waits a moment, so that the right one, if there is another, is not taken for the reply
+to that.
 
-A late reply. After a request has timed out, or was cancelled, or the line was lost, its reply may
-still come, and would look like the reply to the next request of the same kind. So the next waits,
-unsent, until that reply has come and gone, or until it is overdue by as long again as the request
-was given. That time begins when the request is given up, which may be long after its deadline where
-the whole machine has paused, and the reply with it. If it has not come by then, it may come yet, so
+A late reply. After a question has timed out, or was cancelled, or the line was lost, its reply may
+still come, and would look like the reply to the next question of the same kind. So the next waits,
+unsent, until that reply has come, or until the time that the question was given has passed once
+more. That time begins when the question is given up, which may be long after its deadline if the
+whole machine has paused, and the reply with it. If it has not come by then, it may come yet, so
 the reply to the next is held, too. For the same reason a line that has just been opened is left to
-settle: a program that was killed may have asked before us.
+settle: a program that was killed may have sent a question before us.
 
-A gap. Bytes of one frame follow each other at once. Where the line is found quiet for longer than
-GAP in the middle of a frame, the rest of that frame is lost; see CarefulDecoder.
+A gap. Bytes of one frame follow each other at once. If the line is quiet for longer than GAP in the
+middle of a frame, the rest of that frame is lost; see CarefulDecoder.
 """
 
 from __future__ import annotations
@@ -60,9 +62,9 @@ if TYPE_CHECKING:
 # would be lag that nobody sees.
 _AHEAD = 0.004
 # A device that answers at all has begun to do so by then: how long a doubtful reply is held, and
-# how long a line settles, for whoever grants it a longer margin than this.
+# how long a line settles, however long the reply timeout.
 _LATENCY = 0.25
-# How long a port may take to accept a frame: longer than it takes until it is said to be stuck.
+# How long a port may take to accept a frame: longer than a write takes until it fails.
 _WRITING = 1.5
 _REPLIES = frozenset(each.reply for each in EXCHANGES.values() if each.reply is not None)
 
@@ -70,10 +72,10 @@ _REPLIES = frozenset(each.reply for each in EXCHANGES.values() if each.reply is 
 class Session:
     """One end of a line. Times are seconds on any clock that never goes back.
 
-    `reply_timeout` is how long the device may take for an answer, besides the time on the wire, and
-    `limits` what may be sent of that which has limits. `local_echo` says that the line gives back
-    what is sent; `settle` is for how many seconds nothing is asked on a line that has been opened,
-    None for one reply time where that may matter.
+    `reply_timeout` is how long the device may take for a reply, beyond the time on the wire, and
+    `limits` the lowest and the highest value that is sent in fields that have limits. `local_echo`
+    says that the line returns what is sent; `settle` is for how many seconds no question is sent on
+    a line that has just been opened, None for one reply time if that may matter.
     """
 
     def __init__(
@@ -95,7 +97,7 @@ class Session:
         self.counters = LineCounters()
         self.reports = ReportLog(report_limit)
         self.acknowledgements = Acknowledgements(self.wire_time, reply_timeout)
-        # Reports for callbacks, to be taken out by whoever drives the session.
+        # Reports for callbacks, to be taken out by the driver of the session.
         self.callback_queue: deque[Message] = deque(maxlen=report_limit)
         # The longest frame that the line carries; None for any.
         self.largest_frame: int | None = None
@@ -112,7 +114,8 @@ class Session:
         self._decoder = CarefulDecoder(RECEIVED)
         self._queue: deque[Request] = deque()
         self._asked: Request | None = None
-        # The reply to what is asked that has come last, and when, until it is believed or not.
+        # The latest reply to the question in progress, and when it came, until it is believed or
+        # not.
         self._held: tuple[Message, float] | None = None
         self._late = LateReplies()
         self._heard_at = float("-inf")
@@ -133,10 +136,10 @@ class Session:
         retries: int = 0,
         latest: bool = False,
     ) -> Request:
-        """Asks for a message to be sent.
+        """Add a message to the queue, and return its request.
 
-        Raises EncodeError where no reply could answer it, LimitError where the limits forbid it.
-        With `question`, TypeError is raised where it has no reply, or has one against expectation.
+        Raises EncodeError if no reply could answer it, LimitError if the limits forbid it. With
+        `question`, TypeError is raised if that is not whether it has a reply.
         """
         exchange = EXCHANGES.get(type(message))
         if exchange is None:
@@ -156,7 +159,7 @@ class Session:
         return request
 
     def cancel(self, request: Request) -> None:
-        """Takes back what has not been sent, and no longer waits for the reply of what has."""
+        """Take a request back if it has not been sent, and stop waiting for its reply if it has."""
         if request.done:
             return
         if request is self._asked:
@@ -167,7 +170,7 @@ class Session:
         request.done = True
 
     def outgoing(self, now: float) -> list[bytes]:
-        """The frames to write now, in order. Those of requests are then under way."""
+        """Return the frames to write now, in order. Their requests are then in progress."""
         self._late.forget(now)
         frames: list[bytes] = []
         while now >= self.wire_time.free_at - _AHEAD:
@@ -180,13 +183,13 @@ class Session:
 
     @property
     def unwritten(self) -> Request | None:
-        """The question under way, until `written` has been told of it."""
+        """The question in progress, until `written` is called for it."""
         return None if self._asked is None or self._asked.written else self._asked
 
     def written(self, request: Request, now: float) -> None:
-        """Takes in that the port has the frame of a question only `now`, however long it took.
+        """Record that the port has the frame of a question only at `now`, however long it took.
 
-        The time that the device has for its answer begins then.
+        The time that the device has for its reply begins then.
         """
         if request is not self._asked or request.written:
             return
@@ -198,7 +201,7 @@ class Session:
         request.left_at = left_at
 
     def receive(self, data: bytes, now: float) -> None:
-        """Takes in bytes that had arrived by `now`."""
+        """Take in bytes that had arrived by `now`."""
         if not data:
             return
         self._heard_at = max(self._heard_at, now)
@@ -213,9 +216,9 @@ class Session:
         self._decode(data, now)
 
     def tick(self, now: float) -> None:
-        """Takes in that it is `now`, and that all which arrived before has been received."""
+        """Advance the time to `now`; all that arrived before must have been received."""
         if self._decoder.pending and now >= self._heard_at + GAP:
-            # The line has gone quiet: half a frame must not grow together with the next one.
+            # The line is quiet: half a frame must not grow together with the next one.
             self._flush()
         if self._echo is not None:
             held, lost = self._echo.expire(now)
@@ -233,7 +236,7 @@ class Session:
             self.acknowledgements.tick(now)
 
     def send_at(self, now: float) -> float | None:
-        """When to call `outgoing` again; None while there is nothing to send."""
+        """Return when to call `outgoing` again; None while there is nothing to send."""
         if not self._queue:
             return None
         free = self.wire_time.free_at - _AHEAD
@@ -246,7 +249,7 @@ class Session:
 
     @property
     def tick_at(self) -> float | None:
-        """When to call `tick` again, at the latest."""
+        """The latest time at which to call `tick` again."""
         times: list[float] = []
         if self._asked is not None:
             times.append(self._ends_at(self._asked))
@@ -264,7 +267,7 @@ class Session:
         return min(times, default=None)
 
     def resting_until(self, now: float) -> float:
-        """Until when a reader may sleep, since the rest of a reply takes its time on the wire.
+        """Return until when a reader may sleep, as the rest of a reply takes its time on the wire.
 
         It misses nothing: the reply is not complete before, a report may wait for so long, and a
         gap is noticed no later for it.
@@ -279,7 +282,7 @@ class Session:
         return max(now, min(self._heard_at + arriving, self._heard_at + GAP))
 
     def fail(self, error: Exception) -> None:
-        """Ends everything that is under way or waiting: the line is gone."""
+        """End everything that is in progress or waiting: the line is gone."""
         waiting = [*([] if self._asked is None else [self._asked]), *self._queue]
         if self._echo is not None:
             waiting += [each for each in self._echo.clear() if each is not self._asked]
@@ -293,14 +296,14 @@ class Session:
         self._flush()
 
     def refuse_questions(self, error: Exception) -> None:
-        """Ends what waits for replies, and leaves the commands that are still to be sent."""
+        """End all questions, and leave the commands that are still to be sent."""
         questions = [each for each in self._queue if each.exchange.reply is not None]
         for request in [*([] if self._asked is None else [self._asked]), *questions]:
             self.cancel(request)
             request.finish(error=error)
 
     def restart(self, now: float) -> None:
-        """Begins anew on another line: half a frame of the old one is forgotten."""
+        """Begin anew on another line: half a frame of the old one is discarded."""
         self._flush()
         self._decoder = CarefulDecoder(RECEIVED)
         self._pace = Pace()
@@ -310,7 +313,7 @@ class Session:
         self._heard_at = float("-inf")
 
     def _expire(self, asked: Request, now: float) -> None:
-        """Ends a question whose time is over: by a further attempt, or by an error."""
+        """End a question whose time is over: by a further attempt, or by an error."""
         if self._decoder.pending:
             self._look_behind()
             if self._asked is not asked or self._held is not None:
@@ -337,14 +340,14 @@ class Session:
         asked.finish(error=error)
 
     def _flush(self) -> None:
-        """Gives up the frame that has begun, if one has."""
+        """End the frame in progress, if there is one."""
         if self._decoder.pending:
             self._take_in(self._decoder.flush(), self._heard_at)
             if self._trace is not None:
                 self._trace.quiet()
 
     def _look_behind(self) -> None:
-        """Takes what a false header is holding back; half a frame is left to come in full."""
+        """Decode what a false header holds back; half a frame may still arrive in full."""
         decoder = copy(self._decoder)
         events = decoder.flush()
         if any(not isinstance(event, Noise) for event in events):
@@ -354,32 +357,32 @@ class Session:
                 self._trace.quiet()
 
     def _ends_at(self, asked: Request) -> float:
-        """When a question is given up: its time has not even begun before the port has it."""
+        """Return the deadline of a question: its time has not even begun before the port has it."""
         return self._unless_arriving(asked.deadline + (0.0 if asked.written else _WRITING))
 
     def _held_until(self, asked: Request) -> float:
-        """Until when another reply may take the place of the one that is held."""
+        """Return until when another reply may take the place of the one that is held."""
         reply = self.wire_time.seconds(asked.reply_size)
         return self._unless_arriving(asked.left_at + reply + self._latency)
 
     def _unless_arriving(self, until: float) -> float:
-        """A time that is up; a little later where a frame is just arriving."""
+        """Return a time that is up; a little later if a frame is just arriving."""
         return max(until, min(self._heard_at, until) + GAP) if self._decoder.pending else until
 
     def _settled_at(self, request: Request) -> float:
-        """Until when a question is not asked, because replies to others may come first."""
+        """Return until when a question is held back, because replies to others may come first."""
         if request.exchange.reply is None:
             return float("-inf")
         size = len(request.message.encode()) + request.reply_size
         return self._settling.until(self.wire_time.seconds(size) + self._latency)
 
     def _next(self, now: float) -> Request | None:
-        """The first in the queue that may go now."""
+        """Return the first request in the queue that may be sent now."""
         for request in self._queue:
             reply = request.exchange.reply
             if reply is None:
                 return request
-            # A further attempt takes its own late reply gladly.
+            # A further attempt accepts the late reply to an earlier one.
             unsettled = not request.attempts and self._late.awaited(reply, now)
             if self._asked is None and not unsettled and now >= self._settled_at(request):
                 return request
@@ -413,7 +416,7 @@ class Session:
             return frame
         if request.attempts == 1:
             request.sent_at = now
-            # A further attempt takes its own late reply gladly.
+            # A further attempt accepts the late reply to an earlier one.
             request.left_soonest = self.wire_time.free_soonest
             request.counted = self.counters.snapshot()
             request.after_lost = self._late.take_missing(request.exchange.reply)
@@ -424,7 +427,7 @@ class Session:
         return frame
 
     def _decode(self, data: bytes, now: float) -> None:
-        """Takes in what the decoder tells; a message that it doubted is older than `now`."""
+        """Decode `data`, and handle the messages; one that was in doubt is older than `now`."""
         doubted, events = self._decoder.doubted, self._decoder.feed(data)
         if doubted is not None and events and events[0] is doubted:
             self._take_in([events.pop(0)], self._doubted_at)
@@ -458,11 +461,11 @@ class Session:
             self._weigh(self._asked, *self._held)
 
     def _answers(self, asked: Request, message: Message, now: float) -> bool:
-        """Whether it can be the reply: what had come before the question was sent cannot."""
+        """Return whether it can be the reply: one that came before the question was sent cannot."""
         return now >= asked.sent_at and asked.exchange.answers(asked.message, message)
 
     def _weigh(self, asked: Request, reply: Message, at: float) -> None:
-        """Takes the reply that is held for the answer, if the wire can have carried it by then."""
+        """Accept the reply that is held as the answer, if the wire can have carried it by then."""
         possible = self._delay(asked, reply, at) >= 0
         if (possible or self._pace.fast) and not asked.after_lost:
             if possible:
@@ -474,11 +477,11 @@ class Session:
             log().debug("%s: %r came sooner than the wire allows", self._name, reply)
 
     def _delay(self, asked: Request, reply: Message, at: float) -> float:
-        """How much later the reply came than the wire can have carried both; below 0: sooner."""
+        """Return how much later than possible the reply came; below 0 if sooner."""
         return at - asked.left_soonest - self.wire_time.least(len(reply.encode()))
 
     def _came_in_time(self, asked: Request, reply: Message, at: float) -> None:
-        """Learns from a reply; where it is suspiciously early, a right one has time to come yet."""
+        """Learn from the time of a reply; after one that is too early, wait for the right one."""
         step = self.wire_time.seconds(len(asked.message.encode())) / 2
         later = self._pace.answered_in_time(type(reply), self._delay(asked, reply, at), step)
         if later > 0 and step > 0:
@@ -486,7 +489,7 @@ class Session:
             self._late.expect(type(reply), 1, until, owed=False)
 
     def _decide(self, asked: Request, now: float) -> None:
-        """Believes the reply that is held, or not, since no other has come."""
+        """Believe the reply that is held, or not, since no other has come."""
         if self._held is None:
             return
         reply, at = self._held
@@ -508,7 +511,7 @@ class Session:
         if self.wire_time.free_at == asked.left_at:
             self.wire_time.seen_idle(now)
         if asked.attempts > 1:
-            # Which of the attempts it answers, nobody knows: the others may be answered yet.
+            # Which of the attempts it answers is unknown: the others may be answered yet.
             self._expect_late(type(reply), asked.attempts - 1, asked, asked.deadline)
         if self._echo is not None and self._echo.expects(asked):
             self._echo.forget(asked)
@@ -517,7 +520,7 @@ class Session:
             asked.finish(reply=reply)
 
     def _unsolicited(self, message: Message) -> None:
-        """Drops a reply that answers nothing."""
+        """Count and drop a reply that answers nothing."""
         self._pace.surplus()
         self._drop(message, "it answers nothing that is asked")
         self._late.came(type(message))
@@ -532,7 +535,7 @@ class Session:
             request.finish(sent=request.sent)
 
     def _echo_lost(self, request: Request) -> None:
-        """Ends a request whose echo has not come."""
+        """End a request whose echo has not come."""
         error = self._no_echo(request, "what was sent has not come back")
         if request is self._asked:
             self._give_up(request, request.deadline)
@@ -547,7 +550,7 @@ class Session:
         return EchoError(self._name, told, advice)
 
     def _echo_seen(self) -> None:
-        """What is sent comes back, although nobody has said that it would: said once."""
+        """Warn once that the line returns what is sent, although nobody has said that it would."""
         self.counters.echoes += 1
         if self.counters.echoes == 1:
             log().warning(
@@ -557,12 +560,13 @@ class Session:
             )
 
     def _give_up(self, request: Request, since: float) -> None:
-        """No longer waits for a reply, which may come all the same."""
+        """Stop waiting for a reply, which may come all the same."""
         if self._held is None:
             self._asked = None
             self._remember(request, since)
             return
-        # The reply that is held may be its own; if not, that has as long to come as is held for.
+        # The reply that is held may be its own; if not, its own is waited for as long as that is
+        # held.
         until = self._held_until(request)
         reply, _ = self._held
         self._asked = self._held = None
@@ -577,7 +581,7 @@ class Session:
         self._late.expect(kind, count, since + (request.deadline - request.left_at))
 
     def _replace(self, message: Message) -> None:
-        """Takes out what waits and would be undone by `message`: the same, for no others."""
+        """Take out the waiting commands of the same class, for the same ids or fewer."""
         covered = _subjects(message)
         for request in [each for each in self._queue if each.latest]:
             if type(request.message) is type(message) and _subjects(request.message) <= covered:
@@ -587,7 +591,7 @@ class Session:
 
 
 def _subjects(message: Message) -> frozenset[int]:
-    """What a message is about: the first number of each element of its list, or of all it has."""
+    """Return the ids in a message: the first number of each list element, or of all it has."""
     items = message.SHAPE.items
     if items is None:
         return frozenset(getattr(message, name) for name in message.__match_args__[:1])

@@ -1,4 +1,4 @@
-"""A line that has just been opened: replies to whoever asked before us may still come."""
+"""The wait on a line that has just been opened: replies to an earlier program may still come."""
 
 from __future__ import annotations
 
@@ -6,10 +6,10 @@ _NEVER = float("-inf")
 
 
 class Settling:
-    """Until when nothing is asked on a line.
+    """The time until which no question is sent on a line that has just been opened.
 
-    `seconds` after it was opened; or, for None, one reply time of what is asked first, unless that
-    comes behind a command and nothing has been heard.
+    `seconds` after it was opened; or, for None, one reply time of the first question, unless that
+    comes behind a command and no bytes have come.
     """
 
     def __init__(self, seconds: float | None, opened_at: float) -> None:
@@ -19,26 +19,26 @@ class Settling:
         self.begin(opened_at)
 
     def begin(self, opened_at: float) -> None:
-        """Says that the line was opened, for the first time or once more."""
+        """Record that the line was opened, for the first time or once more."""
         self._opened_at = opened_at
         self._question_first: bool | None = None
         self._heard = self._over = False
 
     def submitted(self, *, question: bool) -> None:
-        """Says what there is to be sent."""
+        """Record that there is a message to send."""
         if self._question_first is None:
             self._question_first = question
 
     def heard(self) -> None:
-        """Says that something has come."""
+        """Record that bytes have come."""
         self._heard = True
 
     def asked(self) -> None:
-        """Says that a question has been sent: nothing settles behind it."""
+        """Record that a question has been sent: no further one has to wait."""
         self._over = True
 
     def until(self, reply_time: float) -> float:
-        """Until when a question must wait whose reply takes at most so long."""
+        """Return until when a question must wait whose reply takes at most `reply_time`."""
         if self._over or not (self._question_first or self._heard):
             return _NEVER
         return self._opened_at + (reply_time if self._seconds is None else self._seconds)

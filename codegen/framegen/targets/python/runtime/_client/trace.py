@@ -1,4 +1,4 @@
-"""Shows what passes on a line: to `logging`, and to a recording that `recordings` reads back."""
+"""The trace of a line: to `logging`, and to a recording that `recordings` reads back."""
 
 from __future__ import annotations
 
@@ -15,9 +15,9 @@ if TYPE_CHECKING:
 
 
 class Trace:
-    """Logs each frame at level DEBUG, and records it in the file `trace`.
+    """A trace that logs each frame at level DEBUG, and records it in the file `trace`.
 
-    Raises OSError where that cannot be written: FileExistsError if it holds a recording.
+    Raises OSError if that cannot be written: FileExistsError if it holds a recording.
     """
 
     def __init__(self, name: str, trace: str | PathLike[str] | None = None) -> None:
@@ -26,18 +26,18 @@ class Trace:
         self._began: float | None = None
 
     def sent(self, message: Message, now: float) -> None:
-        """A frame was handed to the line."""
+        """Record a frame that was handed to the line."""
         self._tell(">", message.DIRECTION.sender, message, message.encode(), now)
 
     def received(self, event: Message | Noise, now: float) -> None:
-        """A frame, or noise, came from the line."""
+        """Record a frame, or noise, that came from the line."""
         if isinstance(event, Noise):
             self._tell("<", NOISE, event.reason.value, event.data, now)
         else:
             self._tell("<", event.DIRECTION.sender, event, event.encode(), now)
 
     def quiet(self) -> None:
-        """The line fell silent within a frame: what comes next is not the rest of it."""
+        """Record a silence within a frame: what comes next is not the rest of it."""
         if self._trace is not None:
             self._trace.quiet()
 
@@ -52,7 +52,7 @@ class Trace:
         self._trace.write(data, now - self._began, who, what)
 
     def close(self) -> None:
-        """Closes the trace."""
+        """Close the trace."""
         if self._trace is not None:
             self._trace.close()
             self._trace = None

@@ -1,16 +1,16 @@
-"""How long bytes take on the line, when it is free again, and what it cannot have carried yet."""
+"""Times on the wire: how long bytes take, when the line is free, what is impossible."""
 
 from __future__ import annotations
 
 from .._frame.protocol import BITS_PER_BYTE
 
 # A UART may run this much faster than its stated rate and still be understood; a reply is called
-# impossible only where even such a line could not have carried it.
+# impossible only if even such a line could not have carried it.
 _FASTEST = 0.95
 
 
 class WireTime:
-    """The outgoing half of the line, by calculation: nobody can ask a UART how far it has got."""
+    """The outgoing half of the line, by calculation: a UART does not report how far it has got."""
 
     __slots__ = ("free_at", "free_soonest", "seconds_per_byte")
 
@@ -22,25 +22,25 @@ class WireTime:
         self.free_at = self.free_soonest = float("-inf")
 
     def seconds(self, size: int) -> float:
-        """How long `size` bytes take."""
+        """Return how long `size` bytes take."""
         return size * self.seconds_per_byte
 
     def least(self, size: int) -> float:
-        """How long `size` bytes take at the least, on a line that runs a little fast."""
+        """Return how long `size` bytes take at the least, on a line that runs a little fast."""
         return size * self.seconds_per_byte * _FASTEST
 
     def take(self, size: int, now: float) -> float:
-        """Puts `size` bytes on the line behind what is there; gives when their first one leaves."""
+        """Put `size` bytes on the line behind the others; return when the first of them leaves."""
         starts = max(now, self.free_at)
         self.free_at = starts + self.seconds(size)
         self.free_soonest = max(now, self.free_soonest) + self.least(size)
         return starts
 
     def seen_idle(self, now: float) -> None:
-        """Takes note that everything sent has arrived, however long it should have taken."""
+        """Record that everything sent has arrived, however long it should have taken."""
         self.free_at = min(self.free_at, now)
         self.free_soonest = min(self.free_soonest, now)
 
     def clear(self) -> None:
-        """Takes note that this is another line, on which nothing is under way."""
+        """Record that this is another line, on which no bytes are on their way."""
         self.free_at = self.free_soonest = float("-inf")

@@ -1,8 +1,8 @@
-"""A stream decoder that does not trust a frame whose last bytes may be the start of another.
+"""A stream decoder that doubts a frame whose last bytes may be the start of another.
 
 Where bytes are lost inside a frame, those of the next one take their place, and the two together
-may well look legal. Such a frame ends in what begins a frame: it is held until what follows shows
-which of the two it was, or until the line is quiet. No other frame waits.
+may well look legal. A frame whose last bytes could begin another frame is therefore held, until
+the bytes behind it show which of the two it was, or until the line is quiet. No other frame waits.
 """
 
 from __future__ import annotations
@@ -14,8 +14,8 @@ from .._frame.protocol import HEADER
 from .decoder import StreamDecoder
 from .noise import Noise
 
-# How many seconds a line is quiet before a frame that has begun on it is given up: longer than the
-# latency of any adapter, which gathers bytes for up to 16 ms.
+# How many seconds of silence end a frame that has begun: longer than the latency of any adapter,
+# which gathers bytes for up to 16 ms.
 GAP = 0.05
 
 TYPE_CHECKING = False
@@ -28,9 +28,9 @@ if TYPE_CHECKING:
 
 
 class CarefulDecoder:
-    """Turns bytes into messages and noise, as StreamDecoder does, and doubts some of them.
+    """A decoder that turns bytes into messages and noise, and doubts some of the messages.
 
-    It has no clock either: whoever has one calls `flush` when the line has been quiet.
+    It has no clock either: its driver calls `flush` when the line has been quiet.
     """
 
     __slots__ = ("_decoder", "_direction", "_doubted", "_later", "_rival", "_rival_at", "_told")
@@ -41,7 +41,7 @@ class CarefulDecoder:
         # The message that is held, and the bytes that have come since.
         self._doubted: Decoded | None = None
         self._later = b""
-        # The decoder of what may begin inside it, at which of its bytes, and what that has told.
+        # The decoder of what may begin inside it, where that begins, and its events so far.
         self._rival = self._decoder
         self._rival_at = 0
         self._told: list[Event] = []
@@ -60,11 +60,11 @@ class CarefulDecoder:
 
     @property
     def missing(self) -> int:
-        """How many bytes must come at the least before anything is told."""
+        """How many bytes must come, at the least, before the next event."""
         return 1 if self._doubted is not None else self._decoder.missing
 
     def feed(self, data: bytes) -> list[Event]:
-        """Takes in bytes, and returns what can be told now."""
+        """Take in bytes, and return the events that are certain now."""
         doubted = self._doubted
         if doubted is None:
             return self._sifted(self._decoder.feed(data))
@@ -72,16 +72,16 @@ class CarefulDecoder:
         self._told += self._rival.feed(data)
         if self._next_begins() < len(doubted.encode()):
             return self._refuted(doubted) if self._has_told_a_message() else []
-        # What follows goes on with no frame: the one that is held was whole.
+        # What follows continues no frame: the one that is held was whole.
         later = self._later
         self._believe()
         return [doubted, *self.feed(later)]
 
     def flush(self) -> list[Event]:
-        """Says that the line has gone quiet: what is held is no frame, but may hide one.
+        """Decode the bytes held back, as the line is quiet: they are no frame, but may hide one.
 
-        A message that is in doubt is one if nothing has come behind it. Else it cannot be told from
-        one with a hole, so it is noise.
+        A message that is in doubt is one if no byte has come behind it. Otherwise it cannot be
+        distinguished from one with a gap, so it is noise.
         """
         doubted = self._doubted
         if doubted is None:
@@ -93,7 +93,7 @@ class CarefulDecoder:
         return [doubted]
 
     def _believe(self) -> None:
-        """Lets go of the message that is held, which was whole: what follows it begins anew."""
+        """Release the message that is held, which was whole: what follows it begins anew."""
         self._doubted, self._later = None, b""
         self._decoder = StreamDecoder(self._direction)
 
@@ -105,7 +105,7 @@ class CarefulDecoder:
         return other
 
     def _sifted(self, events: list[Event]) -> list[Event]:
-        """The events, up to a message that is in doubt; what follows that is looked at again."""
+        """Return the events up to a message that is in doubt; what follows is decoded again."""
         for number, event in enumerate(events):
             if isinstance(event, Noise) or not (self._is_torn(event) or self._doubt(event)):
                 continue
@@ -119,14 +119,14 @@ class CarefulDecoder:
         return events
 
     def _is_torn(self, message: Decoded) -> bool:
-        """Whether a message ends in whole frames, which have filled its hole."""
+        """Return whether a message ends in whole frames, which have filled its gap."""
         return any(
             self._told and not any(isinstance(event, Noise) for event in self._told)
             for _ in self._rivals(message)
         )
 
     def _doubt(self, message: Decoded) -> bool:
-        """Holds a message back if a frame may begin in its last bytes."""
+        """Hold a message back if a frame may begin in its last bytes."""
         size = len(message.encode())
         if not any(
             not self._has_told_a_message() and self._next_begins() < size
@@ -137,7 +137,7 @@ class CarefulDecoder:
         return True
 
     def _rivals(self, message: Decoded) -> Iterator[int]:
-        """Reads anew from each place in a message where another may begin, one after the other."""
+        """Decode anew from each place in a message where another may begin, one after the other."""
         frame = message.encode()
         for at in _beginnings(frame):
             self._rival, self._rival_at = StreamDecoder(self._direction), at
@@ -148,9 +148,9 @@ class CarefulDecoder:
         return any(not isinstance(event, Noise) for event in self._told)
 
     def _next_begins(self) -> int:
-        """At which byte, from the first of the message that is doubted, the next frame begins.
+        """Return the byte of the doubted message at which the next frame begins.
 
-        It may yet turn out to begin further behind, as long as its own decoder has not told it.
+        It may yet prove to begin later, as long as its own decoder has not reported it.
         """
         at = self._rival_at
         for event in self._told:
@@ -160,7 +160,7 @@ class CarefulDecoder:
         return at + self._rival.scanned
 
     def _refuted(self, doubted: Decoded) -> list[Event]:
-        """Takes a message for what it was: the start of one frame, and then another."""
+        """Treat a doubted message as the start of one frame, and then another."""
         self._doubted, self._later = None, b""
         self._decoder = self._rival
         torn = Noise(doubted.encode()[: self._rival_at], Reason.TOO_SHORT)
@@ -168,7 +168,7 @@ class CarefulDecoder:
 
 
 def _beginnings(frame: bytes) -> Iterator[int]:
-    """Where in a frame, behind its own, a header stands, or may begin at the very end."""
+    """Yield each place behind a frame's own header where another stands, or may begin."""
     at = frame.find(HEADER, 1)
     while at > 0:
         yield at

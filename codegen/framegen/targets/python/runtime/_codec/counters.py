@@ -1,10 +1,10 @@
-"""What a decoder has seen of its stream, and a client of its line, so far."""
+"""Counters: what a decoder has seen of its stream, and a client of its line, so far."""
 
 from __future__ import annotations
 
 
 class Counters:
-    """What a decoder has seen: bytes fed, messages, bytes of noise, unknown frames in it."""
+    """Counters of a decoder: bytes fed, messages, bytes of noise, unknown frames within it."""
 
     __slots__ = ("fed", "messages", "noise", "unknown_frames")
 
@@ -20,13 +20,13 @@ class Counters:
 
 
 class LineCounters:
-    """Counts since the client was made; they go on over a reconnection.
+    """Counters of a client, from its creation on; they continue over a reconnection.
 
-    `sent` frames; `replies` that answered something, and `unsolicited` ones that answered nothing
-    (late ones, and those that came twice); questions with an `impossible` reply, which came sooner
-    than the wire allows; `echoes` of what was sent; `reports`, of which `lost_reports` went
-    untaken; `noise` bytes; `timeouts` of requests, and `retries` made after them; commands
-    `replaced` by newer ones before they left.
+    `sent` frames; `replies` that answered a request, and `unsolicited` ones that answered none
+    (late ones, and those that came twice); requests with an `impossible` reply, which came sooner
+    than the wire allows; `echoes` of what was sent; `reports`, of which nobody took `lost_reports`;
+    `noise` bytes; `timeouts` of requests, and `retries` made after them; commands `replaced` by
+    newer ones before they left.
     """
 
     __slots__ = (
@@ -57,7 +57,7 @@ class LineCounters:
         self.replaced = 0
 
     def snapshot(self) -> tuple[int, int, int]:
-        """What has come so far that is no reply: bytes of noise, reports, unsolicited replies."""
+        """Return the counts of all that is no reply: noise bytes, reports, unsolicited replies."""
         return self.noise, self.reports, self.unsolicited
 
     def __repr__(self) -> str:

@@ -1,4 +1,4 @@
-"""Decodes a stream of bytes, of which any part may be noise, into messages and noise.
+"""Decode a stream of bytes, of which any part may be noise, into messages and noise.
 
 There is no checksum, so a header is believed only while everything after it agrees: a length that
 the command can have, a count that follows from the length. A header that is refused costs one byte,
@@ -29,20 +29,21 @@ Event: typing.TypeAlias = Decoded | Noise
 
 _new = object.__new__
 
-# The beginnings of frames that are remembered, with what they wait for, are of this size at most.
+# Beginnings of frames that are remembered, with the size they wait for, have at most this size.
 _REMEMBERED = BODY_AT + 1
 
 
 class StreamDecoder:
-    """Turns bytes, fed in pieces of any size, into messages and noise.
+    """A decoder that turns bytes, fed in pieces of any size, into messages and noise.
 
     Nothing is lost: the bytes of all messages and all noise, in order, are the bytes that were fed.
     How they were cut makes no difference, save that one piece of noise may come as several. It
     never raises on input, and never holds more than the largest legal frame.
 
-    `direction` says who sends: on a client's end that of what the device sends, and None for a line
-    on which both are heard. Where a frame is legal in both, it is the first's. A frame of more than
-    `max_frame` bytes is refused by its length, so that no more than that is ever held.
+    `direction` says who sends: for a client that of the device's messages, and None for a line on
+    which both can be heard. A frame that is legal in both is read in the one declared first. A
+    frame of more than `max_frame` bytes is refused by its length, so that no more than that is ever
+    held.
     """
 
     __slots__ = ("_held", "_message_bytes", "_messages", "_noise", "_scanned", "_table", "_wake")
@@ -51,7 +52,7 @@ class StreamDecoder:
         self._table = table_for(direction, max_frame)
         self._noise = NoiseLane(self._table)
         self._held = b""
-        # Where in what is held the search goes on, and the size below which it need not.
+        # Where the search in the held bytes goes on, and the size below which it need not.
         self._scanned = self._wake = 0
         self._messages = self._message_bytes = 0
 
@@ -72,7 +73,7 @@ class StreamDecoder:
 
     @property
     def missing(self) -> int:
-        """How many bytes must come at the least before anything is told."""
+        """How many bytes must come, at the least, before the next event."""
         return max(1, self._wake - len(self._held))
 
     @property
@@ -90,7 +91,7 @@ class StreamDecoder:
         return other
 
     def feed(self, data: bytes | bytearray | memoryview) -> list[Event]:
-        """Takes in bytes, and returns what can be told now. Empty bytes are no sign of silence."""
+        """Take in bytes, and return the events that are certain now. b"" is no sign of silence."""
         held = self._held + (data if type(data) is bytes else as_bytes(data))
         if len(held) < self._wake:
             self._held = held
@@ -103,13 +104,13 @@ class StreamDecoder:
         return self._read(held, quiet=False)
 
     def flush(self) -> list[Event]:
-        """Says that the line has gone quiet: what is held is no frame, but may hide one."""
+        """Decode the bytes held back, as the line is quiet: they are no frame, but may hide one."""
         events = self._read(self._held, quiet=True)
         self._noise.begin_anew(self._noise.told)
         return events
 
     def _read(self, data: bytes, *, quiet: bool) -> list[Event]:
-        """Tells what can be told, and keeps the rest."""
+        """Return the events that are certain, and keep the rest of the bytes."""
         events: list[typing.Any] = []
         look_up, noise = self._table.get, self._noise
         base, size, at = noise.told, len(data), self._scanned
@@ -147,7 +148,7 @@ class StreamDecoder:
                 return events
 
     def _hold(self, data: bytes, start: int, scanned: int, wake: int) -> None:
-        """Keeps the bytes from `start` on, of which nothing can be told before `wake`."""
+        """Keep the bytes from `start` on, which allow no event before `wake` bytes are here."""
         self._held = held = data[start:]
         self._scanned, self._wake = scanned - start, wake - start
         if 0 < len(held) <= _REMEMBERED and scanned == start:

@@ -1,4 +1,4 @@
-"""Tells the frames of a protocol that is easily taken for this one, in bytes of any origin."""
+"""Recognise frames of a protocol that is easily taken for this one, in bytes of any origin."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ TYPE_CHECKING = False  # typing alone would double the time that the import take
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator
 
-# Bytes enough to tell by; a search through more would only take longer.
+# Bytes enough to recognise one; a search through more would only take longer.
 _SEARCHED = 16384
 
 
@@ -56,12 +56,12 @@ class Lookalike:
         self.checksums = checksums
 
     def covered(self, data: bytes) -> int:
-        """How many bytes of `data` are frames of this protocol."""
+        """Return how many bytes of `data` are frames of this protocol."""
         found = at = 0
         header = next((text for place, text in self.constants if place.start == 0), b"")
         while (at := data.find(header, at)) >= 0 and at + self.least <= len(data):
             frame = data[at : at + self._size(data, at)]
-            # Without a checksum, a frame with another header in it is nothing to go by.
+            # Without a checksum, a frame with another header in it proves nothing.
             if self._is_frame(frame) and (self.checksums or frame.rfind(header) <= 0):
                 found += len(frame)
                 at += len(frame)
@@ -70,7 +70,7 @@ class Lookalike:
         return found
 
     def _size(self, data: bytes, at: int) -> int:
-        """The size that a frame at `at` says that it has, or else all there is."""
+        """Return the size that the frame at `at` claims, or that of all the rest."""
         if self.length.start < 0:
             return len(data) - at
         return self.uncounted + read_number(data[at + self.length.start : at + self.length.stop])
@@ -91,7 +91,7 @@ class Lookalike:
 
 
 def most_likely(lookalikes: Iterable[Lookalike], data: bytes) -> str | None:
-    """The title of the one to which most of `data` belongs, by frames; None if none has half."""
+    """Return the title of the protocol whose frames make up most of `data`, at least half of it."""
     searched = data[:_SEARCHED]
 
     def shares() -> Iterator[tuple[int, str]]:

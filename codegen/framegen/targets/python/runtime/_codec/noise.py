@@ -1,4 +1,4 @@
-"""What a stream holds besides messages."""
+"""Noise and unknown frames: what a stream holds besides messages."""
 
 from __future__ import annotations
 

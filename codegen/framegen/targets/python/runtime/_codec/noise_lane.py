@@ -1,7 +1,7 @@
-"""The way through noise: finds the next message, and cuts what is none in front of it.
+"""The way through noise: finds the next message, and splits the bytes in front of it into noise.
 
-A frame of unknown command claims as many bytes as its length says. It is shown as one if, by its
-own bytes alone, no message begins in it, nor may: all else is worth more than such a claim.
+A frame of unknown command claims as many bytes as its length says. It is shown as one only if its
+own bytes prove that no message begins in it: any message is worth more than such a claim.
 """
 
 from __future__ import annotations
@@ -18,19 +18,19 @@ if TYPE_CHECKING:
 
 _TOO_SHORT = Reason.TOO_SHORT
 
-# What more bytes may make a header, or a frame, the longest first.
+# Beginnings of a header, or of a frame, that more bytes may complete, the longest first.
 _BEGUN = tuple(HEADER[:size] for size in range(len(HEADER), 0, -1))
-# A head that consists of one byte, where a header does: each byte of a run of it begins another.
+# A head of one byte repeated, if the header is such: each byte of a run of it begins another.
 _RUN = HEADER[:1] * BODY_AT if not HEADER.strip(HEADER[:1]) else bytes(BODY_AT)
 _RUN_CLAIM = read_length(_RUN) + UNCOUNTED
-# How much of a run is gone through at once.
+# How much of a run is read at once.
 _STRETCH = 256
-# Behind the end of any stream.
+# A place behind the end of any stream.
 _NEVER = 1 << 62
 
 
 class NoiseLane:
-    """Weighs each place at which a message may begin, once, and tells what was in front of it.
+    """The search for messages in noise: it judges each place once, and emits the noise between.
 
     Places are counted from the beginning of the stream. Each refused header begins a piece of
     noise, save that a run of headers, each a byte after the other, is one piece.
@@ -49,20 +49,20 @@ class NoiseLane:
 
     def __init__(self, table: Table) -> None:
         self._table = table
-        # Headers that begin no message and were not told yet: the first and the last of some that
+        # Headers that begin no message and are not emitted yet: the first and the last of some that
         # follow each other byte by byte and are alike, why they begin none, and how many bytes each
         # of them claims as a frame of unknown command.
         self._refused: list[tuple[int, int, Reason, int]] = []
-        # Why the noise at hand is noise, and where the last header was refused.
+        # Why the current noise is noise, and where the last header was refused.
         self._reason = Reason.BAD_HEADER
         self._last = -1
-        # Where the bytes begin that were not told yet, where the search goes on, and how many bytes
-        # of the stream must be there before it does.
+        # Where the bytes begin that are not emitted yet, where the search goes on, and how many
+        # bytes of the stream must be there before it does.
         self.told = self.at = self.wake = 0
         self.unknown_frames = 0
 
     def copy(self) -> NoiseLane:
-        """Another one in the same state."""
+        """Return a copy in the same state."""
         other = NoiseLane(self._table)
         for name in self.__slots__:
             setattr(other, name, getattr(self, name))
@@ -70,17 +70,17 @@ class NoiseLane:
         return other
 
     def begin_anew(self, at: int) -> None:
-        """Says that all in front of `at` was told, and what comes there does not go on with it."""
+        """Start a new piece of noise at `at`: everything in front of it has been emitted."""
         self.told = at
         self._reason = Reason.BAD_HEADER
 
     def search(
         self, events: list[Event], data: bytes, base: int, at: int, *, quiet: bool
     ) -> Entry | None:
-        """Goes on at data[at], and tells what is no message up to the next one.
+        """Search on from data[at], and emit the noise in front of the next message.
 
-        `data` begins at the place `base`. Returns what the message is, which begins at `at`; None
-        where none came, and `told`, `at` and `wake` say what is held.
+        `data` begins at the place `base`. Returns the entry of the message, which begins at `at`;
+        None if none came, and `told`, `at` and `wake` say what is held.
         """
         table, refused = self._table, self._refused
         known = table.verdicts
@@ -122,12 +122,12 @@ class NoiseLane:
         *,
         quiet: bool,
     ) -> int | None:
-        """Waits for the rest of what may begin at data[at], unless the line is quiet.
+        """Wait for the rest of what may begin at data[at], unless the line is quiet.
 
-        Returns None where it waits, and else where to go on: at data[at] itself if the header there
-        is to be refused.
+        Returns None while it waits, otherwise where to go on: at data[at] itself if the header
+        there is to be refused.
         """
-        # Of an unknown command, all that is not known yet is how much it claims.
+        # Of an unknown command, only the length of its claim is not known yet.
         weighed = at if verdict.reason is _TOO_SHORT else len(data)
         self._cut(events, data, base, at, weighed, final=quiet)
         if self.told > base + at:
@@ -154,10 +154,11 @@ class NoiseLane:
         *,
         final: bool,
     ) -> None:
-        """Tells what stands in front of data[until], up to the first claim that is undecided.
+        """Emit the noise in front of data[until], up to the first claim that is undecided.
 
-        Claims that end up to data[weighed] are decided by themselves, others that end in `data` are
-        void. What would end behind it is undecided, or void as well where this is `final`.
+        Claims that end up to data[weighed] are decided by their own bytes, others that end in
+        `data` are void. One that would end behind it is undecided, or void as well if this is
+        `final`.
         """
         until, weighed = until + base, weighed + base
         horizon = _NEVER if final else len(data) + base
@@ -175,11 +176,11 @@ class NoiseLane:
                     self._tell_unknown(events, data, base, end)
                     at = end
                     continue
-                # A piece of noise begins, unless it goes on with a run of headers.
+                # A piece of noise begins, unless it continues a run of headers.
                 if reason is not self._reason or at != self._last + 1:
                     self._tell_noise(events, data, base, at)
                     self._reason = reason
-                # Of a run, so are all that end in the same run, or behind what was weighed.
+                # In a run, this holds for all that end in the same run, or behind data[weighed].
                 if claim and at < last:
                     alike = _run_length(data, end - base - 1) if own else horizon - end + 1
                     at = min(last, at + max(alike, 1) - 1)
@@ -191,9 +192,9 @@ class NoiseLane:
         self._tell_noise(events, data, base, until)
 
     def _stands_alone(self, data: bytes, start: int, end: int) -> bool:
-        """Whether no message may begin behind data[start], by the bytes in front of data[end].
+        """Return whether data[start:end] proves by itself that no message begins in it.
 
-        That none does is known; what only later bytes refused stands near the end.
+        That none does is known; a header that only later bytes refused stands near the end.
         """
         if data.endswith(_BEGUN, start + 1, end):
             return False
@@ -205,13 +206,13 @@ class NoiseLane:
         return True
 
     def _tell_noise(self, events: list[Event], data: bytes, base: int, until: int) -> None:
-        """Tells the bytes in front of the place `until` as noise."""
+        """Emit the bytes in front of the place `until` as noise."""
         if self.told < until:
             events.append(Noise(data[self.told - base : until - base], self._reason))
             self.told = until
 
     def _tell_unknown(self, events: list[Event], data: bytes, base: int, end: int) -> None:
-        """Tells the bytes in front of the place `end` as a frame of unknown command."""
+        """Emit the bytes in front of the place `end` as a frame of unknown command."""
         frame = data[self.told - base : end - base]
         events.append(UnknownFrame(frame, Reason.UNKNOWN_COMMAND))
         self.unknown_frames += 1
@@ -219,7 +220,7 @@ class NoiseLane:
 
 
 def _begun_header(data: bytes, at: int) -> int:
-    """Where behind data[at] a header may begin at the very end; the end where none does."""
+    """Return where behind data[at] an incomplete header may begin; the end if none does."""
     for begun in _BEGUN:
         if data.endswith(begun, at):
             return len(data) - len(begun)
@@ -227,6 +228,6 @@ def _begun_header(data: bytes, at: int) -> int:
 
 
 def _run_length(data: bytes, at: int) -> int:
-    """How often the first byte of a header stands at data[at], one behind the other."""
+    """Return how often the byte at data[at], the first of a header, is repeated there."""
     stretch = data[at : at + _STRETCH]
     return len(stretch) - len(stretch.lstrip(HEADER[:1]))

@@ -1,4 +1,4 @@
-"""What a device refused: how often, and why."""
+"""Counts of the input that a device rejected, by reason."""
 
 from __future__ import annotations
 
@@ -8,18 +8,18 @@ from .noise import Noise
 
 
 class Rejects:
-    """Counts what was no message, by reason. Noise that goes on is counted once."""
+    """Counts of rejected input by reason; consecutive noise counts once."""
 
     __slots__ = ("_goes_on", "by_reason", "total")
 
     def __init__(self) -> None:
         self.total = 0
         self.by_reason: dict[Reason, int] = {}
-        # Whether the last thing heard was noise, so that more of it is the rest of the same.
+        # Whether the last event was noise, so that more of it continues the same.
         self._goes_on = False
 
     def add(self, noise: Noise) -> bool:
-        """Counts a piece of noise; False where it is the rest of the piece before it."""
+        """Count a piece of noise; return False if it continues the piece before it."""
         rest = self._goes_on and not noise.data.startswith(HEADER)
         self._goes_on = True
         if rest:
@@ -29,7 +29,7 @@ class Rejects:
         return True
 
     def end(self) -> None:
-        """Says that a message was heard: noise after it is counted anew."""
+        """Record that a message came: noise after it counts anew."""
         self._goes_on = False
 
     def __repr__(self) -> str:

@@ -1,4 +1,4 @@
-"""Finds what stands in the source below an attribute: its documentation, which Python forgets."""
+"""Find the string below an attribute in the source: its documentation, which Python discards."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from textwrap import dedent
 
 
 def documentation(owner: type, name: str) -> str | None:
-    """The string below the line that assigns `name` in a class; None where there is no source."""
+    """Return the string below the line that assigns `name` in a class; None without a source."""
     try:
         (declared,) = ast.parse(dedent(inspect.getsource(owner))).body
     except (OSError, TypeError, SyntaxError):  # what is there now may be something else

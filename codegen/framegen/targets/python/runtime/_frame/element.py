@@ -1,4 +1,4 @@
-"""What the elements of a message's list have in common: they are tuples whose parts have names."""
+"""The base of a message's list elements: tuples whose parts have names."""
 
 from __future__ import annotations
 
@@ -25,11 +25,11 @@ class Element:
         cls.FIELDS = tuple(getattr(cls, name) for name in cls._fields)
 
     def _asdict(self) -> dict[str, int]:
-        """The numbers by name."""
+        """Return the numbers by name."""
         return {name: getattr(self, name) for name in self._fields}
 
     def _replace(self, **changes: int) -> typing.Self:
-        """Another such element, with other numbers where some are given."""
+        """Return another such element, with the given numbers in place of its own."""
         make: typing.Any = type(self)
         other: typing.Self = make(**{**self._asdict(), **changes})
         return other

@@ -1,4 +1,4 @@
-"""What all fields of messages have in common: a field is a property that knows its place."""
+"""The base of all fields of messages: a field is a property that knows its place."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ if TYPE_CHECKING:
     Value = TypeVar("Value")
 
     class _Property(Generic[Value]):
-        """A property as type checkers are to see it: it is read, and never assigned."""
+        """A property as type checkers see it: it is read, and never assigned."""
 
         def __init__(self, read: Callable[[Any], Value]) -> None: ...
 
@@ -34,7 +34,7 @@ else:
 
 
 class Field(_Property["Value"]):
-    """A field: `message.level` is its value, `Kind.level` what is known of it (`Kind.level.high`).
+    """A field: `message.level` is its value, `Kind.level` its description (`Kind.level.high`).
 
     In the class of a message or of an element, it stands in a line of its own, and its
     documentation below.
@@ -46,7 +46,7 @@ class Field(_Property["Value"]):
     owner: type
 
     def __init_subclass__(cls) -> None:
-        # Else a field would show the documentation of its class.
+        # Otherwise a field would show the documentation of its class.
         type.__setattr__(cls, "__doc__", _Documentation(cls.__doc__))
 
     def __set_name__(self, owner: type, name: str) -> None:
@@ -58,12 +58,12 @@ class Field(_Property["Value"]):
         return f"<{type(self).__name__} {self.owner.__name__}.{self.name}>"
 
     def reader(self) -> Callable[[Any], Value]:
-        """What reads the value from a message, or from an element."""
+        """Return a function that reads the value from a message, or from an element."""
         raise NotImplementedError
 
 
 class _Documentation:
-    """The documentation of a class of fields; of a field, what stands below it."""
+    """The documentation of a class of fields; for a field, the string below it in the source."""
 
     def __init__(self, of_class: str | None) -> None:
         self.of_class = of_class
@@ -71,10 +71,10 @@ class _Documentation:
     def __get__(self, field: Field[Any] | None, kind: type) -> str | None:
         if field is None:
             return self.of_class
-        # Whoever asks for help waits for what it takes to read sources; nobody else does.
+        # Reading sources takes time, which only a call of `help` should cost.
         from .documentation import documentation
 
         return documentation(field.owner, field.name)
 
     def __set__(self, field: Field[Any], doc: object) -> None:
-        """Does nothing: a property takes over what its getter says of itself."""
+        """Do nothing: a property copies the documentation of its getter."""

@@ -1,4 +1,4 @@
-"""Fields that are lists: where they begin, what they are of, how they are read and checked."""
+"""Fields that are lists: where they begin, what they hold, how they are read and checked."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     Item = TypeVar("Item")
 
 _LISTS = (list, tuple)
-# What can be gone through, and is still no list of numbers: text, bytes, and what has no order.
+# Iterable values that are no list of numbers all the same: text, bytes, and what has no order.
 _NO_LISTS = (str, bytes, bytearray, memoryview, dict, set, frozenset)
 
 
@@ -72,35 +72,35 @@ class Items(Field["tuple[Item, ...]"]):
         return range(self.least, self.most + 1)
 
     def reader(self) -> Callable[[Any], tuple[Item, ...]]:
-        """What reads it from the bytes of a message."""
+        """Return a function that reads the list from the bytes of a message."""
         at = self.at
         if self.element is None:
             self.fields[0].name = self.name
             if self.layout == "B":
                 return lambda message: tuple(message._frame[at:])
             return lambda message: self.numbers(message._frame)
-        # As good as calling the class, and several times as fast.
+        # Equivalent to calling the class, and several times as fast.
         make: Any = tuple.__new__
         kinds = repeat(self.element)
         read = Struct(STRUCT_ORDER + self.layout).iter_unpack
         return lambda message: tuple(map(make, kinds, read(message._frame[at:])))
 
     def numbers(self, frame: bytes) -> Any:
-        """All numbers of all elements of a legal frame, in order."""
+        """Return all numbers of all elements of a legal frame, in order."""
         unpack = self._unpackers.get(len(frame)) or self._unpacker(len(frame))
         return unpack(frame)
 
     def _unpacker(self, size: int) -> Callable[[bytes], tuple[int, ...]]:
-        """What unpacks the list of a frame of this size. Made once for each size."""
+        """Return a function, made once for each size, that unpacks the list of such a frame."""
         count = (size - self.at) // calcsize(STRUCT_ORDER + self.layout)
         unpack = Struct(f"{STRUCT_ORDER}{self.at}x{count * self.layout}").unpack
         self._unpackers[size] = unpack
         return unpack
 
     def flat(self, values: Any) -> Sequence[int]:
-        """All numbers of all elements, in order. Raises EncodeError for what is no such list.
+        """Return all numbers of all elements, in order. Raises EncodeError if it is no such list.
 
-        Whole numbers in plain lists are not looked at closely: to pack them will tell.
+        Whole numbers in plain lists are not checked closely: packing them will show.
         """
         if type(values) in _LISTS and self.least <= len(values) <= self.most:
             flat: Sequence[int] | None
@@ -115,7 +115,7 @@ class Items(Field["tuple[Item, ...]"]):
         return self.checked(values)
 
     def checked(self, values: Any) -> list[int]:
-        """All numbers of all elements, in order. Raises EncodeError naming the first wrong one."""
+        """Return all numbers of all elements. Raises EncodeError for the first bad one."""
         items = as_tuple(values)
         if items is None:
             raise EncodeError(self.name, values, f"{shown(values)} is not a list of {self._wanted}")
@@ -128,7 +128,7 @@ class Items(Field["tuple[Item, ...]"]):
         return numbers
 
     def checked_one(self, item: Any, position: int) -> list[int]:
-        """The numbers of the element at a position. Raises EncodeError naming the wrong one."""
+        """Return the numbers of the element at a position. Raises EncodeError for a bad one."""
         parts = (item,) if self.element is None else as_tuple(item)
         if parts is None or len(parts) != len(self.fields):
             problem = f"{shown(item)} is not {self._wanted}"
@@ -137,7 +137,7 @@ class Items(Field["tuple[Item, ...]"]):
         return [field.checked(part, path) for part, (path, field) in named]
 
     def one(self, position: int) -> list[tuple[str, Number]]:
-        """The fields of the element at a position, each with its path: `items[1].level`."""
+        """Return the fields of the element at a position, each with its path: `items[1].level`."""
         path = f"{self.name}[{position}]"
         if self.element is None:
             return [(path, self.fields[0])]
@@ -151,7 +151,7 @@ class Items(Field["tuple[Item, ...]"]):
 
 
 def _plain_numbers(values: Sequence[Any]) -> Sequence[int] | None:
-    """These values, if they are ints; or else None."""
+    """Return these values if they are ints, otherwise None."""
     for number in values:
         if type(number) is not int:
             return None
@@ -159,7 +159,7 @@ def _plain_numbers(values: Sequence[Any]) -> Sequence[int] | None:
 
 
 def _plain_pairs(values: Sequence[Any], plain: frozenset[Any]) -> list[int] | None:
-    """The numbers of pairs of ints; None if there is anything else. Most elements are pairs."""
+    """Return the numbers of pairs of ints; None if there is anything else. Pairs are usual."""
     numbers: list[int] = []
     try:
         for pair in values:
@@ -175,7 +175,7 @@ def _plain_pairs(values: Sequence[Any], plain: frozenset[Any]) -> list[int] | No
 
 
 def _plain_rows(values: Sequence[Any], plain: frozenset[Any], width: int) -> Sequence[int] | None:
-    """The numbers of rows of so many ints; None if there is anything else."""
+    """Return the numbers of rows of `width` ints; None if there is anything else."""
     numbers: list[int] = []
     for row in values:
         if type(row) not in plain or len(row) != width:
@@ -185,7 +185,7 @@ def _plain_rows(values: Sequence[Any], plain: frozenset[Any], width: int) -> Seq
 
 
 def as_tuple(value: Any) -> tuple[Any, ...] | None:
-    """What `value` holds; None where it holds nothing in order, or is text or bytes."""
+    """Return `value` as a tuple; None if it has no order, or is text or bytes."""
     if isinstance(value, _NO_LISTS):
         return None
     try:

@@ -1,4 +1,4 @@
-"""What all messages are: a frame proven legal, whose fields are read from it when asked for."""
+"""The base of all messages: a frame proven legal, whose fields are read from it on demand."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ _new = object.__new__
 
 
 class _Packers(dict[str, "Callable[..., bytes]"]):
-    """What packs values, by their layout in the notation of `struct`; made once for each."""
+    """Functions that pack values, by layout in the notation of `struct`; made once for each."""
 
     def __missing__(self, layout: str) -> Callable[..., bytes]:
         self[layout] = Struct(layout).pack
@@ -33,7 +33,7 @@ class Message:
     """One message, in one direction.
 
     It holds nothing but its frame, and is immutable, hashable and equal to any message of the same
-    class with the same frame. Whatever exists has been checked, so `encode` cannot fail.
+    class with the same frame. Each one that exists has been checked, so `encode` cannot fail.
     """
 
     __slots__ = ("__weakref__", "_frame")
@@ -64,11 +64,11 @@ class Message:
         fields: tuple[typing.Any, ...],
         flat: Sequence[int] = (),
     ) -> typing.Self:
-        """The message with this frame, packed as `struct` does it. Raises EncodeError.
+        """Return the message with this frame, packed as `struct` does it. Raises EncodeError.
 
         `fields` are the numbers behind the head, and `flat` those of the list. Good ones are packed
-        at once; any others are looked at one by one, and either come to something after all, as
-        those of NumPy do, or are explained.
+        at once; any others are checked one by one, and are either converted, as those of NumPy are,
+        or explained.
         """
         pack, good = _packers[layout], not cls.SHAPE.narrowed
         for number in fields:
@@ -85,12 +85,12 @@ class Message:
         return message
 
     def encode(self) -> bytes:
-        """The frame, from its header to its last byte."""
+        """Return the frame, from its header to its last byte."""
         return self._frame
 
     @classmethod
     def decode(cls, frame: bytes | bytearray | memoryview) -> typing.Self:
-        """Reads one frame of this message, whole and with nothing after it. Raises DecodeError."""
+        """Decode one frame of this message, with nothing after it. Raises DecodeError."""
         try:
             table = cls._table
         except AttributeError:
@@ -130,7 +130,7 @@ class Message:
         return hash((type(self), self._frame))
 
     def __reduce__(self) -> tuple[object, ...]:
-        # By its frame, which is looked at again: whatever exists has been checked.
+        # By its frame, which is checked again on loading.
         return type(self).decode, (self._frame,)
 
     def __repr__(self) -> str:

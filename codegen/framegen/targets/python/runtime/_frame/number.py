@@ -1,7 +1,7 @@
-"""Fields that are whole numbers: where they stand, what they can be, how they are read and checked.
+"""Fields that are whole numbers: their place, their range, how they are read and checked.
 
-A message that is given good values never asks for these checks: they explain what is wrong with bad
-ones, and they turn whatever counts as a whole number elsewhere (such as NumPy's) into an int.
+A message that is given good values never runs these checks: they explain what is wrong with bad
+ones, and they turn other kinds of whole numbers (such as NumPy's) into an int.
 """
 
 from __future__ import annotations
@@ -22,8 +22,8 @@ if TYPE_CHECKING:
 class Number(Field["int"]):
     """A whole number at its place: the offset of its first byte, in the frame or in its element.
 
-    From `low` to `high`, where its type would hold more; in a `unit`, where it has one. `names`
-    maps the names that some values have to those values, such as `{"off": 0}`.
+    From `low` to `high`, if its type would hold more; in a `unit`, if it has one. `names` maps the
+    names of values to these values, such as `{"off": 0}`.
     """
 
     __slots__ = ("at", "high", "low", "names", "unit")
@@ -61,11 +61,11 @@ class Number(Field["int"]):
 
     @property
     def narrowed(self) -> bool:
-        """Whether its type holds more than it can be."""
+        """Whether its type holds more than its range."""
         return self.low > self.lowest or self.high < self.highest
 
     def reader(self) -> Callable[[Any], int]:
-        """What reads it: from the bytes of a message, or as a part of an element."""
+        """Return a function that reads it from the bytes of a message, or from an element."""
         if issubclass(self.owner, tuple):
             return itemgetter(vars(self.owner)["__match_args__"].index(self.name))
         at = self.at
@@ -75,8 +75,8 @@ class Number(Field["int"]):
         return lambda message: unpack(message._frame, at)[0]
 
     def checked(self, value: Any, path: str) -> int:
-        """`value` as an int. Raises EncodeError where it is none, or outside the range."""
-        # NumPy's truth values are numbers to its older versions, so their type has to be asked.
+        """Return `value` as an int. Raises EncodeError if it is none, or outside the range."""
+        # NumPy's truth values are numbers to its older versions, so their type is looked at.
         if isinstance(value, bool) or str(getattr(value, "dtype", "")) == "bool":
             problem = f"{shown(value)} is a truth value, not a whole number"
             raise EncodeError(path, value, problem)
@@ -139,7 +139,7 @@ class I64(Number, code="q"):
 
 
 def shown(value: object) -> str:
-    """`value` for an error message, cut short where it would flood it."""
+    """Return `value` for an error message, shortened if it would flood it."""
     if isinstance(value, int) and value.bit_length() > 128:
         return f"an integer of {value.bit_length()} bits"
     try:

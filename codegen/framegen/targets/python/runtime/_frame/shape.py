@@ -1,4 +1,4 @@
-"""What follows from the fields of a message for all of its frames."""
+"""The properties that the fields of a message give to all of its frames."""
 
 from __future__ import annotations
 
@@ -15,9 +15,9 @@ if TYPE_CHECKING:
 
 
 class Shape:
-    """The fields of a class of messages, in the order of the frame, and what its frames keep to.
+    """The fields of a class of messages, in the order of the frame, and the rules for its frames.
 
-    `numbers` stand in front of the list, its count among them; `items` is the list, where there is
+    `numbers` stand in front of the list, its count among them; `items` is the list, if there is
     one; `lengths` are the legal ones.
     """
 
@@ -29,12 +29,12 @@ class Shape:
         lists: list[Items[Any]] = [each for each in fields if isinstance(each, Items)]
         self.items = lists[0] if lists else None
         self.lengths = lengths
-        # Whether a field has a range of its own, which what struct accepts says nothing about.
+        # Whether a field has a range of its own, narrower than what struct accepts.
         inside = self.items.fields if self.items is not None else ()
         self.narrowed = any(number.narrowed for number in (*self.numbers, *inside))
 
     def count_bytes(self, length: int) -> tuple[int, int, bytes]:
-        """Where the count of a frame of legal length begins and ends, and what it must be."""
+        """Return where the count of a frame of legal length stands, from and to, and its bytes."""
         if self.items is None:
             return 0, 0, b""
         count = self.items.counts[self.lengths.index(length)]
@@ -42,9 +42,9 @@ class Shape:
         return at, at + len(data), data
 
     def out_of_range(self, frame: bytes) -> tuple[int, str] | None:
-        """The first number of a frame that its range does not allow: its offset, and why.
+        """Return the first number of a frame outside its range: its offset, and what is wrong.
 
-        Where the frame is cut short, a number that is not whole is not looked at.
+        If the frame is cut short, a number that is not complete is skipped.
         """
         at = BODY_AT
         for _, field in self._fields() if self.narrowed else ():
@@ -57,14 +57,14 @@ class Shape:
         return None
 
     def checked(self, numbers: Sequence[Any]) -> list[int]:
-        """The numbers of a frame as ints. Raises EncodeError naming the first wrong one."""
+        """Return the numbers of a frame as ints. Raises EncodeError for the first wrong one."""
         return [
             field.checked(number, path)
             for number, (path, field) in zip(numbers, self._fields(), strict=False)
         ]
 
     def _fields(self) -> Iterator[tuple[str, Number]]:
-        """Each number of a frame with its path; those of a list without end."""
+        """Yield each number of a frame with its path; those of a list without end."""
         for number in self.numbers:
             yield number.name, number
         if self.items is not None:

@@ -1,4 +1,4 @@
-"""Which first bytes begin a legal frame of which message, and why others do not.
+"""The first bytes of legal frames, by message, and why others begin none.
 
 The bytes are tested in the order in which they come, and the first that no legal frame can have
 gives the reason and the place. Single frames and streams are judged by this alone.
@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from .bytes_like import as_bytes, format_hex
 from .errors import DecodeError, Reason
+from .pluralize import describe_range
 from .protocol import (
     BODY_AT,
     COMMAND_AT,
@@ -20,7 +21,6 @@ from .protocol import (
     read_length,
 )
 from .verdict import Verdict
-from .wording import describe_range
 
 TYPE_CHECKING = False  # typing alone would double the time that the import takes
 if TYPE_CHECKING:
@@ -30,14 +30,14 @@ if TYPE_CHECKING:
     from .message import Message
 
     # The size of the frame; from where to where its count stands, and the bytes it must be (b"" at
-    # 0:0 where there is no list); the class; and what else it may be, with another count.
+    # 0:0 if there is no list); the class; and the entry for another message with the same head.
     Entry: TypeAlias = "tuple[int, int, int, bytes, type[Message], Entry | None]"
 
 
 _new = object.__new__
 
 ANY_SIZE = 1 << 62
-"""The largest frame, where there is no telling."""
+"""The largest frame of a table without a bound."""
 
 # So many heads and beginnings are remembered at once: more than any protocol's traffic has, and
 # noise must not fill the memory.
@@ -49,10 +49,10 @@ _NO_LENGTH_OF_ITS_COMMAND = Verdict(None, Reason.LENGTH_MISMATCH, LENGTH_AT, BOD
 
 
 class Table(dict[bytes, "Entry"]):
-    """Maps the head of a frame, up to its command, to what must follow for it to be legal.
+    """A map from the head of a frame, up to its command, to what must follow for it to be legal.
 
-    It learns heads as they come. Those that do not decide alone, since a field has a range of its
-    own, it leaves out: `weigh` knows them. No frame is larger than `largest`.
+    It learns heads as they come. Heads that do not decide alone, since a field has a range of its
+    own, are not in it: `weigh` judges them. No frame is larger than `largest`.
     """
 
     __slots__ = ("_legal", "kinds", "largest", "messages", "reach", "verdicts", "waits")
@@ -62,24 +62,24 @@ class Table(dict[bytes, "Entry"]):
         self.messages = messages
         self.largest = largest
         self.kinds: dict[int, list[type[Message]]] = {}
-        # How many bytes of what is no frame may look like one: up to its count, unless a field has
-        # a range of its own.
+        # How many bytes of an illegal frame may look legal: up to its count, unless a field has a
+        # range of its own.
         self.reach = BODY_AT
         for kind in messages:
             self.kinds.setdefault(kind.COMMAND, []).append(kind)
             count_end = kind.SHAPE.count_bytes(kind.LENGTHS[0])[1]
             self.reach = max(self.reach, largest if kind.SHAPE.narrowed else count_end)
-        # What may follow the legal heads that were seen, and the verdicts on others, whole or not.
+        # What may follow the legal heads seen so far, and the verdicts on others, complete or not.
         self._legal: dict[bytes, Entry] = {}
         self.verdicts: dict[bytes, Verdict] = {}
-        # The beginnings of frames that were seen, and the size at which more can be told of each.
+        # The beginnings of frames seen so far, and the size at which each can be judged further.
         self.waits: dict[bytes, int] = {}
 
     def weigh(self, data: bytes, at: int = 0) -> Verdict:
-        """Judges what begins at `at`; it may go on behind the frame.
+        """Judge the frame that begins at `at`; `data` may go on behind it.
 
-        Where it may be one of several messages, it is the first that is legal; where none is, the
-        refusal that shows last is given.
+        If they may be one of several messages, it is the first that is legal; if none is, the
+        refusal at the last byte is returned.
         """
         head = data[at : at + BODY_AT]
         verdict = self.verdicts.get(head)
@@ -101,7 +101,7 @@ class Table(dict[bytes, "Entry"]):
         return furthest
 
     def whole(self, data: bytes, at: int) -> Entry | None:
-        """The message at `at`, where a look-up shows that it is all there; else `weigh` knows."""
+        """Return the entry of the message at `at` if a look-up proves it, otherwise None."""
         entry = self.get(data[at : at + BODY_AT])
         if entry is not None and at + entry[0] <= len(data):
             _, count_at, count_end, count, _, _ = entry
@@ -110,22 +110,22 @@ class Table(dict[bytes, "Entry"]):
         return None
 
     def entries(self, head: bytes) -> Iterator[Entry]:
-        """What may follow `head`; where two directions share it, the first of them comes first."""
+        """Yield the entries of `head`, one for each message; the first direction's comes first."""
         entry = self._legal.get(head) or self._learn(head)
         while entry is not None:
             yield entry
             entry = entry[-1]
 
     def may_have(self, length: int) -> bool:
-        """Whether some frame could have this length, if its command were not known."""
+        """Return whether some frame could have this length, if its command were not known."""
         return BODY_AT <= length + UNCOUNTED <= self.largest
 
     def wait(self, beginning: bytes, size: int) -> None:
-        """Remembers at which size more can be told of the beginning of a frame."""
+        """Remember at which size the beginning of a frame can be judged further."""
         _remember(self.waits, beginning, size)
 
     def read(self, frame: bytes | bytearray | memoryview) -> Message:
-        """The message that `frame` is, whole and with nothing after it. Raises DecodeError."""
+        """Return the message of `frame`, with nothing after it. Raises DecodeError."""
         if type(frame) is not bytes:
             frame = as_bytes(frame)
         message = self.find(frame)
@@ -134,7 +134,7 @@ class Table(dict[bytes, "Entry"]):
         return message
 
     def find(self, frame: bytes) -> Message | None:
-        """The message that `frame` is, whole and with nothing after it; None where it is none."""
+        """Return the message of `frame`, with nothing after it; None if there is none."""
         entry = self.whole(frame, 0)
         kind: type[Message] | None
         if entry is not None:
@@ -149,11 +149,11 @@ class Table(dict[bytes, "Entry"]):
         return message
 
     def error(self, frame: bytes, verdict: Verdict) -> DecodeError:
-        """What is wrong with `frame`, of which this is the verdict, in words."""
+        """Return the error for `frame`, by its verdict."""
         return DecodeError(verdict.reason, verdict.offset, self._problem(frame, verdict))
 
     def _weigh_head(self, head: bytes) -> Verdict | None:
-        """Judges what `head` shows by itself; None where what follows decides."""
+        """Judge `head` by itself; None if the bytes behind it decide."""
         size = len(head)
         if not head.startswith(HEADER[:size]):
             return _no_header(head)
@@ -173,7 +173,7 @@ class Table(dict[bytes, "Entry"]):
         return _NO_LENGTH_OF_ITS_COMMAND if self._learn(head) is None else None
 
     def _learn(self, head: bytes) -> Entry | None:
-        """What may follow a whole head that was not seen before."""
+        """Return the entry of a complete head that is new, and remember it."""
         length = read_length(head)
         entry: Entry | None = None
         narrowed = False
@@ -188,7 +188,7 @@ class Table(dict[bytes, "Entry"]):
         return entry
 
     def _problem(self, frame: bytes, verdict: Verdict) -> str:
-        """What is wrong with what is no frame, in words."""
+        """Return what is wrong with an illegal frame, in words."""
         if verdict.kind is not None:
             name, size = verdict.kind.__name__, verdict.size
             return f"{name} with this length has {size} bytes, not {len(frame)}"
@@ -206,7 +206,7 @@ class Table(dict[bytes, "Entry"]):
         return f"the shortest frame has {BODY_AT} bytes"
 
     def _lengths(self, frame: bytes) -> str:
-        """The lengths that could stand there, in words."""
+        """Return the lengths that could stand there, in words."""
         kinds = self.kinds.get(read_command(frame), []) if len(frame) >= COMMAND_END else []
         if not kinds:
             least, most = BODY_AT - UNCOUNTED, self.largest - UNCOUNTED
@@ -218,18 +218,18 @@ class Table(dict[bytes, "Entry"]):
 
 
 def largest_of(messages: Sequence[type[Message]]) -> int:
-    """The size of the largest frame of these messages; 0 where there are none."""
+    """Return the size of the largest frame of these messages; 0 where there are none."""
     return max((kind.LENGTHS[-1] + UNCOUNTED for kind in messages), default=0)
 
 
 def _no_header(head: bytes) -> Verdict:
-    """The verdict on what begins with no header."""
+    """Return the verdict on bytes without a header."""
     at = next(at for at, byte in enumerate(HEADER) if head[at] != byte)
     return Verdict(None, Reason.BAD_HEADER, at, at + 1)
 
 
 def _fit(data: bytes, at: int, entry: Entry) -> Verdict:
-    """Judges what follows a legal head at `at`, as the message of this entry."""
+    """Judge the bytes behind a legal head at `at`, as the message of this entry."""
     size, count_at, count_end, count, kind, _ = entry
     begun = data[at + count_at : at + count_end]
     misplaced = _out_of_range(kind, data[at : at + size]) if kind.SHAPE.narrowed else None
@@ -251,12 +251,12 @@ def _fit(data: bytes, at: int, entry: Entry) -> Verdict:
 
 
 def _too_short(data: bytes, at: int, size: int) -> Verdict:
-    """The verdict on what begins at `at` and agrees so far; more can be told when it has `size`."""
+    """Return the verdict on a frame that is legal so far, and judged further at `size` bytes."""
     return Verdict(None, Reason.TOO_SHORT, len(data) - at, size, is_open=True)
 
 
 def _out_of_range(kind: type[Message], frame: bytes) -> tuple[int, int] | None:
-    """The first value that its range does not allow, of a frame that may be cut off: its bytes."""
+    """Return from and to which byte the first number of a frame outside its range stands."""
     out_of_range = kind.SHAPE.out_of_range
     found = out_of_range(frame)
     if found is None:
@@ -266,7 +266,7 @@ def _out_of_range(kind: type[Message], frame: bytes) -> tuple[int, int] | None:
 
 
 def _misfit(frame: bytes, verdict: Verdict, entry: Entry) -> str:
-    """What keeps `frame` from being the message whose head it has, in words."""
+    """Return what keeps `frame` from being the message whose head it has, in words."""
     size, at, until, count, kind, _ = entry
     if verdict.reason is Reason.COUNT_MISMATCH:
         return (
@@ -279,7 +279,7 @@ def _misfit(frame: bytes, verdict: Verdict, entry: Entry) -> str:
 
 
 def _remember(known: dict[bytes, Any], key: bytes, value: Any) -> None:
-    """Remembers a value; what was learnt is forgotten where it grows too much, and learnt anew."""
+    """Remember a value; if too many are known, forget the others."""
     if len(known) >= _REMEMBERED:
         known.clear()
     known[key] = value

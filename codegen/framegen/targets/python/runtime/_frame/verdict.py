@@ -1,4 +1,4 @@
-"""What can be told of bytes as the beginning of a frame."""
+"""A verdict on the beginning of a frame."""
 
 from __future__ import annotations
 
@@ -9,13 +9,13 @@ if TYPE_CHECKING:
 
 
 class Verdict:
-    """What bytes begin: a message, no frame at all, or what more of them may make one.
+    """What bytes begin: a message, no frame at all, or a frame that is not complete.
 
-    Of a message, `kind` is its class and `size` that of its frame; `reason` and `offset` say what
-    is wrong if anything follows. Of all else, they say why it is no message and where that shows.
-    It `is_open` as long as more bytes may change what is to be done with it: `size` is the number
-    at which more can be told. Else it is the number of bytes that show it. `claim` is the size that
-    a frame of unknown command would have.
+    For a message, `kind` is its class and `size` that of its frame; `reason` and `offset` say what
+    is wrong if anything follows. Otherwise they say why it is no message and where that shows.
+    While it `is_open`, more bytes may change the verdict: `size` is the number at which it can be
+    judged further. Otherwise `size` is the number of bytes that show it. `claim` is the size that a
+    frame of unknown command would have.
     """
 
     __slots__ = ("claim", "is_open", "kind", "offset", "reason", "size")

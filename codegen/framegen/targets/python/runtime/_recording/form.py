@@ -1,4 +1,4 @@
-"""Tells a recording that is text from raw bytes, by how it begins, and reads its text in lines."""
+"""Distinguish a text recording from raw bytes, by how it begins, and read its text in lines."""
 
 from __future__ import annotations
 
@@ -8,11 +8,11 @@ TYPE_CHECKING = False  # typing alone would double the time that the import take
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator
 
-# A line of a recording: hex, and in a comment the time, the sender, and what it says.
+# A line of a recording: hex, and in a comment the time, the sender, and the message.
 TIMED_LINE = re.compile(
     r"(?P<hex>[^#]*)#+ *(?P<at>[0-9]{1,9}(?:\.[0-9]{1,9})?) s, (?P<who>[^:]*): (?P<what>.*)"
 )
-# No line of a recording is longer, and a longer one is not waited for.
+# No line of a recording is longer; a longer one is passed on in pieces.
 LONGEST_LINE = 65536
 
 _MARK = b"\xef\xbb\xbf"  # what some editors write in front of text
@@ -22,17 +22,18 @@ _SKIPPED = re.compile(
 _NO_COMMENT = re.compile(rb"#[^\n]*[\x00-\x08\x0b\x0c\x0e-\x1f\x7f]")
 _WORD = re.compile(rb"[^ \t\n\r\v\f,:;_#-]*")
 _HEX_WORD = re.compile(rb"(?:[0-9A-Fa-f]|0[xX]|\\[xX])*(?P<begun>\\?)")
-# So many letters that are all hex are meant as hex.
+# So many letters that are all hex digits are meant as hex.
 _ENOUGH = 16
 _NOT_PRINTABLE = re.compile(rb"[^\n]*[\x00-\x08\x0b\x0c\x0e-\x1f\x7f-\xff]")
 _LOOKED_AT = 4096
 
 
 def is_text(begun: bytes, *, ended: bool) -> bool | None:
-    """Whether bytes that begin so are hex written as text; None where more have to be seen.
+    """Return whether bytes that begin so are hex written as text; None while that is undecided.
 
     The answer follows from the first word alone, wherever the bytes are cut: it is made of hex
-    digits; or it is a slip in a line that a recording has. `ended` says that no more will come.
+    digits; or it is a typing error in a line that has the form of a recording. `ended` says that no
+    more bytes will come.
     """
     if len(begun) < len(_MARK) and _MARK.startswith(begun) and not ended:
         return None
@@ -66,7 +67,7 @@ def _is_timed_line(rest: bytes, *, ended: bool) -> bool | None:
 
 
 def blocks(chunks: Iterable[bytes]) -> Iterator[str]:
-    """Text in whole lines, many at once; one that is longer than all others comes in pieces."""
+    """Yield the text in whole lines, many at once; an overlong line comes in pieces."""
     held = bytearray()
     in_long = False
     for chunk in chunks:

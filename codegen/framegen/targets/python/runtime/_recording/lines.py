@@ -1,4 +1,4 @@
-"""Reads the lines of a recording: each is one event, with its time, its sender and its bytes."""
+"""Read the lines of a recording: each is one event, with its time, its sender and its bytes."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ _REASONS = {reason.value: reason for reason in Reason}
 
 
 def recorded(blocks: Iterable[str], direction: Direction | None) -> Iterator[Entry]:
-    """The entries of a recording; `direction` is of what the recording says either end has sent."""
+    """Yield the entries of a recording; `direction` is of lines that name either end as sender."""
     began: float | None = None
     number = offset = 0
     for block in blocks:
@@ -56,7 +56,7 @@ def recorded(blocks: Iterable[str], direction: Direction | None) -> Iterator[Ent
 
 
 def _beginning(line: str, number: int, began: float | None) -> float | None:
-    """When the recording began, if the line says so. Raises RecordingError where it has bytes."""
+    """Return when the recording began, or None. Raises RecordingError if the line has bytes."""
     line = line.strip()
     if len(line) >= LONGEST_LINE:
         problem = f"it has more than {LONGEST_LINE} characters, and is no line of a recording"
@@ -79,10 +79,10 @@ def _beginning(line: str, number: int, began: float | None) -> float | None:
 
 
 def _sender(who: str, number: int, direction: Direction | None) -> tuple[str | None, bool]:
-    """Who sent a line, None for either end, and whether it was noise. Raises RecordingError."""
+    """Return who sent a line, None for either, and whether it was noise. Raises RecordingError."""
     whose, _, last = who.rpartition(" ")
     if is_noise := last == NOISE:
-        # Where nobody is named, it came to this end: what a client sends is never noise.
+        # A line without a sender came to this end: what a client sends is never noise.
         who = whose or RECEIVED.sender
     if who in SENDERS:
         return who, is_noise
@@ -93,10 +93,10 @@ def _sender(who: str, number: int, direction: Direction | None) -> tuple[str | N
 
 
 def _events(data: bytes, sender: str | None, what: str, *, is_noise: bool) -> list[Event]:
-    """What the bytes of a line are, as their sender's: one event, or more if somebody joined them.
+    """Return the events of a line's bytes, as its sender's: one, or more if lines were joined.
 
-    What was noise when it was heard stays noise, even if its bytes would be a message by
-    themselves; save for a frame whose command was not known then.
+    Bytes recorded as noise stay noise, even if they would be a message by themselves; save for a
+    frame whose command was not known then.
     """
     direction = None if sender is None else SENDERS[sender]
     message: Any = None if is_noise else table_for(direction).find(data)

@@ -1,6 +1,6 @@
-"""The USB HID devices that are plugged in: found by the extra `hid`, on Linux without it too.
+"""The USB HID devices that are plugged in: found by the package hidapi, on Linux without it too.
 
-A device of this kind has no serial port. None was seen by this library on hardware yet.
+A device of this kind has no serial port. This library has not been tried with such hardware yet.
 """
 
 from __future__ import annotations
@@ -17,7 +17,6 @@ if TYPE_CHECKING:
     from typing import Any
 
 UNSEEN = "not seen on hardware yet"
-_EXTRA = f"{__name__.partition('.')[0]}[hid]"
 _LINUX = Path("/sys/bus/hid/devices")
 
 
@@ -36,13 +35,13 @@ class HidDevice(NamedTuple):
 
 
 def report_size(vendor: int, product_id: int) -> int | None:
-    """The bytes of a report of such a device; None for what is no device of this protocol."""
+    """Return the bytes of a report of such a device; None if it is not of this protocol."""
     sizes = {(vendor, product): size for vendor, product, size in HID_DEVICES}
     return sizes.get((vendor, product_id))
 
 
 def hid_library(port: str) -> Any:
-    """The module that speaks USB HID. Raises TransportError where it is not installed."""
+    """Return the module that speaks USB HID. Raises TransportError if it is not installed."""
     # On Linux one of the two takes the device away from the kernel, and the other does not.
     names = ("hidraw", "hid") if sys.platform.startswith("linux") else ("hid",)
     for name in names:
@@ -54,11 +53,11 @@ def hid_library(port: str) -> Any:
         if hasattr(found, "device") and hasattr(found, "enumerate"):
             return found
     happened = f"USB HID needs the package hidapi, which is not installed ({UNSEEN})"
-    raise TransportError(port, happened, f"pip install '{_EXTRA}'")
+    raise TransportError(port, happened, "pip install hidapi")
 
 
 def hid_devices(library: Any) -> list[HidDevice]:
-    """The devices of this protocol that are plugged in, as the library has them."""
+    """Return the devices of this protocol that are plugged in, as `library` lists them."""
     found = [
         HidDevice(
             each["vendor_id"],
@@ -72,7 +71,7 @@ def hid_devices(library: Any) -> list[HidDevice]:
 
 
 def hid_devices_at_hand(folder: Path = _LINUX) -> list[HidDevice] | None:
-    """The same without a port to open: None where nobody can tell, for want of the library."""
+    """Return the devices that are plugged in without opening any; None if that cannot be known."""
     try:
         return hid_devices(hid_library("hid://"))
     except (TransportError, OSError):
@@ -80,7 +79,7 @@ def hid_devices_at_hand(folder: Path = _LINUX) -> list[HidDevice] | None:
 
 
 def _as_linux_tells(folder: Path) -> list[HidDevice]:
-    """What the kernel lists: a folder for each device, such as 0003:0483:5750.0001."""
+    """Return the devices that Linux lists: a folder each, such as 0003:0483:5750.0001."""
     found: list[HidDevice] = []
     for device in folder.iterdir():
         try:

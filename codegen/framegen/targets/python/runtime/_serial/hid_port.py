@@ -1,7 +1,7 @@
-"""A USB HID device as a transport: reports that carry the same frames. Not seen on hardware yet.
+"""A USB HID device as a transport: reports that carry the same frames. Not tried on hardware yet.
 
 A frame is sent at the start of a report, behind the report's number, which is 0, and padded with
-zeros; so it comes back. This follows what others have published of such devices.
+zeros; frames of the device come the same way. This follows published descriptions of such devices.
 """
 
 from __future__ import annotations
@@ -40,14 +40,14 @@ SCHEME = "hid:"
 _IDS = re.compile(r"([0-9a-fA-F]{4}):([0-9a-fA-F]{4})")
 _NAMED = "write hid:// for the one device that is plugged in, hid://VENDOR:PRODUCT or hid://PATH"
 _USUAL_SIZE = 64
-# A read cannot be ended from outside: longer waits are made of several.
+# A read cannot be interrupted: longer waits are made of several.
 _POLL_INTERVAL = 0.05
 
 
 def open_hid(port: str, *, library: Any = None) -> HidPort:
-    """Opens a device by USB HID: `hid://`, `hid://0483:5750`, or `hid://` and the system's path.
+    """Open a device by USB HID: `hid://`, `hid://0483:5750`, or `hid://` and the system's path.
 
-    Raises TransportError. `library` is what speaks USB HID; without one, it is imported.
+    Raises TransportError. `library` is the module that speaks USB HID; None imports it.
     """
     scheme, separator, rest = port.partition("://")
     if not separator or f"{scheme.lower()}:" != SCHEME:
@@ -57,7 +57,7 @@ def open_hid(port: str, *, library: Any = None) -> HidPort:
     device = hid.device()
     try:
         device.open_path(seen.path.encode())
-        # Otherwise a read without a time to wait would wait for ever.
+        # Otherwise a read without a timeout would wait for ever.
         device.set_nonblocking(1)
     except (OSError, ValueError) as error:
         raise _not_opened(port, seen, error) from error
@@ -66,7 +66,7 @@ def open_hid(port: str, *, library: Any = None) -> HidPort:
 
 
 def _chosen(port: str, wanted: str, found: list[HidDevice]) -> HidDevice:
-    """The one device that is meant."""
+    """Return the one device that the port name selects."""
     ids = _IDS.fullmatch(wanted)
     if ids is not None:
         pair = int(ids[1], 16), int(ids[2], 16)
@@ -86,7 +86,7 @@ def _chosen(port: str, wanted: str, found: list[HidDevice]) -> HidDevice:
 
 
 def _not_opened(port: str, seen: HidDevice, error: Exception) -> TransportError:
-    """Why a device that is there could not be opened: the library does not say."""
+    """Return the error for a device that is there but cannot be opened: hidapi gives no reason."""
     rule = (
         'KERNEL=="hidraw*", '
         f'ATTRS{{idVendor}}=="{seen.vendor:04x}", ATTRS{{idProduct}}=="{seen.product_id:04x}", '
@@ -103,8 +103,8 @@ class HidPort:
     """An open USB HID device, as a transport. `reopen` opens the same one anew.
 
     `device` has the methods of a device of hidapi. No frame of more than `largest_frame` bytes can
-    be sent. Of a report that begins with a frame, what follows it is padding, and dropped; of any
-    other, only zeros at its end are.
+    be sent. In a report that begins with a frame, all that follows the frame is padding, and
+    dropped; in any other, only zeros at its end are.
     """
 
     def __init__(
@@ -117,13 +117,14 @@ class HidPort:
         self._closed = False
         # How many bytes of a frame that is longer than a report are still to come.
         self._rest = 0
-        # Held until it is closed; again by the thread that closes it, as in a handler of signals.
+        # Held until it is closed; acquired again by the thread that closes it, as in a signal
+        # handler.
         self._closing = threading.RLock()
-        # Held while a read is under way, so that the device is not closed underneath it.
+        # Held during a read, so that the device is not closed underneath it.
         self._reading = threading.Lock()
 
     def read(self, timeout: float) -> bytes:
-        """What has arrived, waiting up to `timeout` seconds for the first byte."""
+        """Return the bytes that have arrived, waiting up to `timeout` seconds for the first one."""
         until = time.monotonic() + timeout
         while True:
             left = until - time.monotonic()
@@ -145,7 +146,7 @@ class HidPort:
             raise self._failed(str(error)) from error
 
     def _unpadded(self, report: bytes) -> bytes:
-        """The bytes of a report that are no padding."""
+        """Return a report without its padding."""
         end, self._rest = self._rest, 0
         if not end and report.startswith(HEADER) and len(report) >= LENGTH_END:
             end = read_length(report) + UNCOUNTED
@@ -162,13 +163,13 @@ class HidPort:
         return report[:end]
 
     def write(self, data: bytes) -> None:
-        """Hands over a frame, in a report. Raises TransportError for what a report cannot hold."""
+        """Write a frame, in a report. Raises TransportError if it does not fit into one."""
         if self._closed:
             raise self._is_closed()
         if len(data) > self.largest_frame:
             happened = f"{len(data)} bytes do not fit into a report, which has {self.largest_frame}"
             raise TransportError(self.name, happened, "send them in shorter frames")
-        # What has not come of a frame by now is of a question that is over.
+        # The missing rest of an earlier frame belongs to a request that is over.
         self._rest = 0
         try:
             written = self._device.write(b"\x00" + data.ljust(self.largest_frame, b"\x00"))
@@ -178,10 +179,10 @@ class HidPort:
             raise self._failed("the report was not taken")
 
     def drain(self, timeout: float) -> None:
-        """Returns at once: a report that was handed over has arrived."""
+        """Return at once: a report that was written has arrived."""
 
     def close(self) -> None:
-        """Closes the device; a read under way ends first. A second call waits for the first."""
+        """Close the device; a read in progress ends first. A second call waits for the first."""
         with self._closing:
             if not self._closed:
                 self._closed = True

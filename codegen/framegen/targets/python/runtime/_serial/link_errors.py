@@ -1,4 +1,4 @@
-"""What can go wrong on a live line: the port itself, a reply or a report that does not come."""
+"""Errors of a live line: the port itself, a reply or a report that does not come."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from collections.abc import Iterable, Mapping
 
 from .._frame.errors import ProtocolError
 from .._frame.message import Message
-from .._frame.wording import counted
+from .._frame.pluralize import pluralize
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
@@ -25,7 +25,7 @@ def errno_of(error: Exception) -> int | None:
 
 
 class TransportError(ProtocolError, OSError):
-    """The port failed. `port` is which, `happened` what happened, and `advice` what to do now.
+    """The port failed. `port` is its name, `happened` what happened, `advice` what to do.
 
     As of any OSError, `filename` is the port, `strerror` what happened, and `errno` the number that
     the system has for it, None where it has none.
@@ -45,7 +45,7 @@ class TransportError(ProtocolError, OSError):
         return type(self), given, vars(self)
 
     def again(self) -> typing.Self:
-        """Make the same error once more, to be raised with no traceback of its own yet."""
+        """Return a copy of the error, to be raised once more, with no traceback of its own yet."""
         return type(self)(self.port, self.happened, self.advice, self.errno)
 
 
@@ -62,7 +62,7 @@ class PortPermissionError(TransportError):
 
 
 class PortAddressError(TransportError, ValueError):
-    """What was given is the name of no port, nor a URL of any known kind."""
+    """The given name is neither a port's, nor a URL of any known kind."""
 
 
 class DisconnectedError(TransportError):
@@ -78,11 +78,11 @@ class ClosedError(TransportError):
 
 
 class EchoError(TransportError):
-    """What was sent has not come back, on a line that was said to give it back."""
+    """The echo of a frame has not come, on a line that was said to have a local echo."""
 
 
 class NoReplyError(ProtocolError, TimeoutError):
-    """No reply came in time. `request` is what was asked, `waited` the seconds spent on it.
+    """No reply came in time. `request` is the message sent, `waited` the seconds spent on it.
 
     What came instead meanwhile: `noise` bytes that are no frame, `reports`, and `unsolicited`
     replies, which cannot be the answer.
@@ -117,23 +117,23 @@ class NoReplyError(ProtocolError, TimeoutError):
         if self.noise:
             verb = "is" if self.noise == 1 else "are"
             came.append(
-                f"{counted(self.noise, 'byte')} came that {verb} no frame: wrong baud rate?"
+                f"{pluralize(self.noise, 'byte')} came that {verb} no frame: wrong baud rate?"
             )
         if self.unsolicited:
-            replies = counted(self.unsolicited, "reply", "replies")
+            replies = pluralize(self.unsolicited, "reply", "replies")
             came.append(f"{replies} came that cannot be the answer: late, or sent twice")
         if self.reports:
-            came.append(f"{counted(self.reports, 'report')} came, so the device can be heard")
+            came.append(f"{pluralize(self.reports, 'report')} came, so the device can be heard")
         return "; ".join(came) or (
             "nothing came at all: is the device switched on, and is this its port?"
         )
 
 
 class IncompleteReplyError(ProtocolError):
-    """A reply told less than was asked.
+    """A reply held less than was requested.
 
-    `missing` is what was asked about and not told, `arrived` what was told (such as positions), and
-    `replies` the messages that told it.
+    `missing` is what was requested and not received, `arrived` what was received (such as
+    positions), and `replies` the messages that held it.
     """
 
     def __init__(
@@ -169,7 +169,7 @@ class AbsentError(IncompleteReplyError):
 
 
 class NoReportError(ProtocolError, TimeoutError):
-    """A report did not come. `report` is what was waited for, `waited` how many seconds.
+    """A report did not come. `report` is the expected one, `waited` how many seconds.
 
     `instead` has the reports that came in its place, and how often each of them did.
     """
@@ -191,7 +191,7 @@ class NoReportError(ProtocolError, TimeoutError):
             f"{message!r}" if count == 1 else f"{count} times {message!r}"
             for message, count in self.instead.items()
         ]
-        # The latest tell most of what goes on now.
+        # The latest ones say most about what goes on now.
         more = [f"{len(came) - _SHOWN} others"] if len(came) > _SHOWN else []
         what = ", ".join([*more, *came[-_SHOWN:]]) or "no report at all"
         return f"no {self.report} came within {self.waited:.3f} s; what came instead: {what}"

@@ -1,4 +1,4 @@
-"""Why a port could not be opened, in words that say what to do about it."""
+"""Errors for a port that could not be opened, in words that say what to do about it."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ _PERMITTED = (
     "add yourself to the group that owns it (dialout on most systems, uucp on some), as by "
     "`sudo usermod -aG dialout $USER`, then log in again"
 )
-# What pyserial says, where there is no errno to go by.
+# pyserial's texts, for errors without an errno.
 _ABSENT = ("filenotfounderror", "no ports found")
 # Where the system's words stand in pyserial's: `[Errno 5] ...`, or `(5, '...')` and the like.
 _SYSTEM_WORDS = (
@@ -46,7 +46,7 @@ _SYSTEMS = {"win32": "Windows", "darwin": "macOS", "linux": "Linux"}
 def not_opened(
     port: str, error: Exception, listed: Callable[[], str], *, platform: str = sys.platform
 ) -> TransportError:
-    """Why a port could not be opened, and what to do about it; `listed` tells what there is."""
+    """Return why a port could not be opened, and what to do; `listed` returns all ports."""
     code, low = errno_of(error), str(error).lower()
     # On Windows pyserial gives the system's words instead of an errno.
     denied = code in (errno.EACCES, errno.EPERM) or "permissionerror" in low
@@ -65,7 +65,7 @@ def not_opened(
 
 
 def _no_port(port: str, error: Exception) -> TransportError:
-    """Why pyserial knows nothing of that kind."""
+    """Return the error for a name that pyserial does not know."""
     low = str(error).lower()
     if "baud rate" in low:
         happened = f"it cannot be set to that rate ({_words_of(error)})"
@@ -77,8 +77,8 @@ def _no_port(port: str, error: Exception) -> TransportError:
 
 
 def _unlike_a_port(port: str, error: OSError, listed: Callable[[], str]) -> TransportError:
-    """Why what is there does not open as a port does."""
-    # pyserial keeps this number in its text alone.
+    """Return the error for something that does not open as a port does."""
+    # pyserial has this number in its text alone.
     if error.errno == errno.EISDIR or f"({errno.ENOTTY}," in str(error):
         happened = "it is there, and is no serial port"
         return PortAddressError(port, happened, listed(), error.errno)
@@ -90,7 +90,7 @@ def _unlike_a_port(port: str, error: OSError, listed: Callable[[], str]) -> Tran
 
 
 def _words_of(error: Exception) -> str:
-    """What the system said, without what pyserial has put around it."""
+    """Return what the system said, without what pyserial has put around it."""
     if isinstance(error, OSError) and error.errno:
         return os.strerror(error.errno)
     text = str(error)

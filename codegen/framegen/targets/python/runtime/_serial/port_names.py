@@ -1,4 +1,4 @@
-"""What a port may be called: names that none can have are refused before anything is opened."""
+"""Port names: those that cannot exist are refused before anything is opened."""
 
 from __future__ import annotations
 
@@ -10,8 +10,8 @@ from .link_errors import PortAddressError, TransportError
 NAMED = "name a port, such as /dev/ttyUSB0 or COM7, or a URL, such as socket://host:port"
 _NETWORK = ("socket", "rfc2217")
 _LOGGING = r"logging=(?:debug|info|warning|error)"
-# The addresses that pyserial opens: what options there are, what stands in front of the first (the
-# others follow an &), and how they are told.
+# The addresses that pyserial opens: their options, the character before the first (the others
+# follow an &), and how they are recognised.
 ADDRESSES = {
     "hwgrep": (r"n=0*(?:[2-9]|[1-9][0-9]+)|skip_busy", "&", "n=2 for the second, and skip_busy"),
     "loop": (_LOGGING, "?", "logging=debug"),
@@ -26,7 +26,7 @@ _HIGHEST_TCP_PORT = 65535
 
 
 def refused_name(port: object) -> TransportError | None:
-    """Why nothing can have this name, whatever is plugged in; None where something may."""
+    """Return the error for a name that no port can have; None if a port may have it."""
     if not isinstance(port, str):
         return PortAddressError(repr(port), "a port is named by text", NAMED)
     if not port.strip():
@@ -95,7 +95,7 @@ def _wrong_tcp_port(address: str) -> str:
         return "it names no TCP port"
     if not (number.isascii() and number.isdigit()):
         return f"{number!r} is no TCP port, which is a number"
-    # A number of thousands of digits is none that Python would convert.
+    # Python refuses to convert a number of thousands of digits.
     if len(number) > len(str(_HIGHEST_TCP_PORT)) or not 1 <= int(number) <= _HIGHEST_TCP_PORT:
         return f"{number} is no TCP port, which is 1 to {_HIGHEST_TCP_PORT}"
     return ""

@@ -1,7 +1,7 @@
-"""A serial port as a transport: pyserial, and its failures turned into errors that say what to do.
+"""A serial port as a transport: pyserial, with errors that say what to do.
 
 Whatever pyserial opens is a port: `/dev/ttyUSB0`, `COM7`, `hwgrep://CH340`, `socket://host:port`,
-`rfc2217://host:port`, `loop://`. What begins with `hid:` is opened by USB HID instead.
+`rfc2217://host:port`, `loop://`. A name that begins with `hid:` is opened by USB HID instead.
 """
 
 from __future__ import annotations
@@ -36,24 +36,24 @@ if TYPE_CHECKING:
 # are made of several, and shorter ones are waited for here. It is also how long closing waits for a
 # read that cannot be cancelled.
 _POLL_INTERVAL = 0.05
-# How often to look whether bytes have come, where nothing tells.
+# How often to look whether bytes have come, where nothing announces them.
 _LOOK = 0.001
 _WRITE_TIMEOUT = 1.0
 _MOST = 4096
-# No driver knows a rate of more bits than this.
+# No driver knows a higher bit rate than this.
 _FASTER = 2**31
 _SOCKET = "socket:"
-# What pyserial raises besides OSError once its descriptor is gone in mid-call.
+# What pyserial raises besides OSError if its descriptor is closed during a call.
 _GONE = (OSError, TypeError, ValueError, AttributeError)
 
 
 class SerialPortSeen(NamedTuple):
-    """A serial port of this machine. `usb` is VID:PID, empty for what is not on USB."""
+    """A serial port of this machine. `usb` is VID:PID, empty for a port that is not on USB."""
 
     name: str
     usb: str
     product: str
-    # Only known so that it can be left out of what is sent to others.
+    # Kept only so that it can be removed from reports that are sent to others.
     serial: str = ""
 
     def __str__(self) -> str:
@@ -62,7 +62,7 @@ class SerialPortSeen(NamedTuple):
 
 
 def serial_ports() -> list[SerialPortSeen]:
-    """The serial ports that are plugged in."""
+    """Return the serial ports that are plugged in."""
     from serial.tools import list_ports
 
     return sorted(
@@ -79,12 +79,12 @@ def serial_ports() -> list[SerialPortSeen]:
 def open_transport(
     port: str, *, baud: float = BAUD, exclusive: bool = True
 ) -> SerialPort | HidPort:
-    """Opens a port, by the name or the URL that pyserial knows it by, or a device by `hid://`.
+    """Open a port, by the name or the URL that pyserial knows it by, or a device by `hid://`.
 
     The rest of the line's parameters are the protocol's; a `baud` of math.inf says that the line
     takes no time, and sets the port to the protocol's rate. With `exclusive`, no other program that
-    asks for the same can have the port meanwhile. Raises TransportError; ValueError for a `baud`
-    that no port can be set to.
+    also asks for exclusive use can have the port meanwhile. Raises TransportError; ValueError for a
+    `baud` that no port can be set to.
     """
     if isinstance(port, str) and port.lower().startswith("hid:"):
         return open_hid(port)
@@ -108,13 +108,13 @@ def open_transport(
             stopbits=STOP_BITS,
             # pyserial reads a socket byte by byte, unless it must not wait: `select` waits for it.
             timeout=0 if url.startswith(_SOCKET) else _POLL_INTERVAL,
-            # pyserial refuses one for RFC 2217, where its own socket gives up after 5 s.
+            # pyserial refuses a write timeout for RFC 2217, whose socket gives up after 5 s anyway.
             write_timeout=None if url.startswith("rfc2217:") else _WRITE_TIMEOUT,
             exclusive=exclusive or None,
         )
     except (*_GONE, LookupError, NotImplementedError, StopIteration) as error:
         raise not_opened(port, error, _listed) from error
-    # pyserial leaves a socket to collect small writes: the second of two would wait for 40 ms.
+    # pyserial lets a socket collect small writes: the second of two would wait for 40 ms.
     behind = getattr(opened, "_socket", None)
     if behind is not None:
         behind.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
@@ -130,19 +130,20 @@ class SerialPort:
         self._port = port
         self._handle = _handle_of(port)
         if self._handle is not None:
-            # Only then does pyserial tell how much was taken. Its own time-out is also raised where
+            # Only then does pyserial return how much was taken. Its own time-out is also raised if
             # all was, but the process had been stopped meanwhile.
             port.write_timeout = 0
         self._at_once = getattr(port, "timeout", None) == 0
         self._closed = False
-        # Held until it is closed; again by the thread that closes it, as in a handler of signals.
+        # Held until it is closed; acquired again by the thread that closes it, as in a signal
+        # handler.
         self._closing = threading.RLock()
-        # Held while a read is under way, so that the descriptor is not closed underneath it: its
-        # number could be another file's by the time it is used.
+        # Held during a read, so that the descriptor is not closed underneath it: its number could
+        # be another file's by the time it is used.
         self._reading = threading.Lock()
 
     def read(self, timeout: float) -> bytes:
-        """What has arrived, waiting up to `timeout` seconds for the first byte."""
+        """Return the bytes that have arrived, waiting up to `timeout` seconds for the first one."""
         until = time.monotonic() + timeout
         while True:
             left = until - time.monotonic()
@@ -171,7 +172,7 @@ class SerialPort:
         return data
 
     def _comes(self, timeout: float) -> bool:
-        """Whether anything comes within `timeout`; True as well where a read of pyserial waits."""
+        """Return whether bytes come within `timeout`; True also if pyserial's read waits."""
         if self._handle is not None:
             return bool(select.select([self._handle], [], [], timeout)[0])
         if timeout >= _POLL_INTERVAL:
@@ -185,7 +186,7 @@ class SerialPort:
         return True
 
     def write(self, data: bytes) -> None:
-        """Hands over all of `data`."""
+        """Write all of `data`."""
         if self._closed:
             raise self._is_closed()
         try:
@@ -204,13 +205,13 @@ class SerialPort:
             )
 
     def _taken(self, data: bytes) -> bool:
-        """Whether the port takes all of `data` in time."""
+        """Return whether the port takes all of `data` in time."""
         if self._handle is None:
             self._port.write(data)
             return True
         until = time.monotonic() + _WRITE_TIMEOUT
         while data:
-            # Asked once more when time is up: it may have passed while this process stood still.
+            # Checked once more when time is up: it may have passed while this process stood still.
             left = max(0.0, until - time.monotonic())
             if not select.select([], [self._handle], [], left)[1]:
                 return False
@@ -218,8 +219,8 @@ class SerialPort:
         return True
 
     def drain(self, timeout: float) -> None:
-        """Waits until the last byte has left, as far as the driver can tell."""
-        # Not flush(): where a device has stopped taking bytes, tcdrain waits for ever.
+        """Wait until the last byte has left, as far as the driver can tell."""
+        # Not flush(): if a device has stopped taking bytes, tcdrain waits for ever.
         until = time.monotonic() + timeout
         try:
             while getattr(self._port, "out_waiting", 0) and time.monotonic() < until:
@@ -228,7 +229,7 @@ class SerialPort:
             raise self._failed(error) from error
 
     def close(self) -> None:
-        """Closes the port; a read under way ends first. A second call waits for the first."""
+        """Close the port; a read in progress ends first. A second call waits for the first."""
         with self._closing:
             if not self._closed:
                 self._closed = True
@@ -269,7 +270,7 @@ class SerialPort:
 
 
 def _handle_of(port: Any) -> int | None:
-    """What `select` can wait for; None where there is no such thing, as for ports of Windows."""
+    """Return the handle that `select` can wait for; None if there is none, as on Windows."""
     try:
         handle = port.fileno()
     except (*_GONE, NotImplementedError):

@@ -1,4 +1,4 @@
-"""What a client needs of a line: anything with these methods is a transport."""
+"""The interface between a client and a line: anything with these methods is a transport."""
 
 from __future__ import annotations
 
@@ -6,17 +6,17 @@ from typing import Protocol
 
 
 class Transport(Protocol):
-    """Carries bytes both ways, whole and in order, or says that it cannot.
+    """Anything that carries bytes both ways, complete and in order, or raises an error.
 
     Inherit from nothing: having the methods is enough. A `name` of type str, if there is one, is
     what errors and logs call the line; a method `reopen()`, if there is one, returns the same line
-    opened anew; of a `largest_frame` of type int, if there is one, longer frames are refused before
-    they are sent. Failures are raised as TransportError. `read` and `write` may run at the same
-    time in two threads, but never two reads nor two writes.
+    opened anew; if there is a `largest_frame` of type int, longer frames are refused before they
+    are sent. Failures are raised as TransportError. `read` and `write` may run at the same time in
+    two threads, but never two reads nor two writes.
     """
 
     def read(self, timeout: float) -> bytes:
-        """What has arrived, waiting up to `timeout` seconds for the first byte of it.
+        """Return the bytes that have arrived, waiting up to `timeout` seconds for the first one.
 
         b"" says that nothing came in that time, and never that the line has ended: that is a
         TransportError.
@@ -24,16 +24,16 @@ class Transport(Protocol):
         ...
 
     def write(self, data: bytes) -> None:
-        """Hands over all of `data`, or raises, within a second or two: whoever writes waits for it.
+        """Write all of `data`, or raise, within a second or two: the caller waits for it.
 
         It need not be on the wire yet.
         """
         ...
 
     def drain(self, timeout: float) -> None:
-        """Returns once what was written is on the wire, or after `timeout` seconds."""
+        """Return once all that was written is on the wire, or after `timeout` seconds."""
         ...
 
     def close(self) -> None:
-        """Gives the line back; may be called again. A read in another thread ends soon."""
+        """Close the line; may be called again. A read in another thread ends soon."""
         ...

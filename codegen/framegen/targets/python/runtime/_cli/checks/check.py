@@ -1,4 +1,4 @@
-"""A check: its id, what it holds, which others must have passed before, and how it is made."""
+"""A check: its id, what it checks, which others it needs, and the function that makes it."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ if TYPE_CHECKING:
 
 
 class Check(NamedTuple):
-    """One check. Where one of `needs` has failed, or could not be made, it is not made."""
+    """One check. It is skipped if one of `needs` has failed, or was skipped."""
 
     id: str
     title: str

@@ -1,4 +1,4 @@
-"""All checks, in the order of the guide to troubleshooting, and how they are gone through."""
+"""All checks, in the order of the guide to troubleshooting, and how they are run."""
 
 from __future__ import annotations
 
@@ -12,12 +12,13 @@ from . import (
     opening,
     permission,
     port_listed,
-    rate,
     reply,
     round_trip,
     silence,
 )
 from .present import present_check
+from .question import harmless_question
+from .rate import rate_check
 from .result import FAILED, failed, unknown
 
 TYPE_CHECKING = False
@@ -28,6 +29,8 @@ if TYPE_CHECKING:
     from .diagnosis import Diagnosis
     from .result import Result
 
+_OF_REPLIES = (echo.CHECK, reply.CHECK, round_trip.CHECK)
+_QUESTION = harmless_question()
 CHECKS: tuple[Check, ...] = (
     port_listed.CHECK,
     hid_device.CHECK,
@@ -35,17 +38,15 @@ CHECKS: tuple[Check, ...] = (
     busy.CHECK,
     opening.CHECK,
     silence.CHECK,
-    rate.CHECK,
-    echo.CHECK,
-    reply.CHECK,
-    round_trip.CHECK,
+    # Without a question that suits any device, there is no reply to look at.
+    *(() if _QUESTION is None else (rate_check(_QUESTION), *_OF_REPLIES)),
     *(() if POSE is None else (present_check(POSE),)),
     look_alike.CHECK,
 )
 
 
 def examine(diagnosis: Diagnosis, checks: Iterable[Check]) -> Iterator[tuple[Check, Result]]:
-    """Makes one check after the other, and gives each with what it has found, as it is found.
+    """Make one check after the other, and yield each with its result.
 
     The port is closed when this ends, however it does.
     """
@@ -71,7 +72,7 @@ def _looked(check: Check, diagnosis: Diagnosis) -> Result:
     try:
         return check.look(diagnosis)
     except TransportError as error:
-        # The library would say `reconnect()`, which is nothing that can be done here.
+        # The library would say `reconnect()`, which cannot be done here.
         diagnosis.lost = True
         advice = "see to the cable and the power, then run this again"
         return failed(f"{error.port}: {error.happened}", advice)

@@ -1,4 +1,4 @@
-"""What the checks share: what they look at, and what they have found so far."""
+"""The state that the checks share: what they examine, and what they have found so far."""
 
 from __future__ import annotations
 
@@ -30,8 +30,8 @@ class Diagnosis:
     """One examination of one port, with what has been found so far.
 
     `port` may be None: the one that is plugged in is taken, if there is one. `opener` opens a port
-    at a rate, `ports` and `hid_devices` tell what is plugged in, and `clock` tells seconds; all of
-    them are for tests to replace. With `local_echo`, what is sent is expected to come back.
+    at a rate, `ports` and `hid_devices` return what is plugged in, and `clock` returns seconds;
+    tests replace all of them. With `local_echo`, an echo is expected of what is sent.
     """
 
     def __init__(
@@ -57,22 +57,22 @@ class Diagnosis:
         self.error: TransportError | None = None
         self.lost = False
         self.probe: Probe | None = None
-        # What came unasked, and the questions at the rate that was found to be right.
+        # Unsolicited events, and the round trips at the rate that proved right.
         self.unasked: list[Message | Noise] = []
         self.trips: list[Trip] = []
-        # What came at other rates.
+        # Noise at other rates.
         self.strange: list[Noise] = []
         self._clock = clock
         self._open = opener or (lambda name, rate: open_transport(name, baud=rate))
 
     @property
     def stated(self) -> str:
-        """The rate that the line is said to have, in words."""
+        """The stated rate of the line, in words."""
         return "no rate" if math.isinf(self.baud) else f"{self.baud:g} baud"
 
     @property
     def adapter(self) -> str:
-        """What is plugged in, by VID:PID and product; empty where that is not known."""
+        """The adapter that is plugged in, by VID:PID and product; empty if that is not known."""
         port = self.port or ""
         if port.lower().startswith("hid:"):
             return ", ".join(f"{each.ids} {each.product}" for each in self.hid_devices or [])
@@ -81,7 +81,7 @@ class Diagnosis:
         return next((f"{each.usb} {each.product}".strip() for each in found), "")
 
     def connect(self, baud: float | None = None) -> Probe:
-        """Opens the port, at a rate; whatever was open before is closed. Raises TransportError."""
+        """Open the port, at a rate; close the one that was open before. Raises TransportError."""
         if self.port is None:
             raise AssertionError("no check asks for a port where none was found")
         self.close()
@@ -94,11 +94,11 @@ class Diagnosis:
         return self.probe
 
     def connected(self) -> Probe:
-        """The open port."""
+        """Return the open port."""
         return self.connect() if self.probe is None else self.probe
 
     def close(self) -> None:
-        """Gives the port back."""
+        """Close the port."""
         if self.probe is not None:
             probe, self.probe = self.probe, None
             probe.close()

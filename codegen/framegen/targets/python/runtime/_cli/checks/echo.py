@@ -1,4 +1,4 @@
-"""Check: what is sent comes back only where it is said to."""
+"""Check: the line echoes what is sent only if it is said to."""
 
 from __future__ import annotations
 

@@ -12,8 +12,6 @@ if TYPE_CHECKING:
     from .diagnosis import Diagnosis
     from .result import Result
 
-_PACKAGE = __name__.partition(".")[0]
-
 
 def _look(diagnosis: Diagnosis) -> Result:
     known = ", ".join(f"{vendor:04X}:{product:04X}" for vendor, product, _ in HID_DEVICES)
@@ -22,7 +20,7 @@ def _look(diagnosis: Diagnosis) -> Result:
     if diagnosis.hid_devices is None:
         return unknown(
             f"nobody here can tell whether a USB HID device ({known}) is plugged in",
-            f"pip install '{_PACKAGE}[hid]'; such a device has no serial port at all",
+            "pip install hidapi; such a device has no serial port at all",
         )
     if not diagnosis.hid_devices:
         return passed(f"no USB HID device ({known}) is plugged in")
@@ -31,7 +29,7 @@ def _look(diagnosis: Diagnosis) -> Result:
         return passed(f"{told} is plugged in")
     return unknown(
         f"{told} is plugged in, a device without a serial port ({UNSEEN})",
-        f"if that is the device you mean: pip install '{_PACKAGE}[hid]', and --port hid://",
+        "if that is the device you mean: pip install hidapi, and --port hid://",
     )
 
 

@@ -41,7 +41,7 @@ def _look(diagnosis: Diagnosis) -> Result:
 
 
 def _told(noise: Noise) -> str:
-    """What a piece of noise has in common with a frame; empty for nothing."""
+    """Return what a piece of noise has in common with a frame; empty for nothing."""
     if isinstance(noise, UnknownFrame):
         return f"a frame of command {noise.command} came, which is none of this protocol's"
     data = noise.data

@@ -1,4 +1,4 @@
-"""Check, for those who ask for it: something goes where it is sent, and back."""
+"""Check, an optional one: a target is reached, and the way back as well."""
 
 from __future__ import annotations
 
@@ -13,20 +13,20 @@ if TYPE_CHECKING:
     from .diagnosis import Diagnosis
     from .result import Result
 
-# How far, how long that may take, and how long it may take besides.
+# How far, how long that may take, and how long to wait beyond that.
 STEP = 20
 _MILLISECONDS = 500
 _AFTER = 0.5
 
 
 def move_check(number: int, pose: Pose) -> Check:
-    """The check that moves one of them a little, and back to where it was."""
+    """Return the check that moves one of them a little, and back to where it was."""
     title = f"{pose.noun} {number} moves"
     return Check("move", title, ("opening",), lambda each: _Motion(each, number, pose).look())
 
 
 class _Motion:
-    """There and back, with a look at where it is before, between and after."""
+    """The motion there and back, with the position read before, between and after."""
 
     def __init__(self, diagnosis: Diagnosis, number: int, pose: Pose) -> None:
         self._diagnosis = diagnosis
@@ -35,7 +35,7 @@ class _Motion:
         self._name = f"{pose.noun} {number}"
 
     def look(self) -> Result:
-        """Moves it, if it says where it is and that is within the limits."""
+        """Move it, if it reports its position and that is within the limits."""
         began = self._position()
         if began is None:
             told = f"{self._name} tells no position, so it was not moved"
@@ -56,14 +56,14 @@ class _Motion:
         return passed(told)
 
     def _moved(self, target: int) -> int | None:
-        """Where it is after it was sent somewhere."""
+        """Send it to a target, and return its position afterwards."""
         probe = self._diagnosis.connected()
         probe.tell(self._pose.motion([(self._number, target)], _MILLISECONDS))
         probe.listen(_MILLISECONDS / 1000 + _AFTER)
         return self._position()
 
     def _position(self) -> int | None:
-        """Where it is; None where it does not say."""
+        """Return its position; None if it does not report one."""
         request = self._pose.read(**{self._pose.asked: [self._number]})
         reply = ask_patiently(self._diagnosis, request)
         found = [] if reply is None else self._pose.there([reply])

@@ -1,4 +1,4 @@
-"""Check: there is a port to look at."""
+"""Check: there is a port to examine."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ def _look(diagnosis: Diagnosis) -> Result:
 
 
 def _choose(diagnosis: Diagnosis, found: str) -> Result:
-    """Takes the one port that there is; or a device without any."""
+    """Choose the only port there is; or a device without any."""
     by_usb = [each for each in diagnosis.ports if each.usb]
     devices = diagnosis.hid_devices or []
     if not by_usb and devices:

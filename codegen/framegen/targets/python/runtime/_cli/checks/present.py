@@ -1,4 +1,4 @@
-"""Check: something is there behind the device, and tells its position."""
+"""Check: something is connected behind the device, and reports its position."""
 
 from __future__ import annotations
 
@@ -15,21 +15,24 @@ if TYPE_CHECKING:
     from .probe import Probe
     from .result import Result
 
-# One reply may be lost on any line: whether each comes is for another check to say.
+# One reply may be lost on any line: whether each comes is for another check to find out.
 _TRIES = 3
-# How many are asked about at once where the line carries no long frames.
+# How many are requested at once on a line that carries no long frames.
 _FEW = 16
 
 
 def present_check(pose: Pose) -> Check:
-    """The check that asks all that there can be where they are."""
+    """Return the check that reads the positions of all that can be connected."""
     title = "something is there behind the device"
     return Check("present", title, ("opening",), lambda each: _look(each, pose))
 
 
 def _look(diagnosis: Diagnosis, pose: Pose) -> Result:
-    if not any(trip.replies for trip in diagnosis.trips):
-        return unknown("there is no reply to anything: see the check `rate`")
+    advice = "the device may be of a kind that does not know this question"
+    if diagnosis.trips:
+        if not any(trip.replies for trip in diagnosis.trips):
+            return unknown("there is no reply to anything: see the check `rate`")
+        advice = f"see the check `reply`; if that has passed, {advice}"
     replies: list[Message] = []
     for request in _requests(diagnosis.connected(), pose):
         reply = ask_patiently(diagnosis, request)
@@ -38,8 +41,7 @@ def _look(diagnosis: Diagnosis, pose: Pose) -> Result:
             return failed(
                 f"the question about {pose.noun}s {ids[0]} to {ids[-1]} was not answered, though "
                 f"asked {_TRIES} times",
-                "see the check `reply`; if that has passed, the device may be of a kind that does "
-                "not know this question",
+                advice,
                 *(trip.received for trip in diagnosis.trips[-_TRIES:] if trip.received),
             )
         replies.append(reply)
@@ -55,7 +57,7 @@ def _look(diagnosis: Diagnosis, pose: Pose) -> Result:
 
 
 def ask_patiently(diagnosis: Diagnosis, request: Message) -> Message | None:
-    """The first reply to a question, asked a few times; None where none comes."""
+    """Return the first reply to a question, sent a few times; None if none comes."""
     for _ in range(_TRIES):
         trip = diagnosis.connected().ask(request, extra=EXTRA_TIME)
         diagnosis.trips.append(trip)
@@ -65,7 +67,7 @@ def ask_patiently(diagnosis: Diagnosis, request: Message) -> Message | None:
 
 
 def _requests(probe: Probe, pose: Pose) -> list[Message]:
-    """Questions about all that there can be, in parts that this line carries."""
+    """Return requests for all that can be connected, in parts that this line carries."""
     most = EXCHANGES[pose.read].most or len(pose.ids)
     if probe.largest_frame is not None:
         most = min(most, _FEW)

@@ -1,4 +1,4 @@
-"""An open port, asked and listened to as it is: a client would hide what is looked for here."""
+"""An open port, used without a client, which would hide what the checks look for."""
 
 from __future__ import annotations
 
@@ -17,10 +17,10 @@ if TYPE_CHECKING:
     from ..._serial.transport import Transport
     from .trip import Pieces, TimedEvent
 
-    # The time, the sender or None for noise, the bytes, and what they are; without bytes, a note.
+    # The time, the sender or None for noise, the bytes, and their meaning; without bytes, a note.
     Entry = tuple[float, str | None, bytes, str]
 
-# A pause in what comes that ends it: above what USB adapters keep bytes back for.
+# A pause that ends what comes: longer than USB adapters keep bytes back for.
 _PAUSE = 0.06
 _POLL_INTERVAL = 0.02
 # A line that never falls silent is left after so long.
@@ -28,9 +28,10 @@ _LONGEST = 1.0
 
 
 class Probe:
-    """Asks over a transport at `baud`, and notes in `log` all that passes. Raises TransportError.
+    """A transport at `baud` that is sent questions, with all that passes recorded in `log`.
 
-    `reply_timeout` is how many seconds a device may take for an answer, besides those on the wire.
+    `reply_timeout` is how many seconds a device may take for a reply, beyond the time on the wire.
+    Raises TransportError.
     """
 
     def __init__(
@@ -51,7 +52,7 @@ class Probe:
         self._log = log
 
     def ask(self, question: Message, *, extra: float = 0.0) -> Trip:
-        """Asks, and waits for a reply: for `extra` seconds more than a program would."""
+        """Send a question, and wait for a reply, `extra` seconds longer than a program would."""
         frame = question.encode()
         sent_at = self._clock()
         self._log.append((sent_at, question.DIRECTION.sender, frame, repr(question)))
@@ -67,13 +68,13 @@ class Probe:
         return trip
 
     def tell(self, command: Message) -> None:
-        """Sends what is not answered."""
+        """Send a command, which is not answered."""
         frame = command.encode()
         self._log.append((self._clock(), command.DIRECTION.sender, frame, repr(command)))
         self._transport.write(frame)
 
     def listen(self, seconds: float) -> list[Message | Noise]:
-        """What comes unasked within so many seconds, and what follows it without a pause."""
+        """Return the unsolicited events of so many seconds, and what follows without a pause."""
         until = self._clock() + seconds
         pieces = self._collected(until, lambda _: False)
         events = timed_events(pieces)
@@ -81,11 +82,11 @@ class Probe:
         return [event for _, event in events]
 
     def close(self) -> None:
-        """Gives the port back."""
+        """Close the port."""
         self._transport.close()
 
     def _collected(self, until: float, whole: Callable[[Pieces], bool]) -> Pieces:
-        """What comes until a pause behind what is whole, or behind whatever came by `until`."""
+        """Return the bytes up to the first pause after `whole` holds, or after `until`."""
         pieces: Pieces = []
         last, ended = -math.inf, False
         while True:

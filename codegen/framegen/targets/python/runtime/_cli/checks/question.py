@@ -1,4 +1,4 @@
-"""What may be asked of any device: a question without fields, which changes nothing."""
+"""A question that suits any device: one without fields, which changes nothing."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ if TYPE_CHECKING:
 
 
 def harmless_question() -> Message | None:
-    """The first question of the protocol that has no fields; None where each has some."""
+    """Return the first question of the protocol that has no fields; None if each has some."""
     questions = (kind for kind, exchange in EXCHANGES.items() if exchange.reply is not None)
     kind = next((kind for kind in questions if not kind.__match_args__), None)
     return None if kind is None else kind()

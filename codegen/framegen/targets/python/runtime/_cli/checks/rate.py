@@ -1,4 +1,4 @@
-"""Check: the device answers at the rate of the protocol, or else at which it does."""
+"""Check: the device answers at the rate of the protocol, or else at which one it does."""
 
 from __future__ import annotations
 
@@ -8,7 +8,6 @@ from pathlib import Path
 
 from ..._serial.link_errors import ClosedError, DisconnectedError, TransportError
 from .check import Check
-from .question import harmless_question
 from .result import failed, passed, unknown
 
 TYPE_CHECKING = False
@@ -18,9 +17,9 @@ if TYPE_CHECKING:
     from .result import Result
     from .trip import Trip
 
-# The rates that devices and adapters are mostly at, the likeliest first.
+# The rates that devices and adapters mostly use, the likeliest first.
 _RATES = (115200, 57600, 38400, 19200, 9600, 4800)
-# How much longer than a program a reply is waited for, so that a late one is seen to be late.
+# How much longer than a program waits, so that a late reply is recognised as late.
 EXTRA_TIME = 1.0
 _NO_RATE = ("socket", "loop", "hid")
 _PSEUDO_TERMINALS = ("/dev/pts/", "/dev/ttys")
@@ -30,10 +29,7 @@ _SILENT = (
 )
 
 
-def _look(diagnosis: Diagnosis) -> Result:
-    question = harmless_question()
-    if question is None:
-        return unknown("the protocol has no question that could be asked of any device")
+def _look(diagnosis: Diagnosis, question: Message) -> Result:
     probe = diagnosis.connected()
     for _ in range(2):
         diagnosis.trips.append(probe.ask(question, extra=EXTRA_TIME))
@@ -43,7 +39,7 @@ def _look(diagnosis: Diagnosis) -> Result:
 
 
 def _answered(diagnosis: Diagnosis, question: Message) -> Result:
-    """It answers at the rate that it should: if that is one."""
+    """Return the result for a device that answers: whether the stated rate is its rate."""
     stated = diagnosis.stated
     port = diagnosis.port or ""
     reply = diagnosis.trips[-1].replies[0][1].encode()
@@ -63,7 +59,7 @@ def _answered(diagnosis: Diagnosis, question: Message) -> Result:
 
 
 def _searched(diagnosis: Diagnosis, question: Message) -> Result:
-    """It does not: whether it does at another rate."""
+    """Return the result for a device that does not answer: whether it does at another rate."""
     asked = f"{type(question).__name__} was not answered"
     found = [trip.received for trip in diagnosis.trips if trip.received]
     tried: list[str] = []
@@ -99,7 +95,7 @@ def _searched(diagnosis: Diagnosis, question: Message) -> Result:
 
 
 def _tried(diagnosis: Diagnosis, question: Message, rate: int) -> Trip | None:
-    """The question, asked at another rate; None where the port cannot be set to it."""
+    """Return the round trip at another rate; None if the port cannot be set to it."""
     try:
         probe = diagnosis.connect(rate)
     except (DisconnectedError, ClosedError):
@@ -107,7 +103,7 @@ def _tried(diagnosis: Diagnosis, question: Message, rate: int) -> Trip | None:
     except TransportError:
         return None
     trip = probe.ask(question)
-    # Asked once more, so that no reply that is late is taken for that of another rate.
+    # Sent once more, so that no late reply is taken for one at another rate.
     return probe.ask(question) if trip.replies else trip
 
 
@@ -122,4 +118,7 @@ def _is_pseudo_terminal(port: str) -> bool:
     return str(Path(port).resolve()).startswith(_PSEUDO_TERMINALS)
 
 
-CHECK = Check("rate", "the device answers at the rate of the protocol", ("opening",), _look)
+def rate_check(question: Message) -> Check:
+    """Return the check that asks this question."""
+    title = "the device answers at the rate of the protocol"
+    return Check("rate", title, ("opening",), lambda each: _look(each, question))

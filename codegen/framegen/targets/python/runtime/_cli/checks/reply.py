@@ -1,4 +1,4 @@
-"""Check: each question is answered in time by one reply that is whole."""
+"""Check: each question is answered in time by one reply that is complete."""
 
 from __future__ import annotations
 
@@ -56,14 +56,14 @@ def _look(diagnosis: Diagnosis) -> Result:
 
 
 def _longest(diagnosis: Diagnosis, trip: Trip) -> float:
-    """How many seconds a program would wait for the reply."""
+    """Return how many seconds a program would wait for the reply."""
     probe = diagnosis.connected()
     size = len(trip.question.encode()) + max((len(m.encode()) for _, m in trip.replies), default=0)
     return probe.wire_time.seconds(size) + probe.reply_timeout
 
 
 def _trouble(trip: Trip, longest: float) -> str:
-    """What is wrong with the answer to a question; empty for nothing."""
+    """Return what is wrong with the answer to a question; empty for nothing."""
     if not trip.replies:
         if trip.noise:
             return "answered by bytes that are no reply"

@@ -1,6 +1,6 @@
-"""What a diagnosis leaves in a file: a recording, with what is known of both ends and between.
+"""The report of a diagnosis: a recording, with facts about both ends and the line between.
 
-It is made to be sent to others: no serial number, no name of a user, no path of a home is in it.
+It is made to be sent to others: it holds no serial number, no user's name, no path of a home.
 """
 
 from __future__ import annotations
@@ -27,7 +27,7 @@ _PORT = "PORT"
 
 
 class Report:
-    """A report in the making. Raises OSError: FileExistsError for a file that holds anything."""
+    """A report in progress. Raises OSError: FileExistsError for a file that holds anything."""
 
     def __init__(self, path: str | PathLike[str]) -> None:
         self._file = RecordingFile(path)
@@ -35,7 +35,7 @@ class Report:
     def write(
         self, diagnosis: Diagnosis, findings: Iterable[tuple[Check, Result]], model: str
     ) -> None:
-        """Writes all of it, and closes the file. `model` is what its user calls the device."""
+        """Write the report, and close the file. `model` is what its user calls the device."""
         for line in _about(diagnosis, model):
             self._file.note(line)
         for check, result in findings:
@@ -66,7 +66,7 @@ def _about(diagnosis: Diagnosis, model: str) -> list[str]:
 
 
 def _kind_of(port: str | None) -> str:
-    """What sort of port it is: its name may hold a serial number, or the name of a machine."""
+    """Return the kind of a port: its name may hold a serial number, or the name of a machine."""
     if port is None:
         return "no port"
     scheme, separator, _ = port.partition("://")
@@ -74,7 +74,7 @@ def _kind_of(port: str | None) -> str:
 
 
 def _blinded(text: str, diagnosis: Diagnosis) -> str:
-    """Text without the names of ports, serial numbers and the path of the user's home."""
+    """Return a text without the names of ports, serial numbers and the path of the user's home."""
     hidden = {each.name: _PORT for each in diagnosis.ports}
     hidden |= {each.serial: "SERIAL" for each in diagnosis.ports}
     hidden |= {each.path: _PORT for each in diagnosis.hid_devices or []}

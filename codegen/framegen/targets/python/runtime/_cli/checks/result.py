@@ -1,4 +1,4 @@
-"""What a check has found: its state, what was seen, the bytes that show it, and what to do next."""
+"""The result of a check: its state, the observation, the bytes that show it, what to do next."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ _MOST = 3
 
 
 class Result(NamedTuple):
-    """What a check has found. `advice` is empty where nothing is to be done."""
+    """The result of a check. `advice` is empty if nothing is to be done."""
 
     state: str
     seen: str
@@ -19,17 +19,17 @@ class Result(NamedTuple):
 
 
 def passed(seen: str, *evidence: bytes) -> Result:
-    """All is as it should be."""
+    """Return the result of a check that passed."""
     return Result(PASSED, seen, _first(evidence))
 
 
 def failed(seen: str, advice: str, *evidence: bytes) -> Result:
-    """Something is not as it should be; `advice` says what to do."""
+    """Return the result of a check that failed; `advice` says what to do."""
     return Result(FAILED, seen, _first(evidence), advice)
 
 
 def unknown(seen: str, advice: str = "", *evidence: bytes) -> Result:
-    """It could not be told, or it is as it should be for some devices only."""
+    """Return the result of a check that is undecided, or differs from device to device."""
     return Result(UNKNOWN, seen, _first(evidence), advice)
 
 

@@ -1,4 +1,4 @@
-"""Check: nothing but reports comes unasked."""
+"""Check: nothing but reports comes without a question."""
 
 from __future__ import annotations
 

@@ -1,0 +1,218 @@
+"""Follow pages as a reader does, in order and to the letter, with Python's own library alone.
+
+    python3 .ci/follow.py README.md docs/getting-started.md
+
+`sh` blocks are run line by line in a shell, whose environment and folder last from block to block;
+`console` blocks are too, and `python` and `pycon` blocks in the Python that is then on the path.
+The block behind it is what it must print; `...` stands for anything. `bat` is not for this
+machine. A virtual board, which the installed `busservo simulate` offers, is behind every COM5.
+"""
+
+from __future__ import annotations
+
+import doctest
+import json
+import os
+import re
+import shlex
+import shutil
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+from pathlib import Path
+from typing import NamedTuple
+
+ROOT = Path(__file__).resolve().parent.parent
+PORT = "COM5"
+BEGUN = time.monotonic()
+WAITS = "busservo simulate"
+# Programs and sessions of a page share one Python, as a reader's do: a line of JSON each.
+INTERPRETER = r"""
+import contextlib, doctest, io, json, sys, traceback
+names = {"__name__": "__main__"}
+for line in sys.stdin:
+    kind, text = json.loads(line)
+    shown = io.StringIO()
+    failed = 0
+    with contextlib.redirect_stdout(shown):
+        if kind == "pycon":
+            test = doctest.DocTestParser().get_doctest(text, {}, "page", None, None)
+            test.globs = names
+            failed = doctest.DocTestRunner(verbose=False, optionflags=doctest.ELLIPSIS).run(
+                test, clear_globs=False).failed
+        else:
+            try:
+                exec(compile(text, "page", "exec"), names)
+            except BaseException:
+                traceback.print_exc(file=shown)
+                failed = 1
+    print(json.dumps([failed, shown.getvalue()]), flush=True)
+"""
+
+
+class Block(NamedTuple):
+    """A fenced block: what kind it is, its text, and the line at which it begins."""
+
+    kind: str
+    text: str
+    line: int
+
+
+class WrongError(Exception):
+    """A page that does not do what it says."""
+
+
+class Reader:
+    """Somebody who has this clone, a shell, an empty home, and nothing of ours on the path."""
+
+    def __init__(self, home: Path) -> None:
+        # What was downloaded once is not downloaded again.
+        cache = str(home.parent / "cache")
+        self.environment = {**os.environ, "HOME": str(home), "XDG_CACHE_HOME": cache}
+        self.folder = str(ROOT)
+        self._python: subprocess.Popen[str] | None = None
+        self._board: subprocess.Popen[str] | None = None
+        self._port = ""
+
+    def shell(self, command: str) -> tuple[int, str]:
+        """Run a command; what it leaves behind in the environment lasts."""
+        with tempfile.TemporaryDirectory() as scratch:
+            left = Path(scratch, "left")
+            keep = """trap 'env -u LEFT -0 >"$LEFT"; pwd >>"$LEFT"' EXIT"""
+            done = subprocess.run(
+                ["bash", "-c", f"{keep}\n{self._with_port(command)}"],
+                env={**self.environment, "LEFT": str(left)},
+                cwd=self.folder,
+                stdout=subprocess.PIPE,
+                stderr=subprocess.STDOUT,
+                encoding="utf-8",
+                check=False,
+            )
+            *variables, folder = left.read_text(encoding="utf-8").split("\0")
+        self.environment = dict(each.split("=", 1) for each in variables)
+        self.folder = folder.strip()
+        return done.returncode, done.stdout
+
+    def python(self, block: Block) -> str:
+        """Return the output of a program or a session."""
+        if self._python is None:
+            self._python = self._start("python", "-c", INTERPRETER)
+        assert self._python.stdin is not None
+        assert self._python.stdout is not None
+        self._python.stdin.write(json.dumps([block.kind, self._with_port(block.text)]) + "\n")
+        self._python.stdin.flush()
+        failed, shown = json.loads(self._python.stdout.readline())
+        if failed:
+            raise WrongError(shown)
+        return str(shown)
+
+    def _with_port(self, text: str) -> str:
+        if PORT not in text:
+            return text
+        if self._board is None:
+            self._board = self._start(*shlex.split(WAITS), "--quiet")
+            assert self._board.stdout is not None
+            self._port = self._board.stdout.readline().strip()
+        return text.replace(PORT, self._port)
+
+    def _start(self, *command: str) -> subprocess.Popen[str]:
+        # subprocess looks for programs on its own path, not on the reader's.
+        program = shutil.which(command[0], path=self.environment["PATH"])
+        if program is None:
+            raise WrongError(f"{command[0]} is not on the path")
+        return subprocess.Popen(
+            [program, *command[1:]],
+            env=self.environment,
+            cwd=self.folder,
+            stdin=subprocess.PIPE,
+            stdout=subprocess.PIPE,
+            encoding="utf-8",
+        )
+
+    def waits(self) -> None:
+        """Run a command that waits until Ctrl-C, see that it names a port, and press Ctrl-C."""
+        waiting = self._start(*shlex.split(WAITS))
+        assert waiting.stdout is not None
+        port = waiting.stdout.readline().strip()
+        waiting.send_signal(signal.SIGINT)
+        if waiting.wait() != 0 or not port:
+            raise WrongError(f"it named the port {port!r}, and ended with {waiting.returncode}")
+
+    def leave(self) -> None:
+        """End what still runs."""
+        for process in (self._python, self._board):
+            if process is not None:
+                process.terminate()
+                process.communicate()
+
+
+def blocks_of(page: Path) -> list[Block]:
+    """Return the fenced blocks of a page."""
+    text = page.read_text(encoding="utf-8")
+    found = re.finditer(r"^```(\w+)\n(.*?)^```", text, flags=re.MULTILINE | re.DOTALL)
+    return [Block(each[1], each[2], text.count("\n", 0, each.start()) + 1) for each in found]
+
+
+def follow(page: Path, home: Path) -> None:
+    """Follow a page. Raises WrongError if it does not work."""
+    home.mkdir()
+    reader = Reader(home)
+    shown = ""
+    try:
+        for block in blocks_of(page):
+            place = f"{page.name}:{block.line}"
+            print(
+                f"{time.monotonic() - BEGUN:4.0f} s  {place}: {block.text.splitlines()[0]}",
+                flush=True,
+            )
+            try:
+                shown = _do(reader, block, shown)
+            except WrongError as error:
+                raise WrongError(f"{page.name}:{block.line}: {error}") from None
+    finally:
+        reader.leave()
+
+
+def _do(reader: Reader, block: Block, shown: str) -> str:
+    if block.kind == "sh":
+        for line in block.text.splitlines():
+            command = line.partition("  #")[0]
+            if command == WAITS:
+                reader.waits()
+                continue
+            status, told = reader.shell(command)
+            if status != 0:
+                raise WrongError(f"`{command}` ends with {status}:\n{told}")
+    elif block.kind == "console":
+        for part in re.split(r"^\$ ", block.text, flags=re.MULTILINE)[1:]:
+            command, _, said = part.partition("\n")
+            _compare(said, reader.shell(command)[1])
+    elif block.kind in {"python", "pycon"}:
+        return reader.python(block)
+    elif block.kind == "output":
+        _compare(block.text, shown)
+    elif block.kind != "bat":
+        raise WrongError(f"nobody knows what to do with `{block.kind}`")
+    return ""
+
+
+def _compare(said: str, told: str) -> None:
+    if not doctest.OutputChecker().check_output(said, told, doctest.ELLIPSIS):
+        raise WrongError(f"it says\n{said}\nand prints\n{told}")
+
+
+def main() -> int:
+    """Follow the named pages; return 1 if one of them does not work."""
+    try:
+        for name in sys.argv[1:]:
+            follow(ROOT / name, Path.home() / Path(name).stem)
+    except WrongError as error:
+        print(error, file=sys.stderr)
+        return 1
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,20 @@
+"""Numbers in words: how many there are of something, and which.
+
+The Python target copies this file into each library, so it imports nothing of ours.
+"""
+
+from __future__ import annotations
+
+
+def pluralize(number: int, noun: str, plural: str = "") -> str:
+    """Count things: `1 finding`, `2 findings`; `plural` for a noun that takes no s."""
+    return f"{number} {noun if number == 1 else plural or noun + 's'}"
+
+
+def describe_range(values: range) -> str:
+    """Describe a range: `5`, `4..255`, or `8, 11, 14 .. 254`."""
+    if len(values) <= 4:
+        return ", ".join(str(value) for value in values)
+    if values.step == 1:
+        return f"{values[0]}..{values[-1]}"
+    return f"{values[0]}, {values[1]}, {values[2]} .. {values[-1]}"

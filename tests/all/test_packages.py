@@ -1,0 +1,179 @@
+"""The packages as others get them: built, and installed where nothing else of ours is.
+
+Each Python is tried that `.ci/bare` has found (PYTHON_3_10 and so on), or else the one that runs.
+What others wrote is downloaded first; then all is installed without an index, so a package of ours
+that is not handed over in the same command is not found.
+"""
+
+import email
+import os
+import shutil
+import subprocess
+import sys
+import tarfile
+import zipfile
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+from tests.documents import ROOT
+
+PYTHONS = {
+    name.removeprefix("PYTHON_").replace("_", "."): path
+    for name, path in os.environ.items()
+    if name.startswith("PYTHON_3_")
+} or {f"3.{sys.version_info.minor}": sys.executable}
+# The oldest and the newest.
+TRIED = sorted(PYTHONS, key=lambda name: int(name.split(".")[1]))
+TRIED = [TRIED[0], *TRIED[1:][-1:]]
+FOLDERS = {"busservo": ".", "framegen": "codegen", "busservo-simulator": "simulator"}
+
+LIBRARY = """
+import importlib.util, sys
+import busservo
+
+assert "site-packages" in busservo.__file__, busservo.__file__
+assert "serial" not in sys.modules, "import busservo imported pyserial"
+for name in ("framegen", "busservo_simulator", "yaml", "jinja2", "pydantic", "hypothesis"):
+    assert importlib.util.find_spec(name) is None, name
+move = busservo.ServoMove(time_ms=1000, targets=[(1, 800)])
+assert busservo.decode(move.encode(), busservo.Direction.HOST_TO_CONTROLLER) == move
+"""
+BOARD = """
+from busservo import Controller
+from busservo_simulator import VirtualClock, VirtualController
+
+with VirtualController(clock=VirtualClock(follow_reads=True)) as board:
+    with Controller(board.transport, background=False, clock=board.clock.now) as controller:
+        controller.move_servos([(1, 800)], time_ms=1000).wait()
+        (servo,) = controller.read_servo_positions([1])
+assert servo.position == 800, servo
+"""
+
+
+def run(*command: object, cwd: Path) -> str:
+    """Return the output of a command, in a folder where no source of ours is imported."""
+    words = [str(word) for word in command]
+    done = subprocess.run(words, cwd=cwd, capture_output=True, encoding="utf-8", check=False)
+    assert done.returncode == 0, f"{words}: {done.stdout}{done.stderr}"
+    return done.stdout
+
+
+def pip(*arguments: object, cwd: Path) -> str:
+    return run(sys.executable, "-m", "pip", "--disable-pip-version-check", *arguments, cwd=cwd)
+
+
+@pytest.fixture(scope="module")
+def built(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Return a wheel of each package, built from its source distribution alone."""
+    folder = tmp_path_factory.mktemp("dist")
+    for project in FOLDERS.values():
+        run(
+            sys.executable,
+            "-m",
+            "build",
+            "--no-isolation",
+            "--outdir",
+            folder,
+            ROOT / project,
+            cwd=folder,
+        )
+    return folder
+
+
+def files_of(built: Path, name: str, ending: str) -> list[Path]:
+    return sorted(built.glob(f"{name.replace('-', '_')}-*{ending}"))
+
+
+@pytest.mark.parametrize("name", FOLDERS)
+def test_a_package_holds_what_it_says(built: Path, name: str) -> None:
+    (wheel,) = files_of(built, name, ".whl")
+    (source,) = files_of(built, name, ".tar.gz")
+    with zipfile.ZipFile(wheel) as archive:
+        inside = archive.namelist()
+        (about,) = (each for each in inside if each.endswith(".dist-info/METADATA"))
+        metadata = email.message_from_bytes(archive.read(about))
+    assert metadata["Name"] == name
+    assert metadata["Author"] == "The busservo authors"
+    assert metadata["License-Expression"] == "MIT"
+    assert metadata["Requires-Python"] == ">=3.10"
+    assert str(metadata.get_payload()).startswith(f"# {name}\n")
+    assert [each for each in inside if each.endswith("licenses/LICENSE")]
+    assert f"{name.replace('-', '_')}/py.typed" in inside or name == "framegen"
+    with tarfile.open(source) as archive:
+        inside = [each.partition("/")[2] for each in archive.getnames()]
+    assert {"LICENSE", "README.md", "pyproject.toml", "PKG-INFO"} <= set(inside)
+
+
+def test_the_library_holds_nothing_of_its_generator(built: Path) -> None:
+    (wheel,) = files_of(built, "busservo", ".whl")
+    with zipfile.ZipFile(wheel) as archive:
+        kinds = {Path(each).suffix for each in archive.namelist() if ".dist-info/" not in each}
+    assert kinds <= {".py", ".pyi", ".typed", ".json"}
+
+
+@pytest.fixture(scope="module", params=TRIED)
+def python(request: pytest.FixtureRequest) -> str:
+    return PYTHONS[request.param]
+
+
+@pytest.fixture(scope="module")
+def shelf(built: Path, python: str, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Return packages of others for that Python: those that ours need, and a build system."""
+    folder = tmp_path_factory.mktemp("shelf")
+    pip("--python", python, "download", "-qq", "-d", folder, *built.glob("*.whl"), cwd=folder)
+    pip("--python", python, "download", "-qq", "-d", folder, "hatchling<2", cwd=folder)
+    for name in FOLDERS:
+        for ours in files_of(folder, name, ".whl"):
+            ours.unlink()
+    return folder
+
+
+@pytest.fixture
+def install(python: str, shelf: Path, tmp_path: Path) -> Callable[..., Path]:
+    def installed(*packages: Path) -> Path:
+        run(python, "-m", "venv", "--without-pip", "env", cwd=tmp_path)
+        folder = tmp_path / "env" / ("Scripts" if os.name == "nt" else "bin")
+        where = ["--no-index", "--find-links", shelf]
+        pip("--python", folder / "python", "install", "-qq", *where, *packages, cwd=tmp_path)
+        return folder
+
+    return installed
+
+
+@pytest.mark.parametrize("ending", [".whl", ".tar.gz"])
+def test_the_library_runs_alone(
+    built: Path, install: Callable[..., Path], ending: str, tmp_path: Path
+) -> None:
+    programs = install(*files_of(built, "busservo", ending))
+    freeze = pip("--python", programs / "python", "list", "--format=freeze", cwd=tmp_path)
+    assert [line.partition("=")[0] for line in freeze.split()] == ["busservo", "pyserial"]
+    run(programs / "python", "-W", "error", "-c", LIBRARY, cwd=tmp_path)
+    shown = run(programs / "busservo", "decode", "55 55 08 03 01 E8 03 01 20 03", cwd=tmp_path)
+    assert "ServoMove time_ms=1000 ms targets=1:800" in shown
+    module = [programs / "python", "-m", "busservo"]
+    shown = run(*module, "encode", "ServoMove", "time_ms=1000", "targets=1:800", cwd=tmp_path)
+    assert shown == "55 55 08 03 01 E8 03 01 20 03\n"
+
+
+@pytest.mark.parametrize("ending", [".whl", ".tar.gz"])
+def test_all_packages_run_together(
+    built: Path, install: Callable[..., Path], ending: str, tmp_path: Path
+) -> None:
+    programs = install(*(path for name in FOLDERS for path in files_of(built, name, ending)))
+    pip("--python", programs / "python", "check", cwd=tmp_path)
+    versions = {run(programs / name, "--version", cwd=tmp_path).split()[1] for name in FOLDERS}
+    assert {version.rstrip(",") for version in versions} == {
+        files_of(built, "framegen", ".whl")[0].name.split("-")[1]
+    }
+    run(programs / "python", "-W", "error", "-c", BOARD, cwd=tmp_path)
+    (tmp_path / "spec").mkdir()
+    shutil.copy(ROOT / "spec" / "busservo.yaml", tmp_path / "spec")
+    (tmp_path / "pyproject.toml").touch()
+    run(programs / "framegen", "generate", cwd=tmp_path)
+    run(programs / "framegen", "generate", "--check", cwd=tmp_path)
+    made = tmp_path / "generated" / "busservo"
+    for file in (ROOT / "generated" / "busservo").rglob("*.py"):
+        same = made / file.relative_to(ROOT / "generated" / "busservo")
+        assert same.read_bytes() == file.read_bytes(), file

@@ -1,0 +1,215 @@
+"""Any spec, however wrong, is checked without a crash, and refused in plain words."""
+
+from __future__ import annotations
+
+import json
+from typing import TYPE_CHECKING, Any
+
+import pytest
+from framegen.compile import compile_spec
+from framegen.language import misfit
+from framegen.language.load import load, read_source
+from framegen.language.spec import Spec
+from framegen.reading.source import Source
+from framegen.reading.yamltree import Unusable
+from hypothesis import given
+from hypothesis import strategies as st
+from pydantic import ValidationError
+
+from tests.factories import BUSSERVO, kiln
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from tests.factories import Steps
+
+words = st.sampled_from(
+    [
+        "u8",
+        "u17",
+        "i8",
+        "host -> controller",
+        "host",
+        "1..",
+        "0..0",
+        "-5..99999",
+        "55 55",
+        "length",
+        "id",
+        "servo_count + 3",
+        "vendor",
+        "vendor, 1",
+        "query",
+        "1.0.0",
+        "ServoMove",
+        "targets.position",
+    ]
+)
+scalars = (
+    st.none() | st.booleans() | st.integers(-2, 300) | st.integers() | words | st.text(max_size=20)
+)
+structures = st.recursive(
+    scalars,
+    lambda inner: (
+        st.lists(inner, max_size=4)
+        | st.dictionaries(words | st.text(max_size=8), inner, max_size=4)
+    ),
+    max_leaves=20,
+)
+TREE: Any = load(read_source(BUSSERVO)).tree.data
+TOP_KEYS = list(TREE)
+
+
+def paths(value: Any, path: tuple[str | int, ...] = ()) -> list[tuple[str | int, ...]]:
+    steps: list[tuple[str | int, Any]] = []
+    if isinstance(value, dict):
+        steps = list(value.items())
+    elif isinstance(value, list):
+        steps = list(enumerate(value))
+    return [path, *(found for step, inner in steps for found in paths(inner, (*path, step)))]
+
+
+PATHS = paths(TREE)[1:]
+
+
+def at(tree: Any, path: tuple[str | int, ...]) -> Any:
+    for step in path:
+        tree = tree[step]
+    return tree
+
+
+def copied(tree: Any) -> Any:
+    return json.loads(json.dumps(tree))
+
+
+def survives(text: str) -> None:
+    """Check `text`, show the findings, and derive a clean spec: no step may raise."""
+    source = Source("spec.yaml", text)
+    try:
+        compiled = compile_spec(source)
+        findings = compiled.findings
+    except Unusable as refusal:
+        findings = [] if refusal.finding is None else [refusal.finding]
+    else:
+        assert findings or compiled.read is not None
+        if compiled.read is not None and not findings:
+            assert all(message.counts for message in compiled.model.messages.values())
+    for finding in findings:
+        assert finding.render(source)
+
+
+ODD = [None, True, -1, 0, 2**64, 10**30, "x", "", [], {}, [None], {"a": 1}]
+KILN = kiln()
+
+
+def keys_of_the_language(value: Any) -> Iterator[Steps]:
+    """Yield the path of one value under each key that the guide's spec shows."""
+    seen: set[object] = set()
+    for here in paths(value)[1:]:
+        key = here[-1] if isinstance(here[-1], str) else (here[-2], "[0]")
+        if key not in seen:
+            seen.add(key)
+            yield here
+
+
+@pytest.mark.parametrize("value", ODD, ids=repr)
+def test_whatever_stands_in_place_of_a_value_is_told_in_our_words(value: object) -> None:
+    """And never in those of the library that reads it."""
+    for path in keys_of_the_language(KILN):
+        data = copied(KILN)
+        around = at(data, path[:-1])
+        around[path[-1]] = value
+        kinds: set[str] = set()
+        try:
+            Spec.model_validate(data)
+        except ValidationError as error:
+            kinds = {each["type"] for each in error.errors(include_url=False)}
+        assert kinds <= {*misfit._MESSAGES, "missing", "extra_forbidden"}, path
+
+
+@given(st.text() | st.text(alphabet="ab01:-?,[]{}&*!|>'\"%@#~ \n\t"))
+def test_any_text_is_checked_without_a_crash(text: str) -> None:
+    survives(text)
+
+
+@given(st.dictionaries(st.sampled_from(TOP_KEYS) | st.text(max_size=8), structures))
+def test_any_structure_is_checked_without_a_crash(tree: dict[str, Any]) -> None:
+    survives(json.dumps(tree))
+
+
+@st.composite
+def mutated(draw: st.DrawFn) -> str:
+    """Return the spec of busservo with one to three of its values replaced, removed or doubled."""
+    tree = copied(TREE)
+    for _ in range(draw(st.integers(1, 3))):
+        path = draw(st.sampled_from(PATHS))
+        try:
+            around = at(tree, path[:-1])
+            value = around[path[-1]]
+        except (KeyError, IndexError, TypeError):
+            continue
+        action = draw(st.sampled_from(["replace", "borrow", "remove", "repeat", "rename"]))
+        if action == "replace":
+            around[path[-1]] = draw(structures)
+        elif action == "borrow":
+            around[path[-1]] = copied(at(TREE, draw(st.sampled_from(PATHS))))
+        elif action == "remove":
+            del around[path[-1]]
+        elif isinstance(around, list):
+            around.insert(draw(st.integers(0, len(around))), copied(value))
+        elif action == "repeat":
+            around[draw(words)] = copied(value)
+        else:
+            around[draw(words)] = around.pop(path[-1])
+    return json.dumps(tree)
+
+
+@given(mutated())
+def test_any_mutation_of_a_spec_is_checked_without_a_crash(text: str) -> None:
+    survives(text)
+
+
+def shaped(name: str, type_: str) -> dict[str, Any]:
+    parts: dict[str, dict[str, Any]] = {
+        "header": {"is": "constant", "bytes": "AA 55"},
+        "length": {"is": "length", "type": type_, "counts": ["parameters", "length"]},
+        "command": {"is": "id", "type": type_},
+        "parameters": {"is": "body"},
+        "address": {"is": "address", "type": type_},
+    }
+    return parts[name]
+
+
+types = st.sampled_from(["u8", "u16", "u32", "i8", "i16", "i32"])
+counts = st.builds("{}..{}".format, st.integers(-1, 90), st.integers(0, 300) | st.just(""))
+plain = st.fixed_dictionaries({"type": types, "about": st.just("A number.")})
+groups = st.fixed_dictionaries(
+    {
+        "element": st.just("Item"),
+        "about": st.just("Items."),
+        "fields": st.dictionaries(st.sampled_from("xyz"), plain, max_size=3),
+    }
+)
+lists = st.builds(
+    lambda field, counter, count: {**field, **counter, **count},
+    plain | groups,
+    st.sampled_from("abc").map(lambda name: {"counted_by": name}) | st.just({}),
+    counts.map(lambda count: {"count": count}) | st.just({}),
+)
+whole = ["header", "length", "command", "parameters"]
+orders = st.just(whole) | st.permutations(whole) | st.lists(st.sampled_from([*whole, "address"]))
+frames = st.builds(
+    lambda order, type_: {name: shaped(name, type_) for name in order},
+    orders,
+    st.sampled_from(["u8", "u8", "u16", "u32", "i8"]),
+)
+
+
+@given(frames, st.dictionaries(st.sampled_from("abc"), plain), st.none() | lists)
+def test_any_frame_with_any_fields_is_checked_without_a_crash(
+    frame: dict[str, Any], fields: dict[str, Any], last: dict[str, Any] | None
+) -> None:
+    tree = {key: TREE[key] for key in TREE if key not in ("errata", "unknowns", "lookalikes")}
+    message = {**TREE["messages"]["ActionGroupStop"], "reports": [], "examples": []}
+    message["fields"] = fields if last is None else {**fields, "last": last}
+    survives(json.dumps({**tree, "frame": frame, "messages": {"Ask": message}}))

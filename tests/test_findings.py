@@ -1,0 +1,200 @@
+"""Findings: their text, their number, and their guesses."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import pytest
+from framegen import checks
+from framegen.compile import compile_spec
+from framegen.language import misfit
+from framegen.model import facts
+from framegen.reading.findings import MOST_FINDINGS, Finding, did_you_mean
+from framegen.reading.source import Source, Span
+
+from tests.bad_specs import bad_spec
+from tests.factories import BUSSERVO, DEMO, compiled_of, data_of
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterable
+
+
+def test_a_finding_is_shown_with_its_line_and_a_caret() -> None:
+    bad = bad_spec("unknown-type")
+    [finding] = compile_spec(bad.source).findings
+    assert finding.render(bad.source) == (
+        "unknown-type.yaml:58:21: unknown-type: unknown type `u17`\n"
+        "58 |       level: {type: u17, about: How bright.}\n"
+        "   |                     ^^^\n"
+        "   = at: messages.LampState.fields.level.type\n"
+        "   = hint: did you mean `u16`?"
+    )
+
+
+def test_a_finding_in_two_places_is_shown_with_both() -> None:
+    bad = bad_spec("duplicate-id")
+    [finding] = compile_spec(bad.source).findings
+    assert finding.render(bad.source) == (
+        "duplicate-id.yaml:41:9: duplicate-id: LampsSet and LampRead are both 7, host -> lamp\n"
+        "41 |     id: 7\n"
+        "   |         ^\n"
+        "   = LampsSet has it first, at duplicate-id.yaml:20:5\n"
+        "20 |     id: 7\n"
+        "   |     ^^\n"
+        "   = at: messages.LampRead.id\n"
+        "   = hint: mend one of the codes, or the direction"
+    )
+
+
+@pytest.mark.parametrize(
+    ("found", "rule"),
+    [
+        ("type: u16", "unknown-type"),
+        ("authority: vendor", "unknown-source"),
+        ("element: ServoTarget", "identifier"),
+        ("is: id", "wrong-value"),
+    ],
+)
+@pytest.mark.parametrize(
+    "value", ["x" * 200_000, "x " * 100_000, "x`y " * 50_000, "`.x " * 50_000, "9" * 4000]
+)
+def test_a_finding_repeats_no_more_of_a_value_than_can_be_read(
+    found: str, rule: str, value: str
+) -> None:
+    key, _, _ = found.partition(" ")
+    text = BUSSERVO.read_text(encoding="utf-8")
+    assert found in text
+    source = Source("long.yaml", text.replace(found, f'{key} "{value}"', 1))
+    findings = compile_spec(source).findings
+    assert rule in {finding.rule for finding in findings}
+    assert max(len(finding.render(source)) for finding in findings) < 2000
+
+
+@pytest.mark.parametrize("key", ["x" * 200_000, "x " * 100_000, "x`y " * 50_000, "x." * 100_000])
+def test_a_finding_repeats_no_more_of_a_key_than_can_be_read(key: str) -> None:
+    text = DEMO.read_text(encoding="utf-8") + f'? "{key}"\n: {{}}\n? "{key}"\n: 1\n'
+    source = Source("long.yaml", text)
+    shown = [finding.render(source) for finding in compile_spec(source).findings]
+    assert len(shown) == 2
+    assert max(map(len, shown)) < 5000
+
+
+def test_no_more_findings_are_told_than_can_be_mended_and_how_many_more_there_are() -> None:
+    known = data_of(DEMO)
+    findings = compiled_of({**known, **{f"key_{each}": 1 for each in range(20_000)}}).findings
+    assert [finding.rule for finding in findings] == [
+        *["unknown-key"] * MOST_FINDINGS,
+        "many-findings",
+    ]
+    assert findings[-1].message == f"not shown: {20_000 - MOST_FINDINGS} findings from here down"
+    assert findings[-1].path == f"key_{MOST_FINDINGS}"
+
+
+def unknown_keys(data: Any, words: list[str]) -> None:
+    data.update(dict.fromkeys(words, 1))
+
+
+def unknown_replies(data: Any, words: list[str]) -> None:
+    question = data["messages"]["StationRead"]
+    data["messages"].update({f"Ask{word}": {**question, "reply": word} for word in words})
+
+
+def unknown_sources(data: Any, words: list[str]) -> None:
+    note = {"text": "It is so.", "cite": "manual"}
+    readings = data["messages"]["StationState"]["fields"]["readings"]
+    readings["notes"] = [{**note, "cite": word} for word in words]
+
+
+def unknown_facts(data: Any, words: list[str]) -> None:
+    data["unknowns"] = [{"concerns": {"message": word}, "what": "All."} for word in words]
+
+
+@pytest.mark.parametrize(
+    ("change", "searching"),
+    [
+        (unknown_keys, misfit),
+        (unknown_replies, checks.reply),
+        (unknown_sources, checks.unknown_source),
+        (unknown_facts, facts),
+    ],
+)
+def test_only_what_is_shown_is_searched_for_what_it_was_to_be(
+    change: Callable[[Any, list[str]], None], searching: object, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    searched: list[str] = []
+
+    def noted(word: str, known: Iterable[str], *, otherwise: str = "") -> str:
+        searched.append(word)
+        return did_you_mean(word, known, otherwise=otherwise)
+
+    monkeypatch.setattr(searching, "did_you_mean", noted)
+    data, words = data_of(DEMO), [f"Odd{number}" for number in range(1000, 1500)]
+    change(data, words)
+    findings = compiled_of(data).findings
+    assert findings[-1].rule == "many-findings"
+    assert set(searched) <= set(words[:MOST_FINDINGS])
+    assert len(searched) == sum(f"`{word}`" in f.message for f in findings for word in words)
+
+
+@pytest.mark.parametrize(
+    ("line", "column", "length", "shown", "carets"),
+    [
+        ("a: u17", 4, 3, "a: u17", "   ^^^"),
+        ("\ta: u17", 5, 3, " a: u17", "    ^^^"),
+        ("a\u200b: u17", 5, 3, "a\N{REPLACEMENT CHARACTER}: u17", "    ^^^"),
+        ("a: u17   ", 4, 3, "a: u17", "   ^^^"),
+        ("a:", 3, 1, "a:", "  ^"),  # what is missing behind the end of a line
+        ("a: u17", 4, 80, "a: u17", "   ^^^"),
+        ("a: u17", 4, 0, "a: u17", "   ^"),
+        # The 75th character of a long line is shown from its beginning; the next is shown with
+        # the 50 characters before it.
+        ("0123456789" * 20, 75, 2, "0123456789" * 10, " " * 74 + "^^"),
+        ("0123456789" * 20, 76, 2, ("0123456789" * 20)[25:125], " " * 50 + "^^"),
+        ("0123456789" * 20, 111, 80, ("0123456789" * 20)[60:160], " " * 50 + "^" * 50),
+        ("0123456789" * 20, 191, 30, ("0123456789" * 20)[140:], " " * 50 + "^" * 10),
+    ],
+)
+def test_a_caret_stands_under_its_place(
+    line: str, column: int, length: int, shown: str, carets: str
+) -> None:
+    finding = Finding("some-rule", Span(1, column, length), "", "is wrong")
+    assert finding.render(Source("spec.yaml", line)).split("\n") == [
+        f"spec.yaml:1:{column}: some-rule: is wrong",
+        f"1 | {shown}",
+        f"  | {carets}",
+    ]
+
+
+@pytest.mark.parametrize(
+    ("word", "known", "otherwise", "hint"),
+    [
+        ("u17", ["u8", "u16", "u32"], "", "did you mean `u16`?"),
+        ("u17", ["u16"], "declare it", "did you mean `u16`?"),
+        ("size", ["u8", "u16"], "", "choose one of `u8`, `u16`"),
+        ("size", ["u8", "u16"], "declare it", "declare it"),
+        (
+            "size",
+            [f"u{n}" for n in range(22)],
+            "",
+            f"choose one of {', '.join(f'`u{n}`' for n in range(20))} or 2 others",
+        ),
+        ("size", [], "declare it", "declare it"),
+        ("size", [], "", ""),
+    ],
+)
+def test_a_misspelt_word_is_guessed_or_the_choices_are_named(
+    word: str, known: list[str], otherwise: str, hint: str
+) -> None:
+    assert did_you_mean(word, known, otherwise=otherwise) == hint
+
+
+def test_where_nothing_is_known_nothing_is_guessed() -> None:
+    assert did_you_mean("size", []) == ""
+
+
+def test_findings_come_from_the_top_of_the_file_down() -> None:
+    text = DEMO.read_text(encoding="utf-8")
+    broken = text.replace("cite: manual, section 2\n", "cite: manaul, section 2\n")
+    findings = compile_spec(Source("demo.yaml", broken)).findings
+    assert len(findings) > 1
+    assert [f.span for f in findings] == sorted(f.span for f in findings)

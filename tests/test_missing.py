@@ -1,0 +1,321 @@
+"""A change of the spec: everything that has to be written by hand is named, and nothing else."""
+
+from __future__ import annotations
+
+import json
+import shutil
+from typing import TYPE_CHECKING, TypeAlias
+
+import pytest
+from framegen.cli import main
+
+from tests.factories import BUSSERVO, ROOT
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+Capture: TypeAlias = "pytest.CaptureFixture[str]"
+# Kind, file and subject.
+Lack: TypeAlias = "tuple[str, str, str]"
+
+CASES, ORACLE = "tests/cases.py", "tests/oracle.py"
+CONTRACT = "tests/test_client_contract.py"
+
+BEEP = """\
+  BuzzerBeep:
+    id: 40
+    direction: host -> controller
+    summary: Sound the buzzer on the board.
+    cite: vendor, section 1.8
+    length: 5
+    fields:
+      times: {type: u8, about: How many beeps.}
+      pause_ms: {type: u16, unit: ms, about: How long the pause between two beeps is.}
+    examples:
+      - title: Beep twice, 300 ms apart
+        hex: 55 55 05 28 02 2C 01
+        values: {times: 2, pause_ms: 300}
+        cite: vendor, section 1.8, example 1
+
+"""
+BEEP_CASE = """\
+    Case(
+        BuzzerBeep(times=2, pause_ms=300), "55 55 05 28 02 2C 01", HOST, "1.8 example 1"
+    ),
+"""
+BEEP_LAYOUT = """\
+        "BuzzerBeep": _frame(40, "times" / Byte, "pause_ms" / Int16ul),
+"""
+BEEP_CONTRACT = """\
+    "BuzzerBeep": ("buzzer_beep", ("times", "pause_ms"), None, "", (), ()),
+"""
+BEEPED = """\
+  BuzzerBeeped:
+    id: 41
+    direction: controller -> host
+    summary: The buzzer was heard.
+    cite: vendor, section 2.2
+    length: 2
+    examples:
+      - {title: It was heard, hex: 55 55 02 29, values: {}, cite: vendor}
+
+"""
+BEEPED_CASE = """\
+    Case(BuzzerBeeped(), "55 55 02 29", CONTROLLER, "2.2 report"),
+"""
+BEEPED_LAYOUT = """\
+        "BuzzerBeeped": _frame(41),
+"""
+FIELD = """\
+      source: {type: u8, about: Which terminals.}
+"""
+NAMED = """\
+        values:
+          empty: {value: 7500, about: Charge it.}
+"""
+
+
+@pytest.fixture
+def project(tmp_path: Path) -> Path:
+    """Return a copy of the spec, of the files written by hand beside it, and of their list."""
+    for path in ("spec/busservo.yaml", "tests/witnesses.yaml", CASES, ORACLE, CONTRACT):
+        (tmp_path / path).parent.mkdir(exist_ok=True)
+        shutil.copy(ROOT / path, tmp_path / path)
+    return tmp_path
+
+
+def edit(file: Path, *edits: tuple[str, str]) -> None:
+    text = file.read_text(encoding="utf-8")
+    for old, new in edits:
+        assert text.count(old) == 1, old
+        text = text.replace(old, new)
+    file.write_text(text, encoding="utf-8")
+
+
+def missing(project: Path, capsys: Capture) -> list[Lack]:
+    """Return the findings of the command in a project."""
+    status = main(["missing", "--json", str(project / "spec" / "busservo.yaml")])
+    found = [json.loads(line) for line in capsys.readouterr().out.splitlines()]
+    assert status == bool(found)
+    return [(each["kind"], each["in"], each["path"]) for each in found]
+
+
+def test_nothing_is_missing(capsys: Capture) -> None:
+    status = main(["missing", str(BUSSERVO)])
+    printed = capsys.readouterr()
+    assert status == 0, f"this has to be written by hand:\n\n{printed.out}"
+
+
+# ------------------------------------------------------------------ what a change needs
+
+# The changes of the spec, what is missing after them, and what has to be written.
+CHANGES: dict[str, tuple[list[tuple[str, str]], list[Lack], dict[str, tuple[str, str]]]] = {
+    "a command": (
+        [("  ServoUnload:\n", f"{BEEP}  ServoUnload:\n")],
+        [
+            ("case", CASES, "messages.BuzzerBeep"),
+            ("layout", ORACLE, "messages.BuzzerBeep"),
+            ("contract", CONTRACT, "messages.BuzzerBeep"),
+        ],
+        {
+            CASES: ("CASES = (\n", f"CASES = (\n{BEEP_CASE}"),
+            ORACLE: ('        "ServoUnload":', f'{BEEP_LAYOUT}        "ServoUnload":'),
+            CONTRACT: ('    "ServoUnload":', f'{BEEP_CONTRACT}    "ServoUnload":'),
+        },
+    ),
+    "a report": (
+        [("  BatteryVoltage:\n", f"{BEEPED}  BatteryVoltage:\n")],
+        [
+            ("case", CASES, "messages.BuzzerBeeped"),
+            ("layout", ORACLE, "messages.BuzzerBeeped"),
+        ],
+        {
+            CASES: ("CASES = (\n", f"CASES = (\n{BEEPED_CASE}"),
+            ORACLE: ('        "BatteryVoltage":', f'{BEEPED_LAYOUT}        "BatteryVoltage":'),
+        },
+    ),
+    "a field": (
+        [
+            ("      voltage_mv:\n", f"{FIELD}      voltage_mv:\n"),
+            ("    length: 4\n", "    length: 5\n"),
+            ("hex: 55 55 04 0F 4C 1D", "hex: 55 55 05 0F 00 4C 1D"),
+            ("hex: 55 55 04 0F C9 1E", "hex: 55 55 05 0F 00 C9 1E"),
+            ("{voltage_mv: 7500}", "{source: 0, voltage_mv: 7500}"),
+            ("{voltage_mv: 7881}", "{source: 0, voltage_mv: 7881}"),
+        ],
+        [("keyword", CASES, "messages.BatteryVoltage.fields.source")],
+        {CASES: ("BatteryVoltage(voltage_mv=7500)", "BatteryVoltage(source=0, voltage_mv=7500)")},
+    ),
+    "a named value": (
+        [("        scale: 0.001 V\n", f"        scale: 0.001 V\n{NAMED}")],
+        [("constant", CASES, "messages.BatteryVoltage.fields.voltage_mv.values.empty")],
+        {CASES: ("voltage_mv=7500", "voltage_mv=BatteryVoltage.VOLTAGE_MV_EMPTY")},
+    ),
+}
+
+
+@pytest.mark.parametrize("what", CHANGES)
+def test_what_a_change_needs_is_named_until_it_is_there(
+    what: str, project: Path, capsys: Capture
+) -> None:
+    changes, needed, written = CHANGES[what]
+    assert missing(project, capsys) == []
+    edit(project / "spec" / "busservo.yaml", *changes)
+    assert missing(project, capsys) == needed
+    for file, text in written.items():
+        edit(project / file, text)
+        needed = [each for each in needed if each[1] != file]
+        assert missing(project, capsys) == needed
+    assert needed == []
+
+
+def test_it_is_told_where_to_write_what_and_why(
+    project: Path, capsys: Capture, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    edit(project / "spec" / "busservo.yaml", *CHANGES["a command"][0])
+    monkeypatch.chdir(project)
+    assert main(["missing"]) == 1
+    printed = capsys.readouterr()
+    first = printed.out.split("\n\n")[0].splitlines()
+    text = (project / "spec" / "busservo.yaml").read_text(encoding="utf-8").splitlines()
+    line = text.index("  BuzzerBeep:") + 1
+    assert first[:3] == [
+        "tests/cases.py: BuzzerBeep has no case",
+        f"    = see: spec/busservo.yaml:{line}:3",
+        '    = write: Case(BuzzerBeep(times, pause_ms), "55 55 ...", HOST, "section and example"),',
+    ]
+    assert first[3].startswith("    = why: ")
+    assert printed.err.startswith("spec/busservo.yaml: 13 messages, 16 fields, 4 values, ")
+    assert printed.err.endswith(" looked up in 3 files: 3 missing\n")
+
+
+# ------------------------------------------------------------------ how it is looked for
+
+LAYOUT = """\
+busservo:
+  case:
+    of: {of}
+    file: made_up.txt
+    text: '{text}'
+    write: a case
+    why: it is tried
+"""
+
+
+def declare(project: Path, of: str, text: str) -> None:
+    declared = LAYOUT.replace("{of}", of).replace("{text}", text)
+    (project / "tests" / "witnesses.yaml").write_text(declared, encoding="utf-8")
+
+
+@pytest.mark.parametrize(
+    ("of", "text", "written", "found"),
+    [
+        ("messages", "Case({message}(", "Case(ServoMove(1))", True),
+        ("messages", "Case({message}(", "Case (\n  ServoMove\n(1))", True),
+        ("messages", "Case({message}(", "BadCase(ServoMove(1))", False),
+        ("messages", "Case({message}(", "Case(ServoMoves(1))", False),
+        ("messages", "Case({message}(", "Case(MyServoMove(1))", False),
+        ("messages", "case {message}", "case ServoMove", True),
+        ("messages", "case {message}", "case\nServoMove", True),
+        ("messages", "case {message}", "caseServoMove", False),
+        ("messages", "[{MESSAGE}] {SENDER}", "[SERVO_MOVE] HOST", True),
+        ("messages", "[{MESSAGE}] {SENDER}", "[SERVOMOVE] HOST", False),
+        ("messages", ".{message}.", "xServoMovex", False),
+        ("messages", "x{message}: {fields}", "xServoMove: time_ms, targets", True),
+        ("requests", "Case({message}, {method})", "Case(ServoMove, move_servos)", True),
+        ("fields", "Case({message}(...{field}=", "Case(ServoMove(f(1, (2,)), time_ms=1))", True),
+        ("fields", "Case({message}(...{field}=", "Case(ServoMove(1)), Case(X(time_ms=1))", False),
+        ("fields", "Case({message}(...{field}=", "Case(ServoMove(real_time_ms=1))", False),
+        ("values", "Case({message}...{FIELD}_{VALUE}", "Case(ServoMove, TIME_MS_NEVER)", True),
+        ("values", "Case({message}...{FIELD}_{VALUE}", "Case(ServoMove, TIME_MS_NEVER_1)", False),
+    ],
+)
+def test_what_a_pattern_finds(
+    of: str, text: str, written: str, found: bool, project: Path, capsys: Capture
+) -> None:
+    about = "        about: How long the motion takes.\n"
+    named = f"{about}        values: {{never: {{value: 800, about: x}}}}\n"
+    edit(project / "spec" / "busservo.yaml", (about, named))
+    declare(project, of, text)
+    (project / "made_up.txt").write_text(written, encoding="utf-8")
+    names = {
+        "fields": "ServoMove.fields.time_ms",
+        "values": "ServoMove.fields.time_ms.values.never",
+    }
+    sought = ("case", "made_up.txt", f"messages.{names.get(of, 'ServoMove')}")
+    assert (sought not in missing(project, capsys)) is found
+
+
+# ------------------------------------------------------------------ what is no use
+
+
+def refusal(project: Path, capsys: Capture) -> str:
+    assert main(["missing", str(project / "spec" / "busservo.yaml")]) == 2
+    printed = capsys.readouterr()
+    assert printed.out == ""
+    return printed.err.removeprefix("framegen: error: ")
+
+
+@pytest.mark.parametrize("declared", [None, "kiln: {}\n"])
+def test_where_nothing_is_declared_nothing_is_said_to_be_well(
+    declared: str | None, project: Path, capsys: Capture
+) -> None:
+    file = project / "tests" / "witnesses.yaml"
+    if declared is None:
+        file.unlink()
+    else:
+        file.write_text(declared, encoding="utf-8")
+    spec = (project / "spec" / "busservo.yaml").as_posix()
+    assert refusal(project, capsys) == (
+        f"{spec} has 12 messages, and no witness is declared for it: nothing was looked for\n"
+        "  hint: tests/witnesses.yaml declares them, by the name of the protocol: "
+        "`busservo: {}` for none\n"
+    )
+
+
+def test_a_project_may_have_no_witness(project: Path, capsys: Capture) -> None:
+    (project / "tests" / "witnesses.yaml").write_text("busservo: {}\n", encoding="utf-8")
+    spec = project / "spec" / "busservo.yaml"
+    assert main(["missing", str(spec)]) == 0
+    said = f"{spec.as_posix()}: nothing looked up in 0 files: nothing is missing\n"
+    assert capsys.readouterr().err == said
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "said"),
+    [
+        ("messages", "mesages", "3:5: busservo.case.of: nothing of a spec is `mesages`"),
+        ("    of: messages\n", "", "2:3: busservo.case.of: is missing"),
+        ("    why:", "    because:", "7:5: busservo.case.because: no such key"),
+        ("it is tried", "12", "7:5: busservo.case.why: is no text"),
+        ("{message}", "{massage}", "5:5: busservo.case.text: nothing is put for `{massage}`"),
+        ("a case", "a case of {field}", "6:5: busservo.case.write: nothing is put for `{field}`"),
+        ("Case({message}(", "Case(", "5:5: busservo.case.text: this is no pattern"),
+        ("Case({message}(", "{message}(", "5:5: busservo.case.text: this is no pattern"),
+        ("  case:", "  case: [1]\n  other:", "2:3: busservo.case: no mapping"),
+        ("  why", "\twhy", "tests/witnesses.yaml is no mapping of protocols to witnesses\n"),
+        ("  case:", "  case: &a", "tests/witnesses.yaml is no mapping of protocols to witnesses\n"),
+    ],
+)
+def test_a_declaration_that_cannot_be_followed_is_told_with_its_place(
+    old: str, new: str, said: str, project: Path, capsys: Capture
+) -> None:
+    declare(project, "messages", "Case({message}(")
+    (project / "made_up.txt").write_text("", encoding="utf-8")
+    edit(project / "tests" / "witnesses.yaml", (old, new))
+    refused = refusal(project, capsys)
+    place = "" if said.startswith("tests") else "tests/witnesses.yaml:"
+    assert refused.startswith(place + said)
+
+
+@pytest.mark.parametrize(
+    ("data", "why"), [(None, "No such file or directory"), (b"\xff", "it is not UTF-8 text")]
+)
+def test_a_file_that_cannot_be_read_is_told(
+    data: bytes | None, why: str, project: Path, capsys: Capture
+) -> None:
+    declare(project, "messages", "Case({message}(")
+    if data is not None:
+        (project / "made_up.txt").write_bytes(data)
+    said = f"made_up.txt, which tests/witnesses.yaml names, cannot be read: {why}\n"
+    assert refusal(project, capsys).startswith(said)

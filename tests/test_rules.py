@@ -1,0 +1,72 @@
+"""The rules of `framegen check`: their descriptions, and findings that no bad spec shows."""
+
+from __future__ import annotations
+
+import re
+import textwrap
+from typing import TYPE_CHECKING
+
+import pytest
+from framegen import checks
+from framegen.checks import RULES
+from framegen.checks.reading import READING_RULES
+
+from tests import bad_specs
+from tests.factories import BUSSERVO, DEMO, ROOT, compiled_of, data_of
+
+if TYPE_CHECKING:
+    from framegen.checks.rule import AnyRule
+
+FILED = [rule for rule in RULES if rule not in READING_RULES]
+
+
+@pytest.mark.parametrize("rule", RULES, ids=lambda rule: rule.id)
+def test_a_rule_says_what_it_is_for(rule: AnyRule) -> None:
+    assert re.fullmatch(r"[a-z]+(?:-[a-z]+)*", rule.id)
+    assert rule.title
+    assert not rule.title.endswith(".")
+    assert rule.why.endswith(".")
+    assert rule.bad
+    assert rule.good
+    assert rule.bad != rule.good
+
+
+def test_no_two_rules_share_an_id() -> None:
+    ids = [rule.id for rule in RULES]
+    assert sorted(set(ids)) == sorted(ids)
+
+
+@pytest.mark.parametrize("rule", FILED, ids=lambda rule: rule.id)
+def test_a_rule_is_a_file_of_its_own(rule: AnyRule) -> None:
+    module = getattr(checks, rule.id.replace("-", "_"))
+    assert module.RULE is rule
+
+
+def test_an_example_that_would_be_encoded_otherwise_is_found(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.setattr(checks.example, "encode", lambda *_: b"\x55")
+    messages = {finding.message for finding in compiled_of(data_of(DEMO)).findings}
+    assert messages == {"its values encode to 55, which is not this"}
+
+
+@pytest.mark.parametrize(
+    ("key", "said", "told"),
+    [
+        ("targets", None, "the frame has a list, not nothing"),
+        ("targets", {}, "the frame has a list, not an element"),
+        ("time_ms", True, "the frame has 1000, not true"),
+        ("time_ms", [1000], "the frame has 1000, not a list"),
+    ],
+)
+def test_a_value_of_another_kind_is_told_by_its_kind(key: str, said: object, told: str) -> None:
+    data = data_of(BUSSERVO)
+    data["messages"]["ServoMove"]["examples"][0]["values"][key] = said
+    assert [finding.message for finding in compiled_of(data).findings][:1] == [told]
+
+
+def test_the_guide_shows_a_case_as_it_is() -> None:
+    guide = (ROOT / "CONTRIBUTING.md").read_text(encoding="utf-8")
+    [shown] = re.findall(r"   ```yaml\n(.*?)   ```\n", guide, re.DOTALL)
+    table = (bad_specs.FOLDER / "empty-element.yaml").read_text(encoding="utf-8")
+    assert textwrap.dedent(shown) in table
