@@ -87,7 +87,7 @@ def told(files: dict[str, str], words: re.Pattern[str]) -> list[str]:
     return [
         f"{path}: {line.strip()}"
         for path, text in files.items()
-        for line in (prose(text) if path.endswith(".py") else text.split("\n"))
+        for line in (prose(text) if path.endswith((".py", ".pyi")) else text.split("\n"))
         if words.search(line.replace("socket://host:port", "").replace("rfc2217://host:port", ""))
     ]
 

@@ -261,7 +261,7 @@ def test_a_new_message_changes_what_shows_it() -> None:
     touched = changed(files(text), files(text[:where] + MESSAGE + text[where:]))
     pages = {"README.md", "examples.md", "messages/BuzzerBeep.md", "sequences.md"}
     modules = {
-        *("__init__.py", "messages.py", "strategies.py", "vectors.json"),
+        *("__init__.py", "__init__.pyi", "messages.py", "strategies.py", "vectors.json"),
         *(f"_client/{name}.py" for name in ("exchanges", "controller", "async_controller")),
         "device.py",
     }

@@ -29,7 +29,7 @@ from .usage_error import UsageError
 TYPE_CHECKING = False
 if TYPE_CHECKING:
     from argparse import ArgumentParser, Namespace
-    from collections.abc import Callable
+    from collections.abc import Callable, Sequence
     from typing import TextIO
 
     from .._codec.noise import Noise
@@ -161,7 +161,7 @@ class Monitor:
             finally:
                 print(self._totals(), file=sys.stderr)
 
-    def _tell(self, events: list[Message | Noise], recorder: Recorder, now: float) -> None:
+    def _tell(self, events: Sequence[Message | Noise], recorder: Recorder, now: float) -> None:
         """Record all events, and print the chosen ones."""
         recorder.record(events, self._direction, now)
         when = self._day() if self._absolute else now
