@@ -35,6 +35,8 @@ from .wire_time import WireTime
 
 TYPE_CHECKING = False  # typing alone would double the time that the import takes
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     from .._frame.message import Message
     from .limits import Bounds
     from .reply_matcher import Answer
@@ -399,7 +401,7 @@ class Session:
         for at, events in self._reader.read(data, now):
             self._take_in(at, events)
 
-    def _take_in(self, now: float, events: list[Message | Noise]) -> None:
+    def _take_in(self, now: float, events: Sequence[Message | Noise]) -> None:
         for event in events:
             if self._trace is not None:
                 self._trace.received(event, now)
@@ -422,7 +424,7 @@ class Session:
         if self._reader.pending:
             self._break_off(self._reader.flush())
 
-    def _break_off(self, events: list[Message | Noise]) -> None:
+    def _break_off(self, events: Sequence[Message | Noise]) -> None:
         """Take in what was held back: what comes next goes on with no frame."""
         self._take_in(self._reader.received_at, events)
         if self._trace is not None:

@@ -10,12 +10,12 @@ from .._frame.direction import RECEIVED
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
-    from collections.abc import Iterable
+    from collections.abc import Iterable, Sequence
     from typing import TypeAlias
 
     from .._frame.message import Message
 
-    Events: TypeAlias = list[Message | Noise]
+    Events: TypeAlias = Sequence[Message | Noise]
 
 
 class FrameReader:
@@ -55,9 +55,9 @@ class FrameReader:
         decoder = self._decoder
         doubted, events = decoder.doubted, decoder.feed(data)
         if doubted is None or not events or events[0] is not doubted:
-            found = [(now, events)]
+            found: Iterable[tuple[float, Events]] = ((now, events),)
         else:
-            found = [(self._doubted_at, [events.pop(0)]), (now, events)]
+            found = ((self._doubted_at, events[:1]), (now, events[1:]))
         if decoder.doubted is not doubted:
             self._doubted_at = now
         return found
