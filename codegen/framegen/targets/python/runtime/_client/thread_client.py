@@ -214,9 +214,9 @@ class ThreadClient(BaseClient):
             except TransportError as error:
                 self._fail(error)
                 return True
-        asked = self._session.unwritten
-        if asked is not None:
-            self._session.written(asked, self._clock())
+        pending = self._session.unwritten
+        if pending is not None:
+            self._session.written(pending, self._clock())
         if self._session.acknowledgements.unwritten:
             self._session.acknowledgements.written(self._clock())
         return bool(frames)
