@@ -400,7 +400,7 @@ def test_more_than_a_reply_has_room_for_is_refused_where_it_cannot_be_asked_in_p
     """As for a protocol whose question has more fields than its list."""
     monkeypatch.setattr(send, "in_parts", lambda *_: [ServoPositionsRead(range(85))])
     assert main(["send", "--port", "loop://", "ServoPositionsRead"]) == 2
-    told = "85 items are asked for at once, and a reply has room for 84\n"
+    told = "85 items are requested at once, and a reply has room for 84\n"
     assert capsys.readouterr().err.endswith(told)
 
 
