@@ -399,6 +399,7 @@ def test_linters_have_nothing_to_say(on_disk: Path) -> None:
         assert run("ruff", *words, "--no-cache", "--config", config, ".", cwd=on_disk) == ""
 
 
+@pytest.mark.slow
 def test_type_checkers_have_nothing_to_say(on_disk: Path) -> None:
     packages = [file.parent.name for file in on_disk.glob("*/py.typed")]
     assert sorted(packages) == ["json_protocol", "pose", "serial_protocol"]

@@ -277,10 +277,11 @@ def test_a_new_message_changes_few_vectors_of_others() -> None:
     new = text[:where] + MESSAGE + text[where:]
     before, after = (files(each)[path].splitlines() for each in (text, new))
     gone = [json.loads(line.rstrip(","))["title"] for line in before if line not in after]
-    assert gone == [
+    # Unless there were so many that these lines did not change either.
+    assert set(gone) <= {
         "one frame of each message in one piece",
         "one frame of each message in pieces of 7 bytes",
-    ]
+    }
     kept = [line for line in after if line in before]
     assert kept == [line for line in before if line in after]
 

@@ -25,6 +25,10 @@ class ErrorMapping:
         self._transport = transport
         self.name = str(getattr(transport, "name", type(transport).__name__))
         self.largest_frame: int | None = getattr(transport, "largest_frame", None)
+        # What has a function called when there is something to read, without anybody waiting.
+        self.on_readable: Callable[[Callable[[], object]], object] | None = getattr(
+            transport, "on_readable", None
+        )
         self._closed = False
 
     def read(self, timeout: float) -> bytes:
