@@ -264,6 +264,7 @@ def test_a_hundred_tasks_share_a_line_with_faults(tmp_path: Path) -> None:
     at_once(talk, [(way, "mixed") for way in WAYS])
 
 
+@pytest.mark.slow
 def test_the_soak_runs(capsys: pytest.CaptureFixture[str]) -> None:
     """In short; `make soak` asks a hundred thousand times."""
     soak.main(["--requests", "800", "--rounds", "2"])

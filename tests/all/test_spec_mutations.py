@@ -7,7 +7,6 @@ unseen: they need another guard.
 from __future__ import annotations
 
 import json
-from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeAlias
 
 import pytest
@@ -15,14 +14,15 @@ from framegen.compile import compile_spec
 from framegen.language.load import load, read_source
 from framegen.reading.source import Source
 
+from tests.factories import BUSSERVO
+
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
 
 Steps: TypeAlias = "tuple[str | int, ...]"
 Mutation: TypeAlias = "tuple[Steps, Any]"
 
-SPEC = Path(__file__).parent.parent / "spec" / "busservo.yaml"
-TREE: Any = load(read_source(SPEC)).tree.data
+TREE: Any = load(read_source(BUSSERVO)).tree.data
 MESSAGES: Any = TREE["messages"]
 
 GONE = "(gone)"
