@@ -28,13 +28,15 @@ SAMPLE = 3
 SEED =
 # Where the pages of the reference go.
 REFERENCE = build/reference
+# What a release is called.
+VERSION =
 # Which mutants: make mutants ONLY='busservo.octets.*'
 ONLY =
 
 .DEFAULT_GOAL := all
 # Two that add to one environment at once would spoil it.
 .NOTPARALLEL:
-.PHONY: all test quick test-all sample coverage lint style types current format fuzz soak mutants bench docs reference docs-tools wheel packages pins venv clean help
+.PHONY: all test quick test-all sample coverage lint style types current format fuzz soak mutants bench docs reference docs-tools wheel packages release newcomer pins venv clean help
 
 all: $(READY)  ## Check the spec, generate everything, decode a recorded noisy line (plain `make`)
 	$(IN)/framegen check
@@ -121,8 +123,18 @@ wheel: $(TO_BUILD)  ## Build dist/: a wheel and a source distribution of each pa
 	$(IN)/python -m build --no-isolation --outdir dist codegen
 	$(IN)/python -m build --no-isolation --outdir dist simulator
 
+# Nothing is published: dist/ holds files that can be handed on.
+release: $(TO_TEST)  ## Check all, set the version, tag it, and build dist/: make release VERSION=0.2.0
+	$(IN)/python .ci/release.py --check '$(VERSION)'
+	$(MAKE) lint test packages
+	$(IN)/python .ci/release.py '$(VERSION)'
+	$(MAKE) wheel
+
 packages: $(TO_TEST)  ## Build the packages, and try them in empty environments
 	$(IN)/python -m pytest tests/all/test_packages.py
+
+newcomer:  ## Follow README and getting-started in a new clone, with the system's own Python
+	.ci/newcomer
 
 # The oldest Python makes them: what it can install, all others can.
 pins:  ## Renew constraints.txt: make pins PYTHON=python3.10

@@ -1,4 +1,4 @@
-"""Does what README.md says for where there is no make: each line of its `bat` block, in one shell.
+"""Run what README.md says for machines without make: each line of its `bat` block, in one shell.
 
     python .ci/by_hand.py
 
@@ -18,7 +18,7 @@ ROOT = Path(__file__).resolve().parent.parent
 
 
 def commands() -> list[str]:
-    """The lines of the block."""
+    """Return the lines of the block."""
     readme = (ROOT / "README.md").read_text(encoding="utf-8")
     block = re.search(r"^```bat\n(.*?)^```", readme, flags=re.MULTILINE | re.DOTALL)
     if block is None:
@@ -27,7 +27,7 @@ def commands() -> list[str]:
 
 
 def main() -> int:
-    """Runs them; the exit code is that of the first that fails."""
+    """Run them; return the exit code of the first that fails."""
     lines = [*commands(), "git diff --exit-code"]
     with tempfile.TemporaryDirectory() as folder:
         if os.name == "nt":

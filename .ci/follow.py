@@ -1,11 +1,11 @@
-"""Follows pages as a reader does, in order and to the letter, with Python's own library alone.
+"""Follow pages as a reader does, in order and to the letter, with Python's own library alone.
 
     python3 .ci/follow.py README.md docs/getting-started.md
 
 `sh` blocks are run line by line in a shell, whose environment and folder last from block to block;
 `console` blocks are too, and `python` and `pycon` blocks in the Python that is then on the path.
-What follows them is what they must print; `...` stands for anything. `bat` is not for this machine.
-A virtual board, which the installed `busservo simulate` offers, is behind every COM5.
+The block behind it is what it must print; `...` stands for anything. `bat` is not for this
+machine. A virtual board, which the installed `busservo simulate` offers, is behind every COM5.
 """
 
 from __future__ import annotations
@@ -80,10 +80,10 @@ class Reader:
         """Run a command; what it leaves behind in the environment lasts."""
         with tempfile.TemporaryDirectory() as scratch:
             left = Path(scratch, "left")
-            keep = f'status=$?; env -0 >"{left}"; pwd >>"{left}"; exit $status'
+            keep = """trap 'env -u LEFT -0 >"$LEFT"; pwd >>"$LEFT"' EXIT"""
             done = subprocess.run(
-                ["bash", "-c", f"{self._with_port(command)}\n{keep}"],
-                env=self.environment,
+                ["bash", "-c", f"{keep}\n{self._with_port(command)}"],
+                env={**self.environment, "LEFT": str(left)},
                 cwd=self.folder,
                 stdout=subprocess.PIPE,
                 stderr=subprocess.STDOUT,
@@ -96,7 +96,7 @@ class Reader:
         return done.returncode, done.stdout
 
     def python(self, block: Block) -> str:
-        """What a program or a session prints."""
+        """Return the output of a program or a session."""
         if self._python is None:
             self._python = self._start("python", "-c", INTERPRETER)
         assert self._python.stdin is not None
@@ -132,7 +132,7 @@ class Reader:
         )
 
     def waits(self) -> None:
-        """Run what waits until Ctrl-C, see that it names a port, and press Ctrl-C."""
+        """Run a command that waits until Ctrl-C, see that it names a port, and press Ctrl-C."""
         waiting = self._start(*shlex.split(WAITS))
         assert waiting.stdout is not None
         port = waiting.stdout.readline().strip()
@@ -149,21 +149,20 @@ class Reader:
 
 
 def blocks_of(page: Path) -> list[Block]:
-    """The fenced blocks of a page."""
+    """Return the fenced blocks of a page."""
     text = page.read_text(encoding="utf-8")
     found = re.finditer(r"^```(\w+)\n(.*?)^```", text, flags=re.MULTILINE | re.DOTALL)
     return [Block(each[1], each[2], text.count("\n", 0, each.start()) + 1) for each in found]
 
 
-def follow(page: Path) -> None:
-    """Do what a page says. Raises WrongError where that does not work."""
-    home = Path.home() / page.stem
+def follow(page: Path, home: Path) -> None:
+    """Follow a page. Raises WrongError if it does not work."""
     home.mkdir()
     reader = Reader(home)
     shown = ""
     try:
         for block in blocks_of(page):
-            place = f"{page.relative_to(ROOT)}:{block.line}"
+            place = f"{page.name}:{block.line}"
             print(
                 f"{time.monotonic() - BEGUN:4.0f} s  {place}: {block.text.splitlines()[0]}",
                 flush=True,
@@ -171,7 +170,7 @@ def follow(page: Path) -> None:
             try:
                 shown = _do(reader, block, shown)
             except WrongError as error:
-                raise WrongError(f"{page}:{block.line}: {error}") from None
+                raise WrongError(f"{page.name}:{block.line}: {error}") from None
     finally:
         reader.leave()
 
@@ -205,10 +204,10 @@ def _compare(said: str, told: str) -> None:
 
 
 def main() -> int:
-    """Follow the pages that are named. 1: one of them does not work."""
+    """Follow the named pages; return 1 if one of them does not work."""
     try:
         for name in sys.argv[1:]:
-            follow(ROOT / name)
+            follow(ROOT / name, Path.home() / Path(name).stem)
     except WrongError as error:
         print(error, file=sys.stderr)
         return 1

@@ -1,13 +1,13 @@
-"""How near a client comes to what the line allows: six-servo position reads at 9600 baud.
+"""The speed of clients beside that of the line: six-servo position reads at 9600 baud.
 
     python -m benchmarks.line [--reads N] [--rounds N] [--via pty|tcp]
 
 A virtual controller, in a process of its own, lets bytes through at the pace of the wire, both
-ways. Besides the time of a read, it tells the processor time that it costs. A read is a request of
-11 bytes and a reply of 23, so 34 bytes of ten bits: 35.4 ms at 9600 baud, and no client that asks
-one thing at a time can be faster. The share is of that rate. On a busy
-machine the pacing itself is late: pyserial alone, which decodes nothing, shows by how much. `xarm`,
-from the package index, is a client of the same controller; where it is not installed, that is said.
+ways. Besides the time of a read, its processor time is printed. A read is a request of 11 bytes and
+a reply of 23, so 34 bytes of ten bits: 35.4 ms at 9600 baud, and no client that sends one request
+at a time can be faster. The share is of that rate. On a busy machine the pacing itself is late:
+pyserial alone, which decodes nothing, shows by how much. `xarm`, from the package index, is a
+client of the same controller; if it is not installed, a line says so.
 """
 
 from __future__ import annotations

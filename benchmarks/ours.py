@@ -16,7 +16,7 @@ IMPORTS = {
     IN_USE: "from busservo import StreamDecoder, decode",
     CLIENT: "from busservo import Controller",
 }
-"""Names are imported when they are asked for, so the import alone tells half of it."""
+"""Names are imported on first use, so the import statement alone shows half of the cost."""
 
 _NAMES: dict[str, Any] = {
     "decode": busservo.decode,

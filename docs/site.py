@@ -67,7 +67,7 @@ def build(out: Path) -> None:
 
 
 def _page(name: str) -> str:
-    """The page that a Markdown file becomes."""
+    """Return the page that a Markdown file becomes."""
     stem = name.removesuffix(".md")
     return "index.html" if stem == "README" else f"{stem}.html"
 
@@ -98,7 +98,7 @@ def _html(guide: Path) -> str:
 
 
 def _slug(heading: str) -> str:
-    """The anchor of a heading, as forges make it."""
+    """Return the anchor of a heading, as forges make it."""
     return re.sub(r"[^\w\- ]", "", heading.lower()).replace(" ", "-")
 
 

@@ -432,7 +432,7 @@ def test_direction_is_chosen_by_sender(
 def test_a_sender_that_there_is_not_is_guessed(capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["explain", str(BUSSERVO), "--direction", "hots", "55"]) == 2
     assert capsys.readouterr().err == (
-        "framegen: error: nothing is sent by 'hots'\n  hint: did you mean `host`?\n"
+        "framegen: error: no endpoint 'hots' sends anything\n  hint: did you mean `host`?\n"
     )
 
 

@@ -1,4 +1,4 @@
-"""What a change of the spec leaves to be written by hand is named, and nothing else is."""
+"""A change of the spec: everything that has to be written by hand is named, and nothing else."""
 
 from __future__ import annotations
 
@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, TypeAlias
 
 import pytest
 from framegen.cli import main
+from framegen.witnesses import DECLARATION, read_witnesses
 
 from tests.factories import BUSSERVO, ROOT
 
@@ -77,9 +78,10 @@ NAMED = """\
 
 @pytest.fixture
 def project(tmp_path: Path) -> Path:
-    """A copy of the spec, of what is written by hand beside it, and of what says so."""
-    for path in ("spec/busservo.yaml", "tests/witnesses.yaml", CASES, ORACLE, CONTRACT):
-        (tmp_path / path).parent.mkdir(exist_ok=True)
+    """Return a copy of the spec, of the files written by hand beside it, and of their list."""
+    witnesses = read_witnesses(ROOT, "busservo") or []
+    for path in ("spec/busservo.yaml", DECLARATION, *(each.file for each in witnesses)):
+        (tmp_path / path).parent.mkdir(parents=True, exist_ok=True)
         shutil.copy(ROOT / path, tmp_path / path)
     return tmp_path
 
@@ -93,7 +95,7 @@ def edit(file: Path, *edits: tuple[str, str]) -> None:
 
 
 def missing(project: Path, capsys: Capture) -> list[Lack]:
-    """What the command finds in a project."""
+    """Return the findings of the command in a project."""
     status = main(["missing", "--json", str(project / "spec" / "busservo.yaml")])
     found = [json.loads(line) for line in capsys.readouterr().out.splitlines()]
     assert status == bool(found)
@@ -182,11 +184,11 @@ def test_it_is_told_where_to_write_what_and_why(
     assert first[:3] == [
         "tests/cases.py: BuzzerBeep has no case",
         f"    = see: spec/busservo.yaml:{line}:3",
-        '    = write: Case(BuzzerBeep(times, pause_ms), "55 55 ...", HOST, "section and example"),',
+        '    = write: Case(BuzzerBeep(times=..., pause_ms=...), "55 55 ...", HOST, "section"),',
     ]
     assert first[3].startswith("    = why: ")
     assert printed.err.startswith("spec/busservo.yaml: 13 messages, 16 fields, 4 values, ")
-    assert printed.err.endswith(" looked up in 3 files: 3 missing\n")
+    assert printed.err.endswith(" files: 3 missing\n")
 
 
 # ------------------------------------------------------------------ how it is looked for
@@ -221,7 +223,7 @@ def declare(project: Path, of: str, text: str) -> None:
         ("messages", "[{MESSAGE}] {SENDER}", "[SERVO_MOVE] HOST", True),
         ("messages", "[{MESSAGE}] {SENDER}", "[SERVOMOVE] HOST", False),
         ("messages", ".{message}.", "xServoMovex", False),
-        ("messages", "x{message}: {fields}", "xServoMove: time_ms, targets", True),
+        ("messages", "x{message}: {fields}", "xServoMove: time_ms=..., targets=...", True),
         ("requests", "Case({message}, {method})", "Case(ServoMove, move_servos)", True),
         ("fields", "Case({message}(...{field}=", "Case(ServoMove(f(1, (2,)), time_ms=1))", True),
         ("fields", "Case({message}(...{field}=", "Case(ServoMove(1)), Case(X(time_ms=1))", False),

@@ -57,13 +57,13 @@ if TYPE_CHECKING:
 
 PACKAGE = Path(busservo.__file__).parent
 # Those that import the messages by name.
+MINE = {kind.__name__ for kind in busservo.MESSAGES} | {"ServoTarget", "ServoPosition"}
+MINE |= {"HostMessage", "ControllerMessage"}
 MODULES = sorted(
     path.relative_to(PACKAGE).as_posix()
     for path in PACKAGE.rglob("*.py")
-    if "_cli" not in path.parts
-    and (".messages import" in path.read_text(encoding="utf-8") or path.name == "messages.py")
+    if "_cli" not in path.parts and MINE & {*re.findall(r"\w+", path.read_text(encoding="utf-8"))}
 )
-MINE = {kind.__name__ for kind in busservo.MESSAGES} | {"ServoTarget", "ServoPosition"}
 CROWDS = {"names": taken_names, "elements": taken_elements, "pose": taken_pose}
 
 
@@ -187,12 +187,15 @@ def test_no_suffix_makes_another_reserved_word() -> None:
         ("endpoint", "station", "class", "class"),
         ("message", "StationRead", "Controller", "ControllerMessage"),
         ("message", "StationRead", "ValueError", "ValueErrorMessage"),
+        ("message", "StationRead", "Event", "EventMessage"),
         ("message", "StationRead", "None", "NoneMessage"),
         ("message", "StationRead", "I", "IMessage"),
         ("message", "StationRead", "Con", "Con"),
         ("message", "StationRead", "Nul", "Nul"),
         ("message", "StationRead", "Decode", "Decode"),
+        ("message", "StationRead", "StationMessage", "StationMessageMessage"),
         ("element", "Vent", "Number", "NumberElement"),
+        ("element", "Vent", "GatewayMessage", "GatewayMessageElement"),
         ("element", "Vent", "O", "OElement"),
         ("field", "ramp_s", "class", "class_"),
         ("field", "ramp_s", "match", "match_"),

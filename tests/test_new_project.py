@@ -1,4 +1,4 @@
-"""framegen new: what it writes works as it says, and it overwrites nothing."""
+"""`framegen new`: the project that it writes works, and it overwrites nothing."""
 
 import io
 import os
@@ -22,7 +22,7 @@ GUIDE = Path(__file__).parent.parent / "docs" / "write-a-spec.md"
 
 
 def next_commands(printed: str) -> list[list[str]]:
-    """The words of the commands that come next, and of the one that they lead to."""
+    """Return the words of each command that is named to come next."""
     return [
         line.split() for line in printed.partition("\nnext:\n")[2].splitlines() if line[0] == " "
     ]
@@ -30,7 +30,7 @@ def next_commands(printed: str) -> list[list[str]]:
 
 @pytest.fixture(scope="module")
 def workplace(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, str]:
-    """The current folder, in which a project was begun and generated, and what was printed."""
+    """Return the folder of a new, generated project, and the output of `framegen new`."""
     folder = tmp_path_factory.mktemp("workplace")
     with pytest.MonkeyPatch.context() as patch, redirect_stdout(io.StringIO()) as printed:
         patch.chdir(folder)
@@ -42,7 +42,7 @@ def workplace(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, str]:
 
 
 def python(project: Path, *words: str) -> subprocess.CompletedProcess[str]:
-    """Python in a project that is not installed."""
+    """Run Python in a project that is not installed."""
     path = os.pathsep.join(str(project / folder) for folder in ("generated", "simulator"))
     return subprocess.run(
         [sys.executable, *words],

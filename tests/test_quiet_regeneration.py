@@ -261,7 +261,7 @@ def test_a_new_message_changes_what_shows_it() -> None:
     touched = changed(files(text), files(text[:where] + MESSAGE + text[where:]))
     pages = {"README.md", "examples.md", "messages/BuzzerBeep.md", "sequences.md"}
     modules = {
-        *("__init__.py", "messages.py", "strategies.py", "vectors.json"),
+        *("__init__.py", "__init__.pyi", "messages.py", "strategies.py", "vectors.json"),
         *(f"_client/{name}.py" for name in ("exchanges", "controller", "async_controller")),
         "device.py",
     }
@@ -277,10 +277,11 @@ def test_a_new_message_changes_few_vectors_of_others() -> None:
     new = text[:where] + MESSAGE + text[where:]
     before, after = (files(each)[path].splitlines() for each in (text, new))
     gone = [json.loads(line.rstrip(","))["title"] for line in before if line not in after]
-    assert gone == [
+    # Unless there were so many that these lines did not change either.
+    assert set(gone) <= {
         "one frame of each message in one piece",
         "one frame of each message in pieces of 7 bytes",
-    ]
+    }
     kept = [line for line in after if line in before]
     assert kept == [line for line in before if line in after]
 

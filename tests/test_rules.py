@@ -53,10 +53,10 @@ def test_an_example_that_would_be_encoded_otherwise_is_found(
 @pytest.mark.parametrize(
     ("key", "said", "told"),
     [
-        ("targets", None, "the frame says a list, not nothing"),
-        ("targets", {}, "the frame says a list, not an element"),
-        ("time_ms", True, "the frame says 1000, not true"),
-        ("time_ms", [1000], "the frame says 1000, not a list"),
+        ("targets", None, "the frame has a list, not nothing"),
+        ("targets", {}, "the frame has a list, not an element"),
+        ("time_ms", True, "the frame has 1000, not true"),
+        ("time_ms", [1000], "the frame has 1000, not a list"),
     ],
 )
 def test_a_value_of_another_kind_is_told_by_its_kind(key: str, said: object, told: str) -> None:

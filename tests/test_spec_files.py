@@ -32,8 +32,8 @@ def test_what_is_loaded_keeps_its_text_and_its_places(slip: str) -> None:
 @pytest.mark.parametrize(
     ("data", "refusal"),
     [
-        (b"", "the file is empty, where a spec is a mapping of keys"),
-        (b"\n\n", "the file is empty, where a spec is a mapping of keys"),
+        (b"", "the file is empty, but a spec is a mapping of keys"),
+        (b"\n\n", "the file is empty, but a spec is a mapping of keys"),
         (b"framegen: 1\n\xff", "is not UTF-8 text: byte 12 is 0xFF"),
         (bytes(range(128, 256)), "is not UTF-8 text: byte 0 is 0x80"),
         (b"\x7fELF\x02\x01\x00", "the file is not YAML"),

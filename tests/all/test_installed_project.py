@@ -1,4 +1,4 @@
-"""What framegen new begins, installed by pip in environments that hold nothing else."""
+"""Projects of `framegen new`, installed by pip in environments that hold nothing else."""
 
 import json
 import os
@@ -38,13 +38,13 @@ def begun(name: str, folder: Path) -> Path:
 
 
 def environment(folder: Path) -> Path:
-    """A new virtual environment: where its commands are."""
+    """Return the folder with the commands of a new virtual environment."""
     run(sys.executable, "-m", "venv", folder, cwd=folder.parent)
     return folder / SCRIPTS
 
 
 def installed(python: Path) -> set[str]:
-    """The names of the distributions in an environment."""
+    """Return the names of the distributions in an environment."""
     listed = run(python, "-m", "pip", "list", "--format", "json", cwd=python.parent)
     return {each["name"] for each in json.loads(listed.stdout)}
 

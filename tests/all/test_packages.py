@@ -53,7 +53,7 @@ assert servo.position == 800, servo
 
 
 def run(*command: object, cwd: Path) -> str:
-    """What a command prints, in a folder where no source of ours is imported by accident."""
+    """Return the output of a command, in a folder where no source of ours is imported."""
     words = [str(word) for word in command]
     done = subprocess.run(words, cwd=cwd, capture_output=True, encoding="utf-8", check=False)
     assert done.returncode == 0, f"{words}: {done.stdout}{done.stderr}"
@@ -66,7 +66,7 @@ def pip(*arguments: object, cwd: Path) -> str:
 
 @pytest.fixture(scope="module")
 def built(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """A wheel of each package, made of its source distribution, which holds all that it takes."""
+    """Return a wheel of each package, built from its source distribution alone."""
     folder = tmp_path_factory.mktemp("dist")
     for project in FOLDERS.values():
         run(
@@ -120,7 +120,7 @@ def python(request: pytest.FixtureRequest) -> str:
 
 @pytest.fixture(scope="module")
 def shelf(built: Path, python: str, tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """What others wrote, for that Python: what the packages need, and what builds them."""
+    """Return packages of others for that Python: those that ours need, and a build system."""
     folder = tmp_path_factory.mktemp("shelf")
     pip("--python", python, "download", "-qq", "-d", folder, *built.glob("*.whl"), cwd=folder)
     pip("--python", python, "download", "-qq", "-d", folder, "hatchling<2", cwd=folder)

@@ -129,12 +129,12 @@ WORDS: list[tuple[Script, int, str]] = [
         ),
     ),
     (faults.late(0.4), 2, "ServoPositions came after 0.437 s, and was due within 0.285 s"),
-    (faults.duplicated(), 1, "BatteryVoltage came once more than it was asked"),
-    (changed(5, 99), 2, "ServoPositions tells of positions.servo_id 99, which was not asked"),
+    (faults.duplicated(), 1, "BatteryVoltage came once more than it was requested"),
+    (changed(5, 99), 2, "ServoPositions reports positions.servo_id 99, which was not requested"),
     (
         faults.late(0.05),
         10,
-        "BatteryVoltage came behind the reply to ServoPositionsRead, asked after it",
+        "BatteryVoltage came after the reply to ServoPositionsRead, which was requested later",
     ),
     (
         lambda _: [Piece(0.0, bytes(5))],
@@ -167,10 +167,10 @@ NOTES: dict[str, tuple[Script, str]] = {
     "a report before it": (faults.preceded(REPORT), "report: ActionGroupStarted after 0.0"),
     "a report behind it": (faults.followed(REPORT), "report: ActionGroupStarted after 0.0"),
     "an unknown frame": (faults.preceded(UNKNOWN), "unknown frame: 5 bytes, 55 55 03 63 01"),
-    "no servo": (lambda _: [Piece(0.0, firmware.positions_reply([]))], "tells of 0 of 6"),
+    "no servo": (lambda _: [Piece(0.0, firmware.positions_reply([]))], "reports 0 of 6"),
     "four of six": (
         lambda _: [Piece(0.0, firmware.positions_reply([(servo, 5) for servo in (6, 1, 3, 2)]))],
-        "ServoPositions tells of 4 of 6",
+        "ServoPositions reports 4 of 6",
     ),
 }
 
@@ -188,7 +188,7 @@ def test_what_comes_before_anything_is_asked_is_no_fault() -> None:
     board = Board(baud=9600)
     board.report(firmware.COMPLETED, 8, 1, at=0.1)
     done = run(MODEL, VirtualPort(board), form="text")
-    assert "before anything was asked came ActionGroupCompleted group=8 times=1\n" in done.out
+    assert "before anything was sent came ActionGroupCompleted group=8 times=1\n" in done.out
     assert done.code == 0
 
 

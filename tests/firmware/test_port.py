@@ -73,7 +73,7 @@ SLIPS = [
     (["--allow", "ServoMove", "--", "x"], "--allow is for firmware", "name its port"),
     (["--port", "", "--allow", "x"], "there is no message `x`", "choose one of `ServoMove`"),
     (["--port", ""], "'' is no port", "name a port, such as"),
-    (["--port", "x", "--format", "badge"], "there is no badge of firmware", "--format text or"),
+    (["--port", "x", "--format", "badge"], "there is no badge for firmware", "--format text or"),
 ]
 
 
@@ -149,9 +149,9 @@ def test_a_port_that_does_not_open_is_told(
 NAMED = "name a port, such as /dev/ttyUSB0 or COM7"
 REACHED = "see that the address is right, and that the other end is there"
 NAMES = [
-    ("", "'' is no port that can be asked", NAMED),
-    ("spy:///dev/null?file=a", "is no port that can be asked", NAMED),
-    ("hid://", "is no port that can be asked", NAMED),
+    ("", "'' is no port that can be tested", NAMED),
+    ("spy:///dev/null?file=a", "is no port that can be tested", NAMED),
+    ("hid://", "is no port that can be tested", NAMED),
     ("nothing://x", "nothing://x cannot be reached: invalid URL", REACHED),
     ("socket://127.0.0.1:1", "socket://127.0.0.1:1 cannot be reached: ", REACHED),
     ("socket://here:99999", "socket://here:99999 is no address: Port out of", "write socket://HOS"),

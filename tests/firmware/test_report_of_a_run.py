@@ -31,7 +31,7 @@ a length of 6 makes servo_count 1, not 2
          note: noise, count mismatch: 8 bytes, 55 55 06 15 02 01 03 00
 ok       ServoPositionsRead, two elements (0.021 s)
 ok       ServoPositionsRead, 84 elements (0.119 s)
-         note: ServoPositions tells of 6 of 84
+         note: ServoPositions reports 6 of 84
 ok       BatteryVoltageRead, example 1, twice in a row (0.012 s, 0.012 s)
 ok       ServoPositionsRead, example 1, twice in a row (0.037 s, 0.037 s)
 ok       BatteryVoltageRead and ServoPositionsRead at once (0.012 s, 0.042 s)
@@ -75,7 +75,7 @@ def test_json_tells_all_of_a_run() -> None:
         ],
         "passed": False,
         "stopped": None,
-        "unasked": [],
+        "unsolicited": [],
     }
     assert steps[0] == {
         "title": "BatteryVoltageRead, example 1",
@@ -121,7 +121,7 @@ def test_a_run_that_the_line_ends_is_told_as_json_all_the_same(
 
 
 def test_a_form_that_there_is_none_of_is_told() -> None:
-    with pytest.raises(Unusable, match="there is no badge of firmware"):
+    with pytest.raises(Unusable, match="there is no badge for firmware"):
         run(MODEL, VirtualLine(), form="badge")
 
 

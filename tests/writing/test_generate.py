@@ -228,9 +228,9 @@ def test_what_differs_is_told_and_mended(
         assert main(["generate"]) == 2
         out, err = capsys.readouterr()
         assert out == ""
-        assert err.startswith("framegen: error: the work of others would be lost, so nothing was")
+        assert err.startswith("framegen: error: somebody's work would be lost, so nothing was")
         assert f"\n  edited by hand: {path}\n" in err
-        assert err.endswith("kept beside its place, as NAME.mine: --force\n")
+        assert err.endswith("keeps it beside its place, as NAME.mine\n")
         assert snapshot(project) == spoilt
     assert main(["generate", "--force"]) == 0
     out, err = capsys.readouterr()
@@ -251,7 +251,7 @@ def test_a_file_of_somebody_else_is_told_and_left_alone(project: Path, capsys: C
         assert main(["generate", *words]) == 0
         out, err = capsys.readouterr()
         assert out == ""
-        assert err.startswith(f"left alone, for framegen did not write it: {LIBRARY}/a.md\n")
+        assert err.startswith(f"left alone, because framegen did not write it: {LIBRARY}/a.md\n")
         assert "left alone, too: 2 more files\n" in err
         assert snapshot(project) == before
 
@@ -260,11 +260,11 @@ def test_a_lost_manifest_is_made_anew_with_a_notice(project: Path, capsys: Captu
     before = snapshot(project)
     (project / OUTPUT.manifest).unlink()
     assert main(["generate", "--check"]) == 1
-    assert f"{OUTPUT.manifest} is not there: own files are told" in capsys.readouterr().err
+    assert f"{OUTPUT.manifest} is not there: files are recognised" in capsys.readouterr().err
     assert main(["generate"]) == 0
     out, err = capsys.readouterr()
     assert out == f"wrote {OUTPUT.manifest}\n"
-    assert f"{OUTPUT.manifest} is not there: own files are told" in err
+    assert f"{OUTPUT.manifest} is not there: files are recognised" in err
     assert snapshot(project) == before
 
 
@@ -444,7 +444,7 @@ def test_a_file_where_a_folder_should_be_is_told(
     for words in ([], ["--check"], ["--force"]):
         assert main(["generate", str(DEMO), "--out", str(tmp_path), *words]) == 2
         assert capsys.readouterr().err == (
-            f"framegen: error: {obstacle} is no folder, and output goes there\n"
+            f"framegen: error: {obstacle} is no folder, but output goes there\n"
             "  hint: move it elsewhere; nothing was changed\n"
         )
     assert snapshot(tmp_path) == before

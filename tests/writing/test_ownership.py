@@ -204,7 +204,7 @@ def test_what_is_not_our_own_is_never_replaced_or_removed(root: Path, name: str)
     with pytest.raises(Unusable) as told:
         write(root, [AFTER])
     assert f"  {why}: {path}" in str(told.value)
-    assert str(told.value).startswith("the work of others would be lost, so nothing was written")
+    assert str(told.value).startswith("somebody's work would be lost, so nothing was written")
     assert "--force" in told.value.hint
     assert snapshot(root) == before
 
@@ -325,7 +325,7 @@ def test_a_manifest_that_is_lost_or_damaged_is_made_anew(
     spoil(root / MANIFEST)
     state = "is not there" if spoil is _gone else "is damaged"
     done = write(root, [edition])
-    assert done.notices == [f"{MANIFEST} {state}: own files are told by what stands in them"]
+    assert done.notices == [f"{MANIFEST} {state}: files are recognised by their contents"]
     assert snapshot(root) == fresh(tmp_path / "elsewhere", edition)
 
 

@@ -149,7 +149,7 @@ def test_an_orphan_that_is_no_file_any_more_is_in_nobodys_way(root: Path) -> Non
 def test_a_file_where_a_folder_should_be_is_told(tmp_path: Path, name: str) -> None:
     put(tmp_path, name, "mine\n")
     before = snapshot(tmp_path)
-    with pytest.raises(Unusable, match=f"{name} is no folder, and output goes there"):
+    with pytest.raises(Unusable, match=f"{name} is no folder, but output goes there"):
         write(tmp_path, [BEFORE], force=True)
     assert snapshot(tmp_path) == before
 

@@ -23,10 +23,10 @@ def _look(spec: Spec) -> Iterator[Problem]:
                 continue
             here = (*path, name, "values", marked[0], "absent")
             if field.counted_by is not None:
-                what = "numbers in a list have no property that could tell who is absent"
+                what = "numbers in a list have no property that could say which are absent"
                 yield Problem(here, what, "give the list an `element` with fields", on_key=True)
             elif first is not None:
-                what = "another field tells who is absent"
+                what = "another field already marks absence"
                 also = (first, "it is here")
                 yield Problem(here, what, "mark the values of one field", on_key=True, also=also)
             else:

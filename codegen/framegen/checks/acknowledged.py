@@ -25,10 +25,10 @@ def _look(spec: Spec) -> Iterator[Problem]:
 
 def _misfit(name: str, message: Message, report: str, spec: Spec) -> tuple[str, str] | None:
     if message.reply is not None:
-        what = f"{name} is answered by {message.reply}, which says as much"
+        what = f"{name} is answered by {message.reply}, which confirms it already"
         return what, "leave out `acknowledged`"
     if message.lasts is not None:
-        what = f"{name} also `lasts`, and a client can tell one of the two"
+        what = f"{name} also `lasts`, and a client can wait for only one of the two"
         return what, "leave out `acknowledged`, or `lasts`"
     if report not in message.reports:
         hint = did_you_mean(report, message.reports) or f"name {report} there, too"

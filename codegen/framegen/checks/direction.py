@@ -22,7 +22,7 @@ def _look(spec: Spec) -> Iterator[Problem]:
                 hint = did_you_mean(name, spec.endpoints)
                 yield Problem(path, f"there is no endpoint `{name}`", hint)
         if direction.sender == direction.receiver:
-            yield Problem(path, f"`{direction.sender}` does not talk to itself")
+            yield Problem(path, f"`{direction.sender}` cannot send to itself")
 
 
 def _directions(spec: Spec) -> Iterator[tuple[KeyPath, Direction]]:

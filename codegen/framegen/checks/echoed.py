@@ -37,10 +37,10 @@ def _pair(
     reply, reported = answer
     ours, theirs = paths_of(message), paths_of(reply)
     if requested not in ours:
-        what = f"{name} is not given `{requested}`"
+        what = f"{name} has no argument `{requested}`"
         yield Problem(path, what, did_you_mean(requested, list(ours)), on_key=True)
     elif reported not in theirs:
-        what = f"{message.reply} does not tell `{reported}`"
+        what = f"{message.reply} has no field `{reported}`"
         yield Problem(path, what, did_you_mean(reported, list(theirs)))
     elif ours[requested] != theirs[reported]:
         listed, single = (requested, reported) if ours[requested] else (reported, requested)

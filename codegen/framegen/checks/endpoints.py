@@ -17,7 +17,7 @@ _MEANING = "first the one that the library is for, then the one that it talks to
 
 def _look(spec: Spec) -> Iterator[Problem]:
     if len(spec.endpoints) < 2:
-        what = f"a line has two ends, and {len(spec.endpoints)} of them has a name here"
+        what = f"a line has two ends, and {len(spec.endpoints)} is named here"
         yield Problem(("endpoints",), what, f"name both: {_MEANING}", on_key=True)
         return
     first = next(iter(spec.messages.values()), None)

@@ -26,7 +26,7 @@ def _look(model: Model) -> Iterator[Problem]:
         if fact.agrees(erratum.document):
             yield Problem(
                 ("errata", index, "document"),
-                f"the erratum no longer differs: this spec says `{fact}`, as it does",
+                f"the erratum is out of date: this spec says `{fact}`, as the document does",
                 "remove the erratum, or mend what it is about",
             )
         elif not fact.agrees(erratum.bytes_):

@@ -72,8 +72,8 @@ def _differences(path: KeyPath, frame: Any, said: Any, message: MessageLayout) -
                 yield from _differences((*path, key), frame[key], value, message)
             else:
                 counts = message.items is not None and key == message.items.counter.name
-                hint = "leave it out: the list says it" if counts else "leave it out"
-                yield Problem((*path, key), f"the frame gives no `{key}`", hint, on_key=True)
+                hint = "leave it out: it follows from the list" if counts else "leave it out"
+                yield Problem((*path, key), f"the frame has no `{key}`", hint, on_key=True)
     elif isinstance(frame, list) and isinstance(said, list):
         if len(frame) != len(said):
             yield Problem(path, f"{len(said)} are listed, and the frame has {len(frame)}")
@@ -81,7 +81,7 @@ def _differences(path: KeyPath, frame: Any, said: Any, message: MessageLayout) -
             yield from _differences((*path, index), value, other, message)
     elif frame != said or type(frame) is not type(said):
         hint = "bytes swapped?" if _swapped(path, frame, said, message) else ""
-        yield Problem(path, f"the frame says {_shown(frame)}, not {_shown(said)}", hint)
+        yield Problem(path, f"the frame has {_shown(frame)}, not {_shown(said)}", hint)
 
 
 def _swapped(path: KeyPath, frame: Any, said: Any, message: MessageLayout) -> bool:

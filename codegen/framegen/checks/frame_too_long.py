@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 # What a length of two bytes can say. A decoder holds the longest legal frame, whatever arrives: of
 # a length of four bytes, one false header would have it wait for gigabytes.
 LONGEST = 0xFFFF
-_OF_ANY = f"and {LONGEST} is the most that any frame may have"
+_OF_ANY = f"and no frame may have more than {LONGEST}"
 
 
 def _look(model: Model) -> Iterator[Problem]:

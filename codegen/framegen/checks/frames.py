@@ -46,8 +46,8 @@ def part_problems(path: KeyPath, frame: dict[str, FramePart]) -> Iterator[Proble
         if isinstance(part, ConstantPart):
             constant += len(part.bytes_)
             if constant > MOST_CONSTANT:
-                what = f"the frame has {constant} bytes that never change up to here"
-                yield Problem((*path, name, "bytes"), f"{what}, and {MOST_CONSTANT} are the most")
+                what = f"the frame has {constant} constant bytes up to here"
+                yield Problem((*path, name, "bytes"), f"{what}, and may have {MOST_CONSTANT}")
         if isinstance(part, LengthPart):
             yield from _names((*path, name, "counts"), part.counts, frame)
             yield from _counts_body((*path, name, "counts"), name, part, frame)
@@ -90,6 +90,6 @@ def _counts_body(
         if isinstance(other, BodyPart) and body not in part.counts:
             yield Problem(
                 path,
-                f"`{name}` does not count the body, so it cannot tell where a frame ends",
+                f"`{name}` does not count the body, so the end of a frame is unknown",
                 f"add `{body}`",
             )

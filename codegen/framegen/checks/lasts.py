@@ -45,7 +45,7 @@ def _no_time(name: str, message: Message, lasts: str) -> tuple[str, str] | None:
     times = [each for each in arguments_of(message) if _is_time(message, each)]
     field = message.fields.get(lasts)
     if field is None or lasts not in arguments_of(message):
-        return f"{name} is not given `{lasts}`", did_you_mean(lasts, times)
+        return f"{name} has no argument `{lasts}`", did_you_mean(lasts, times)
     if not isinstance(field, NumberField) or field.counted_by is not None:
         return f"`{lasts}` is a list, and not one time", did_you_mean(lasts, times)
     if field.unit not in STEPS_PER_SECOND:
@@ -53,8 +53,8 @@ def _no_time(name: str, message: Message, lasts: str) -> tuple[str, str] | None:
     type_ = NUMBER_TYPES.get(field.type)
     lowest = field.range.low if field.range is not None else 0 if type_ is None else type_.low
     if lowest < 0:
-        what = f"`{lasts}` may be below zero, and no time is"
-        return what, "take a type without a sign, or give it a `range` from 0 on"
+        what = f"`{lasts}` may be negative, and a time is not"
+        return what, "use an unsigned type, or a `range` from 0 on"
     return None
 
 

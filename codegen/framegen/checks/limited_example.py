@@ -30,7 +30,7 @@ def _look(model: Model) -> Iterator[Problem]:
                     if not _inside(limits, value):
                         here = ("messages", name, "examples", number, "values", outer)
                         what = f"`{inner or outer}` is {value}, outside all limits"
-                        yield Problem(here, what, "mend the example, or widen the limits")
+                        yield Problem(here, what, "correct the example, or widen the limits")
 
 
 def _inside(limits: Limits, value: int) -> bool:

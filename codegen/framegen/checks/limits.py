@@ -25,7 +25,7 @@ def _look(model: Model) -> Iterator[Problem]:
                 continue
             here = (*path, "limits")
             if message.direction != model.roles.sent:
-                what = f"{name} is no message of a client's, which has nothing to refuse in it"
+                what = f"{name} is not sent by the client, so there is nothing to limit"
                 yield Problem(here, what, "leave the limits out", on_key=True)
                 continue
             yield from _bounds((*here, "usual"), field.limits.usual, field)
@@ -33,9 +33,11 @@ def _look(model: Model) -> Iterator[Problem]:
                 yield from _bounds((*here, "others", other), range_, field)
             first = first or (here, field.limits)
             if field.limits != first[1]:
-                what = "these limits are others than those above, and a client is told one pair"
+                what = "these limits differ from those above, and a client has one pair"
                 also = (first[0], "the first are here")
-                yield Problem(here, what, "give every field the same ones", on_key=True, also=also)
+                yield Problem(
+                    here, what, "give every field the same limits", on_key=True, also=also
+                )
 
 
 def _bounds(path: KeyPath, range_: Range, field: NumberField) -> Iterator[Problem]:

@@ -20,7 +20,7 @@ def _look(model: Model) -> Iterator[Problem]:
             found = recognise(model, example.hex)
             if found is None:
                 text = f"this is no frame of {lookalike.title}"
-                yield Problem(path, text, "check its length, its checksum and its codes")
+                yield Problem(path, text, "check its length, its checksum and its ids")
             elif found.name != name:
                 yield Problem(path, f"this is a frame of {found.lookalike.title}")
 

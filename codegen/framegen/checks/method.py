@@ -50,10 +50,10 @@ def _arguments(path: KeyPath, name: str, message: Message) -> Iterator[Problem]:
     given = list(message.method.arguments) if message.method else []
     for argument in dict.fromkeys(given):
         if argument not in known:
-            what = f"{name} is not given `{argument}`"
+            what = f"{name} has no argument `{argument}`"
             yield Problem(path, what, did_you_mean(argument, known))
         elif given.count(argument) > 1:
-            yield Problem(path, f"`{argument}` is there twice", "name each argument once")
+            yield Problem(path, f"`{argument}` is given twice", "name each argument once")
     missing = [argument for argument in known if argument not in given]
     if missing:
         what = f"the method leaves out {' and '.join(f'`{each}`' for each in missing)}"
@@ -65,8 +65,8 @@ def _result(path: KeyPath, name: str, message: Message, spec: Spec) -> Iterator[
     if not result:
         return
     if message.reply is None:
-        what = f"{name} has no reply to take `{result}` from"
-        yield Problem(path, what, "declare its `reply`, or leave out what it returns")
+        what = f"{name} has no reply that could have `{result}`"
+        yield Problem(path, what, "declare its `reply`, or leave out the result")
         return
     reply = spec.messages.get(message.reply)
     known = [] if reply is None else arguments_of(reply)

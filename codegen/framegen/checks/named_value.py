@@ -41,7 +41,9 @@ def _outside(path: KeyPath, field: NumberField, name: str, value: int) -> Iterat
         high = type_.high if field.range.high is None else field.range.high
     if not low <= value <= high:
         yield Problem(
-            path, f"`{name}` is {value}, outside {low}..{high}", "widen the range or mend it"
+            path,
+            f"`{name}` is {value}, outside {low}..{high}",
+            "widen the range or correct the value",
         )
 
 

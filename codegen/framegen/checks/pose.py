@@ -31,19 +31,19 @@ def _look(model: Model) -> Iterator[Problem]:
     requested = _lone_list(read)
     reported = None if requested is None else _reported(spec, read, requested)
     if requested is None or reported is None:
-        what = f"{spec.pose.read} does not ask for a list of numbers alone, each with its position"
-        hint = "its reply repeats the list (`echoed`), in elements of a number and a position"
+        what = f"{spec.pose.read} does not request positions by a list of numbers alone"
+        hint = "its reply has to repeat the list (`echoed`) in elements of a number and a position"
         yield Problem(("pose", "read"), what, hint)
         return
     yield from _ids(spec.pose, read.fields[requested])
     yield from _move(spec.pose.move, move, reported)
     if requested in arguments_of(move) and move.fields[requested].counted_by is None:
-        what = f"`{spec.pose.hold}` would be given two things called `{requested}`"
-        hint = f"call them by different names in {spec.pose.read} and {spec.pose.move}"
+        what = f"`{spec.pose.hold}` would have two arguments named `{requested}`"
+        hint = f"give them different names in {spec.pose.read} and {spec.pose.move}"
         yield Problem(("pose", "hold"), what, hint)
     if _lone_list(release) != requested:
-        what = f"{spec.pose.release} does not let go of a list `{requested}` alone"
-        yield Problem(("pose", "release"), what, f"{spec.pose.read} is given `{requested}`")
+        what = f"{spec.pose.release} does not release a list `{requested}` alone"
+        yield Problem(("pose", "release"), what, f"{spec.pose.read} has `{requested}`")
 
 
 def _messages(model: Model, pose: Pose) -> Iterator[Problem]:
@@ -54,8 +54,8 @@ def _messages(model: Model, pose: Pose) -> Iterator[Problem]:
             there = "is no message of a client's" if name in model.messages else "is no message"
             yield Problem(("pose", key), f"`{name}` {there}", did_you_mean(name, sent))
     if pose.release == pose.read:
-        what = f"{pose.read} asks for positions, and cannot let go of them as well"
-        yield Problem(("pose", "release"), what, "name the message that lets go")
+        what = f"{pose.read} requests positions, and cannot release them as well"
+        yield Problem(("pose", "release"), what, "name the message that releases them")
 
 
 def _lone_list(message: Message) -> str | None:
@@ -83,10 +83,10 @@ def _ids(pose: Pose, field: NumberField | ListField) -> Iterator[Problem]:
     type_ = NUMBER_TYPES.get(getattr(field, "type", ""))
     low, high = pose.ids.low, pose.ids.high
     if high is None or low > high:
-        what = f"the numbers {pose.ids} have no end, or one below their beginning"
+        what = f"the ids {pose.ids} have no end, or end before they begin"
         yield Problem(("pose", "ids"), what, "write both ends, like 1..253")
     elif type_ is not None and not type_.low <= low <= high <= type_.high:
-        what = f"{pose.ids} is more than {type_.low}..{type_.high}, which {type_.name} holds"
+        what = f"{pose.ids} is outside {type_.low}..{type_.high}, which {type_.name} holds"
         yield Problem(("pose", "ids"), what, "keep them inside the type")
 
 
@@ -95,11 +95,11 @@ def _move(name: str, move: Message, reported: list[str]) -> Iterator[Problem]:
     lists = [field for field in given.values() if isinstance(field, ListField)]
     if [list(items.fields) for items in lists] != [reported]:
         what = f"{name} has no list of elements with the fields {' and '.join(reported)}"
-        yield Problem(("pose", "move"), what, "name them as the reply has them")
+        yield Problem(("pose", "move"), what, "name the fields as in the reply")
     numbers = [field for field in given.values() if isinstance(field, NumberField)]
     if len(numbers) != 1 or numbers[0].counted_by is not None:
-        what = f"{name} is not given one number besides the list"
-        yield Problem(("pose", "move"), what, "it has to be the milliseconds that the motion takes")
+        what = f"{name} does not have one number besides the list"
+        yield Problem(("pose", "move"), what, "it has to be the time of the motion in milliseconds")
 
 
 RULE = ModelRule(

@@ -30,7 +30,7 @@ def _look(spec: Spec) -> Iterator[Problem]:
             if other is None:
                 yield Problem(path, f"there is no message `{answer}`", hint)
             else:
-                what = f"{answer} goes {other.direction}, and what answers {name} goes {way}"
+                what = f"{answer} goes {other.direction}, and an answer to {name} goes {way}"
                 also = (("messages", answer, "direction"), f"the direction of {answer}")
                 yield Problem(path, what, hint, also=also)
 

@@ -17,13 +17,13 @@ def _look(spec: Spec) -> Iterator[Problem]:
     for index, reserved in enumerate(spec.reserved):
         path: KeyPath = ("reserved", index)
         if reserved.id is None and reserved.name is None:
-            yield Problem(path, "this reserves nothing", "give an `id`, a `name`, or both")
+            yield Problem(path, "nothing is reserved here", "give an `id`, a `name`, or both")
         for name, message in spec.messages.items():
             ways = (None, message.direction)
             if message.id == reserved.id and reserved.direction in ways:
                 yield Problem(
                     ("messages", name, "id"),
-                    f"the code {message.id} is reserved: {reserved.why}",
+                    f"the id {message.id} is reserved: {reserved.why}",
                     "choose another code",
                     also=((*path, "id"), "it is reserved here"),
                 )

@@ -38,7 +38,7 @@ def _look(model: Model) -> Iterator[Problem]:
                     text = f"no example of {name} shows {end}, an end of the range"
                     yield Problem((*path, "range"), text, _HINT)
             if field.signed_as and max(there, default=0) <= NUMBER_TYPES[field.signed_as].high:
-                text = f"no example of {name} shows a value that `signed_as` tells below zero"
+                text = f"no example of {name} shows a value that `signed_as` makes negative"
                 yield Problem((*path, "signed_as"), text, _HINT)
 
 

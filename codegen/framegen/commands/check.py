@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from framegen.reading.findings import Finding
     from framegen.targets.target import BentName
 
-SUMMARY = "Look for everything that is wrong with a spec, its examples and errata included."
+SUMMARY = "Check a spec against all rules, its examples and errata included."
 EXAMPLES = (
     ("framegen check", "every spec/*.yaml, here or in a folder above"),
     ("framegen check spec/busservo.yaml", "this spec"),

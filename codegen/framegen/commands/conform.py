@@ -18,14 +18,14 @@ if TYPE_CHECKING:
     from framegen.conformance.trial import Trial
     from framegen.model.model import Model
 
-SUMMARY = "Hold a codec that somebody else wrote, or the firmware behind a port, to the spec."
+SUMMARY = "Test a codec in any language, or the firmware behind a port, against the spec."
 EXAMPLES = (
-    ("framegen conform -- ./codec", "ask a program; 1 if an answer is wrong, and which"),
-    ("framegen conform busservo --more 1000 -- ./codec", "more than is published, by chance"),
+    ("framegen conform -- ./codec", "test a program; 1 if an answer is wrong, and which"),
+    ("framegen conform busservo --more 1000 -- ./codec", "with 1000 random questions besides"),
     ("framegen conform --format badge -- ./codec", "a badge, as SVG, for a README"),
-    ("framegen conform --port /dev/ttyUSB0 --log run.hex", "ask firmware, by queries alone"),
-    ("framegen conform --questions", "what is asked, a line each"),
-    ("framegen conform --questions | framegen conform --answers", "and what is to be answered"),
+    ("framegen conform --port /dev/ttyUSB0 --log run.hex", "test firmware, with queries alone"),
+    ("framegen conform --questions", "print the questions, a line each"),
+    ("framegen conform --questions | framegen conform --answers", "print the right answers"),
 )
 _SEEDS = 2**32
 # More than these nobody means.
@@ -47,31 +47,36 @@ def add_arguments(parser: ArgumentParser) -> None:
     # What stands behind `--`, whatever it looks like.
     parser.set_defaults(program=[])
     how = parser.add_mutually_exclusive_group()
-    how.add_argument("--questions", action="store_true", help="print what would be asked")
+    how.add_argument("--questions", action="store_true", help="print the questions")
     how.add_argument(
-        "--answers", action="store_true", help="answer questions on the input as the reference does"
+        "--answers",
+        action="store_true",
+        help="answer the questions on standard input as the reference does",
     )
     parser.add_argument(
-        "--more", type=_natural, default=0, metavar="N", help="ask N further questions, by chance"
+        "--more", type=_natural, default=0, metavar="N", help="ask N random questions as well"
     )
     parser.add_argument(
-        "--seed", type=_natural, metavar="N", help="the chance of --more, as it was told"
+        "--seed", type=_natural, metavar="N", help="the seed of --more, as a report prints it"
     )
     parser.add_argument(
         "--timeout",
         type=_seconds,
         metavar="SECONDS",
-        help="how long an answer may take: 10 for a program, 0.25 and the line's time for a port",
+        help="time limit of an answer: 10 for a program, 0.25 and the time on the line for a port",
     )
     parser.add_argument(
-        "--format", choices=("text", "json", "badge"), default="text", help="how to tell it"
+        "--format",
+        choices=("text", "json", "badge"),
+        default="text",
+        help="the format of the report",
     )
     firmware.add_arguments(parser)
 
 
 def _natural(text: str) -> int:
     if not (text.isascii() and text.isdigit() and len(text) < _DIGITS):
-        raise ArgumentTypeError(f"{text!r} is no number: write one from 0 up")
+        raise ArgumentTypeError(f"{text!r} is not a whole number from 0 up")
     return int(text)
 
 
@@ -80,7 +85,7 @@ def _seconds(text: str) -> float:
         seconds = float(text)
         if 0 < seconds <= _LONGEST:
             return seconds
-    raise ArgumentTypeError(f"{text!r} is no time: write seconds, up to {_LONGEST}")
+    raise ArgumentTypeError(f"{text!r} is not a number of seconds, up to {_LONGEST}")
 
 
 def run(arguments: Namespace) -> int:
@@ -91,8 +96,8 @@ def run(arguments: Namespace) -> int:
 
     if arguments.program and (arguments.questions or arguments.answers):
         raise Unusable(
-            f"no program is asked with --{'questions' if arguments.questions else 'answers'}",
-            hint="leave out `--` and what is behind it",
+            f"no program is tested with --{'questions' if arguments.questions else 'answers'}",
+            hint="leave out `--` and what follows it",
         )
     model = compiled(arguments.spec).model
     if arguments.port is not None:
@@ -111,7 +116,7 @@ def run(arguments: Namespace) -> int:
     if not arguments.program:
         raise Unusable(
             "no program is named",
-            hint="put it behind `--`: framegen conform -- ./codec; or ask firmware: --port PORT",
+            hint="put it after `--`: framegen conform -- ./codec; or test firmware: --port PORT",
         )
     return _hold(model, arguments)
 
@@ -123,7 +128,7 @@ def _ask_firmware(model: Model, arguments: Namespace) -> int:
     others = ("questions", "answers", "program", "more")
     for name in [each for each in others if getattr(arguments, each)]:
         given = "a program" if name == "program" else f"--{name}"
-        raise Unusable(f"--port asks firmware, and {given} is not for that", hint="leave it out")
+        raise Unusable(f"--port tests firmware, and does not go with {given}", hint="leave it out")
     return firmware.run(model, arguments)
 
 

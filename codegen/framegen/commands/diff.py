@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 
     from framegen.comparison import Difference
 
-SUMMARY = "Tell what changed between two editions of a spec, and what of it breaks."
+SUMMARY = "Compare two versions of a spec, and classify each change by what it breaks."
 EXAMPLES = (
     ("framegen diff old.yaml", "from old.yaml to the only spec/*.yaml, here or above"),
     ("framegen diff old.yaml new.yaml", "from one to the other; 1 if anything breaks"),
@@ -26,7 +26,7 @@ EXAMPLES = (
 def add_arguments(parser: ArgumentParser) -> None:
     """Declare the arguments of the verb."""
     parser.add_argument("old", type=Path, metavar="OLD", help="a spec file")
-    parser.add_argument("new", nargs="?", type=Path, metavar="NEW", help="a later edition of it")
+    parser.add_argument("new", nargs="?", type=Path, metavar="NEW", help="a later version of it")
     parser.add_argument("--json", action="store_true", help="print each as a line of JSON")
 
 

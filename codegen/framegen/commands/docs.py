@@ -11,7 +11,7 @@ from framegen.commands.output_arguments import add_force, add_spec
 if TYPE_CHECKING:
     from argparse import ArgumentParser, Namespace
 
-SUMMARY = "Build the reference of a spec as pages, with a search, a decoder and a cheat sheet."
+SUMMARY = "Build the reference of a spec as HTML pages, with a search, a decoder and a cheat sheet."
 EXAMPLES = (
     ("framegen docs --open", "the reference of spec/*.yaml, in your browser"),
     ("framegen docs SPEC.yaml --open", "that of another spec"),
@@ -24,7 +24,7 @@ def add_arguments(parser: ArgumentParser) -> None:
     add_spec(parser)
     parser.add_argument("--open", action="store_true", help="open the index in a browser")
     parser.add_argument(
-        "--out", type=Path, metavar="FOLDER", help="write here, and not into a temporary folder"
+        "--out", type=Path, metavar="FOLDER", help="write here instead of into a temporary folder"
     )
     add_force(parser)
 

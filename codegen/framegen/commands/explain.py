@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
 # Enough of a text to find a place by; a long paste is cut around it.
 _SHOWN = 30
-SUMMARY = "Take a frame apart byte by byte, or show where and why bytes are no frame."
+SUMMARY = "Explain a frame byte by byte, or show where and why bytes are no frame."
 EXAMPLES = (
     ("framegen explain 55 55 08 03 01 E8 03 01 20 03", "each byte, and what it says"),
     ("framegen explain 5555040F4C1D --direction controller", "as sent by the controller alone"),
@@ -34,9 +34,11 @@ def add_arguments(parser: ArgumentParser) -> None:
         "words",
         nargs="+",
         metavar="HEX",
-        help="bytes in hex: spaced or glued, with 0x and commas or without",
+        help="bytes in hex, in any notation: with or without blanks, 0x and commas",
     )
-    parser.add_argument("--direction", metavar="SENDER", help="only what this end sends")
+    parser.add_argument(
+        "--direction", metavar="SENDER", help="only frames that this endpoint sends"
+    )
     parser.add_argument("--json", action="store_true", help="print one JSON object")
 
 
@@ -92,5 +94,5 @@ def _directions(model: Model, sender: str | None) -> list[Direction]:
     chosen = [direction for direction in model.directions if direction.sender == sender]
     if not chosen:
         senders = list(dict.fromkeys(direction.sender for direction in model.directions))
-        raise Unusable(f"nothing is sent by {sender!r}", hint=did_you_mean(sender, senders))
+        raise Unusable(f"no endpoint {sender!r} sends anything", hint=did_you_mean(sender, senders))
     return chosen

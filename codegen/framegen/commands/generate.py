@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from framegen.commands.output_arguments import add_force, add_spec
-from framegen.console import visible
+from framegen.console import table, visible
 from framegen.pluralize import pluralize
 
 if TYPE_CHECKING:
@@ -22,13 +22,24 @@ if TYPE_CHECKING:
 
 SUMMARY = "Write the libraries, the reference, the test vectors and the editor schema of all specs."
 EXAMPLES = (
-    ("framegen generate", "write what spec/*.yaml asks for; only what differs is touched"),
+    ("framegen generate", "write the files of spec/*.yaml; only those that differ are touched"),
     ("framegen generate spec/busservo.yaml", "what this spec asks for, and no other"),
     ("framegen generate --target python", "the libraries alone"),
     ("framegen generate --diff", "show what that would change, and change nothing"),
     ("framegen generate --check", "fail if anything would change: for CI"),
     ("framegen generate --out build", "write below another folder"),
 )
+_WRITES = (
+    ("generated/NAME/", "the library of the spec with this `name`, and its test vectors"),
+    ("generated/NAME.manifest", "by what framegen knows its own files from those of others"),
+    ("docs/reference/NAME/", "the reference, in Markdown"),
+    ("spec/framegen.schema.json", "the schema for editors, with spec/framegen.manifest beside it"),
+)
+ABOUT = f"""\
+{table("what `framegen generate` writes", _WRITES)}
+
+These paths are below the folder that holds spec/, or for a spec that lies elsewhere below its own
+folder, or below --out. Only what framegen wrote is replaced or removed."""
 # Of many files that are in nobody's way, as many are named.
 _NAMED = 3
 
@@ -40,9 +51,7 @@ def add_arguments(parser: ArgumentParser) -> None:
     how.add_argument("--check", action="store_true", help="write nothing; 1 if anything differs")
     how.add_argument("--diff", action="store_true", help="write nothing; show what would change")
     add_force(how)
-    parser.add_argument(
-        "--target", metavar="NAME", help="write this target's files, and leave all others"
-    )
+    parser.add_argument("--target", metavar="NAME", help="write the files of this target alone")
     parser.add_argument(
         "--out",
         type=Path,
@@ -115,7 +124,7 @@ def _remark(found: Survey | Written) -> None:
     for notice in found.notices:
         _tell(visible(notice))
     for path in found.strangers[:_NAMED]:
-        _tell(f"left alone, for framegen did not write it: {visible(path)}")
+        _tell(f"left alone, because framegen did not write it: {visible(path)}")
     if len(found.strangers) > _NAMED:
         _tell(f"left alone, too: {pluralize(len(found.strangers) - _NAMED, 'more file')}")
 

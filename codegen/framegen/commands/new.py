@@ -82,7 +82,7 @@ def _accepted(name: str, spec: str) -> Model:
 
 
 def _is_installed(name: str) -> bool:
-    """Whether Python finds a package of this name; a mere folder is none."""
+    """Return whether Python finds a package of this name; a mere folder is none."""
     from importlib.util import find_spec  # noqa: PLC0415
 
     found = find_spec(name)
@@ -90,10 +90,10 @@ def _is_installed(name: str) -> bool:
 
 
 def _folder(root: Path) -> str:
-    """A folder as pip takes it for one, and not for the name of a package."""
+    """Return a folder in the form that pip cannot take for the name of a package."""
     return str(root) if root.is_absolute() or root == Path() else f"./{root.as_posix()}"
 
 
 def _argument(path: str) -> str:
-    """A path as shells take it."""
+    """Return a path, quoted for a shell."""
     return f'"{visible(path)}"' if " " in path else visible(path)

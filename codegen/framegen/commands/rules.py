@@ -10,7 +10,7 @@ if TYPE_CHECKING:
 
     from framegen.checks.rule import AnyRule
 
-SUMMARY = "List the rules that a spec must keep, or tell why one of them exists."
+SUMMARY = "List the rules that a spec must keep, or explain one of them."
 EXAMPLES = (
     ("framegen rules", "every rule in a line"),
     ("framegen rules unknown-type", "why it exists, what breaks it and what keeps it"),

@@ -10,7 +10,7 @@ if TYPE_CHECKING:
 
 SUMMARY = "Print the JSON Schema of the spec language, for completion and help in an editor."
 EXAMPLES = (
-    ("framegen schema", "the whole language, each key with what it is for"),
+    ("framegen schema", "the whole language, each key with its description"),
     ("framegen schema > spec/framegen.schema.json", "where the first line of a spec points"),
 )
 

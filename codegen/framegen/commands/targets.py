@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from framegen.model.model import Model
     from framegen.targets.target import Target
 
-SUMMARY = "List the targets, or the words that one of them has taken and what they become."
+SUMMARY = "List the targets, or the reserved words of one of them and what they become."
 EXAMPLES = (
     ("framegen targets", "every target, with its folders"),
     ("framegen targets python", "the words that it has taken, and what a name becomes that is one"),
@@ -35,7 +35,7 @@ def run(arguments: Namespace) -> int:
 
     targets = {target.name: target for target in TARGETS}
     if arguments.name is None:
-        print("\n".join(_listed(list(targets.values()), _models())))
+        print("\n".join(_overview(list(targets.values()), _models())))
         return 0
     if arguments.name not in targets:
         hint = did_you_mean(arguments.name, targets, otherwise="`framegen targets` lists them")
@@ -56,7 +56,7 @@ def _models() -> list[Model]:
         return []
 
 
-def _listed(targets: list[Target], models: list[Model]) -> Iterator[str]:
+def _overview(targets: list[Target], models: list[Model]) -> Iterator[str]:
     width = max(len(target.name) for target in targets)
     for target in targets:
         yield f"{target.name:<{width}}  {target.about}"
@@ -65,14 +65,14 @@ def _listed(targets: list[Target], models: list[Model]) -> Iterator[str]:
         if folders:
             yield f"{'':<{width}}  all of {', '.join(f'{folder}/' for folder in folders)}"
         if taken:
-            yield f"{'':<{width}}  {pluralize(len(taken), 'word')} taken"
+            yield f"{'':<{width}}  {pluralize(len(taken), 'reserved word')}"
 
 
 def _described(target: Target) -> Iterator[str]:
     yield f"{target.name}: {target.about}"
     if not target.reserved:
         yield ""
-        yield "No word is taken: every name stays as it is."
+        yield "No word is reserved: every name stays as it is."
     for row in target.reserved:
         yield ""
         yield f"{row.kind}: NAME becomes NAME{row.suffix} where it {row.why}"

@@ -38,28 +38,28 @@ def add_arguments(parser: ArgumentParser) -> None:
     parser.add_argument(
         "--port",
         metavar="PORT",
-        help="ask the firmware behind this port: /dev/ttyUSB0, COM7 or socket://HOST:PORT",
+        help="test the firmware behind this port: /dev/ttyUSB0, COM7 or socket://HOST:PORT",
     )
     parser.add_argument(
         "--baud",
         type=_rate,
         metavar="BAUD",
-        help="the rate of the line, if not the spec's: at a wrong one, a device hears other bytes",
+        help="the baud rate, if not the spec's: at a wrong one, a device receives other bytes",
     )
     parser.add_argument(
         "--malformed",
         action="store_true",
-        help="send malformed queries, too, and see that the next query is still answered",
+        help="send malformed queries as well, and check that the next query is still answered",
     )
     parser.add_argument(
         "--allow",
         action="append",
         default=[],
         metavar="NAME",
-        help="send the examples of this message, too, though a device does what they say",
+        help="send the examples of this message as well, which a device carries out",
     )
     parser.add_argument(
-        "--log", type=Path, metavar="FILE", help="record all that goes over the line in a new file"
+        "--log", type=Path, metavar="FILE", help="record all traffic of the line in a new file"
     )
 
 
@@ -88,7 +88,7 @@ def run(
     `connect` opens the port, and `clock` is the time that its reads take.
     """
     if arguments.format not in ("text", "json"):
-        raise Unusable(f"there is no {arguments.format} of firmware", hint="--format text or json")
+        raise Unusable(f"there is no {arguments.format} for firmware", hint="--format text or json")
     permission = permit(model, arguments.allow)
     after = min(requests(permission), key=lambda request: len(request.frame), default=None)
     steps = list(_steps(permission, after, malformed=arguments.malformed))
@@ -119,8 +119,6 @@ def _steps(permission: Permission, after: Request | None, *, malformed: bool) ->
     yield from query_steps(permission)
     if malformed:
         if after is None:
-            raise Unusable(
-                "nothing malformed can be sent: there is no query to see by what came of it"
-            )
+            raise Unusable("nothing malformed can be sent: there is no query that could follow it")
         yield from malformed_steps(permission, after)
     yield from command_steps(permission, after)

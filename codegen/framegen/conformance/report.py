@@ -40,7 +40,7 @@ def as_text(model: Model, trial: Trial, command: Sequence[str]) -> Iterator[str]
     yield f"{_short(visible(' '.join(command)))}: {_verdict(model.spec.protocol, trial)}"
     if trial.unsupported:
         verbs = ", ".join(f"{count} {verb}" for verb, count in sorted(trial.unsupported.items()))
-        yield f"  not supported, and not held against it: {verbs}"
+        yield f"  not supported, and not counted as wrong: {verbs}"
 
 
 def colour_of(line: str) -> str:
@@ -53,7 +53,7 @@ def _verdict(protocol: Protocol, trial: Trial) -> str:
     if trial.conforms:
         return f"conforms to {what}: {pluralize(trial.agreed, 'answer')} as the reference's"
     if not trial.differences:
-        return f"answers nothing of {what}: {pluralize(trial.asked, 'question')} not supported"
+        return f"supports nothing of {what}: {pluralize(trial.asked, 'question')} not supported"
     answers = pluralize(trial.asked - trial.unsupported.total(), "answer")
     return f"differs from {what} in {len(trial.differences)} of {answers}"
 

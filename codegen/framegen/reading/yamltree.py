@@ -91,7 +91,7 @@ def read_tree(source: Source) -> tuple[Tree, list[Finding]]:
             else "holds " + ("a list" if isinstance(data, list) else "a single value")
         )
         raise Unusable(
-            f"the file {found}, where a spec is a mapping of keys",
+            f"the file {found}, but a spec is a mapping of keys",
             hint="begin with `framegen: 2` and `protocol:`; "
             "`framegen schema` prints the whole language",
         )
@@ -242,7 +242,7 @@ class _Builder:
         self.findings.append(Finding(rule, self._span(event), dotted(path), message, hint, related))
         if len(self.findings) >= MOST_FINDINGS:
             raise Unusable(
-                "the file is no spec: too much in it is not the YAML of a spec",
+                "the file is no spec: too many of its values are not those of a spec",
                 finding=self.findings[0],
             )
 

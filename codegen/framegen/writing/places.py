@@ -56,7 +56,7 @@ class Places:
             return
         if not stat.S_ISDIR(mode):
             raise Unusable(
-                f"{visible(str(folder))} is no folder, and output goes there",
+                f"{visible(str(folder))} is no folder, but output goes there",
                 hint="move it elsewhere; nothing was changed",
             )
 

@@ -158,7 +158,7 @@ class _Surveyor:
         if rebuilt and (manifest is not None or adopted or any(there)):
             state = "is not there" if manifest is None else "is damaged"
             self._found.notices.append(
-                f"{output.manifest} {state}: own files are told by what stands in them"
+                f"{output.manifest} {state}: files are recognised by their contents"
             )
 
     def _look_at_file(self, path: str, text: str, *, rebuilt: bool) -> bool:
@@ -183,8 +183,8 @@ class _Surveyor:
         self._known[path] = self._known.get(path, frozenset()) | digests
 
     def _why(self, path: str, standing: Standing, *, same: bool, rebuilt: bool) -> Why:
-        twin = self._folded.get(path.casefold(), path)
-        known = self._known.get(path, frozenset()) | self._known.get(twin, frozenset())
+        other_case = self._folded.get(path.casefold(), path)
+        known = self._known.get(path, frozenset()) | self._known.get(other_case, frozenset())
         if standing.kind:
             return "foreign"
         if same or file_digest(standing.data) in known:

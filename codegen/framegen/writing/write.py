@@ -91,9 +91,9 @@ def _expect_no_obstacle(found: Survey) -> None:
     obstacles = [change for change in found.changes if not change.ours]
     if obstacles:
         raise Unusable(
-            f"the work of others would be lost, so nothing was written\n{describe(obstacles)}",
+            f"somebody's work would be lost, so nothing was written\n{describe(obstacles)}",
             hint="move it elsewhere or undo it; "
-            "or have it kept beside its place, as NAME.mine: --force",
+            "or use --force, which keeps it beside its place, as NAME.mine",
         )
 
 

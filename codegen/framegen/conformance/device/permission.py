@@ -167,7 +167,7 @@ def permit(model: Model, names: Iterable[str]) -> Permission:
         )
     if not permission.allowed:
         raise Unusable(
-            f"{model.spec.protocol.name} has no query that could be asked",
+            f"{model.spec.protocol.name} has no query",
             hint=f"name what may be sent, as by --allow {can[0]}" if can else "",
         )
     return permission

@@ -114,7 +114,7 @@ def _see_to_name(name: str, scheme: str) -> None:
     """Refuse what cannot be the name of a port. Raises Unusable."""
     # spy:// would write to any file that it names.
     if not name.strip() or scheme in ("spy", "hid"):
-        raise Unusable(f"{name!r} is no port that can be asked", hint=_NAMED)
+        raise Unusable(f"{name!r} is no port that can be tested", hint=_NAMED)
     if scheme in ("socket", "rfc2217"):
         try:
             parts = urlsplit(name)
@@ -139,11 +139,11 @@ def _not_opened(name: str, error: Exception) -> Unusable:
         why = text.removeprefix(f"Could not open port {name}: ")
         return Unusable(f"{name} cannot be reached: {why}", hint=_REACHED)
     if code in (errno.ENOENT, errno.ENXIO, errno.ENODEV) or "filenotfounderror" in low:
-        return Unusable(f"there is no port {name}", hint=_listed())
-    return Unusable(f"{name} is no serial port: {text}", hint=_listed())
+        return Unusable(f"there is no port {name}", hint=_ports_hint())
+    return Unusable(f"{name} is no serial port: {text}", hint=_ports_hint())
 
 
-def _listed() -> str:
+def _ports_hint() -> str:
     from serial.tools import list_ports  # noqa: PLC0415 - as above
 
     found = ", ".join(sorted(str(each.device) for each in list_ports.comports()))

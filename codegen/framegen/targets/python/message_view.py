@@ -120,7 +120,7 @@ class MessageView:
             each.argument if isinstance(each, ListView) else f"{each.name}: int"
             for each in self.arguments
         ]
-        return Bracketed("def __new__(", ["cls", *given], ") -> Self:").fitted(4)
+        return Bracketed("def __new__(", ["cls", *given], ") -> typing.Self:").fitted(4)
 
     @property
     def packing(self) -> str:

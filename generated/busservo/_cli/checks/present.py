@@ -29,8 +29,11 @@ def present_check(pose: Pose) -> Check:
 
 
 def _look(diagnosis: Diagnosis, pose: Pose) -> Result:
-    if not any(trip.replies for trip in diagnosis.trips):
-        return unknown("there is no reply to anything: see the check `rate`")
+    advice = "the device may be of a kind that does not know this question"
+    if diagnosis.trips:
+        if not any(trip.replies for trip in diagnosis.trips):
+            return unknown("there is no reply to anything: see the check `rate`")
+        advice = f"see the check `reply`; if that has passed, {advice}"
     replies: list[Message] = []
     for request in _requests(diagnosis.connected(), pose):
         reply = ask_patiently(diagnosis, request)
@@ -39,8 +42,7 @@ def _look(diagnosis: Diagnosis, pose: Pose) -> Result:
             return failed(
                 f"the question about {pose.noun}s {ids[0]} to {ids[-1]} was not answered, though "
                 f"asked {_TRIES} times",
-                "see the check `reply`; if that has passed, the device may be of a kind that does "
-                "not know this question",
+                advice,
                 *(trip.received for trip in diagnosis.trips[-_TRIES:] if trip.received),
             )
         replies.append(reply)

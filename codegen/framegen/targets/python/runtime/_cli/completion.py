@@ -1,4 +1,4 @@
-"""What a shell needs to complete the command line: verbs, options, messages, fields and ports."""
+"""Shell completion of the command line: verbs, options, messages, fields and ports."""
 
 from __future__ import annotations
 
@@ -52,7 +52,7 @@ def _candidates(command: str, action: Action) -> Candidates | None:
 
 
 def _fields() -> Function:
-    """The fields of the message that is named before."""
+    """Return the fields of the message that stands before."""
     fields = {kind.__name__: " ".join(f"{n}=" for n in kind.__match_args__) for kind in MESSAGES}
     name = f"_{PROGRAM}_fields"
     bash = "\n".join(f'      {kind}) names="{names}" ;;' for kind, names in fields.items())
@@ -95,7 +95,7 @@ end""",
 
 
 def _ports() -> Function:
-    """The ports that are plugged in; or files, once a path is begun: of a port without a name."""
+    """Return the ports that are plugged in, or files once a path is begun."""
     # bash takes what a function of such a name finds for files: behind a folder comes no blank.
     name, listed = f"_{PROGRAM}_port_files", f"{PROGRAM} ports 2>/dev/null"
     texts = {
