@@ -111,7 +111,7 @@ def test_an_echo_that_a_later_one_overtakes_is_missing() -> None:
     assert len(line.outgoing(0.01)) == 1
     line.receive(second.message.encode(), 0.02)
     assert isinstance(first.error, EchoError)
-    assert first.sent is second.error is None
+    assert (first.sent, second.error) == (None, None)
     assert second.sent is not None
     assert line.idle
 
