@@ -126,3 +126,17 @@ def test_a_frame_that_breaks_off_is_marked_in_the_trace(tmp_path: Path) -> None:
     ):
         controller.read_battery_voltage()
     assert "# quiet" in trace.read_text(encoding="utf-8")
+
+
+def test_a_reply_behind_a_false_header_is_found_in_time_though_the_line_is_never_quiet() -> None:
+    line = session()
+    request = ask(line, 0.0)
+    # What claims to be positions of 84 servos; the voltage is in the middle of it.
+    line.receive(b"\x55\x55\xff\x15\x54" + BatteryVoltage(7500).encode(), 0.02)
+    for step in range(3, 16):
+        line.tick(step / 50)
+        line.receive(b"\x00", step / 50)
+    assert not request.done
+    line.tick(0.25 + 10 / 960 + GAP)
+    assert request.reply == BatteryVoltage(7500)
+    assert line.counters.timeouts == 0
