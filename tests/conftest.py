@@ -11,6 +11,7 @@ many of them; and `fuzz`, a long search for others. One is chosen by HYPOTHESIS_
 
 from __future__ import annotations
 
+import gc
 import os
 import random
 from collections import defaultdict
@@ -60,6 +61,7 @@ _sockets.time = SimpleNamespace(sleep=lambda _seconds: None)
 
 
 ROOT = Path(__file__).parent.parent
+GARBAGE = gc.get_threshold()
 SLOW_TESTS = Path(__file__).parent / "all"
 
 
@@ -104,6 +106,17 @@ def pytest_ignore_collect(collection_path: Path, config: pytest.Config) -> bool 
     """Do not even import the slow tests, unless some of them are run."""
     wanted = config.option.all or config.option.sample is not None
     return True if collection_path == SLOW_TESTS and not wanted else None
+
+
+def pytest_collection(session: pytest.Session) -> None:
+    """Look for garbage seldom while thousands of tests are made, none of which is garbage."""
+    gc.set_threshold(100_000, 50, 100)
+
+
+def pytest_collection_finish(session: pytest.Session) -> None:
+    """Look for garbage as often as ever, and never again among the tests."""
+    gc.freeze()
+    gc.set_threshold(*GARBAGE)
 
 
 def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:

@@ -274,8 +274,8 @@ def test_where_nothing_is_declared_nothing_is_said_to_be_well(
     messages = len(data_of(BUSSERVO)["messages"])
     assert refusal(project, capsys) == (
         f"{spec} has {messages} messages, and no witness is declared for it: "
-        "nothing was looked for\n  hint: tests/witnesses.yaml declares them, by the name of the protocol: "
-        "`busservo: {}` for none\n"
+        "nothing was looked for\n  hint: tests/witnesses.yaml declares them, by the name of the "
+        "protocol: `busservo: {}` for none\n"
     )
 
 

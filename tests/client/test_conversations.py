@@ -305,6 +305,7 @@ def test_a_hundred_tasks_share_a_line_with_faults(seed: int) -> None:
         assert ledger.right >= 40
 
 
+@pytest.mark.slow
 def test_the_soak_runs(capsys: pytest.CaptureFixture[str]) -> None:
     """In short; `make soak` asks a hundred thousand times."""
     soak.main(["--requests", "200", "--rounds", "2"])

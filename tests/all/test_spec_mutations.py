@@ -7,7 +7,6 @@ unseen: they need another guard.
 from __future__ import annotations
 
 import json
-from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeAlias
 
 import pytest
@@ -15,7 +14,7 @@ from framegen.compile import compile_spec
 from framegen.language.load import load, read_source
 from framegen.reading.source import Source
 
-from tests.factories import FIRST
+from tests.factories import BUSSERVO, FIRST
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
@@ -23,8 +22,7 @@ if TYPE_CHECKING:
 Steps: TypeAlias = "tuple[str | int, ...]"
 Mutation: TypeAlias = "tuple[Steps, Any]"
 
-SPEC = Path(__file__).parent.parent / "spec" / "busservo.yaml"
-TREE: Any = load(read_source(SPEC)).tree.data
+TREE: Any = load(read_source(BUSSERVO)).tree.data
 MESSAGES: Any = TREE["messages"]
 
 GONE = "(gone)"
