@@ -246,11 +246,11 @@ class BaseClient:
         wanted = ReportFilter(kind, fields)
         began = self._clock()
         reports = self._session.reports
-        asked_at = reports.next_number
+        began_at = reports.next_number
         since = reports.since(wanted)
         last = False
         while True:
-            found = reports.find(wanted, since=since, asked_at=asked_at)
+            found = reports.find(wanted, since=since, began_at=began_at)
             if found is not None:
                 return found
             if last:

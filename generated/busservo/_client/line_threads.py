@@ -37,8 +37,8 @@ class LineThreads(AsyncLine):
     They hold the client only while they are at work, so that it can end when nobody else does.
     """
 
-    def __init__(self, *line: Any, **told: Any) -> None:
-        super().__init__(*line, **told)
+    def __init__(self, *line: Any, **callbacks: Any) -> None:
+        super().__init__(*line, **callbacks)
         self._outbox: _Outbox = SimpleQueue()
         self._threads: list[threading.Thread] = []
         # When the reading thread should report, at the latest, that time has passed and nothing

@@ -21,8 +21,8 @@ if TYPE_CHECKING:
 class PolledLine(AsyncLine):
     """A line that is read when its transport says so, by `on_readable`, or else again and again."""
 
-    def __init__(self, *line: Any, **told: Any) -> None:
-        super().__init__(*line, **told)
+    def __init__(self, *line: Any, **callbacks: Any) -> None:
+        super().__init__(*line, **callbacks)
         self._loop: asyncio.AbstractEventLoop | None = None
         self._timer: asyncio.TimerHandle | None = None
 

@@ -55,7 +55,7 @@ class Run(Sent):
         return f"{super().__repr__()[:-1]}, started={self.started})"
 
 
-class State(Enum):
+class State(str, Enum):
     """How far a request has got."""
 
     WAITING = "waits to be sent"
@@ -64,7 +64,7 @@ class State(Enum):
     DONE = "is over: sent, answered, or given up"
 
 
-class Step(Enum):
+class Step(str, Enum):
     """What happens to a request."""
 
     SEND = "its frame is handed over"

@@ -6,7 +6,6 @@ from __future__ import annotations
 import threading
 import time
 import weakref
-from contextlib import contextmanager
 
 from .._serial.link_errors import TransportError
 from .base_client import DRAIN_TIMEOUT, PACKAGE, POLL_INTERVAL, BaseClient
@@ -15,7 +14,7 @@ from .request import Request
 
 TYPE_CHECKING = False  # typing alone would double the time that the import takes
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable, Iterator
+    from collections.abc import Callable, Iterable
     from typing import Any, TypeVar
 
     from .._frame.message import Message
@@ -89,14 +88,28 @@ class ThreadClient(BaseClient):
     def _finish(self, steps: Steps[_Result]) -> _Result:
         """Take the steps of a call, one after the other, and wait between them."""
         while True:
-            with self._lock, self._waiting():
+            with self._lock:
+                self._waiters += 1
                 try:
-                    wait = next(steps)
-                except StopIteration as end:
-                    result: _Result = end.value
-                    return result
-                self._wait_for(wait)
+                    results = self._take_steps(steps)
+                finally:
+                    # Another waiter must read from now on.
+                    self._waiters -= 1
+                    self._hand_over()
             self._tell()
+            for result in results:
+                return result
+
+    def _take_steps(self, steps: Steps[_Result]) -> list[_Result]:
+        """Take steps up to the result, or until there is a report for callbacks, and no result."""
+        while True:
+            try:
+                wait = next(steps)
+            except StopIteration as end:
+                return [end.value]
+            self._wait_for(wait)
+            if self._session.callback_queue:
+                return []
 
     def _submit_latest(self, message: Message) -> Request:
         with self._lock:
@@ -125,16 +138,6 @@ class ThreadClient(BaseClient):
             self._session.cancel(wait)
 
     # ------------------------------------------------------------------ who reads
-
-    @contextmanager
-    def _waiting(self) -> Iterator[None]:
-        """Enclose calls of `_wait`: at the end another waiter must read. Needs the lock."""
-        self._waiters += 1
-        try:
-            yield
-        finally:
-            self._waiters -= 1
-            self._hand_over()
 
     def _hand_over(self) -> None:
         """Wake one of the waiting threads, to read for all, unless one reads already."""
@@ -212,9 +215,9 @@ class ThreadClient(BaseClient):
             except TransportError as error:
                 self._fail(error)
                 return True
-        asked = self._session.unwritten
-        if asked is not None:
-            self._session.written(asked, self._clock())
+        pending = self._session.unwritten
+        if pending is not None:
+            self._session.written(pending, self._clock())
         if self._session.acknowledgements.unwritten:
             self._session.acknowledgements.written(self._clock())
         return bool(frames)

@@ -72,6 +72,11 @@ class LibraryView:
         return [MessageView(message, self.model) for message in self.model.messages.values()]
 
     @property
+    def deprecates(self) -> bool:
+        """Whether there are messages that nobody should make any more."""
+        return any(message.deprecated for message in self.messages)
+
+    @property
     def lists(self) -> list[ListView]:
         """The lists of all messages."""
         return [message.items for message in self.messages if message.items is not None]

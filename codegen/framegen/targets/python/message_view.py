@@ -66,6 +66,10 @@ class MessageView:
         return self.layout.message.vendor_name
 
     @property
+    def deprecated(self) -> str:
+        return self.layout.message.deprecated
+
+    @property
     def command(self) -> int:
         return self.layout.id
 

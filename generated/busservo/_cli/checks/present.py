@@ -38,7 +38,7 @@ def _look(diagnosis: Diagnosis, pose: Pose) -> Result:
     for request in _requests(diagnosis.connected(), pose):
         reply = ask_patiently(diagnosis, request)
         if reply is None:
-            ids = getattr(request, pose.asked)
+            ids = getattr(request, pose.requested)
             return failed(
                 f"the question about {pose.noun}s {ids[0]} to {ids[-1]} was not answered, though "
                 f"asked {_TRIES} times",
@@ -48,7 +48,7 @@ def _look(diagnosis: Diagnosis, pose: Pose) -> Result:
         replies.append(reply)
     frames = [reply.encode() for reply in replies]
     there = pose.present_in(replies)
-    absent = sum(len(getattr(reply, pose.told)) for reply in replies) - len(there)
+    absent = sum(len(getattr(reply, pose.reported)) for reply in replies) - len(there)
     told = f"{pose.noun}s that are there: {', '.join(map(str, there)) or 'none'}"
     told += f"; told to be absent: {absent}" if absent else ""
     if not there:
@@ -73,4 +73,4 @@ def _requests(probe: Probe, pose: Pose) -> list[Message]:
     if probe.largest_frame is not None:
         most = min(most, _FEW)
     parts = (pose.ids[at : at + most] for at in range(0, len(pose.ids), most))
-    return [pose.read(**{pose.asked: [*part]}) for part in parts]
+    return [pose.read(**{pose.requested: [*part]}) for part in parts]

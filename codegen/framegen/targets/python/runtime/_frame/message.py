@@ -40,6 +40,7 @@ class Message:
     __match_args__: typing.ClassVar[tuple[str, ...]] = ()
 
     VENDOR_NAME: typing.ClassVar[str] = ""
+    DEPRECATED: typing.ClassVar[str] = ""
     COMMAND: typing.ClassVar[int]
     DIRECTION: typing.ClassVar[Direction]
     LENGTHS: typing.ClassVar[range]
