@@ -52,7 +52,7 @@ class Sheet:
 
     def paragraphs(self, text: str) -> None:
         """Print paragraphs, which empty lines divide."""
-        for paragraph in text.split("\n\n"):
+        for paragraph in filter(None, text.split("\n\n")):
             self.line()
             self.paragraph(paragraph)
 

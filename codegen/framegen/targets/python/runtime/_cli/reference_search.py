@@ -11,6 +11,9 @@ if TYPE_CHECKING:
 
     from .._explanation.protocol import Message, Protocol
 
+# So much alike are a word and what was meant by it; of other words, many are half alike.
+_MUCH_ALIKE = 0.75
+
 
 def find(model: Protocol, words: str) -> list[Message]:
     """Return the messages that `words` name; else those that have the words in what is written.
@@ -26,6 +29,8 @@ def find(model: Protocol, words: str) -> list[Message]:
     if numbered:
         return numbered
     sought = [folded(word) for word in words.split()]
+    if not all(sought):
+        return []
     in_names, in_texts = [], []
     for each in messages:
         names = " ".join(_names(each))
@@ -38,10 +43,15 @@ def find(model: Protocol, words: str) -> list[Message]:
 
 
 def near(model: Protocol, words: str) -> list[str]:
-    """Return the names of messages that are written much like `words`."""
-    spellings = {name: each.name for each in model.messages.values() for name in _names(each)}
-    found = get_close_matches(folded(words), spellings)
-    return list(dict.fromkeys(spellings[name] for name in found))
+    """Return the names of messages that are much like `words`; else words of what is written."""
+    messages = model.messages.values()
+    names = {name: each.name for each in messages for name in _names(each)}
+    texts = (text for each in messages for text in _texts(each.said))
+    written = {folded(word) for text in texts for word in text.split() if word.isalpha()}
+    found = [names[name] for name in get_close_matches(folded(words), names)]
+    return list(dict.fromkeys(found)) or get_close_matches(
+        folded(words), sorted(written), cutoff=_MUCH_ALIKE
+    )
 
 
 def folded(word: str) -> str:
