@@ -23,6 +23,9 @@ MUTATION_VENV := .tools/mutation
 PINS_VENV := .tools/pins
 # How many tests run at once. Many only wait, so more than there are cores; 0 is one after another.
 WORKERS = 4
+# How many slow tests of each file are a sample; others on each day, or those of a SEED.
+SAMPLE = 3
+SEED =
 # Where the pages of the reference go.
 REFERENCE = build/reference
 # What a release is called.
@@ -33,7 +36,7 @@ ONLY =
 .DEFAULT_GOAL := all
 # Two that add to one environment at once would spoil it.
 .NOTPARALLEL:
-.PHONY: all test quick coverage lint style types current format fuzz soak mutants bench docs reference docs-tools wheel packages release newcomer pins venv clean help
+.PHONY: all test quick test-all sample coverage lint style types current format fuzz soak mutants bench docs reference docs-tools wheel packages release newcomer pins venv clean help
 
 all: $(READY)  ## Check the spec, generate everything, decode a recorded noisy line (plain `make`)
 	$(IN)/framegen check
@@ -41,15 +44,21 @@ all: $(READY)  ## Check the spec, generate everything, decode a recorded noisy l
 	$(IN)/busservo decode --direction any tests/captures/noisy_line.bin
 	$(IN)/python examples/virtual_arm.py
 
-test: $(TO_TEST)  ## Run every test
+test: $(TO_TEST)  ## Run the tests
 	$(IN)/python -m pytest -n $(WORKERS)
 
-quick: $(TO_TEST)  ## Run every test with fewer examples, and without a browser
-	HYPOTHESIS_PROFILE=quick $(IN)/python -m pytest -q -n $(WORKERS) --ignore=tests/docs/test_browser.py
+quick: $(TO_TEST)  ## Run the tests with fewer examples
+	HYPOTHESIS_PROFILE=quick $(IN)/python -m pytest -q -n $(WORKERS)
+
+test-all: $(TO_TEST) $(TO_LINT)  ## Run the slow tests as well, and eight times as many examples
+	HYPOTHESIS_PROFILE=all $(IN)/python -m pytest --all -n $(WORKERS)
+
+sample: $(TO_TEST) $(TO_LINT)  ## Run some of the slow tests: make sample SAMPLE=5 SEED=7
+	$(IN)/python -m pytest -n $(WORKERS) --sample $(SAMPLE) $(if $(SEED),--seed $(SEED))
 
 coverage: $(TO_TEST)  ## Measure which lines and branches the quick tests reach, commands included
 	$(IN)/coverage erase
-	HYPOTHESIS_PROFILE=quick $(IN)/coverage run -m pytest -q --ignore=tests/docs/test_browser.py
+	HYPOTHESIS_PROFILE=quick $(IN)/coverage run -m pytest -q
 	$(IN)/coverage combine -q
 	$(IN)/coverage report
 
@@ -72,7 +81,7 @@ format: $(TO_LINT)  ## Mend what ruff can mend
 
 fuzz: $(TO_TEST)  ## Search for new counterexamples, for long, and change the specs in every way
 	HYPOTHESIS_PROFILE=fuzz $(IN)/python -m pytest
-	CONTRACT=all $(IN)/python -m pytest tests/contract
+	CONTRACT=all $(IN)/python -m pytest tests/all/test_contract.py
 
 bench:  ## Measure the library against its peers
 	@$(MAKE) --no-print-directory $(BENCH_VENV)/.ready-bench VENV=$(BENCH_VENV)

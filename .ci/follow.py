@@ -28,6 +28,13 @@ ROOT = Path(__file__).resolve().parent.parent
 PORT = "COM5"
 BEGUN = time.monotonic()
 WAITS = "busservo simulate"
+# What a command leaves behind, written down by the shell that ends.
+KEEP = """
+import json, os
+own = {name: os.environ.pop(name) for name in ("KEEPER", "KEEP", "LEFT")}
+with open(own["LEFT"], "w") as left:
+    json.dump([dict(os.environ), os.getcwd()], left)
+"""
 # Programs and sessions of a page share one Python, as a reader's do: a line of JSON each.
 INTERPRETER = r"""
 import contextlib, doctest, io, json, sys, traceback
@@ -80,19 +87,18 @@ class Reader:
         """Run a command; what it leaves behind in the environment lasts."""
         with tempfile.TemporaryDirectory() as scratch:
             left = Path(scratch, "left")
-            keep = """trap 'env -u LEFT -0 >"$LEFT"; pwd >>"$LEFT"' EXIT"""
+            keep = """trap '"$KEEPER" -c "$KEEP"' EXIT"""
+            own = {"KEEPER": sys.executable, "KEEP": KEEP, "LEFT": str(left)}
             done = subprocess.run(
                 ["bash", "-c", f"{keep}\n{self._with_port(command)}"],
-                env={**self.environment, "LEFT": str(left)},
+                env={**self.environment, **own},
                 cwd=self.folder,
                 stdout=subprocess.PIPE,
                 stderr=subprocess.STDOUT,
                 encoding="utf-8",
                 check=False,
             )
-            *variables, folder = left.read_text(encoding="utf-8").split("\0")
-        self.environment = dict(each.split("=", 1) for each in variables)
-        self.folder = folder.strip()
+            self.environment, self.folder = json.loads(left.read_text(encoding="utf-8"))
         return done.returncode, done.stdout
 
     def python(self, block: Block) -> str:

@@ -1,35 +1,48 @@
-"""Fixtures for every test: a client sends no malformed frame; and how long Hypothesis searches.
+"""What holds for every test: how long Hypothesis searches, and which tests are slow.
 
-Its profiles are `ci`, the same examples in every run; `quick`, fewer of them; and `fuzz`, a long
-search for others. One is chosen by HYPOTHESIS_PROFILE or --hypothesis-profile. No test sets
-max_examples of its own: that would limit the search.
+A slow test lies in tests/all, or is marked `slow`. `pytest` leaves it out, unless it is called for:
+`--all` runs the slow tests beside the others, `--sample N` runs N of each file and nothing else,
+and what is named is run: a file of tests/all, or any test with `::`.
+
+The profiles of Hypothesis are `ci`, the same examples in every run; `quick`, fewer of them; `all`,
+many of them; and `fuzz`, a long search for others. One is chosen by HYPOTHESIS_PROFILE or
+--hypothesis-profile. No test sets max_examples of its own: that would hold the search back.
 """
 
 from __future__ import annotations
 
+import gc
 import os
+import random
+from collections import defaultdict
+from contextlib import suppress
+from datetime import datetime, timezone
+from pathlib import Path
 from types import SimpleNamespace
 from typing import TYPE_CHECKING, Any
 
-import pytest
-from busservo._codec.rejects import Rejects
-from busservo_simulator import VirtualController
+from framegen.compile import compile_spec
+from framegen.language.load import read_source
+from framegen.reading.yamltree import Unusable
+from framegen.witnesses import find_missing, read_witnesses
 from hypothesis import HealthCheck, settings
 from serial.urlhandler import protocol_socket
 
 if TYPE_CHECKING:
-    from collections.abc import Generator, Iterator
+    from collections.abc import Sequence
 
-    from busservo import Noise
+    import pytest
 
 # How long something takes to draw says more about the machine than about the test.
 TIMELESS = [HealthCheck.too_slow]
-settings.register_profile(
-    "ci", derandomize=True, deadline=None, max_examples=100, suppress_health_check=TIMELESS
-)
-settings.register_profile(
-    "quick", derandomize=True, deadline=None, max_examples=20, suppress_health_check=TIMELESS
-)
+for profile, examples in {"quick": 10, "ci": 25, "all": 200}.items():
+    settings.register_profile(
+        profile,
+        derandomize=True,
+        deadline=None,
+        max_examples=examples,
+        suppress_health_check=TIMELESS,
+    )
 settings.register_profile(
     "fuzz",
     deadline=None,
@@ -47,48 +60,85 @@ _sockets: Any = protocol_socket
 _sockets.time = SimpleNamespace(sleep=lambda _seconds: None)
 
 
-_PASSED = pytest.StashKey[bool]()
+ROOT = Path(__file__).parent.parent
+GARBAGE = gc.get_threshold()
+SLOW_TESTS = Path(__file__).parent / "all"
 
 
-@pytest.hookimpl(wrapper=True)
-def pytest_runtest_makereport(
-    item: pytest.Item, call: pytest.CallInfo[None]
-) -> Generator[None, pytest.TestReport, pytest.TestReport]:
-    """Note whether the test itself has passed: one that was skipped is not checked further."""
-    report = yield
-    if call.when == "call":
-        item.stash[_PASSED] = report.passed
-    return report
+def pytest_addoption(parser: pytest.Parser) -> None:
+    """Add what chooses slow tests."""
+    group = parser.getgroup("slow tests")
+    group.addoption("--all", action="store_true", help="run the slow tests as well")
+    group.addoption(
+        "--sample", type=int, metavar="N", help="run N slow tests of each file, and nothing else"
+    )
+    group.addoption("--seed", type=int, help="which of them (default: others on each day)")
 
 
-@pytest.fixture(autouse=True)
-def no_board_refuses_anything(
-    request: pytest.FixtureRequest, monkeypatch: pytest.MonkeyPatch
-) -> Iterator[None]:
-    """Check that every board that a test starts understands all that it receives.
+def pytest_configure(config: pytest.Config) -> None:
+    """Choose the seed and what is run, once for all processes that share the work."""
+    if config.option.seed is None:
+        config.option.seed = datetime.now(timezone.utc).date().toordinal()
+    if config.args_source is not config.ArgsSource.ARGS and something_is_missing():
+        config.args[:] = [f"{ROOT / 'tests' / 'test_missing.py'}::test_nothing_is_missing"]
 
-    Save in a test marked `garbage`, which sends what is no frame on purpose, and then must.
+
+def something_is_missing() -> bool:
+    """Tell whether `framegen missing` finds anything.
+
+    A run of all tests then reports that and no more: whatever reads the files in which it is
+    missing would fail as well, and say less.
     """
-    refused: list[Noise] = []
-    add = Rejects.add
+    # What is wrong with the spec or the declaration itself, the tests of those say.
+    with suppress(Unusable):
+        model = compile_spec(read_source(ROOT / "spec" / "busservo.yaml")).model
+        return find_missing(model, read_witnesses(ROOT, "busservo") or [], ROOT) != []
+    return False
 
-    def noted(self: Rejects, noise: Noise) -> bool:
-        counted = add(self, noise)
-        if counted:
-            refused.append(noise)
-        return counted
 
-    close = VirtualController.close
+def pytest_report_header(config: pytest.Config) -> list[str]:
+    """Print what a sample can be repeated with."""
+    many = config.option.sample
+    return [] if many is None else [f"slow tests: {many} of each file, --seed {config.option.seed}"]
 
-    def closed(self: VirtualController) -> None:
-        close(self)
-        if not self._line.unheard:  # it was not unplugged in the middle of a frame
-            self.board.quiet()  # half a frame is refused as well
 
-    monkeypatch.setattr(Rejects, "add", noted)
-    monkeypatch.setattr(VirtualController, "close", closed)
-    yield
-    if not request.node.get_closest_marker("garbage"):
-        assert refused == []
-    elif request.node.stash.get(_PASSED, False):
-        assert refused, "no board has refused anything: the mark is for tests that send garbage"
+def pytest_ignore_collect(collection_path: Path, config: pytest.Config) -> bool | None:
+    """Do not even import the slow tests, unless some of them are run."""
+    wanted = config.option.all or config.option.sample is not None
+    return True if collection_path == SLOW_TESTS and not wanted else None
+
+
+def pytest_collection(session: pytest.Session) -> None:
+    """Look for garbage seldom while thousands of tests are made, none of which is garbage."""
+    gc.set_threshold(100_000, 50, 100)
+
+
+def pytest_collection_finish(session: pytest.Session) -> None:
+    """Look for garbage as often as ever, and never again among the tests."""
+    gc.freeze()
+    gc.set_threshold(*GARBAGE)
+
+
+def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
+    """Leave out the slow tests, or all but a sample of them."""
+    if config.option.sample is not None:
+        kept = sample(items, config.option.sample, config.option.seed)
+    elif config.option.all or any("::" in argument for argument in config.args):
+        return
+    else:
+        kept = {item for item in items if item.get_closest_marker("slow") is None}
+    config.hook.pytest_deselected(items=[item for item in items if item not in kept])
+    items[:] = [item for item in items if item in kept]
+
+
+def sample(items: Sequence[pytest.Item], many: int, seed: int) -> set[pytest.Item]:
+    """Return so many slow tests of each file; the same for the same seed."""
+    by_file: defaultdict[str, list[pytest.Item]] = defaultdict(list)
+    for item in items:
+        if SLOW_TESTS in item.path.parents or item.get_closest_marker("slow") is not None:
+            by_file[item.nodeid.partition("::")[0]].append(item)
+    return {
+        item
+        for file, slow in by_file.items()
+        for item in random.Random(f"{seed} {file}").sample(slow, min(many, len(slow)))  # noqa: S311
+    }

@@ -58,7 +58,10 @@ PATIENT_WORDS = {
 # What a page runs is to take no longer than it must.
 GROUPS = {8: ActionGroup([Step(20, {2: 500})])}
 
-_NEEDED = ("spec", "generated", "codegen", "docs", "tests/captures")
+_NEEDED = (
+    *("spec", "generated", "codegen", "docs", "simulator", "tests/captures"),
+    *("tests/witnesses.yaml", "tests/cases.py", "tests/oracle.py", "tests/test_client_contract.py"),
+)
 _COMMANDS = {"busservo": busservo._cli.main, "framegen": framegen.cli.main}
 # What each of them is made of, by the folder at the top.
 _MADE_OF = {"busservo": {"spec", "codegen", "generated"}, "framegen": {"codegen"}}
@@ -74,9 +77,12 @@ def played(page: str, folder: Path) -> str:
 
 def copy_project(folder: Path) -> Path:
     """Copy all that the examples work on, and return the copy."""
+    litter = shutil.ignore_patterns("__pycache__")
     for name in _NEEDED:
-        litter = shutil.ignore_patterns("__pycache__")
-        shutil.copytree(ROOT / name, folder / name, ignore=litter)
+        if (ROOT / name).is_dir():
+            shutil.copytree(ROOT / name, folder / name, ignore=litter)
+        else:
+            shutil.copy(ROOT / name, folder / name)
     return folder
 
 

@@ -22,6 +22,15 @@ ROOT = Path(__file__).parent.parent
 BUSSERVO = ROOT / "spec" / "busservo.yaml"
 DEMO = ROOT / "tests" / "specs" / "demo.yaml"
 
+FIRST = frozenset(
+    [
+        *("ServoMove", "ServoUnload", "ServoPositionsRead", "ServoPositions"),
+        *("ActionGroupRun", "ActionGroupStop", "ActionGroupSpeed"),
+        *("ActionGroupStarted", "ActionGroupStopped", "ActionGroupCompleted"),
+        *("BatteryVoltageRead", "BatteryVoltage"),
+    ]
+)
+
 Data: TypeAlias = "dict[str, Any]"
 Steps: TypeAlias = "tuple[str | int, ...]"
 
@@ -29,6 +38,16 @@ Steps: TypeAlias = "tuple[str | int, ...]"
 def data_of(file: Path) -> Data:
     """Return the values of a spec file."""
     return read_tree(read_source(file))[0].data
+
+
+def first_edition() -> Data:
+    """What the spec says of the messages with which it began.
+
+    Codecs and boards that were written by hand know these, and no message that came later.
+    """
+    data = data_of(BUSSERVO)
+    messages = data["messages"]
+    return {**data, "messages": {name: messages[name] for name in messages if name in FIRST}}
 
 
 def kiln() -> Data:

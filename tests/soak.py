@@ -43,8 +43,8 @@ THREADS, TASKS = 8, 100
 REPLY_TIMEOUT = 0.25
 # The other end is a thread of the same busy machine.
 LIVE_REPLY_TIMEOUT = 1.0
-# So that rounds end soon although a lost reply costs twice the margin. No frame comes in pieces: a
-# busy machine may hold one up for so long that the frame is lost, and its report with it.
+# So that rounds end soon although a lost reply costs twice the reply timeout. No frame comes in
+# pieces: a busy machine may hold one up for so long that the frame is lost, and its report with it.
 LIVE = {"noise": 0.1, "coalesced": 0.002, "delays": 0.002, "dropped": 0.0005}
 LIVE["longest_delay"] = 0.1
 VIRTUAL = {"noise": 0.2, "splits": 0.2, "coalesced": 0.1, "delays": 0.2, "dropped": 0.1}
@@ -76,7 +76,7 @@ class Watch:
         assert session.idle
         # Another thread may have a report in hand, for callbacks.
         await_that(lambda: not session.callback_queue)
-        assert len(session._late) < THREADS
+        assert len(session._matcher.late) < THREADS
         assert session.reports.take() is None
         assert session.counters.lost_reports == 0
         assert ledger.board.rejects.total == 0

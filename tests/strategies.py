@@ -94,8 +94,8 @@ def read(
 ) -> list[Event]:
     """Return all events of a new decoder for these chunks, and, with `quiet`, of their end."""
     decoder = StreamDecoder(direction)
-    events = [event for chunk in chunks for event in decoder.feed(chunk)]
-    return events + decoder.flush() if quiet else events
+    events: list[Event] = [event for chunk in chunks for event in decoder.feed(chunk)]
+    return [*events, *decoder.flush()] if quiet else events
 
 
 def messages_in(events: Iterable[Event]) -> list[Message]:

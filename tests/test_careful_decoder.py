@@ -42,7 +42,7 @@ MESSAGES = [
 
 def careful(*pieces: bytes, flushed: bool = False) -> list[Message | Noise]:
     decoder = CarefulDecoder(RECEIVED)
-    events = [event for piece in pieces for event in decoder.feed(piece)]
+    events: list[Message | Noise] = [event for piece in pieces for event in decoder.feed(piece)]
     while flushed and decoder.pending:
         events += decoder.flush()
     return events

@@ -129,7 +129,8 @@ def test_what_a_reply_has_room_for() -> None:
 
 
 def methods() -> Iterator[tuple[str, str, Any]]:
-    for name, (method, arguments, _, result, *_rest) in CONTRACT.items():
+    for name in [each for each in TREE["messages"] if each in CONTRACT]:
+        method, arguments, _, result, *_rest = CONTRACT[name]
         returns = f" -> {result}" if result else ""
 
         def said(
@@ -137,7 +138,8 @@ def methods() -> Iterator[tuple[str, str, Any]]:
         ) -> str:
             return f"{method}({', '.join(given)}){returns}"
 
-        yield name, "method", None
+        if "method" in TREE["messages"][name]:
+            yield name, "method", None
         yield name, "method", said(method=f"{method}_now")
         yield name, "method", said(method="close")
         others = [row[0] for other, row in CONTRACT.items() if other != name]

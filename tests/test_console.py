@@ -60,6 +60,12 @@ COMMANDS = [
 ]
 # It ends by itself only where nobody can be told the name of its port.
 SIMULATOR = Command(["-m", "busservo_simulator", "--tcp"])
+# One of each program, and of each way to read and write; the others go the same ways.
+TYPICAL = [1, 3, 4]
+EACH = [
+    pytest.param(command, marks=[] if at in TYPICAL else pytest.mark.slow)
+    for at, command in enumerate(COMMANDS)
+]
 EXAMPLE = Command([str(ROOT / "examples" / "virtual_arm.py")])
 
 
@@ -108,13 +114,13 @@ def shown(command: Command) -> str:
     return " ".join(command.words)
 
 
-@pytest.mark.parametrize("command", [*COMMANDS, EXAMPLE], ids=shown)
+@pytest.mark.parametrize("command", [*EACH, EXAMPLE], ids=shown)
 def test_all_is_well(command: Command) -> None:
     assert run(command) == (0, command.told)
 
 
 @not_windows
-@pytest.mark.parametrize("command", [*COMMANDS, SIMULATOR], ids=shown)
+@pytest.mark.parametrize("command", [*EACH, SIMULATOR], ids=shown)
 def test_the_reader_has_gone(command: Command) -> None:
     ours, theirs = os.pipe()
     os.close(ours)
@@ -125,7 +131,7 @@ def test_the_reader_has_gone(command: Command) -> None:
 
 
 @pytest.mark.skipif(not os.path.exists("/dev/full"), reason="needs a device that is always full")  # noqa: PTH110
-@pytest.mark.parametrize("command", [*COMMANDS, SIMULATOR], ids=shown)
+@pytest.mark.parametrize("command", [*EACH, SIMULATOR], ids=shown)
 def test_the_disk_is_full(command: Command) -> None:
     full = os.open("/dev/full", os.O_WRONLY)
     try:
@@ -138,20 +144,20 @@ def test_the_disk_is_full(command: Command) -> None:
 
 
 @not_windows
-@pytest.mark.parametrize("command", [*COMMANDS, SIMULATOR], ids=shown)
+@pytest.mark.parametrize("command", [*EACH, SIMULATOR], ids=shown)
 def test_the_output_is_closed(command: Command) -> None:
     told = f"{command.program}: error: the output cannot be written: it is closed\n"
     assert run(command, closed=(1,)) == (2, told)
 
 
 @not_windows
-@pytest.mark.parametrize("command", COMMANDS, ids=shown)
+@pytest.mark.parametrize("command", EACH, ids=shown)
 def test_the_error_stream_is_closed(command: Command) -> None:
     assert run(command, closed=(2,)) == (0, "")
 
 
 @not_windows
-@pytest.mark.parametrize("command", COMMANDS, ids=shown)
+@pytest.mark.parametrize("command", EACH, ids=shown)
 def test_the_input_is_closed(command: Command) -> None:
     if command.stdin:
         expected = (2, "busservo: error: standard input cannot be read: it is closed\n")

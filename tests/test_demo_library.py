@@ -880,7 +880,10 @@ def test_the_doctor_of_a_library_finds_its_way_without_a_board(many: Path, name:
             "stage_lamp",
             "weather",
         ),
-        ("mypy", "--strict", "--no-error-summary", "--python-version", "3.10", "."),
+        pytest.param(
+            ("mypy", "--strict", "--no-error-summary", "--python-version", "3.10", "."),
+            marks=pytest.mark.slow,
+        ),
     ],
     ids=["ruff check", "ruff format", "mypy"],
 )

@@ -3,15 +3,18 @@
 import copy
 import json
 from collections.abc import Iterator
+from functools import cache
 from pathlib import Path
 from typing import Any
 
 import pytest
 from framegen.cli import main
 from framegen.comparison import KINDS, differences
+from framegen.compile import compile_spec
 from framegen.model.model import Model, derive
+from framegen.reading.source import Source
 
-from tests.factories import BUSSERVO, DEMO, Data, Steps, compiled_of, data_of, renamed, yaml_of
+from tests.factories import BUSSERVO, DEMO, Data, Steps, data_of, renamed, yaml_of
 
 SPECS = {"busservo": data_of(BUSSERVO), "greenhouse": data_of(DEMO)}
 GONE = "(gone)"
@@ -19,7 +22,12 @@ GONE = "(gone)"
 
 def derived(data: Data) -> Model:
     """Return the layout of a spec that may contradict itself: one fact is changed at a time."""
-    spec = compiled_of(data).read
+    return _derived(yaml_of(data))
+
+
+@cache
+def _derived(text: str) -> Model:
+    spec = compile_spec(Source("made_up.yaml", text)).read
     assert spec is not None
     return derive(spec)
 

@@ -166,7 +166,7 @@ def test_a_declared_python_is_a_tested_one() -> None:
     assert f'requires-python = ">={declared[0]}"' in TEXTS["pyproject.toml"]
 
 
-@pytest.mark.skipif(BASH is None, reason="there is no bash here")
+@pytest.mark.skipif(os.name == "nt" or BASH is None, reason="there is no bash here")
 def test_a_whole_run_depends_on_no_variable_and_no_folder_of_a_machine(tmp_path: Path) -> None:
     stray = tmp_path / "bin"
     told = subprocess.run(

@@ -14,7 +14,7 @@ from framegen.render import render
 
 from tests.factories import yaml_of
 
-FEW = 32
+FEW = 16
 
 
 def many(number: int) -> Source:
@@ -155,9 +155,11 @@ def lines_per_byte(pattern: bytes, size: int) -> float:
         chunks = [line[at : at + size] for at in range(0, length, size)]
         return lines_run(lambda: [decoder.feed(chunk) for chunk in chunks])
 
-    read(2048)  # what is looked up is learnt once for all
+    # More than any frame, and than a chunk.
+    least = max(1024, size)
+    read(least)  # what is looked up is learnt once for all
     # The beginning, when nothing is held yet, is cheaper.
-    return (read(6144) - read(2048)) / 4096
+    return (read(3 * least) - read(least)) / (2 * least)
 
 
 # A port hands over some bytes at a time, a file many: traffic is then so cheap that noise, of which

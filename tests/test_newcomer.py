@@ -11,7 +11,9 @@ import pytest
 
 from tests.documents import ROOT
 
-pytestmark = pytest.mark.skipif(shutil.which("bash") is None, reason="there is no bash here")
+pytestmark = pytest.mark.skipif(
+    os.name == "nt" or shutil.which("bash") is None, reason="there is no bash here"
+)
 
 
 @pytest.fixture(scope="module")

@@ -1,13 +1,14 @@
 """Poses of a protocol that shares no name with the one that they were made for."""
 
 import importlib
+import re
 from collections.abc import Iterator
 from types import ModuleType
 from typing import Any
 
 import pytest
 
-from tests.device_line import client_of
+from tests.device_line import DeviceLine, client_of
 from tests.factories import DEMO, data_of, files_of, library
 
 
@@ -56,3 +57,39 @@ def test_what_verbs_say_of_them_is_said_in_their_words(blinds: ModuleType) -> No
     assert positions.listed(pose, [4]) == "blind 4"
     assert positions.listed(pose, [4, 9]) == "blinds 4, 9"
     assert list(pose.ids) == [*range(1, 21)]
+
+
+def examined(blinds: ModuleType, device: Any) -> dict[str, Any]:
+    """Return what the doctor finds out about a device."""
+    checks, diagnosis = (
+        importlib.import_module(f"{blinds.__name__}._cli.checks.{name}")
+        for name in ("checks", "diagnosis")
+    )
+    line = DeviceLine(device)
+    patient = diagnosis.Diagnosis(
+        "loop://", opener=lambda _port, _baud: line, clock=line.clock, hid_devices=list
+    )
+    return {check.id: result for check, result in checks.examine(patient, checks.CHECKS)}
+
+
+# No question of this protocol suits any device: each names those that it is about.
+@pytest.mark.parametrize(
+    ("heights", "state", "seen"),
+    [
+        ({4: 200, 9: 300}, "passed", "blinds that are there: 4, 9"),
+        ({}, "failed", "blinds that are there: none"),
+    ],
+)
+def test_the_doctor_finds_who_is_there(
+    blinds: ModuleType, heights: dict[int, int], state: str, seen: str
+) -> None:
+    found = examined(blinds, motor(blinds, heights))
+    assert "rate" not in found
+    assert (found["present"].state, found["present"].seen) == (state, seen)
+
+
+def test_the_doctor_finds_that_nobody_answers(blinds: ModuleType) -> None:
+    found = examined(blinds, blinds.Device())
+    assert found["present"].state == "failed"
+    assert "was not answered, though asked 3 times" in found["present"].seen
+    assert {*re.findall(r"check `([^`]+)`", found["present"].advice)} <= {*found}

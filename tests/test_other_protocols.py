@@ -87,7 +87,7 @@ def told(files: dict[str, str], words: re.Pattern[str]) -> list[str]:
     return [
         f"{path}: {line.strip()}"
         for path, text in files.items()
-        for line in (prose(text) if path.endswith(".py") else text.split("\n"))
+        for line in (prose(text) if path.endswith((".py", ".pyi")) else text.split("\n"))
         if words.search(line.replace("socket://host:port", "").replace("rfc2217://host:port", ""))
     ]
 
@@ -150,6 +150,35 @@ def test_only_what_can_work_is_offered(folder: Path, name: str, verbs: list[str]
         code, shown, _ = command(folder, name, verb, "--help")
         assert (code, shown.startswith(f"usage: {name} {verb} ")) == (0, True)
         assert f"\nexamples:\n  {name} {verb}" in shown
+
+
+LOOKING = ["port", "hid", "permission", "busy", "opening", "silence"]
+ASKING = ["rate", "echo", "reply", "round-trip"]
+
+
+@pytest.mark.parametrize(
+    ("name", "checks"),
+    [
+        ("greenhouse", [*LOOKING, *ASKING, "look-alike"]),
+        ("blinds", [*LOOKING, "present", "look-alike"]),
+        ("weather", [*LOOKING, "look-alike"]),
+        ("stage_lamp", [*LOOKING, "look-alike"]),
+    ],
+)
+def test_the_doctor_makes_only_checks_that_can_find_something(
+    folder: Path, name: str, checks: list[str]
+) -> None:
+    _, shown, _ = command(folder, name, "doctor", "--help")
+    listed = shown.partition("Makes these checks, one after the other:\n")[2].partition(".\n")[0]
+    assert listed.split(", ") == checks
+    _, shown, _ = command(folder, name, "doctor", "--port", "no-such-port")
+    assert [line.split()[1] for line in shown.splitlines() if line[0] != " "] == checks
+
+
+def test_help_speaks_of_no_verb_and_no_reply_that_there_is_not(folder: Path) -> None:
+    assert "replay" not in command(folder, "weather", "monitor", "--help")[1]
+    assert "reply" not in command(folder, "stage_lamp", "--help")[1]
+    assert "print the reply" in command(folder, "greenhouse", "--help")[1]
 
 
 MISSING = (

@@ -36,18 +36,18 @@ MOST = 8
 FOR_READERS = {"_cli/examples.py", "_codec/lookalikes.py"}
 
 MESSAGE = """\
-  BuzzerBeep:
-    id: 40
+  HornBlow:
+    id: 201
     direction: host -> controller
-    summary: Sound the buzzer on the board.
+    summary: Blow the horn on the board.
     cite: vendor, section 1.8
     length: 5
     fields:
-      times: {type: u8, about: How many beeps.}
-      pause_ms: {type: u16, unit: ms, about: How long the pause between two beeps is.}
+      times: {type: u8, about: How many times.}
+      pause_ms: {type: u16, unit: ms, about: How long the pause between two of them is.}
     examples:
-      - title: Beep twice, 300 ms apart
-        hex: 55 55 05 28 02 2C 01
+      - title: Blow twice, 300 ms apart
+        hex: 55 55 05 C9 02 2C 01
         values: {times: 2, pause_ms: 300}
         cite: vendor, section 1.8, example 1
 
@@ -259,9 +259,9 @@ def test_a_new_message_changes_what_shows_it() -> None:
     # Before the line above the messages of the controller.
     where = text.index("  # -----", text.index("  ServoUnload:"))
     touched = changed(files(text), files(text[:where] + MESSAGE + text[where:]))
-    pages = {"README.md", "examples.md", "messages/BuzzerBeep.md", "sequences.md"}
+    pages = {"README.md", "examples.md", "messages/HornBlow.md", "sequences.md"}
     modules = {
-        *("__init__.py", "messages.py", "strategies.py", "vectors.json"),
+        *("__init__.py", "__init__.pyi", "messages.py", "strategies.py", "vectors.json"),
         *(f"_client/{name}.py" for name in ("exchanges", "controller", "async_controller")),
         *("device.py", "_explanation/model.json"),
     }
@@ -277,10 +277,11 @@ def test_a_new_message_changes_few_vectors_of_others() -> None:
     new = text[:where] + MESSAGE + text[where:]
     before, after = (files(each)[path].splitlines() for each in (text, new))
     gone = [json.loads(line.rstrip(","))["title"] for line in before if line not in after]
-    assert gone == [
+    # Unless there were so many that these lines did not change either.
+    assert set(gone) <= {
         "one frame of each message in one piece",
         "one frame of each message in pieces of 7 bytes",
-    ]
+    }
     kept = [line for line in after if line in before]
     assert kept == [line for line in before if line in after]
 

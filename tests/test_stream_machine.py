@@ -1,5 +1,6 @@
 """StreamDecoder on a line where anything may happen next, compared with the oracle at each step."""
 
+from collections.abc import Sequence
 from typing import Any
 
 from busservo import Direction, Message, Noise, StreamDecoder, strategies
@@ -72,7 +73,7 @@ class Line(RuleBasedStateMachine):
         self.agree(self.decoder.feed(data), events)
         self.held = self.held[sum(map(size_of, events)) :]
 
-    def agree(self, events: list[Message | Noise], expected: list[Any]) -> None:
+    def agree(self, events: Sequence[Message | Noise], expected: list[Any]) -> None:
         """Check that both have found the same messages. The decoder may hold noise longer."""
         self.told += events
         assert [said(message) for message in messages_in(events)] == [

@@ -94,7 +94,7 @@ def test_a_template_is_tidy(template: Path) -> None:
     assert text.endswith("\n")
     assert "\t" not in text
     assert not re.search(r"[ \t]\n", text)
-    assert text.startswith(('"""', "{{ library.doc | docstring"))
+    assert text.startswith(('"""', "{{ library.doc | docstring", "# What the package exports"))
 
 
 @cache

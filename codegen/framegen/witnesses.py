@@ -114,7 +114,7 @@ def find_missing(model: Model, witnesses: Sequence[Witness], root: Path) -> list
     whole = {
         (each.witness.file, each.subject.message)
         for each in found
-        if each.witness.of in ("messages", "requests")
+        if each.witness.of in ("messages", "requests", "queries")
     }
     told = [
         each
@@ -139,6 +139,11 @@ def _requests(model: Model) -> Iterator[Subject]:
         yield Subject(name, ("messages", name), words)
 
 
+def _queries(model: Model) -> Iterator[Subject]:
+    queries = {exchange.request.name for exchange in model.exchanges if exchange.reply is not None}
+    return (subject for subject in _requests(model) if subject.message in queries)
+
+
 def _fields(model: Model) -> Iterator[Subject]:
     for name, layout in model.messages.items():
         for field in layout.arguments:
@@ -155,12 +160,16 @@ def _values(model: Model) -> Iterator[Subject]:
 
 
 def _words(layout: MessageLayout, **others: str) -> dict[str, str]:
-    """Say what the placeholders stand for: `{sender}` for `host`, `{SENDER}` for `HOST`."""
+    """Say what the placeholders stand for: `{sender}` for `host`, `{SENDER}` for `HOST`.
+
+    `{snake}` stands for the message as a function would be called after it, `servo_move`.
+    """
     words = {
         "message": layout.name,
+        "snake": snake_case(layout.name),
         "sender": layout.direction.sender,
         "receiver": layout.direction.receiver,
-        "fields": ", ".join(field.name for field in layout.arguments),
+        "fields": ", ".join(f"{field.name}=..." for field in layout.arguments),
         **others,
     }
     return words | {key.upper(): snake_case(word).upper() for key, word in words.items()}
@@ -169,13 +178,15 @@ def _words(layout: MessageLayout, **others: str) -> dict[str, str]:
 _SUBJECTS: dict[str, Callable[[Model], Iterator[Subject]]] = {
     "messages": _messages,
     "requests": _requests,
+    "queries": _queries,
     "fields": _fields,
     "values": _values,
 }
-_ALWAYS = ("message", "sender", "receiver", "fields")
+_ALWAYS = ("message", "snake", "sender", "receiver", "fields")
 _PLACEHOLDERS: dict[str, tuple[str, ...]] = {
     "messages": _ALWAYS,
     "requests": (*_ALWAYS, "method"),
+    "queries": (*_ALWAYS, "method"),
     "fields": (*_ALWAYS, "field"),
     "values": (*_ALWAYS, "field", "value"),
 }

@@ -4,7 +4,7 @@
 Binary commands and reports between a host and a bus servo controller, over a serial line.
 
 The host moves servos, runs action groups stored on the board and asks for the battery voltage
-and for servo positions. The controller answers questions and reports, unasked, what its action
+and for servo positions. The controller answers queries and reports, by itself, what its action
 groups do, because a handset, the on-board button and other hosts may start them too.
 
 There is no checksum and no error frame: a frame the controller dislikes is met with silence, a
@@ -12,182 +12,81 @@ buzzer and an LED. Whether a frame is whole can only be judged from its header, 
 command and, where it has one, its count.
 """
 
-from __future__ import annotations
+# Each is imported when it is first asked for: nobody waits for what is not used. Editors and type
+# checkers read the same from __init__.pyi.
+_HOMES = {
+    "MESSAGES": "messages",
+    "PROTOCOL_VERSION": "_frame.protocol",
+    "AbsentError": "_serial.link_errors",
+    "ActionGroupCompleted": "messages",
+    "ActionGroupRun": "messages",
+    "ActionGroupSpeed": "messages",
+    "ActionGroupStarted": "messages",
+    "ActionGroupStop": "messages",
+    "ActionGroupStopped": "messages",
+    "AsyncController": "_client.async_controller",
+    "AsyncMotion": "_client.motion",
+    "BatteryVoltage": "messages",
+    "BatteryVoltageRead": "messages",
+    "ClosedError": "_serial.link_errors",
+    "Controller": "_client.controller",
+    "ControllerMessage": "messages",
+    "Counters": "_codec.counters",
+    "DecodeError": "_frame.errors",
+    "Device": "device",
+    "Direction": "_frame.direction",
+    "DisconnectedError": "_serial.link_errors",
+    "EchoError": "_serial.link_errors",
+    "EncodeError": "_frame.errors",
+    "Event": "_codec.decoder",
+    "HostMessage": "messages",
+    "IncompleteReplyError": "_serial.link_errors",
+    "LimitError": "_frame.errors",
+    "LineCounters": "_codec.counters",
+    "Message": "_frame.message",
+    "Motion": "_client.motion",
+    "NoReplyError": "_serial.link_errors",
+    "NoReportError": "_serial.link_errors",
+    "Noise": "_codec.noise",
+    "PortAddressError": "_serial.link_errors",
+    "PortBusyError": "_serial.link_errors",
+    "PortNotFoundError": "_serial.link_errors",
+    "PortPermissionError": "_serial.link_errors",
+    "ProtocolError": "_frame.errors",
+    "Reason": "_frame.errors",
+    "Run": "_client.request",
+    "Sent": "_client.request",
+    "ServoMove": "messages",
+    "ServoPosition": "messages",
+    "ServoPositions": "messages",
+    "ServoPositionsRead": "messages",
+    "ServoTarget": "messages",
+    "ServoUnload": "messages",
+    "StreamDecoder": "_codec.decoder",
+    "Transport": "_serial.transport",
+    "TransportError": "_serial.link_errors",
+    "UnknownFrame": "_codec.noise",
+    "WriteStuckError": "_serial.link_errors",
+    "__version__": "_version",
+    "decode": "_codec.codec",
+    "open_async_controller": "_client.async_opening",
+    "open_controller": "_client.opening",
+    "open_transport": "_serial.serial_port",
+}
 
-TYPE_CHECKING = False  # typing alone would double the time that an import takes
-if TYPE_CHECKING:
-    from ._client.async_controller import AsyncController
-    from ._client.async_opening import open_async_controller
-    from ._client.controller import Controller
-    from ._client.motion import AsyncMotion, Motion
-    from ._client.opening import open_controller
-    from ._client.request import Run, Sent
-    from ._codec.codec import decode
-    from ._codec.counters import Counters, LineCounters
-    from ._codec.decoder import StreamDecoder
-    from ._codec.noise import Noise, UnknownFrame
-    from ._frame.direction import Direction
-    from ._frame.errors import DecodeError, EncodeError, LimitError, ProtocolError, Reason
-    from ._frame.message import Message
-    from ._serial.link_errors import (
-        AbsentError,
-        ClosedError,
-        DisconnectedError,
-        EchoError,
-        IncompleteReplyError,
-        NoReplyError,
-        NoReportError,
-        PortAddressError,
-        PortBusyError,
-        PortNotFoundError,
-        PortPermissionError,
-        TransportError,
-        WriteStuckError,
-    )
-    from ._serial.serial_port import open_transport
-    from ._serial.transport import Transport
-    from ._version import __version__
-    from .device import Device
-    from .messages import (
-        MESSAGES,
-        ActionGroupCompleted,
-        ActionGroupRun,
-        ActionGroupSpeed,
-        ActionGroupStarted,
-        ActionGroupStop,
-        ActionGroupStopped,
-        BatteryVoltage,
-        BatteryVoltageRead,
-        ServoMove,
-        ServoPosition,
-        ServoPositions,
-        ServoPositionsRead,
-        ServoTarget,
-        ServoUnload,
-    )
-else:
-    # Each is imported when it is first used: unused names cost no time.
-    _HOMES = {
-        "MESSAGES": "messages",
-        "AbsentError": "_serial.link_errors",
-        "ActionGroupCompleted": "messages",
-        "ActionGroupRun": "messages",
-        "ActionGroupSpeed": "messages",
-        "ActionGroupStarted": "messages",
-        "ActionGroupStop": "messages",
-        "ActionGroupStopped": "messages",
-        "AsyncController": "_client.async_controller",
-        "AsyncMotion": "_client.motion",
-        "BatteryVoltage": "messages",
-        "BatteryVoltageRead": "messages",
-        "ClosedError": "_serial.link_errors",
-        "Controller": "_client.controller",
-        "Counters": "_codec.counters",
-        "DecodeError": "_frame.errors",
-        "Device": "device",
-        "Direction": "_frame.direction",
-        "DisconnectedError": "_serial.link_errors",
-        "EchoError": "_serial.link_errors",
-        "EncodeError": "_frame.errors",
-        "IncompleteReplyError": "_serial.link_errors",
-        "LimitError": "_frame.errors",
-        "LineCounters": "_codec.counters",
-        "Message": "_frame.message",
-        "Motion": "_client.motion",
-        "NoReplyError": "_serial.link_errors",
-        "NoReportError": "_serial.link_errors",
-        "Noise": "_codec.noise",
-        "PortAddressError": "_serial.link_errors",
-        "PortBusyError": "_serial.link_errors",
-        "PortNotFoundError": "_serial.link_errors",
-        "PortPermissionError": "_serial.link_errors",
-        "ProtocolError": "_frame.errors",
-        "Reason": "_frame.errors",
-        "Run": "_client.request",
-        "Sent": "_client.request",
-        "ServoMove": "messages",
-        "ServoPosition": "messages",
-        "ServoPositions": "messages",
-        "ServoPositionsRead": "messages",
-        "ServoTarget": "messages",
-        "ServoUnload": "messages",
-        "StreamDecoder": "_codec.decoder",
-        "Transport": "_serial.transport",
-        "TransportError": "_serial.link_errors",
-        "UnknownFrame": "_codec.noise",
-        "WriteStuckError": "_serial.link_errors",
-        "__version__": "_version",
-        "decode": "_codec.codec",
-        "open_async_controller": "_client.async_opening",
-        "open_controller": "_client.opening",
-        "open_transport": "_serial.serial_port",
-    }
-
-    def __getattr__(name: str) -> object:
-        module = _HOMES.get(name)
-        if module is None:
-            raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
-        # Not importlib, which would have to be imported first.
-        owner = __import__(f"{__name__}.{module}", fromlist=[name])
-        value = globals()[name] = getattr(owner, name)
-        return value
-
-    def __dir__() -> list[str]:
-        return sorted({*globals(), *_HOMES})
+# Spelt out there, too: as an assignment, type checkers would want it spelt out here.
+globals()["__all__"] = [*_HOMES]
 
 
-__all__ = [
-    "MESSAGES",
-    "AbsentError",
-    "ActionGroupCompleted",
-    "ActionGroupRun",
-    "ActionGroupSpeed",
-    "ActionGroupStarted",
-    "ActionGroupStop",
-    "ActionGroupStopped",
-    "AsyncController",
-    "AsyncMotion",
-    "BatteryVoltage",
-    "BatteryVoltageRead",
-    "ClosedError",
-    "Controller",
-    "Counters",
-    "DecodeError",
-    "Device",
-    "Direction",
-    "DisconnectedError",
-    "EchoError",
-    "EncodeError",
-    "IncompleteReplyError",
-    "LimitError",
-    "LineCounters",
-    "Message",
-    "Motion",
-    "NoReplyError",
-    "NoReportError",
-    "Noise",
-    "PortAddressError",
-    "PortBusyError",
-    "PortNotFoundError",
-    "PortPermissionError",
-    "ProtocolError",
-    "Reason",
-    "Run",
-    "Sent",
-    "ServoMove",
-    "ServoPosition",
-    "ServoPositions",
-    "ServoPositionsRead",
-    "ServoTarget",
-    "ServoUnload",
-    "StreamDecoder",
-    "Transport",
-    "TransportError",
-    "UnknownFrame",
-    "WriteStuckError",
-    "__version__",
-    "decode",
-    "open_async_controller",
-    "open_controller",
-    "open_transport",
-]
+def __getattr__(name: str) -> object:
+    module = _HOMES.get(name)
+    if module is None:
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    # Not importlib, which would have to be imported first.
+    owner = __import__(f"{__name__}.{module}", fromlist=[name])
+    value = globals()[name] = getattr(owner, name)
+    return value
+
+
+def __dir__() -> list[str]:
+    return sorted({*globals(), *_HOMES})

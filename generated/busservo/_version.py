@@ -7,7 +7,7 @@ import json
 from importlib.metadata import PackageNotFoundError, distribution
 from pathlib import Path
 
-from ._frame.protocol import SPEC_VERSION
+from ._frame.protocol import PROTOCOL_VERSION
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
@@ -19,8 +19,8 @@ def version_of(folder: Path) -> str:
     try:
         installed = distribution(folder.name)
     except PackageNotFoundError:
-        return SPEC_VERSION
-    return installed.version if _is_of(installed, folder) else SPEC_VERSION
+        return PROTOCOL_VERSION
+    return installed.version if _is_of(installed, folder) else PROTOCOL_VERSION
 
 
 def _is_of(installed: Distribution, folder: Path) -> bool:

@@ -3,40 +3,36 @@
 
 from __future__ import annotations
 
-from ._codec.decoder import StreamDecoder
+from ._codec.decoder import Event, StreamDecoder
 from ._codec.noise import Noise
 from ._codec.rejects import Rejects
 from ._frame.direction import Direction
+from ._frame.message import Message
 from .messages import (
+    ActionGroupCompleted,
     ActionGroupRun,
     ActionGroupSpeed,
+    ActionGroupStarted,
     ActionGroupStop,
+    ActionGroupStopped,
+    BatteryVoltage,
     BatteryVoltageRead,
     ServoMove,
+    ServoPositions,
     ServoPositionsRead,
     ServoUnload,
 )
 
-TYPE_CHECKING = False  # typing alone would double the time that the import takes
+TYPE_CHECKING = False
 if TYPE_CHECKING:
-    from typing import TypeAlias
+    import typing_extensions as typing
+else:
+    from ._frame.typing_later import typing
 
-    from ._frame.message import Message
-    from .messages import (
-        ActionGroupCompleted,
-        ActionGroupStarted,
-        ActionGroupStopped,
-        BatteryVoltage,
-        ServoPositions,
-    )
-
-    Report: TypeAlias = (
-        ActionGroupCompleted
-        | ActionGroupStarted
-        | ActionGroupStopped
-        | BatteryVoltage
-        | ServoPositions
-    )
+Report: typing.TypeAlias = (
+    ActionGroupCompleted | ActionGroupStarted | ActionGroupStopped | BatteryVoltage | ServoPositions
+)
+"""Whatever this end sends."""
 
 
 class Device:
@@ -120,7 +116,7 @@ class Device:
         Return the ServoPositions as the reply, or None to stay silent.
         """
 
-    def _hear(self, events: list[Message | Noise]) -> None:
+    def _hear(self, events: list[Event]) -> None:
         for event in events:
             if isinstance(event, Noise):
                 if self.rejects.add(event):

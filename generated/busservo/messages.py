@@ -3,6 +3,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
+
 from ._frame.direction import Direction
 from ._frame.element import Element
 from ._frame.items import Items
@@ -10,14 +12,13 @@ from ._frame.message import Message
 from ._frame.number import U8, U16
 from ._frame.protocol import HEADER
 
-TYPE_CHECKING = False  # typing alone would double the time that the import takes
+TYPE_CHECKING = False
 if TYPE_CHECKING:
-    from collections.abc import Iterable
-    from typing import Final, TypeAlias
+    import typing_extensions as typing
+else:
+    from ._frame.typing_later import typing
 
-    from typing_extensions import Self
-
-    Column: TypeAlias = tuple[int, ...]
+Column: typing.TypeAlias = tuple[int, ...]
 
 
 class ServoTarget(Element, tuple[int, int]):
@@ -40,7 +41,7 @@ class ServoTarget(Element, tuple[int, int]):
     PWM servo boards of the family use 500 to 2500. (Client code in public repositories)
     """
 
-    def __new__(cls, servo_id: int, position: int) -> Self:
+    def __new__(cls, servo_id: int, position: int) -> typing.Self:
         return tuple.__new__(cls, (servo_id, position))
 
 
@@ -52,7 +53,7 @@ class ServoPosition(Element, tuple[int, int]):
 
     servo_id = U8(0)
     """The servo."""
-    POSITION_ABSENT: Final = 65535
+    POSITION_ABSENT: typing.Final = 65535
     """The servo is off or not connected."""
     position = U16(1, names={"absent": POSITION_ABSENT})
     """Where it is.
@@ -60,7 +61,7 @@ class ServoPosition(Element, tuple[int, int]):
     A servo slightly below zero is seen as a value near 65535. (Observations on real hardware)
     """
 
-    def __new__(cls, servo_id: int, position: int) -> Self:
+    def __new__(cls, servo_id: int, position: int) -> typing.Self:
         return tuple.__new__(cls, (servo_id, position))
 
     @property
@@ -107,7 +108,7 @@ class ServoMove(Message):
     targets = Items(7, ServoTarget, 1, 83, count=servo_count)
     """The servos to turn and where to, in the order of the frame."""
 
-    def __new__(cls, time_ms: int, targets: Iterable[tuple[int, int]]) -> Self:
+    def __new__(cls, time_ms: int, targets: Iterable[tuple[int, int]]) -> typing.Self:
         flat = cls.targets.flat(targets)
         servo_count = len(flat) // 2
         return cls._packed(
@@ -150,12 +151,12 @@ class ActionGroupRun(Message):
 
     group = U8(4)
     """The number of the action group."""
-    TIMES_UNLIMITED: Final = 0
+    TIMES_UNLIMITED: typing.Final = 0
     """Run until it is stopped."""
     times = U16(5, names={"unlimited": TIMES_UNLIMITED})
     """How many times to run it."""
 
-    def __new__(cls, group: int, times: int) -> Self:
+    def __new__(cls, group: int, times: int) -> typing.Self:
         return cls._packed("<2sBBBH", (HEADER, 5, 6), (group, times))
 
 
@@ -180,7 +181,7 @@ class ActionGroupStop(Message):
     DIRECTION = Direction.HOST_TO_CONTROLLER
     LENGTHS = range(2, 3)
 
-    def __new__(cls) -> Self:
+    def __new__(cls) -> typing.Self:
         return cls._packed("<2sBB", (HEADER, 2, 7), ())
 
 
@@ -205,14 +206,14 @@ class ActionGroupSpeed(Message):
     DIRECTION = Direction.HOST_TO_CONTROLLER
     LENGTHS = range(5, 6)
 
-    GROUP_ALL: Final = 255
+    GROUP_ALL: typing.Final = 255
     """Every action group stored on the controller."""
     group = U8(4, names={"all": GROUP_ALL})
     """The number of the action group."""
     percent = U16(5, unit="%")
     """The speed, where 100 is the speed at which the group was recorded."""
 
-    def __new__(cls, group: int, percent: int) -> Self:
+    def __new__(cls, group: int, percent: int) -> typing.Self:
         return cls._packed("<2sBBBH", (HEADER, 5, 11), (group, percent))
 
 
@@ -236,7 +237,7 @@ class BatteryVoltageRead(Message):
     DIRECTION = Direction.HOST_TO_CONTROLLER
     LENGTHS = range(2, 3)
 
-    def __new__(cls) -> Self:
+    def __new__(cls) -> typing.Self:
         return cls._packed("<2sBB", (HEADER, 2, 15), ())
 
 
@@ -266,7 +267,7 @@ class ServoUnload(Message):
     servo_ids = Items(5, U8(), 1, 252, count=servo_count)
     """The servos to switch off."""
 
-    def __new__(cls, servo_ids: Iterable[int]) -> Self:
+    def __new__(cls, servo_ids: Iterable[int]) -> typing.Self:
         flat = cls.servo_ids.flat(servo_ids)
         servo_count = len(flat)
         return cls._packed(
@@ -303,7 +304,7 @@ class ServoPositionsRead(Message):
     servo_ids = Items(5, U8(), 1, 252, count=servo_count)
     """The servos asked about."""
 
-    def __new__(cls, servo_ids: Iterable[int]) -> Self:
+    def __new__(cls, servo_ids: Iterable[int]) -> typing.Self:
         flat = cls.servo_ids.flat(servo_ids)
         servo_count = len(flat)
         return cls._packed(
@@ -337,12 +338,12 @@ class ActionGroupStarted(Message):
 
     group = U8(4)
     """The number of the action group."""
-    TIMES_UNLIMITED: Final = 0
+    TIMES_UNLIMITED: typing.Final = 0
     """It runs until it is stopped."""
     times = U16(5, names={"unlimited": TIMES_UNLIMITED})
     """How many times it will run."""
 
-    def __new__(cls, group: int, times: int) -> Self:
+    def __new__(cls, group: int, times: int) -> typing.Self:
         return cls._packed("<2sBBBH", (HEADER, 5, 6), (group, times))
 
 
@@ -366,7 +367,7 @@ class ActionGroupStopped(Message):
     DIRECTION = Direction.CONTROLLER_TO_HOST
     LENGTHS = range(2, 3)
 
-    def __new__(cls) -> Self:
+    def __new__(cls) -> typing.Self:
         return cls._packed("<2sBB", (HEADER, 2, 7), ())
 
 
@@ -395,7 +396,7 @@ class ActionGroupCompleted(Message):
     times = U16(5)
     """How many times it was run."""
 
-    def __new__(cls, group: int, times: int) -> Self:
+    def __new__(cls, group: int, times: int) -> typing.Self:
         return cls._packed("<2sBBBH", (HEADER, 5, 8), (group, times))
 
 
@@ -420,7 +421,7 @@ class BatteryVoltage(Message):
     voltage_mv = U16(4, unit="mV")
     """The voltage at the controller's supply terminals. A step is 0.001 V."""
 
-    def __new__(cls, voltage_mv: int) -> Self:
+    def __new__(cls, voltage_mv: int) -> typing.Self:
         return cls._packed("<2sBBH", (HEADER, 4, 15), (voltage_mv,))
 
 
@@ -453,7 +454,7 @@ class ServoPositions(Message):
     Servos that did not answer may be missing from the list. (Client code in public repositories)
     """
 
-    def __new__(cls, positions: Iterable[tuple[int, int]]) -> Self:
+    def __new__(cls, positions: Iterable[tuple[int, int]]) -> typing.Self:
         flat = cls.positions.flat(positions)
         servo_count = len(flat) // 2
         return cls._packed(
@@ -488,3 +489,22 @@ MESSAGES: tuple[type[Message], ...] = (
     ServoPositions,
 )
 """Every message, in the order of the specification."""
+
+HostMessage: typing.TypeAlias = (
+    ServoMove
+    | ActionGroupRun
+    | ActionGroupStop
+    | ActionGroupSpeed
+    | BatteryVoltageRead
+    | ServoUnload
+    | ServoPositionsRead
+)
+"""Whatever the host sends: `isinstance` and `match` take it, too."""
+
+ControllerMessage: typing.TypeAlias = (
+    ActionGroupStarted | ActionGroupStopped | ActionGroupCompleted | BatteryVoltage | ServoPositions
+)
+"""Whatever the controller sends: `isinstance` and `match` take it, too."""
+
+Decoded: typing.TypeAlias = HostMessage | ControllerMessage
+"""Whatever any end sends."""

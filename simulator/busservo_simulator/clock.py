@@ -36,6 +36,7 @@ class VirtualClock:
         self.follow_reads = follow_reads
         self._now = 0.0
         self._listeners: list[Callable[[], None]] = []
+        self._sources: list[Callable[[], float | None]] = []
 
     def now(self) -> float:
         """Return the seconds since it was made."""
@@ -56,3 +57,13 @@ class VirtualClock:
     def when_moved(self, listener: Callable[[], None]) -> None:
         """Call `listener` from now on whenever the time has moved."""
         self._listeners.append(listener)
+
+    @property
+    def next_event(self) -> float | None:
+        """When something happens next on what lives by this clock; None while nothing will."""
+        moments = [source() for source in self._sources]
+        return min((moment for moment in moments if moment is not None), default=None)
+
+    def when_due(self, source: Callable[[], float | None]) -> None:
+        """Ask `source` from now on for the moment at which something happens next, or None."""
+        self._sources.append(source)

@@ -36,6 +36,9 @@ class MemoryEnd:
         self._inbox = bytearray()
         self._plugged = False
         self._closed = False
+        self._readable: Callable[[], object] | None = None
+        # Only where somebody else moves the time on, and not a read.
+        self.on_readable = self._call_when_readable if isinstance(clock, VirtualClock) else None
 
     # ---------------------------------------------------------------- the host's side
 
@@ -93,6 +96,18 @@ class MemoryEnd:
             self._closed = True
             self._changed.notify_all()
 
+    def _call_when_readable(self, callback: Callable[[], object]) -> None:
+        """Call `callback` from now on whenever a read would not come back empty."""
+        with self._changed:
+            self._readable = callback
+            self._announce()
+
+    def _announce(self) -> None:
+        """Say that a read would not come back empty, or would fail."""
+        self._changed.notify_all()
+        if self._readable is not None:
+            self._readable()
+
     def _check(self) -> None:
         if self._closed:
             raise ClosedError(self.name, "it has been closed", "open it again")
@@ -138,13 +153,13 @@ class MemoryEnd:
     def unplug(self) -> None:
         """Make the next read or write fail; what has arrived can still be read."""
         self._plugged = False
-        self._changed.notify_all()
+        self._announce()
 
     def deliver(self, data: bytes) -> None:
         """Put bytes where a read finds them."""
         if self._plugged:
             self._inbox += data
-            self._changed.notify_all()
+            self._announce()
 
     def wait(self, seconds: float | None, *, listening: bool) -> None:
         """Return at once: there is no thread that waits."""

@@ -76,6 +76,7 @@ class VirtualController:
         self._closing = False
         if isinstance(self.clock, VirtualClock):
             self.clock.when_moved(self._nudge)
+            self.clock.when_due(self._next_event)
 
     def _make_end(
         self, via: str, link: str | os.PathLike[str] | None, host: str, tcp_port: int
@@ -259,6 +260,11 @@ class VirtualController:
             self._end.deliver(data)
         if whole and self._line.hung_up:
             self._end.unplug()
+
+    def _next_event(self) -> float | None:
+        """Return when something happens next, on the clock; None while nothing will."""
+        event = None if self._closing else self._line.next_event
+        return None if event is None else self._since + event
 
     def _nudge(self) -> None:
         """Advance to now, and let the thread recalculate how long to wait."""

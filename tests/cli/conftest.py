@@ -6,10 +6,13 @@ from typing import TYPE_CHECKING
 
 import pytest
 
+from tests.boards import no_board_refuses_anything, pytest_runtest_makereport
 from tests.timeouts import undoubted
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
+
+__all__ = ["no_board_refuses_anything", "pytest_runtest_makereport"]
 
 
 @pytest.fixture(autouse=True)

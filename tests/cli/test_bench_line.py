@@ -135,7 +135,7 @@ def test_silence_alone_gives_no_times(capsys: pytest.CaptureFixture[str]) -> Non
         (["ServoPositionsRead"], "ServoPositionsRead needs servo_ids"),
         (
             ["ServoPositionsRead", f"servo_ids={','.join(map(str, range(85)))}"],
-            "servo_ids: 85 items are asked for at once, and a reply has room for 84",
+            "servo_ids: 85 items are requested at once, and a reply has room for 84",
         ),
         (["-n", "0"], "argument -n: 0 is below 1"),
         (

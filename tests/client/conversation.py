@@ -178,11 +178,16 @@ def converse(
 
 
 async def converse_async(
-    controller: AsyncController, ledger: Ledger, seed: int, count: int, bound: float = BOUND
+    controller: AsyncController,
+    ledger: Ledger,
+    seed: int,
+    count: int,
+    now: Callable[[], float] = time.monotonic,
+    bound: float = BOUND,
 ) -> None:
     """Make `count` calls, for asyncio."""
     for turn in turns(seed, count):
-        before, began = ledger.asked, time.monotonic()
+        before, began = ledger.asked, now()
         try:
             if turn == "battery":
                 ledger.given(before, {await controller.read_battery_voltage()})
@@ -198,12 +203,12 @@ async def converse_async(
             assert isinstance(turn, list)
             ledger.given_part(before, turn, error)
         except DisconnectedError:
-            assert time.monotonic() - began <= bound
+            assert now() - began <= bound
             ledger.board.plug_in()
             await _again_async(controller)
             ledger.reconnected += 1
             continue
-        assert time.monotonic() - began <= bound
+        assert now() - began <= bound
 
 
 def _again(controller: Controller) -> None:

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import json
 import threading
+from importlib.resources import files
 from typing import TYPE_CHECKING
 
 from busservo import (
@@ -17,6 +19,7 @@ from busservo import (
     ServoPositionsRead,
     StreamDecoder,
 )
+from busservo._client.exchanges import EXCHANGES
 from busservo._codec.rejects import Rejects
 
 if TYPE_CHECKING:
@@ -29,7 +32,20 @@ def answered(message: Message) -> list[Message]:
         return [BatteryVoltage(7500)]
     if isinstance(message, ServoPositionsRead):
         return [ServoPositions([(servo, 10 * servo) for servo in message.servo_ids])]
-    return []
+    exchange = EXCHANGES.get(type(message))
+    if exchange is None or exchange.reply is None:
+        return []
+    return [example_of(exchange.reply)]
+
+
+def example_of(kind: type[Message]) -> Message:
+    """Return the first example of a message, as the vectors have it."""
+    vectors = json.loads(files("busservo").joinpath("vectors.json").read_text(encoding="utf-8"))
+    return next(
+        kind.decode(bytes.fromhex(vector["hex"]))
+        for vector in vectors["valid"]
+        if vector["message"] == kind.__name__
+    )
 
 
 class LiveLine:

@@ -1,7 +1,8 @@
 """Faults of a live line: pulled, reset, stolen, flooded, rebooted, answered with nonsense.
 
-Over pseudo-terminals and TCP. Whatever happens, a call ends with the right value or with a declared
-error, in bounded time; and if the line lives on, so does the client.
+Over pseudo-terminals and TCP, and in virtual time where the port makes no difference. Whatever
+happens, a call ends with the right value or with a declared error, in bounded time; and if the line
+lives on, so does the client.
 """
 
 from __future__ import annotations
@@ -37,7 +38,8 @@ from busservo import (
     open_controller,
     open_transport,
 )
-from busservo_simulator import Faults, VirtualController
+from busservo_simulator import Faults, VirtualClock, VirtualController
+from busservo_simulator.virtual_loop import run_virtual
 from serial.tools import list_ports
 from serial.tools.list_ports_common import ListPortInfo
 
@@ -52,8 +54,8 @@ WAYS = ["tcp"] if sys.platform == "win32" else ["tcp", "pty"]
 needs_pty = pytest.mark.skipif(sys.platform == "win32", reason="Windows has no pty")
 # No call may take longer, on however slow a machine. An answer that is to come may take as long.
 BOUND = GENEROUS
-# Until an answer that is not to come is given up, and how often to ask for one that is.
-SHORT, OFTEN = 0.1, 200
+# Until an answer that is not to come is given up.
+SHORT = 0.1
 
 
 @pytest.fixture(params=WAYS)
@@ -69,6 +71,17 @@ def bounded(seconds: float = BOUND) -> Iterator[None]:
     began = time.monotonic()
     yield
     assert time.monotonic() - began < seconds
+
+
+@contextmanager
+def virtual_board() -> Iterator[tuple[VirtualController, VirtualClock]]:
+    clock = VirtualClock(follow_reads=True)
+    with VirtualController(clock=clock) as board:
+        yield board, clock
+
+
+def on_time_of(clock: VirtualClock, board: VirtualController) -> Controller:
+    return Controller(board.transport, background=False, clock=clock.now, reply_timeout=SHORT)
 
 
 def again(controller: Controller) -> None:
@@ -207,19 +220,20 @@ def test_a_thief_who_reads_along_takes_replies_and_never_makes_a_wrong_one() -> 
 # -------------------------------------------------------------------- rebooted
 
 
-def test_a_board_that_reboots_is_silent_and_then_back_by_itself(board: VirtualController) -> None:
+def test_a_board_that_reboots_is_silent_and_then_back_by_itself() -> None:
     answer = BatteryVoltage(7500)
-    with open_controller(board.port, reply_timeout=SHORT) as controller:
-        assert controller.request(BatteryVoltageRead(), retries=OFTEN) == answer
+    with virtual_board() as (board, clock), on_time_of(clock, board) as controller:
+        assert controller.request(BatteryVoltageRead()) == answer
         # It is silent for longer than anybody waits here, until it is told otherwise.
-        board.reboot(2 * BOUND)
-        with bounded(), pytest.raises(NoReplyError, match="is the device switched on"):
+        board.reboot(60)
+        with pytest.raises(NoReplyError, match="is the device switched on"):
             controller.read_battery_voltage()
         board.reboot(0.2)
-        assert controller.request(BatteryVoltageRead(), retries=OFTEN) == answer
+        assert controller.request(BatteryVoltageRead(), retries=3) == answer
         # The port was there all the while, so there is nothing to reconnect; it does no harm.
-        again(controller)
-        assert controller.request(BatteryVoltageRead(), retries=OFTEN) == answer
+        controller.reconnect()
+        assert controller.request(BatteryVoltageRead(), retries=3) == answer
+        assert clock.now() < 2
 
 
 def test_a_board_whose_port_goes_away_while_it_reboots(board: VirtualController) -> None:
@@ -303,32 +317,35 @@ def test_a_flood_of_reports_hides_no_reply_with_asyncio(board: VirtualController
 
 
 @pytest.mark.parametrize("nonsense", [b"\x55", b"\x55\x55\xfe\x15", bytes(range(256))])
-def test_a_board_that_sends_nonsense_alone_ends_in_an_error(
-    board: VirtualController, nonsense: bytes
-) -> None:
-    with open_controller(board.port, reply_timeout=SHORT) as controller:
+def test_a_board_that_sends_nonsense_alone_ends_in_an_error(nonsense: bytes) -> None:
+    with virtual_board() as (board, clock), on_time_of(clock, board) as controller:
         board.spurious_output(nonsense, per_second=500)
         for _ in range(2):
-            with bounded(), pytest.raises(NoReplyError):
+            began = clock.now()
+            with pytest.raises(NoReplyError):
                 controller.read_battery_voltage()
+            # Its own time, and that of the late reply of the one before.
+            assert clock.now() - began < 3 * SHORT + 0.2
         board.spurious_output(None)
-        assert controller.request(BatteryVoltageRead(), retries=OFTEN) == BatteryVoltage(7500)
+        assert controller.request(BatteryVoltageRead(), retries=3) == BatteryVoltage(7500)
         assert controller.counters.noise
 
 
-def test_a_board_that_sends_nonsense_alone_ends_in_an_error_with_asyncio(
-    board: VirtualController,
-) -> None:
-    async def work() -> None:
-        async with open_async_controller(board.port, reply_timeout=SHORT) as controller:
+def test_a_board_that_sends_nonsense_alone_ends_in_an_error_with_asyncio() -> None:
+    async def work(board: VirtualController, clock: VirtualClock) -> None:
+        async with AsyncController(
+            board.transport, background=False, clock=clock.now, reply_timeout=SHORT
+        ) as controller:
             board.spurious_output(b"\x55", per_second=500)
-            with bounded(), pytest.raises(NoReplyError):
+            with pytest.raises(NoReplyError):
                 await controller.read_battery_voltage()
+            assert clock.now() < 3 * SHORT + 0.2
             board.spurious_output(None)
-            answer = await controller.request(BatteryVoltageRead(), retries=OFTEN)
+            answer = await controller.request(BatteryVoltageRead(), retries=3)
             assert answer == BatteryVoltage(7500)
 
-    asyncio.run(work())
+    with virtual_board() as (board, clock):
+        run_virtual(work(board, clock), clock)
 
 
 # -------------------------------------------------------------------- closed, cancelled

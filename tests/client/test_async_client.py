@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import asyncio
+import gc
 import logging
 import math
 import subprocess
 import sys
 import time
+import warnings
 from typing import TYPE_CHECKING, TypeVar
 
 import pytest
@@ -32,8 +34,10 @@ from busservo import (
     ServoPositionsRead,
     TransportError,
 )
+from busservo._client.base_client import POLL_INTERVAL
 
 from tests.client.live_line import LiveLine, answered
+from tests.client.loop_line import LoopLine, client, run
 from tests.timeouts import GENEROUS, LIVE
 
 if TYPE_CHECKING:
@@ -43,7 +47,7 @@ if TYPE_CHECKING:
 _T = TypeVar("_T")
 
 
-def run(work: Coroutine[object, object, _T]) -> _T:
+def run_live(work: Coroutine[object, object, _T]) -> _T:
     """Run a coroutine; no test may wait for ever."""
 
     async def bounded() -> _T:
@@ -77,7 +81,7 @@ def test_the_methods_of_the_spec() -> None:
             positions = await controller.read_servo_positions(range(1, 101))
             assert positions == tuple((servo, 10 * servo) for servo in range(1, 101))
 
-    run(work())
+    run_live(work())
     assert line.received[:3] == [
         ServoMove(time_ms=800, targets=[(1, 800), (9, 800)]),
         ActionGroupRun(8, 1),
@@ -106,7 +110,7 @@ def test_a_hundred_tasks_share_a_controller() -> None:
             assert len(heard) == 300
             assert controller.counters.unsolicited == 0
 
-    run(work())
+    run_live(work())
 
 
 def test_a_cancelled_question_leaves_the_line_usable() -> None:
@@ -116,10 +120,10 @@ def test_a_cancelled_question_leaves_the_line_usable() -> None:
         asked.append(message)
         return [] if len(asked) == 1 else answered(message)
 
-    line = LiveLine(late)
+    line = LoopLine(late)
 
     async def work() -> None:
-        async with AsyncController(line, **LIVE) as controller:
+        async with client(line, **LIVE) as controller:
             task = asyncio.ensure_future(controller.read_battery_voltage())
             while not asked:
                 await asyncio.sleep(0)
@@ -135,7 +139,7 @@ def test_a_cancelled_question_leaves_the_line_usable() -> None:
             assert await controller.read_battery_voltage() == 7500
             assert controller.counters.unsolicited == 1
 
-    run(work())
+    run(work(), line)
 
 
 def test_no_reply_and_too_little_of_one() -> None:
@@ -143,11 +147,11 @@ def test_no_reply_and_too_little_of_one() -> None:
         return [ServoPositions([(1, 5)])] if isinstance(message, ServoPositionsRead) else []
 
     async def work() -> None:
-        async with AsyncController(LiveLine(partly), reply_timeout=0.05) as controller:
+        async with client(LoopLine(partly), reply_timeout=0.05) as controller:
             with pytest.raises(NoReplyError) as late:
                 await controller.read_battery_voltage()
             assert 0.05 <= late.value.waited < GENEROUS
-        async with AsyncController(LiveLine(partly), **LIVE) as controller:
+        async with client(LoopLine(partly), **LIVE) as controller:
             with pytest.raises(IncompleteReplyError) as caught:
                 await controller.read_servo_positions([1, 2])
             assert caught.value.missing == (2,)
@@ -166,7 +170,7 @@ def test_waiting_for_a_group_to_end() -> None:
         return answered(message)
 
     async def work() -> None:
-        async with AsyncController(LiveLine(board), **LIVE) as controller:
+        async with client(LoopLine(board), **LIVE) as controller:
             heard: list[Message] = []
             controller.on_report(heard.append)
             await controller.run_action_group(8, times=1)
@@ -188,28 +192,23 @@ def test_waiting_for_a_group_to_end() -> None:
 
 
 def test_the_latest_move_wins() -> None:
-    line = LiveLine(silent)
+    line = LoopLine(silent)
 
     async def work() -> None:
-        # A line that is slow beside any machine.
-        async with AsyncController(line, baud=600) as controller:
+        async with client(line) as controller:
             for position in range(50):
                 controller.send_latest(ServoMove(20, [(1, position)]))
+            assert controller.counters.replaced == 48
 
-    run(work())
-    # Where the machine pauses for as long as a frame takes, one in between is sent as well.
-    moves = [message for message in line.received if isinstance(message, ServoMove)]
-    sent = [move.targets[0].position for move in moves]
-    assert (sent[0], sent[-1]) == (0, 49)
-    assert sent == sorted(sent)
-    assert len(sent) < 10
+    run(work(), line)
+    assert line.received == [ServoMove(20, [(1, 0)]), ServoMove(20, [(1, 49)])]
 
 
 def test_unplugged_while_questions_are_under_way() -> None:
-    line = LiveLine(silent)
+    line = LoopLine(silent)
 
     async def work() -> None:
-        async with AsyncController(line, **LIVE) as controller:
+        async with client(line, **LIVE) as controller:
             tasks = [asyncio.ensure_future(controller.read_battery_voltage()) for _ in range(5)]
             waiting = asyncio.ensure_future(
                 controller.wait_for(ActionGroupStopped, timeout=GENEROUS)
@@ -223,12 +222,12 @@ def test_unplugged_while_questions_are_under_way() -> None:
             assert not controller.closed
             await controller.stop_action_group()
 
-    run(work())
+    run(work(), line)
 
 
 def test_close_ends_the_waits_of_other_tasks() -> None:
     async def work() -> None:
-        controller = AsyncController(LiveLine(silent), **LIVE)
+        controller = client(LoopLine(silent), **LIVE)
         asking = asyncio.ensure_future(controller.read_battery_voltage())
         await asyncio.sleep(0.02)
         await asyncio.gather(controller.close(), controller.close())
@@ -241,12 +240,12 @@ def test_close_ends_the_waits_of_other_tasks() -> None:
 
 
 def test_a_client_that_was_never_used_can_be_closed() -> None:
-    line = LiveLine()
+    line = LoopLine()
 
     async def work() -> None:
-        await AsyncController(line).close()
+        await client(line).close()
 
-    run(work())
+    run(work(), line)
     assert line.closed
 
 
@@ -260,23 +259,23 @@ def test_a_transport_that_breaks_its_word_ends_in_an_error() -> None:
             with pytest.raises(TransportError, match="mend the transport"):
                 await controller.read_battery_voltage()
 
-    run(work())
+    run_live(work())
 
 
 def test_every_frame_is_logged_and_traced(tmp_path: Path, caplog: pytest.LogCaptureFixture) -> None:
-    line = LiveLine()
+    line = LoopLine()
     trace = tmp_path / "line.log"
     caplog.set_level(logging.DEBUG, "busservo")
 
     async def work() -> None:
-        async with AsyncController(line, **LIVE, trace=trace) as controller:
+        async with client(line, **LIVE, trace=trace) as controller:
             line.say(ActionGroupStopped())
             assert await controller.read_battery_voltage() == 7500
             await controller.stop_action_group()
 
-    run(work())
-    assert "live line > BatteryVoltageRead() | 55 55 02 0F" in caplog.text
-    assert "live line < BatteryVoltage(voltage_mv=7500) | 55 55 04 0F 4C 1D" in caplog.text
+    run(work(), line)
+    assert "loop line > BatteryVoltageRead() | 55 55 02 0F" in caplog.text
+    assert "loop line < BatteryVoltage(voltage_mv=7500) | 55 55 04 0F 4C 1D" in caplog.text
     done = subprocess.run(
         [sys.executable, "-m", "busservo", "decode", "--direction", "any", str(trace)],
         check=True,
@@ -289,7 +288,7 @@ def test_every_frame_is_logged_and_traced(tmp_path: Path, caplog: pytest.LogCapt
 
 def test_nothing_is_logged_unless_asked_for(caplog: pytest.LogCaptureFixture) -> None:
     async def work() -> None:
-        async with AsyncController(LiveLine(), **LIVE) as controller:
+        async with client(LoopLine(), **LIVE) as controller:
             await controller.read_battery_voltage()
 
     run(work())
@@ -297,10 +296,10 @@ def test_nothing_is_logged_unless_asked_for(caplog: pytest.LogCaptureFixture) ->
 
 
 def test_reports_end_when_the_client_is_closed() -> None:
-    line = LiveLine()
+    line = LoopLine()
 
     async def work() -> None:
-        controller = AsyncController(line)
+        controller = client(line)
         line.say(ActionGroupStopped())
 
         async def listen() -> list[Message]:
@@ -312,14 +311,14 @@ def test_reports_end_when_the_client_is_closed() -> None:
         await controller.close()
         assert await listening == [ActionGroupStopped()]
 
-    run(work())
+    run(work(), line)
 
 
 def test_the_oldest_reports_go_when_there_are_too_many() -> None:
-    line = LiveLine()
+    line = LoopLine()
 
     async def work() -> None:
-        async with AsyncController(line, report_limit=4) as controller:
+        async with client(line, report_limit=4) as controller:
             for times in range(10):
                 line.say(ActionGroupCompleted(8, times))
             while controller.counters.reports < 10:
@@ -328,29 +327,30 @@ def test_the_oldest_reports_go_when_there_are_too_many() -> None:
             assert kept == [ActionGroupCompleted(8, times) for times in range(6, 10)]
             assert controller.counters.lost_reports == 6
 
-    run(work())
+    run(work(), line)
 
 
 def test_moves_faster_than_the_line_do_not_pile_up() -> None:
+    line = LoopLine(silent)
+
     async def work() -> None:
-        async with AsyncController(LiveLine(silent)) as controller:
-            began = time.monotonic()
+        async with client(line) as controller:
             for _ in range(5):
                 sent = await controller.move_servos([(servo, 500) for servo in range(6)], 20)
                 assert sent.delay < 0.005
                 assert sent.duration == pytest.approx(25 / 960)
-            assert time.monotonic() - began >= 4 * 25 / 960 - 0.005
+            assert line.clock.now() == pytest.approx(4 * 25 / 960 - 0.004)
 
-    run(work())
+    run(work(), line)
 
 
 def test_a_callback_that_fails_hurts_nobody_else_and_ends_when_told(
     caplog: pytest.LogCaptureFixture,
 ) -> None:
-    line = LiveLine()
+    line = LoopLine()
 
     async def work() -> None:
-        async with AsyncController(line) as controller:
+        async with client(line) as controller:
             heard: list[Message] = []
             controller.on_report(lambda _: 1 / 0)
             stop = controller.on_report(heard.append)
@@ -364,7 +364,7 @@ def test_a_callback_that_fails_hurts_nobody_else_and_ends_when_told(
             await controller.wait_for(ActionGroupCompleted, timeout=GENEROUS)
             assert heard == [ActionGroupStopped()]
 
-    run(work())
+    run(work(), line)
     assert caplog.text.count("ZeroDivisionError") == 2
 
 
@@ -379,7 +379,7 @@ def test_a_client_belongs_to_the_loop_in_which_it_was_first_used() -> None:
             await asyncio.get_running_loop().run_in_executor(None, elsewhere)
             assert await controller.read_battery_voltage() == 7500
 
-    run(work())
+    run_live(work())
 
 
 def test_a_question_of_one_request_names_what_its_reply_lacks() -> None:
@@ -389,12 +389,12 @@ def test_a_question_of_one_request_names_what_its_reply_lacks() -> None:
         return [ServoPositions([(2, 20)])]
 
     async def work() -> None:
-        async with AsyncController(LiveLine(partly), **LIVE) as controller:
+        async with client(LoopLine(partly), **LIVE) as controller:
             with pytest.raises(IncompleteReplyError) as caught:
                 await controller._ask(ServoPositionsRead([1, 2, 3]), ServoPositions)
             assert caught.value.missing == (1, 3)
             assert caught.value.arrived == ((2, 20),)
-        async with AsyncController(LiveLine(), **LIVE) as controller:
+        async with client(LoopLine(), **LIVE) as controller:
             with pytest.raises(TypeError, match="is answered by BatteryVoltage"):
                 await controller._ask(BatteryVoltageRead(), ServoPositions)
 
@@ -428,5 +428,98 @@ def test_a_reply_that_comes_as_its_question_is_cancelled_hurts_nobody() -> None:
             assert controller.counters.replies == 1
             await controller.stop_action_group()
 
-    run(work())
+    run_live(work())
     assert line.received == [BatteryVoltageRead(), ActionGroupStop()]
+
+
+def test_a_report_and_the_end_of_a_motion_come_at_their_time_to_the_moment() -> None:
+    line = LoopLine()
+
+    async def work() -> None:
+        async with client(line, **LIVE) as controller:
+            line.say(ActionGroupCompleted(8, 1), delay=3600.25)
+            told = await controller.wait_for(ActionGroupCompleted, timeout=4000)
+            assert told == ActionGroupCompleted(8, 1)
+            assert line.clock.now() == 3600.25
+            motion = await controller.move_servos([(1, 500)], 60_000)
+            assert await motion.wait()
+            assert line.clock.now() == pytest.approx(3660.25, abs=1e-4)
+
+    run(work(), line)
+
+
+def test_a_transport_that_cannot_tell_when_something_has_come_is_polled() -> None:
+    class Silent(LoopLine):
+        on_readable = None  # type: ignore[assignment]
+
+    line = Silent(lambda _: [])
+
+    async def work() -> None:
+        async with client(line, reply_timeout=1) as controller:
+            line.say(ActionGroupStopped(), delay=0.5)
+            await controller.wait_for(ActionGroupStopped, timeout=1)
+            assert 0.5 <= line.clock.now() <= 0.5 + POLL_INTERVAL + 1e-4
+            with pytest.raises(NoReplyError) as late:
+                await controller.read_battery_voltage()
+            assert late.value.waited == pytest.approx(1 + 10 / 960, abs=1e-4)
+
+    run(work(), line)
+
+
+@pytest.mark.parametrize("end", ["read", "write"])
+def test_a_line_without_threads_that_is_lost_says_so(end: str) -> None:
+    line = LoopLine()
+
+    async def work() -> None:
+        async with client(line, **LIVE) as controller:
+            await controller.stop_action_group()
+            if end == "read":
+                line.unplug()
+                await asyncio.sleep(0)
+                await asyncio.sleep(0)
+            else:
+                line.lost = True
+            with pytest.raises(DisconnectedError, match="plug it in again"):
+                await controller.stop_action_group()
+            assert "failed" in repr(controller)
+            await controller.reconnect()
+            assert await controller.read_battery_voltage() == 7500
+
+    run(work(), line)
+
+
+def test_a_client_without_threads_that_is_forgotten_gives_its_line_back() -> None:
+    line = LoopLine()
+
+    async def work() -> None:
+        controller = client(line, **LIVE)
+        assert await controller.read_battery_voltage() == 7500
+        with warnings.catch_warnings(record=True) as told:
+            warnings.simplefilter("always")
+            del controller
+            gc.collect()
+        assert "loop line was never closed" in str(told[0].message)
+        line.say(ActionGroupStopped())
+        await asyncio.sleep(1)
+
+    run(work(), line)
+    assert line.closed
+
+
+def test_what_a_loop_left_open_is_closed_in_another() -> None:
+    line = LoopLine()
+
+    async def use() -> AsyncController:
+        controller = client(line)
+        controller.send_latest(ServoMove(20, [(1, 1)]))
+        controller.send_latest(ServoMove(20, [(1, 2)]))
+        return controller
+
+    async def close(controller: AsyncController) -> None:
+        await controller.close()
+
+    controller = run(use(), line)
+    line.say(ActionGroupStopped())
+    run(close(controller), line)
+    assert line.closed
+    assert line.received == [ServoMove(20, [(1, 1)]), ServoMove(20, [(1, 2)])]

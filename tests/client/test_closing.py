@@ -7,7 +7,6 @@ import gc
 import threading
 import time
 from concurrent.futures import ThreadPoolExecutor, wait
-from types import SimpleNamespace
 from typing import TYPE_CHECKING, Any, Literal
 
 import pytest
@@ -47,6 +46,11 @@ def no_thread_is_of_another_test() -> Iterator[None]:
     await_that(lambda: not own_threads())
     yield
     await_that(lambda: not own_threads())
+
+
+def close_in_a_hurry(monkeypatch: pytest.MonkeyPatch) -> None:
+    for module in ("client", "thread_client", "async_client", "line_threads"):
+        monkeypatch.setattr(f"busservo._client.{module}.DRAIN_TIMEOUT", 0.02)
 
 
 class Refusing(LiveLine):
@@ -127,7 +131,7 @@ class Interrupted(LiveLine):
 def test_closing_in_the_middle_of_a_write_does_not_wait_for_itself(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    monkeypatch.setattr("busservo._client.client.DRAIN_TIMEOUT", 0.02)
+    close_in_a_hurry(monkeypatch)
     line = Interrupted()
     controller = Controller(line)
     line.meanwhile = controller.close
@@ -540,7 +544,7 @@ def test_what_is_closed_while_it_is_opened_again_is_given_back_by_then() -> None
 def test_closing_waits_only_for_a_while_for_a_port_that_does_not_open(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    monkeypatch.setattr("busservo._client.client.DRAIN_TIMEOUT", 0.02)
+    close_in_a_hurry(monkeypatch)
     Counted.open = 0
     line = Held()
     controller = Controller(line)
@@ -621,7 +625,7 @@ def test_what_is_closed_while_it_is_opened_again_is_given_back_by_then_with_asyn
 def test_closing_waits_only_for_a_while_for_a_port_that_does_not_open_with_asyncio(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    monkeypatch.setattr("busservo._client.async_client.DRAIN_TIMEOUT", 0.02)
+    close_in_a_hurry(monkeypatch)
     Counted.open = 0
     line = Held()
 
@@ -687,7 +691,7 @@ class Stuck(LiveLine):
 def test_the_end_of_a_read_of_the_line_before_does_not_end_the_new_one(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    monkeypatch.setattr("busservo._client.client.DRAIN_TIMEOUT", 0.02)
+    close_in_a_hurry(monkeypatch)
     line = Stuck()
     with Controller(line, **LIVE) as controller:
         controller.reconnect()
@@ -699,7 +703,7 @@ def test_the_end_of_a_read_of_the_line_before_does_not_end_the_new_one(
 def test_the_end_of_a_read_of_the_line_before_does_not_end_the_new_one_with_asyncio(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    monkeypatch.setattr("busservo._client.async_client.DRAIN_TIMEOUT", 0.02)
+    close_in_a_hurry(monkeypatch)
     line = Stuck()
 
     async def work() -> None:
@@ -763,18 +767,13 @@ def test_what_is_still_to_be_sent_when_the_line_is_lost_does_not_hold_up_closing
     await_that(lambda: not own_threads())
 
 
-def test_a_command_whose_turn_comes_as_the_line_is_lost_is_not_told_to_be_sent(
-    monkeypatch: pytest.MonkeyPatch,
-) -> None:
+def test_a_command_whose_turn_comes_as_the_line_is_lost_is_not_told_to_be_sent() -> None:
     line = LiveLine()
     now = time.monotonic()
-    monkeypatch.setattr(
-        "busservo._client.async_client.time", SimpleNamespace(monotonic=lambda: now)
-    )
 
     async def work() -> None:
         nonlocal now
-        async with AsyncController(line) as controller:
+        async with AsyncController(line, clock=lambda: now) as controller:
             assert repr(controller) == "<AsyncController on live line, open>"
             await controller.unload_servos(range(100))
             waiting = asyncio.ensure_future(controller.stop_action_group())

@@ -90,7 +90,7 @@ def test_an_impossible_reply_alone_is_the_answer_once_the_line_has_been_quiet() 
     assert (line.counters.impossible, line.counters.unsolicited) == (1, 0)
 
 
-def test_a_longer_margin_is_no_reason_to_hold_a_reply_for_longer() -> None:
+def test_a_longer_reply_timeout_is_no_reason_to_hold_a_reply_for_longer() -> None:
     line = Session(baud=9600, reply_timeout=60, report_limit=16)
     request = ask(line, 0.0)
     say(line, TOO_SOON, BatteryVoltage(7500))

@@ -41,10 +41,10 @@ def test_a_run_is_the_cause_of_its_reports() -> None:
     of_8, of_9 = (ReportFilter(ActionGroupCompleted, {"group": group}) for group in (8, 9))
     assert log.since(of_8) == 1
     assert log.since(of_9) == 2
-    found = log.find(of_8, since=1, asked_at=2)
+    found = log.find(of_8, since=1, began_at=2)
     assert found == ActionGroupCompleted(8, 1)
     # It has been waited for: the next wait wants another.
-    assert log.find(of_8, since=1, asked_at=2) is None
+    assert log.find(of_8, since=1, began_at=2) is None
     assert log.take() == log.take() == ActionGroupCompleted(8, 1)
     assert log.take() is None
 
@@ -74,8 +74,8 @@ def test_the_end_of_a_group_is_one_of_two_reports(
 ) -> None:
     log, wanted = after(story).reports, ReportFilter(ENDED, fields)
     since = log.since(wanted)
-    assert log.find(wanted, since=since, asked_at=log.next_number) == found
-    assert log.find(wanted, since=since, asked_at=log.next_number) is None
+    assert log.find(wanted, since=since, began_at=log.next_number) == found
+    assert log.find(wanted, since=since, began_at=log.next_number) is None
 
 
 def test_what_came_instead_is_counted_but_for_what_is_over() -> None:

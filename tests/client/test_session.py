@@ -320,7 +320,7 @@ def test_more_than_a_reply_can_tell_is_refused() -> None:
     line = session()
     line.submit(ServoPositionsRead(range(84)))
     with pytest.raises(
-        EncodeError, match="85 items are asked for at once, and a reply has room for 84"
+        EncodeError, match="85 items are requested at once, and a reply has room for 84"
     ):
         line.submit(ServoPositionsRead(range(85)))
 

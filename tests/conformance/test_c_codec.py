@@ -15,9 +15,9 @@ from framegen.conformance.trial import Trial, hold
 from framegen.model.model import Model
 
 from tests.conformance.c_codecs import SOURCE, WRONG, Wrong, compile_codec, needs_compiler
-from tests.factories import BUSSERVO, data_of, layout_of
+from tests.factories import first_edition, layout_of
 
-MODEL = layout_of(data_of(BUSSERVO))
+MODEL = layout_of(first_edition())
 FURTHER = 100
 
 pytestmark = needs_compiler

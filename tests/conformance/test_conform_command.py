@@ -14,7 +14,7 @@ import pytest
 from framegen.cli import main
 
 from tests.conformance.c_codecs import WRONG, compile_codec, needs_compiler
-from tests.factories import BUSSERVO, DEMO, ROOT
+from tests.factories import BUSSERVO, DEMO, ROOT, first_edition
 from tests.timeouts import GENEROUS
 
 if TYPE_CHECKING:
@@ -299,7 +299,9 @@ def test_the_guide_shows_what_a_wrong_codec_gets(
 ) -> None:
     wrong = WRONG["the count is not held against the length"]
     program = compile_codec(tmp_path, wrong.old, wrong.new)
-    status, out, _ = told(capsys, SPEC, "--", program)
+    known = tmp_path / "busservo.yaml"
+    known.write_text(json.dumps(first_edition()), encoding="utf-8")
+    status, out, _ = told(capsys, str(known), "--", program)
     assert status == 1
     pieces = shown("framegen conform busservo -- ./codec")
     assert re.fullmatch(r"(?:.*\n)*".join(map(re.escape, pieces)), out), out

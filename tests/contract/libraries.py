@@ -52,7 +52,7 @@ class Library:
 
     def write_whole(self, folder: Path) -> None:
         """Write all that type checkers need: the command and the doctor do without the messages."""
-        for file in LIBRARY.rglob("*.py"):
+        for file in [*LIBRARY.rglob("*.py"), *LIBRARY.rglob("*.pyi")]:
             path = file.relative_to(LIBRARY)
             if path.parts[0] not in {COMMAND, "__main__.py"}:
                 copy = folder / self.name / path
@@ -107,7 +107,7 @@ def imported(library: Library, folder: Path) -> Iterator[ModuleType]:
             if (home / part.name / "__init__.py").exists() and part.name != COMMAND:
                 importlib.import_module(f"{library.name}.{part.name}").__path__.append(str(part))
         for path in library.modules:
-            if not path.startswith(COMMAND) and path != "__init__.py":
+            if not path.startswith((COMMAND, "__init__.")):
                 name = path.removesuffix(".py").replace("/", ".")
                 importlib.import_module(f"{library.name}.{name}")
         yield made

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 from framegen.model.codec import encode
 from framegen.model.stream import ReferenceDecoder
+from hypothesis import settings
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
@@ -39,7 +40,10 @@ def joined(events: Iterable[Event]) -> list[Event]:
 
 
 def noisy_lines(model: Model, seed: int, number: int) -> list[bytes]:
-    """Return lines with cut and damaged frames, with noise between them that looks like frames."""
+    """Return lines with cut and damaged frames, with noise between them that looks like frames.
+
+    `number` is how many there are where Hypothesis tries a hundred examples.
+    """
     chance = random.Random(seed)  # noqa: S311 - the same noise in every run
     messages = model.messages.values()
     frames = [
@@ -48,7 +52,8 @@ def noisy_lines(model: Model, seed: int, number: int) -> list[bytes]:
         for example in message.message.examples
     ]
     near = [*model.frame.header, *(message.id for message in messages), 0, 1, 2, 3, 5, 99, 255]
-    return [_line(chance, frames, model.frame.header, near) for _ in range(number)]
+    many = number * settings().max_examples // 100
+    return [_line(chance, frames, model.frame.header, near) for _ in range(many)]
 
 
 def _line(chance: random.Random, frames: list[bytes], header: bytes, near: list[int]) -> bytes:

@@ -12,7 +12,7 @@ from framegen.conformance import firmware
 from framegen.language.load import read_source
 from framegen.model.model import Model
 
-from tests.factories import BUSSERVO
+from tests.factories import first_edition, layout_of
 from tests.firmware.devices import Observed
 
 
@@ -44,9 +44,9 @@ class Run(NamedTuple):
         ]
 
 
-def model_of(file: Path = BUSSERVO) -> Model:
+def model_of(file: Path | None = None) -> Model:
     """Return the model of a spec."""
-    return compile_spec(read_source(file)).model
+    return layout_of(first_edition()) if file is None else compile_spec(read_source(file)).model
 
 
 def run(model: Model, line: Any, *words: str, form: str = "json", timeout: float = 0.25) -> Run:

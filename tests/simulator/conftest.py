@@ -10,10 +10,13 @@ from busservo._frame.protocol import BAUD
 from busservo._serial.serial_port import open_transport
 from busservo_simulator import VirtualClock, VirtualController
 
+from tests.boards import no_board_refuses_anything, pytest_runtest_makereport
 from tests.simulator.hosts import Host, host_of
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
+
+__all__ = ["no_board_refuses_anything", "pytest_runtest_makereport"]
 
 WAYS = ["memory", "tcp"] if sys.platform == "win32" else ["memory", "tcp", "pty"]
 

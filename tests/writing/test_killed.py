@@ -24,6 +24,8 @@ if TYPE_CHECKING:
     from framegen.output import Output
 
 SPOILT = f"{LIBRARY}/changed.py"
+# The slow ones differ from the others in what is removed, not in how.
+SLOW_SCENES = {"a fresh folder", "another name", "a lost manifest"}
 SCENES = {
     "a fresh folder": ("", "first", False),
     "the next edition": ("first", "next", False),
@@ -50,7 +52,11 @@ def wholly(found: Snapshot, *whole: Snapshot) -> bool:
     return all(data in allowed for path, data in found.items() if not path.endswith(".manifest"))
 
 
-@pytest.fixture(params=SCENES)
+@pytest.fixture(
+    params=[
+        pytest.param(name, marks=pytest.mark.slow if name in SLOW_SCENES else []) for name in SCENES
+    ]
+)
 def scene(request: pytest.FixtureRequest, tmp_path: Path) -> tuple[Path, str, bool]:
     state, edition, force = SCENES[request.param]
     return prepared(tmp_path / "tree", state), edition, force

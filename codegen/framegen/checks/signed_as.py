@@ -22,7 +22,7 @@ def _look(spec: Spec) -> Iterator[Problem]:
             if field.signed_as is not None:
                 here = (*path, name, "signed_as")
                 yield from _type(here, field, field.signed_as)
-                yield from _listed(here, field)
+                yield from _in_list(here, field)
 
 
 def _type(path: KeyPath, field: NumberField, signed_as: str) -> Iterator[Problem]:
@@ -37,7 +37,7 @@ def _type(path: KeyPath, field: NumberField, signed_as: str) -> Iterator[Problem
         yield Problem(path, f"{signed_as} is not as wide as {type_.name}", f"write {same}")
 
 
-def _listed(path: KeyPath, field: NumberField) -> Iterator[Problem]:
+def _in_list(path: KeyPath, field: NumberField) -> Iterator[Problem]:
     if field.counted_by is not None:
         what = "numbers in a list have no properties that could read them as signed"
         yield Problem(path, what, "give the list an `element` with fields", on_key=True)

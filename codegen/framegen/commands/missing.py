@@ -1,4 +1,4 @@
-"""`framegen missing`: what has still to be written by hand after a change of a spec."""
+"""`framegen missing`: what a change of a spec leaves to be written by hand."""
 
 from __future__ import annotations
 
@@ -16,9 +16,9 @@ if TYPE_CHECKING:
     from framegen.compile import Compiled
     from framegen.witnesses import Missing, Witness
 
-SUMMARY = "Tell what has still to be written by hand of a spec, and where: what cannot be derived."
+SUMMARY = "Report what a change of a spec leaves to be written by hand, what to write, and where."
 EXAMPLES = (
-    ("framegen missing", "what spec/*.yaml has and the witnesses do not; 1 if anything"),
+    ("framegen missing", "what tests/witnesses.yaml asks for of spec/*.yaml; 1 if any is missing"),
     ("framegen missing spec/busservo.yaml", "of this spec"),
     ("framegen missing --json", "one a line, for programs"),
 )

@@ -35,7 +35,7 @@ def run(arguments: Namespace) -> int:
 
     targets = {target.name: target for target in TARGETS}
     if arguments.name is None:
-        print("\n".join(_listed(list(targets.values()), _models())))
+        print("\n".join(_overview(list(targets.values()), _models())))
         return 0
     if arguments.name not in targets:
         hint = did_you_mean(arguments.name, targets, otherwise="`framegen targets` lists them")
@@ -56,7 +56,7 @@ def _models() -> list[Model]:
         return []
 
 
-def _listed(targets: list[Target], models: list[Model]) -> Iterator[str]:
+def _overview(targets: list[Target], models: list[Model]) -> Iterator[str]:
     width = max(len(target.name) for target in targets)
     for target in targets:
         yield f"{target.name:<{width}}  {target.about}"

@@ -183,8 +183,8 @@ class _Surveyor:
         self._known[path] = self._known.get(path, frozenset()) | digests
 
     def _why(self, path: str, standing: Standing, *, same: bool, rebuilt: bool) -> Why:
-        twin = self._folded.get(path.casefold(), path)
-        known = self._known.get(path, frozenset()) | self._known.get(twin, frozenset())
+        other_case = self._folded.get(path.casefold(), path)
+        known = self._known.get(path, frozenset()) | self._known.get(other_case, frozenset())
         if standing.kind:
             return "foreign"
         if same or file_digest(standing.data) in known:

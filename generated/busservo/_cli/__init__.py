@@ -8,7 +8,7 @@ import sys
 from contextlib import suppress
 from importlib import import_module
 
-from .._frame.protocol import SPEC_VERSION
+from .._frame.protocol import PROTOCOL_VERSION
 from . import console
 from .examples import EXAMPLES, PROGRAM, SUMMARY, VERBS
 from .exit_codes import DONE, MEANINGS, UNUSABLE
@@ -94,7 +94,7 @@ def _run_none(words: Sequence[str]) -> int:
     known, _ = parser.parse_known_args(words)
     if known.version:
         version = import_module(".._version", __package__).__version__
-        print(f"{PROGRAM} {version}, spec {SPEC_VERSION}")
+        print(f"{PROGRAM} {version}, spec {PROTOCOL_VERSION}")
         return DONE
     if known.print_completion is not None:
         print(_module("completion").completion(known.print_completion))

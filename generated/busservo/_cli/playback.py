@@ -19,7 +19,7 @@ from .progress import PROGRESS_INTERVAL, Progress
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
-    from collections.abc import Iterable
+    from collections.abc import Iterable, Sequence
     from typing import TextIO
 
     from .._codec.noise import Noise
@@ -103,7 +103,7 @@ class Playback:
             self._last = now
             self._show(self._decoder.feed(heard), now)
 
-    def _show(self, events: list[Message | Noise], now: float) -> None:
+    def _show(self, events: Sequence[Message | Noise], now: float) -> None:
         for event in events:
             self._progress.clear()
             self._lines.show(event, RECEIVED, now)

@@ -8,9 +8,12 @@ from collections import deque
 from .._codec.codec import decode
 from .._frame.direction import RECEIVED
 from .._frame.errors import DecodeError
+from .._log import log
+from .._serial.link_errors import EchoError
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
+    from .._codec.counters import LineCounters
     from .request import Request
 
 
@@ -72,7 +75,7 @@ class LocalEcho:
         self._expected = deque(each for each in self._expected if each[0] is not request)
 
     def expire(self, now: float) -> tuple[bytes, list[Request]]:
-        """Return the bytes held back in vain, and the requests whose echo did not come by now."""
+        """Return what was held back in vain, and the requests whose echo should have come."""
         lost: list[Request] = []
         while self._expected and self._expected[0][2] <= now:
             lost.append(self._expected.popleft()[0])
@@ -95,7 +98,9 @@ class EchoWatch:
     Only a returned frame that the other end cannot send shows an echo: any other may be a report.
     """
 
-    def __init__(self) -> None:
+    def __init__(self, name: str, counters: LineCounters) -> None:
+        self._name = name
+        self._counters = counters
         # The frame sent last, and the same if it would prove an echo, otherwise nothing.
         self._sent = self._sign = b""
         self._noise = b""
@@ -113,15 +118,27 @@ class EchoWatch:
         else:
             self._sign = b""
 
-    def comes_back(self, noise: bytes) -> bool:
-        """Return whether the frame that was sent last is in the noise that has come since."""
+    def look_at(self, noise: bytes) -> None:
+        """See whether the frame that was sent last is in the noise that has come since."""
         if not self._sign:
-            return False
+            return
         self._noise = (self._noise + noise)[-4 * len(self._sign) :]
         if self._sign not in self._noise:
-            return False
+            return
         self._noise = b""
-        return True
+        self._counters.echoes += 1
+        if self._counters.echoes == 1:  # said once
+            log().warning(
+                "%s gives back what is sent: say so (local_echo=True, or --local-echo), or else "
+                "commands that come back look like reports",
+                self._name,
+            )
+
+
+def echo_error(name: str, happened: str, request: Request) -> EchoError:
+    """Return what tells that the echo of a request is missing."""
+    advice = "see whether the adapter gives back what is sent; if not, leave out local_echo"
+    return EchoError(name, f"{happened} ({request.message!r})", advice)
 
 
 def _overlap(data: bytes, frame: bytes) -> int:

@@ -27,9 +27,9 @@ _SLACK = 20
 class Pose:
     """How the positions of a protocol are read, commanded and released, and under which names.
 
-    `read`, `move` and `release` are the messages that do so. `asked` is the list of numbers in
-    `read` and `release`, `told` the list of positions in the reply to `read`, each a number and a
-    position; `moved` the list in `move`, and `time` the milliseconds that the motion takes.
+    `read`, `move` and `release` are the messages that do so. `requested` is the list of numbers in
+    `read` and `release`, `reported` the list of positions in the reply to `read`, each a number and
+    a position; `moved` the list in `move`, and `time` the milliseconds that the motion takes.
     `position` is the property that gives a position, below zero included. `ids` are all possible
     numbers, `limits` those of the positions that are commanded.
 
@@ -39,7 +39,6 @@ class Pose:
     """
 
     __slots__ = (
-        "asked",
         "duration",
         "ids",
         "item",
@@ -50,9 +49,10 @@ class Pose:
         "position",
         "read",
         "release",
+        "reported",
+        "requested",
         "room",
         "time",
-        "told",
     )
 
     def __init__(
@@ -62,8 +62,8 @@ class Pose:
         move: type[Message],
         release: type[Message],
         ids: range,
-        asked: str,
-        told: str,
+        requested: str,
+        reported: str,
         position: str,
         moved: str,
         time: str,
@@ -73,8 +73,8 @@ class Pose:
         self.move = move
         self.release = release
         self.ids = ids
-        self.asked = asked
-        self.told = told
+        self.requested = requested
+        self.reported = reported
         self.position = position
         self.moved = moved
         self.time = time
@@ -95,12 +95,12 @@ class Pose:
 
     def letting_go(self, ids: Iterable[int]) -> Message:
         """Return the command that releases these. Raises EncodeError."""
-        return self.release(**{self.asked: list(ids)})
+        return self.release(**{self.requested: list(ids)})
 
     def there(self, replies: Iterable[Message]) -> list[Any]:
         """Return the positions in the replies, without those that are reported absent."""
-        told = [each for reply in replies for each in getattr(reply, self.told)]
-        return [each for each in told if not getattr(each, "absent", False)]
+        reported = [each for reply in replies for each in getattr(reply, self.reported)]
+        return [each for each in reported if not getattr(each, "absent", False)]
 
     def present_in(self, replies: Iterable[Message]) -> tuple[int, ...]:
         """Return the numbers of those that are present, in the order of the replies."""
@@ -124,7 +124,7 @@ class Pose:
             value = below if -slack <= below < 0 else raw
             near = nearest(value, bounds)
             if abs(value - near) > slack:
-                path = f"{self.told}[{at}].{self.place.name}"
+                path = f"{self.reported}[{at}].{self.place.name}"
                 raise LimitError(path, value, bounds, self.limits.way_out(value, read=True))
             targets.append((number, near))
         return targets
@@ -136,12 +136,14 @@ class Pose:
 
         Raises AbsentError if one is not there, and LimitError if one is outside the limits.
         """
-        asked = [number for request, _ in exchanged for number in getattr(request, self.asked)]
+        requested = [
+            number for request, _ in exchanged for number in getattr(request, self.requested)
+        ]
         replies = [reply for _, reply in exchanged]
         there = self.there(replies)
-        missing = dict.fromkeys(asked).keys() - {number for number, _ in there}
+        missing = dict.fromkeys(requested).keys() - {number for number, _ in there}
         if missing:
             raise AbsentError(
-                self.asked, [each for each in asked if each in missing], replies, there
+                self.requested, [each for each in requested if each in missing], replies, there
             )
         return self.targets_of(there, limits)

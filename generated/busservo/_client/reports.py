@@ -69,18 +69,18 @@ class ReportLog:
         for number, command, reports in reversed(self._causes):
             if not wanted.may_follow(command, reports):
                 continue
-            if wanted.asked_of(type(command)):
+            if wanted.requested_of(type(command)):
                 return number
             latest = number if latest is None else latest
         return self.next_number if latest is None else latest
 
-    def find(self, wanted: ReportFilter, *, since: int, asked_at: int) -> Message | None:
+    def find(self, wanted: ReportFilter, *, since: int, began_at: int) -> Message | None:
         """Return the first matching report, from number `since` on.
 
-        One that came before number `asked_at` satisfies only one wait: the next needs another.
+        One that came before number `began_at` satisfies only one wait: the next needs another.
         """
         for entry in self._kept:
-            if entry.number < since or (entry.awaited and entry.number < asked_at):
+            if entry.number < since or (entry.awaited and entry.number < began_at):
                 continue
             if wanted.is_met_by(entry.message):
                 entry.awaited = True

@@ -3,6 +3,8 @@
 
 from __future__ import annotations
 
+from enum import Enum
+
 from .._frame.errors import EncodeError
 from .._frame.protocol import UNCOUNTED
 
@@ -53,15 +55,50 @@ class Run(Sent):
         return f"{super().__repr__()[:-1]}, started={self.started})"
 
 
+class State(str, Enum):
+    """How far a request has got."""
+
+    WAITING = "waits to be sent"
+    PENDING = "was sent; its reply is to come, or its echo"
+    HELD = "was sent; a reply has come that may not be its own, and is held"
+    DONE = "is over: sent, answered, or given up"
+
+
+class Step(str, Enum):
+    """What happens to a request."""
+
+    SEND = "its frame is handed over"
+    HOLD = "a reply comes that may be its own"
+    DROP = "the held reply turns out to be meant for another"
+    RETRY = "no reply came in time, and it may be sent once more"
+    FINISH = "it is sent and nothing answers it; answered; replaced; failed; or taken back"
+
+
+# What may happen to a request, and what it then is. Nothing else can happen.
+STATES: dict[State, dict[Step, State]] = {
+    State.WAITING: {Step.SEND: State.PENDING, Step.FINISH: State.DONE},
+    State.PENDING: {
+        Step.HOLD: State.HELD,
+        Step.RETRY: State.WAITING,
+        Step.FINISH: State.DONE,
+    },
+    State.HELD: {
+        Step.HOLD: State.HELD,  # of several replies, the last is the answer
+        Step.DROP: State.PENDING,
+        Step.FINISH: State.DONE,
+    },
+    State.DONE: {},
+}
+
+
 class Request:
     """A message that a session is to send. Once `done`, it has `sent`, a `reply` or an `error`."""
 
     __slots__ = (
         "after_lost",
         "attempts",
-        "counted",
+        "before",
         "deadline",
-        "done",
         "doubted",
         "error",
         "exchange",
@@ -75,6 +112,7 @@ class Request:
         "retries",
         "sent",
         "sent_at",
+        "state",
         "written",
     )
 
@@ -88,10 +126,10 @@ class Request:
         self.retries = retries
         # Whether a newer one of its kind replaces it.
         self.latest = latest
+        self.state = State.WAITING
         self.attempts = 0
         # Whether the port is known to have the frame of the latest attempt.
         self.written = False
-        self.done = False
         self.sent: Sent | None = None
         self.reply: Message | None = None
         self.error: Exception | None = None
@@ -100,11 +138,20 @@ class Request:
         # When the last byte of the first attempt can have left at the soonest.
         self.left_soonest = 0.0
         # Whether a reply came that is impossible; whether the reply to an earlier one, which never
-        # came, may come yet; and the counters when it was sent.
+        # came, may come yet; and what had been counted before it was sent.
         self.doubted = self.after_lost = False
-        self.counted: tuple[int, int, int] = (0, 0, 0)
+        self.before: tuple[int, int, int] = (0, 0, 0)
         # A function to call once it is done.
         self.notify: Callable[[], None] | None = None
+
+    @property
+    def done(self) -> bool:
+        """Whether it is over."""
+        return self.state is State.DONE
+
+    def take(self, step: Step) -> None:
+        """Record what has happened to it. Raises KeyError for what cannot happen in its state."""
+        self.state = STATES[self.state][step]
 
     def finish(
         self,
@@ -118,7 +165,7 @@ class Request:
         self.reply = reply
         self.error = error
         # Last, for other threads that look at it.
-        self.done = True
+        self.take(Step.FINISH)
         if self.notify is not None:
             self.notify()
 

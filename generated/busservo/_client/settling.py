@@ -23,23 +23,23 @@ class Settling:
         """Record that the line was opened, for the first time or once more."""
         self._opened_at = opened_at
         self._question_first: bool | None = None
-        self._heard = self._over = False
+        self._received = self._over = False
 
     def submitted(self, *, question: bool) -> None:
-        """Record that there is a message to send."""
+        """Record what there is to be sent."""
         if self._question_first is None:
             self._question_first = question
 
-    def heard(self) -> None:
-        """Record that bytes have come."""
-        self._heard = True
+    def received(self) -> None:
+        """Record that something has come."""
+        self._received = True
 
-    def asked(self) -> None:
-        """Record that a question has been sent: no further one has to wait."""
+    def question_sent(self) -> None:
+        """Record that a question has been sent: nothing settles behind it."""
         self._over = True
 
     def until(self, reply_time: float) -> float:
-        """Return until when a question must wait whose reply takes at most `reply_time`."""
-        if self._over or not (self._question_first or self._heard):
+        """Return until when a question must wait whose reply takes at most so long."""
+        if self._over or not (self._question_first or self._received):
             return _NEVER
         return self._opened_at + (reply_time if self._seconds is None else self._seconds)

@@ -6,13 +6,16 @@ from __future__ import annotations
 from operator import index
 
 from .._frame.direction import Direction
+from .._frame.message import Message
 from .._frame.protocol import BODY_AT
 from .._frame.table import Table, largest_of
 from ..messages import MESSAGES
 
 TYPE_CHECKING = False  # typing alone would double the time that the import takes
 if TYPE_CHECKING:
-    from .._frame.message import Message
+    from typing import Literal, overload
+
+    from ..messages import ControllerMessage, Decoded, HostMessage
 
 _new = object.__new__
 
@@ -41,6 +44,26 @@ def table_for(direction: Direction | None, max_frame: int | None = None) -> Tabl
     if max_frame < BODY_AT:
         raise ValueError(f"max_frame is {max_frame}, and the smallest frame has {BODY_AT} bytes")
     return Table(table.messages, index(max_frame))
+
+
+if TYPE_CHECKING:
+
+    @overload
+    def decode(
+        frame: bytes | bytearray | memoryview,
+        direction: Literal[Direction.HOST_TO_CONTROLLER],
+    ) -> HostMessage: ...
+
+    @overload
+    def decode(
+        frame: bytes | bytearray | memoryview,
+        direction: Literal[Direction.CONTROLLER_TO_HOST],
+    ) -> ControllerMessage: ...
+
+    @overload
+    def decode(
+        frame: bytes | bytearray | memoryview, direction: Direction | None
+    ) -> Decoded: ...
 
 
 def decode(frame: bytes | bytearray | memoryview, direction: Direction | None) -> Message:

@@ -11,16 +11,22 @@ There are two lanes: frames back to back, here, by look-ups alone; and the way t
 from __future__ import annotations
 
 from .._frame.bytes_like import as_bytes
+from .._frame.direction import Direction
 from .._frame.protocol import BODY_AT
+from ..messages import Decoded
 from .codec import table_for
 from .counters import Counters
+from .noise import Noise
 from .noise_lane import NoiseLane
 
-TYPE_CHECKING = False  # typing alone would double the time that the import takes
+TYPE_CHECKING = False
 if TYPE_CHECKING:
-    from .._frame.direction import Direction
-    from .._frame.message import Message
-    from .noise import Noise
+    import typing_extensions as typing
+else:
+    from .._frame.typing_later import typing
+
+Event: typing.TypeAlias = Decoded | Noise
+"""Whatever a stream decoder gives: a message or a piece of noise."""
 
 _new = object.__new__
 
@@ -85,7 +91,7 @@ class StreamDecoder:
         other._noise = self._noise.copy()
         return other
 
-    def feed(self, data: bytes | bytearray | memoryview) -> list[Message | Noise]:
+    def feed(self, data: bytes | bytearray | memoryview) -> list[Event]:
         """Take in bytes, and return the events that are certain now. b"" is no sign of silence."""
         held = self._held + (data if type(data) is bytes else as_bytes(data))
         if len(held) < self._wake:
@@ -98,15 +104,15 @@ class StreamDecoder:
                 return []
         return self._read(held, quiet=False)
 
-    def flush(self) -> list[Message | Noise]:
+    def flush(self) -> list[Event]:
         """Decode the bytes held back, as the line is quiet: they are no frame, but may hide one."""
         events = self._read(self._held, quiet=True)
         self._noise.begin_anew(self._noise.told)
         return events
 
-    def _read(self, data: bytes, *, quiet: bool) -> list[Message | Noise]:
+    def _read(self, data: bytes, *, quiet: bool) -> list[Event]:
         """Return the events that are certain, and keep the rest of the bytes."""
-        events: list[Message | Noise] = []
+        events: list[typing.Any] = []
         look_up, noise = self._table.get, self._noise
         base, size, at = noise.told, len(data), self._scanned
         # Where a search goes on, no frame can begin before it has ended.

@@ -4,11 +4,8 @@
 from __future__ import annotations
 
 from .._frame.bytes_like import format_hex
+from .._frame.errors import Reason
 from .._frame.protocol import BODY_AT, read_command
-
-TYPE_CHECKING = False  # typing alone would double the time that the import takes
-if TYPE_CHECKING:
-    from .._frame.errors import Reason
 
 
 class Noise:
@@ -45,6 +42,11 @@ class Noise:
     def __repr__(self) -> str:
         return f"{type(self).__name__}(bytes.fromhex({format_hex(self._data)!r}), {self._reason})"
 
+    def _repr_html_(self) -> str:
+        from .._frame.html_strip import noise_strip
+
+        return noise_strip(f"Noise: {self._reason.value}", self._data, is_frame=False)
+
 
 class UnknownFrame(Noise):
     """Noise of the exact shape of a frame, with a command that is not known in its direction.
@@ -63,3 +65,8 @@ class UnknownFrame(Noise):
     def parameters(self) -> bytes:
         """The bytes that would be its parameters."""
         return self._data[BODY_AT:]
+
+    def _repr_html_(self) -> str:
+        from .._frame.html_strip import noise_strip
+
+        return noise_strip(f"Unknown frame: command {self.command}", self._data, is_frame=True)

@@ -3,12 +3,9 @@
 
 from __future__ import annotations
 
+from .._frame.errors import Reason
 from .._frame.protocol import HEADER
-
-TYPE_CHECKING = False  # typing alone would double the time that the import takes
-if TYPE_CHECKING:
-    from .._frame.errors import Reason
-    from .noise import Noise
+from .noise import Noise
 
 
 class Rejects:

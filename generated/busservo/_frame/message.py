@@ -3,19 +3,18 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Mapping, Sequence
 from struct import Struct, error
 
+from .direction import Direction
 from .shape import Shape
 from .table import ANY_SIZE, Table
 
-TYPE_CHECKING = False  # typing alone would double the time that the import takes
+TYPE_CHECKING = False
 if TYPE_CHECKING:
-    from collections.abc import Callable, Sequence
-    from typing import Any, ClassVar
-
-    from typing_extensions import Self
-
-    from .direction import Direction
+    import typing_extensions as typing
+else:
+    from .typing_later import typing
 
 _new = object.__new__
 
@@ -39,19 +38,20 @@ class Message:
     """
 
     __slots__ = ("__weakref__", "_frame")
-    __match_args__: ClassVar[tuple[str, ...]] = ()
+    __match_args__: typing.ClassVar[tuple[str, ...]] = ()
 
-    VENDOR_NAME: ClassVar[str] = ""
-    COMMAND: ClassVar[int]
-    DIRECTION: ClassVar[Direction]
-    LENGTHS: ClassVar[range]
-    SHAPE: ClassVar[Shape]
+    VENDOR_NAME: typing.ClassVar[str] = ""
+    DEPRECATED: typing.ClassVar[str] = ""
+    COMMAND: typing.ClassVar[int]
+    DIRECTION: typing.ClassVar[Direction]
+    LENGTHS: typing.ClassVar[range]
+    SHAPE: typing.ClassVar[Shape]
 
     _frame: bytes
-    _table: ClassVar[Any]
+    _table: typing.ClassVar[typing.Any]
 
-    def __new__(cls) -> Self:
-        # Not in `__init__`, which could be called again to change an immutable message.
+    def __new__(cls) -> typing.Self:
+        # Not in `__init__`, which anybody may call once more, to change what never changes.
         raise TypeError("Message is what all messages are: make one of its subclasses instead")
 
     def __init_subclass__(cls) -> None:
@@ -60,8 +60,12 @@ class Message:
 
     @classmethod
     def _packed(
-        cls, layout: str, head: tuple[Any, ...], fields: tuple[Any, ...], flat: Sequence[int] = ()
-    ) -> Self:
+        cls,
+        layout: str,
+        head: tuple[typing.Any, ...],
+        fields: tuple[typing.Any, ...],
+        flat: Sequence[int] = (),
+    ) -> typing.Self:
         """Return the message with this frame, packed as `struct` does it. Raises EncodeError.
 
         `fields` are the numbers behind the head, and `flat` those of the list. Good ones are packed
@@ -87,15 +91,37 @@ class Message:
         return self._frame
 
     @classmethod
-    def decode(cls, frame: bytes | bytearray | memoryview) -> Self:
+    def decode(cls, frame: bytes | bytearray | memoryview) -> typing.Self:
         """Decode one frame of this message, with nothing after it. Raises DecodeError."""
         try:
             table = cls._table
         except AttributeError:
             problem = "Message is what all messages are: decode with one of its subclasses"
             raise TypeError(f"{problem}, or with the function `decode` of this package") from None
-        message: Self = table.read(frame)
+        message: typing.Self = table.read(frame)
         return message
+
+    def to_dict(self) -> dict[str, typing.Any]:
+        """Return the fields by name, as JSON holds them; each element of a list as a dict, too."""
+        from .plain_data import to_dict
+
+        return to_dict(self)
+
+    @classmethod
+    def from_dict(cls, fields: Mapping[str, typing.Any]) -> typing.Self:
+        """Return the message with these fields, as `to_dict` gives them. Raises EncodeError."""
+        from .plain_data import values_of
+
+        make: typing.Any = cls
+        made: typing.Self = make(**values_of(cls, fields))
+        return made
+
+    def __replace__(self, **changes: typing.Any) -> typing.Self:
+        # As `copy.replace` wants it.
+        make: typing.Any = type(self)
+        fields = {name: getattr(self, name) for name in self.__match_args__}
+        made: typing.Self = make(**{**fields, **changes})
+        return made
 
     def __eq__(self, other: object) -> bool:
         if not isinstance(other, Message):
@@ -112,3 +138,8 @@ class Message:
     def __repr__(self) -> str:
         fields = ", ".join(f"{name}={getattr(self, name)!r}" for name in self.__match_args__)
         return f"{type(self).__name__}({fields})"
+
+    def _repr_html_(self) -> str:
+        from .html_strip import message_strip
+
+        return message_strip(self)

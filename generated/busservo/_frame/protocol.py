@@ -3,7 +3,8 @@
 
 from __future__ import annotations
 
-SPEC_VERSION = "1.0.0"
+PROTOCOL_VERSION = "1.0.0"
+"""The version of the protocol's specification."""
 HEADER = b"\x55\x55"
 LENGTH_AT = 2
 LENGTH_END = 3

@@ -3,26 +3,37 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Mapping
+
 from .._frame.errors import ProtocolError
+from .._frame.message import Message
 from .._frame.pluralize import pluralize
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Mapping
-
-    from typing_extensions import Self
-
-    from .._frame.message import Message
+    import typing_extensions as typing
+else:
+    from .._frame.typing_later import typing
 
 # How many reports the text of an error names.
 _SHOWN = 4
 
 
-class TransportError(ProtocolError, OSError):
-    """The port failed. `port` is its name, `happened` what happened, `advice` what to do."""
+def errno_of(error: Exception) -> int | None:
+    """Return the number that the system has for an error; None where it has none."""
+    number = getattr(error, "errno", None)
+    return number if isinstance(number, int) else None
 
-    def __init__(self, port: str, happened: str, advice: str) -> None:
-        super().__init__(port, happened, advice)
+
+class TransportError(ProtocolError, OSError):
+    """The port failed. `port` is its name, `happened` what happened, `advice` what to do.
+
+    As of any OSError, `filename` is the port, `strerror` what happened, and `errno` the number that
+    the system has for it, None where it has none.
+    """
+
+    def __init__(self, port: str, happened: str, advice: str, errno: int | None = None) -> None:
+        super().__init__(errno, happened, port)
         self.port = port
         self.happened = happened
         self.advice = advice
@@ -30,9 +41,13 @@ class TransportError(ProtocolError, OSError):
     def __str__(self) -> str:
         return f"{self.port}: {self.happened}; {self.advice}"
 
-    def again(self) -> Self:
+    def __reduce__(self) -> tuple[object, ...]:
+        given = self.port, self.happened, self.advice, self.errno
+        return type(self), given, vars(self)
+
+    def again(self) -> typing.Self:
         """Return a copy of the error, to be raised once more, with no traceback of its own yet."""
-        return type(self)(self.port, self.happened, self.advice)
+        return type(self)(self.port, self.happened, self.advice, self.errno)
 
 
 class PortNotFoundError(TransportError):
@@ -166,7 +181,11 @@ class NoReportError(ProtocolError, TimeoutError):
         self.report = report
         self.waited = waited
         self.instead = {} if instead is None else dict(instead)
-        super().__init__(report, waited, self.instead)
+        # Without these: a TimeoutError would take the first for the number that the system has.
+        super().__init__()
+
+    def __reduce__(self) -> tuple[object, ...]:
+        return type(self), (self.report, self.waited, self.instead), vars(self)
 
     def __str__(self) -> str:
         came = [

@@ -15,6 +15,7 @@ from .link_errors import (
     PortNotFoundError,
     PortPermissionError,
     TransportError,
+    errno_of,
 )
 from .port_names import ADDRESSES, NAMED
 
@@ -47,18 +48,18 @@ def not_opened(
     port: str, error: Exception, listed: Callable[[], str], *, platform: str = sys.platform
 ) -> TransportError:
     """Return why a port could not be opened, and what to do; `listed` returns all ports."""
-    code, low = getattr(error, "errno", None), str(error).lower()
+    code, low = errno_of(error), str(error).lower()
     # On Windows pyserial gives the system's words instead of an errno.
     denied = code in (errno.EACCES, errno.EPERM) or "permissionerror" in low
     busy = code in (errno.EBUSY, errno.EAGAIN) or "exclusively lock" in low
     if busy or (denied and platform == "win32"):
         advice = "close the other program, or the other client, that has it"
-        return PortBusyError(port, "it is in use", advice)
+        return PortBusyError(port, "it is in use", advice, code)
     if denied:
-        return PortPermissionError(port, "permission is denied", _PERMITTED)
+        return PortPermissionError(port, "permission is denied", _PERMITTED, code)
     absent = isinstance(error, (StopIteration, LookupError)) or any(each in low for each in _ABSENT)
     if absent or code in (errno.ENOENT, errno.ENXIO, errno.ENODEV):
-        return PortNotFoundError(port, _why_absent(port, platform), listed())
+        return PortNotFoundError(port, _why_absent(port, platform), listed(), code)
     if isinstance(error, OSError) and "expected a string in the form" not in low:
         return _unlike_a_port(port, error, listed)
     return _no_port(port, error)
@@ -80,12 +81,13 @@ def _unlike_a_port(port: str, error: OSError, listed: Callable[[], str]) -> Tran
     """Return the error for something that does not open as a port does."""
     # pyserial has this number in its text alone.
     if error.errno == errno.EISDIR or f"({errno.ENOTTY}," in str(error):
-        return PortAddressError(port, "it is there, and is no serial port", listed())
+        happened = "it is there, and is no serial port"
+        return PortAddressError(port, happened, listed(), error.errno)
     why = _words_of(error)
     if "://" in port:
         advice = "see that the other end is there and listening"
-        return PortNotFoundError(port, f"it cannot be reached ({why})", advice)
-    return TransportError(port, f"it cannot be opened ({why})", listed())
+        return PortNotFoundError(port, f"it cannot be reached ({why})", advice, error.errno)
+    return TransportError(port, f"it cannot be opened ({why})", listed(), error.errno)
 
 
 def _words_of(error: Exception) -> str:

@@ -12,8 +12,10 @@ class Transport(Protocol):
     Inherit from nothing: having the methods is enough. A `name` of type str, if there is one, is
     what errors and logs call the line; a method `reopen()`, if there is one, returns the same line
     opened anew; if there is a `largest_frame` of type int, longer frames are refused before they
-    are sent. Failures are raised as TransportError. `read` and `write` may run at the same time in
-    two threads, but never two reads nor two writes.
+    are sent. A method `on_readable(callback)`, if there is one, calls `callback` from then on, in
+    any thread, when a read would not have to wait: for clients of asyncio without threads. Failures
+    are raised as TransportError. `read` and `write` may run at the same time in two threads, but
+    never two reads nor two writes.
     """
 
     def read(self, timeout: float) -> bytes:

@@ -139,11 +139,11 @@ def _not_opened(name: str, error: Exception) -> Unusable:
         why = text.removeprefix(f"Could not open port {name}: ")
         return Unusable(f"{name} cannot be reached: {why}", hint=_REACHED)
     if code in (errno.ENOENT, errno.ENXIO, errno.ENODEV) or "filenotfounderror" in low:
-        return Unusable(f"there is no port {name}", hint=_listed())
-    return Unusable(f"{name} is no serial port: {text}", hint=_listed())
+        return Unusable(f"there is no port {name}", hint=_ports_hint())
+    return Unusable(f"{name} is no serial port: {text}", hint=_ports_hint())
 
 
-def _listed() -> str:
+def _ports_hint() -> str:
     from serial.tools import list_ports  # noqa: PLC0415 - as above
 
     found = ", ".join(sorted(str(each.device) for each in list_ports.comports()))

@@ -78,7 +78,7 @@ def opening(report: Report, steps: Iterable[Step]) -> Iterator[str]:
     frames = f"{link.data_bits}{link.parity[0].upper()}{link.stop_bits}"
     device = report.model.roles.device
     yield f"{report.model.spec.protocol.title}: {device} at {report.port}, {report.baud} {frames}"
-    yield f"will send: {_listed(permission.allowed)}"
+    yield f"will send: {_names_of(permission.allowed)}"
     pieces = [piece for step in steps for burst in step.bursts for piece in burst]
     for piece in pieces:
         if isinstance(piece, Request) and piece.reply is None:
@@ -87,7 +87,7 @@ def opening(report: Report, steps: Iterable[Step]) -> Iterator[str]:
         if not isinstance(piece, Request):
             yield f"  {piece.about}: {to_hex(piece.frame)} ({piece.reason})"
     if permission.refused:
-        yield f"will not send: {_listed(permission.refused)} (--allow NAME sends its examples)"
+        yield f"will not send: {_names_of(permission.refused)} (--allow NAME sends its examples)"
 
 
 def unsolicited(report: Report) -> Iterator[str]:
@@ -167,7 +167,7 @@ def _bytes(data: bytes) -> str:
     return f"{to_hex(data[:_MOST_BYTES])} ... ({len(data)} bytes)"
 
 
-def _listed(names: Iterable[str]) -> str:
+def _names_of(names: Iterable[str]) -> str:
     return ", ".join(names) or "nothing"
 
 

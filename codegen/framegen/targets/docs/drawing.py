@@ -75,7 +75,7 @@ def drawing(model: Model, name: str) -> Drawing | None:
         return None
     steps = [(name, "", True)]
     if message.message.reply is not None:
-        steps.append((message.message.reply, "always", True))
+        steps.append((message.message.reply, "reply", True))
     steps += [(report, "may follow", False) for report in message.message.reports]
     return _drawn(model, name, steps, _caption(model, name))
 
@@ -89,7 +89,7 @@ def interruption(model: Model) -> Drawing | None:
             continue
         for report, sent in reports.items():
             if sent.direction == model.messages[reply].direction:
-                steps = [(name, "", True), (report, "unasked", False), (reply, "always", True)]
+                steps = [(name, "", True), (report, "report", False), (reply, "reply", True)]
                 caption = (
                     f"{report} may arrive at any time, also between {name} and {reply}: whoever "
                     f"waits for {reply} must look at what arrived, not only that something did."

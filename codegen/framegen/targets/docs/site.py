@@ -274,7 +274,7 @@ class SiteView:
     @cached_property
     def pages(self) -> list[PageView]:
         """The pages in the navigation."""
-        # The decoder needs a script, the cheat sheet paper, and the spec is YAML: no twin.
+        # The decoder needs a script, the cheat sheet paper, and the spec is YAML: HTML alone.
         decoder = ("codec", "page", "decoder")
         return [
             PageView("index", "index", self.protocol.title, "Frames"),

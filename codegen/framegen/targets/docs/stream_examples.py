@@ -35,8 +35,8 @@ class StreamExample:
 _SAID = {
     "whole": (
         "A frame, as it arrives",
-        """Every byte either agrees with those before it or ends the hope of a frame. What is left
-        at the end is as sure as it can be without a checksum.""",
+        """Every byte either agrees with those before it or rules out a frame. A frame that is left
+        at the end is as certain as it can be without a checksum.""",
     ),
     "extra-byte": (
         "A single header byte before a frame",
@@ -49,14 +49,14 @@ _SAID = {
         decoder that trusts the length would wait for bytes that are not its own.""",
     ),
     "unknown": (
-        "A command that nobody knows",
+        "An unknown command",
         """A length is only as good as the command that it comes with. An unknown command costs one
         byte like any false header, so it never swallows the frame behind it.""",
     ),
     "cut-short": (
         "A frame cut short, and silence",
-        """A frame that has begun is waited for. When the line goes quiet, the decoder is told so
-        (flush), gives the false start up, and looks through the bytes that it held back.""",
+        """The decoder waits for the rest of a frame. When the line goes quiet, it is flushed: it
+        gives the false start up, and searches the bytes that it held back.""",
     ),
 }
 

@@ -30,10 +30,14 @@ _ABOUT = {
     "play": "Play recorded poses.",
     "ports": "List the serial ports, and devices that have none.",
     "replay": "Send a recording again.",
-    "send": "Send a message to a port, and print the reply.",
+    "send": "Send a message to a port.",
     "simulate": "Run a virtual device to talk to.",
     "teach": "Release the device, and record poses set by hand.",
 }
+
+
+# What a verb does where there are questions.
+_OF_QUESTIONS = {"send": "Send a message to a port, and print the reply."}
 
 
 @dataclass(frozen=True, slots=True)
@@ -53,10 +57,11 @@ class VerbView:
 def verbs(model: Model) -> list[VerbView]:
     """Return the verbs that this protocol has a use for, in alphabetical order."""
     program = model.spec.protocol.name
+    about = _ABOUT | (_OF_QUESTIONS if _questions(model) else {})
     found: list[VerbView] = []
     for verb, lines in sorted(_examples(model).items()):
-        shown = [(f"{program} {verb} {words}".rstrip(), about) for words, about in lines]
-        found.append(VerbView(verb, _ABOUT[verb], _pairs(shown)))
+        shown = [(f"{program} {verb} {words}".rstrip(), told) for words, told in lines]
+        found.append(VerbView(verb, about[verb], _pairs(shown)))
     return found
 
 

@@ -6,9 +6,10 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from framegen.model.exchanges import snake_case
-from framegen.targets.python.escape import WIDTH, Bracketed
+from framegen.targets.python.escape import Bracketed
 from framegen.targets.python.exports import relative_import
 from framegen.targets.python.spelling import direction_member
+from framegen.targets.python.union_view import type_alias
 
 if TYPE_CHECKING:
     from framegen.language.values import Direction
@@ -91,23 +92,12 @@ class DeviceView:
         return sorted(message.name for message in self.model.sent(self.incoming.reversed).values())
 
     @property
-    def import_handled(self) -> str:
-        """The import of the messages that it receives."""
-        return relative_import("messages", [handler.message for handler in self.handlers])
-
-    @property
-    def import_reports(self) -> str:
-        """The import of the messages that it sends."""
-        return relative_import("messages", self.reports, 4)
+    def import_messages(self) -> str:
+        """The import of what it receives and sends; empty where nothing goes either way."""
+        names = [*self.reports, *(handler.message for handler in self.handlers)]
+        return relative_import("messages", names) if names else ""
 
     @property
     def report_type(self) -> str:
         """The type of anything that it sends."""
-        names = self.reports or ["Message"]
-        joined = " | ".join(names)
-        line = f"Report: TypeAlias = {joined}"
-        if len(line) + 4 <= WIDTH:
-            return line
-        if len(joined) + 8 > WIDTH:
-            joined = "\n        | ".join(names)
-        return f"Report: TypeAlias = (\n        {joined}\n    )"
+        return type_alias("Report", self.reports or ["Message"])

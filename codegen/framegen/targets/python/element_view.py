@@ -43,7 +43,7 @@ class ElementView:
     @property
     def signature(self) -> str:
         given = [f"{field.name}: int" for field in self.fields]
-        return Bracketed("def __new__(", ["cls", *given], ") -> Self:").fitted(4)
+        return Bracketed("def __new__(", ["cls", *given], ") -> typing.Self:").fitted(4)
 
     @property
     def made(self) -> str:

@@ -17,6 +17,7 @@ _NUMBERED = re.compile(r"(?=.)(\D*)(\d*)")
 # What every library exports besides its messages, and the module that each is in.
 HOMES = {
     "MESSAGES": "messages",
+    "PROTOCOL_VERSION": "_frame.protocol",
     "AbsentError": "_serial.link_errors",
     "AsyncController": "_client.async_controller",
     "AsyncMotion": "_client.motion",
@@ -29,6 +30,7 @@ HOMES = {
     "DisconnectedError": "_serial.link_errors",
     "EchoError": "_serial.link_errors",
     "EncodeError": "_frame.errors",
+    "Event": "_codec.decoder",
     "IncompleteReplyError": "_serial.link_errors",
     "LimitError": "_frame.errors",
     "LineCounters": "_codec.counters",
@@ -63,7 +65,7 @@ def export_order(name: str) -> _Order:
     return _kind(name), _natural(name), ""
 
 
-def _import_order(name: str) -> _Order:
+def import_order(name: str) -> _Order:
     """Return the sort key of a name among those that are imported from a module."""
     return _kind(name), _natural(name.lower()), name
 
@@ -83,7 +85,7 @@ def _natural(name: str) -> tuple[tuple[str, int, str], ...]:
 
 def relative_import(module: str, names: Iterable[str], indent: int = 0) -> str:
     """Return an import, indented except its first line, an item a line where it is too long."""
-    names = sorted(names, key=_import_order)
+    names = sorted(names, key=import_order)
     line = f"from .{module} import {', '.join(names)}"
     if indent + len(line) <= WIDTH:
         return line

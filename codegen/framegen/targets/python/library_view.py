@@ -8,11 +8,12 @@ from typing import TYPE_CHECKING
 from framegen.model.slots import Number
 from framegen.targets.python.command_lines import verbs
 from framegen.targets.python.escape import Bracketed, byte_literal, literal
-from framegen.targets.python.exports import HOMES, export_order, relative_import
+from framegen.targets.python.exports import HOMES, export_order, import_order, relative_import
 from framegen.targets.python.list_view import ListView
 from framegen.targets.python.lookalike_view import LookalikeView
 from framegen.targets.python.message_view import MessageView
 from framegen.targets.python.spelling import direction_member, struct_order
+from framegen.targets.python.union_view import UnionView, type_alias, unions
 
 if TYPE_CHECKING:
     from framegen.language.spec import Link
@@ -71,6 +72,11 @@ class LibraryView:
         return [MessageView(message, self.model) for message in self.model.messages.values()]
 
     @property
+    def deprecates(self) -> bool:
+        """Whether there are messages that nobody should make any more."""
+        return any(message.deprecated for message in self.messages)
+
+    @property
     def lists(self) -> list[ListView]:
         """The lists of all messages."""
         return [message.items for message in self.messages if message.items is not None]
@@ -99,18 +105,20 @@ class LibraryView:
         return relative_import("_frame.number", self.number_types)
 
     @property
-    def typing_imports(self) -> list[str]:
-        """The imports of the standard library for the annotations of messages."""
-        named = any(number.constants for number in self._numbers)
-        wanted: dict[str, dict[str, object]] = {
-            "collections.abc": {"Iterable": self.lists},
-            "typing": {"Final": named, "TypeAlias": self.elements},
-        }
-        found = {
-            module: [name for name, needed in names.items() if needed]
-            for module, names in wanted.items()
-        }
-        return [f"from {module} import {', '.join(n)}" for module, n in found.items() if n]
+    def unions(self) -> list[UnionView]:
+        """The types of all that an end sends."""
+        return unions(self.model)
+
+    @property
+    def any_message(self) -> str:
+        """The assignment of the type of whatever is sent at all."""
+        return type_alias("Decoded", [union.name for union in self.unions] or ["Message"])
+
+    @property
+    def import_unions(self) -> str:
+        """The import of those types, where they are needed for typing alone."""
+        names = ["Decoded", *(union.name for union in self.unions)]
+        return relative_import(".messages", names, 4)
 
     @property
     def import_message_classes(self) -> str:
@@ -121,7 +129,8 @@ class LibraryView:
         """Every exported name and its module, in the order that linters want."""
         elements = [element.name for element in self.elements]
         classes = [*(message.name for message in self.messages), *elements]
-        homes = {**HOMES, **dict.fromkeys(classes, "messages")}
+        types = [union.name for union in self.unions]
+        homes = {**HOMES, **dict.fromkeys([*classes, *types], "messages")}
         return {name: homes[name] for name in sorted(homes, key=export_order)}
 
     @property
@@ -137,10 +146,8 @@ class LibraryView:
     @property
     def exports(self) -> list[str]:
         """The imports of all exported names."""
-        modules: dict[str, list[str]] = {}
-        for name, module in self._homes.items():
-            modules.setdefault(module, []).append(name)
-        return [relative_import(module, names, 4) for module, names in sorted(modules.items())]
+        homes = sorted(self._homes.items(), key=lambda home: (home[1], import_order(home[0])))
+        return [relative_import(module, [f"{name} as {name}"]) for name, module in homes]
 
     @property
     def doc(self) -> list[str]:

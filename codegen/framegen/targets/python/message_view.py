@@ -66,6 +66,10 @@ class MessageView:
         return self.layout.message.vendor_name
 
     @property
+    def deprecated(self) -> str:
+        return self.layout.message.deprecated
+
+    @property
     def command(self) -> int:
         return self.layout.id
 
@@ -120,7 +124,7 @@ class MessageView:
             each.argument if isinstance(each, ListView) else f"{each.name}: int"
             for each in self.arguments
         ]
-        return Bracketed("def __new__(", ["cls", *given], ") -> Self:").fitted(4)
+        return Bracketed("def __new__(", ["cls", *given], ") -> typing.Self:").fitted(4)
 
     @property
     def packing(self) -> str:

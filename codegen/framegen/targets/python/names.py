@@ -66,6 +66,11 @@ def signed_name(field: str) -> str:
     return f"signed_{_plain(field)}"
 
 
+def union_name(endpoint: str) -> str:
+    """Return the name of all messages that an end sends: `HostMessage`."""
+    return f"{endpoint.title().replace('_', '')}Message"
+
+
 def _plain(name: str) -> str:
     """Return a name that may have been changed, as it is in the middle of another."""
     return name.rstrip("_")
@@ -98,6 +103,8 @@ class Names:
             return row.why, row.suffix
         if kind == "package" and name.endswith("_simulator"):
             return "is where another library looks for its simulator", "_protocol"
+        if kind in _CLASSES and name in self._unions:
+            return "is whatever one end sends", kind.capitalize()
         if kind.startswith("field"):
             if name in self._signed:
                 return f"is where `{name.removeprefix('signed_')}` is read as signed", "_"
@@ -111,6 +118,11 @@ class Names:
         lists = (message.items for message in self.model.messages.values())
         elements = [items.element for items in lists if items is not None and items.element]
         return frozenset(name.lower() for name in (*self.model.messages, *elements))
+
+    @cached_property
+    def _unions(self) -> frozenset[str]:
+        """The types of all that an end sends."""
+        return frozenset(union_name(self.of("endpoint", end)) for end in self.model.spec.endpoints)
 
     @cached_property
     def _signed(self) -> frozenset[str]:

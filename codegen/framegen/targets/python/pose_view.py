@@ -41,8 +41,8 @@ class PoseView:
             f"ids={self._ids}",
         ]
         names = {
-            "asked": self.requested,
-            "told": self.reported.name,
+            "requested": self.requested,
+            "reported": self.reported.name,
             "position": self._position,
             "moved": self._moved.name,
             "time": self.time,

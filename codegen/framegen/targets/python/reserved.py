@@ -68,12 +68,12 @@ PYTHON_CLASSES = _words(
 LIBRARY_CLASSES = _words(
     """
     AbsentError AsyncClient AsyncController AsyncMotion Client ClosedError Column Controller
-    Counters DecodeError Device Direction DisconnectedError EchoError Element EncodeError Exchange
-    EXCHANGES Field HEADER I8 I16 I32 I64 IncompleteReplyError Items Kind LimitError Limits LIMITS
-    LineCounters LineError Message MESSAGES Motion Noise NoReplyError NoReportError Number
-    PortAddressError PortBusyError PortNotFoundError PortPermissionError Pose POSE ProtocolError
-    Reason RECEIVED Rejects Report Run SearchStrategy Sent Shape StreamDecoder Table Timed Transport
-    TransportError U8 U16 U32 U64 UNFIT UnknownFrame WriteStuckError
+    Counters Decoded DecodeError Device Direction DisconnectedError EchoError Element EncodeError
+    Event Exchange EXCHANGES Field HEADER I8 I16 I32 I64 IncompleteReplyError Items Kind LimitError
+    Limits LIMITS LineCounters LineError Message MESSAGES Motion Noise NoReplyError NoReportError
+    Number PortAddressError PortBusyError PortNotFoundError PortPermissionError Pose POSE
+    ProtocolError Reason RECEIVED Rejects Report Run SearchStrategy Sent Shape StreamDecoder Table
+    Timed Transport TransportError U8 U16 U32 U64 UNFIT UnknownFrame WriteStuckError
     """
 )
 
@@ -85,7 +85,7 @@ CLIENT_ATTRIBUTES = _words(
 )
 
 # What every message class has or can have, and what every element has, as a tuple among others.
-MESSAGE_ATTRIBUTES = _words("absent columns decode encode")
+MESSAGE_ATTRIBUTES = _words("absent columns decode encode from_dict to_dict")
 ELEMENT_ATTRIBUTES = _words("absent count index")
 
 # What methods have besides the fields of a message: in their declaration, or as a variable.

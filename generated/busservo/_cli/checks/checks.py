@@ -13,12 +13,13 @@ from . import (
     opening,
     permission,
     port_listed,
-    rate,
     reply,
     round_trip,
     silence,
 )
 from .present import present_check
+from .question import harmless_question
+from .rate import rate_check
 from .result import FAILED, failed, unknown
 
 TYPE_CHECKING = False
@@ -29,6 +30,8 @@ if TYPE_CHECKING:
     from .diagnosis import Diagnosis
     from .result import Result
 
+_OF_REPLIES = (echo.CHECK, reply.CHECK, round_trip.CHECK)
+_QUESTION = harmless_question()
 CHECKS: tuple[Check, ...] = (
     port_listed.CHECK,
     hid_device.CHECK,
@@ -36,10 +39,8 @@ CHECKS: tuple[Check, ...] = (
     busy.CHECK,
     opening.CHECK,
     silence.CHECK,
-    rate.CHECK,
-    echo.CHECK,
-    reply.CHECK,
-    round_trip.CHECK,
+    # Without a question that suits any device, there is no reply to look at.
+    *(() if _QUESTION is None else (rate_check(_QUESTION), *_OF_REPLIES)),
     *(() if POSE is None else (present_check(POSE),)),
     look_alike.CHECK,
 )

@@ -29,24 +29,26 @@ def present_check(pose: Pose) -> Check:
 
 
 def _look(diagnosis: Diagnosis, pose: Pose) -> Result:
-    if not any(trip.replies for trip in diagnosis.trips):
-        return unknown("there is no reply to anything: see the check `rate`")
+    advice = "the device may be of a kind that does not know this question"
+    if diagnosis.trips:
+        if not any(trip.replies for trip in diagnosis.trips):
+            return unknown("there is no reply to anything: see the check `rate`")
+        advice = f"see the check `reply`; if that has passed, {advice}"
     replies: list[Message] = []
     for request in _requests(diagnosis.connected(), pose):
         reply = ask_patiently(diagnosis, request)
         if reply is None:
-            ids = getattr(request, pose.asked)
+            ids = getattr(request, pose.requested)
             return failed(
                 f"the question about {pose.noun}s {ids[0]} to {ids[-1]} was not answered, though "
                 f"asked {_TRIES} times",
-                "see the check `reply`; if that has passed, the device may be of a kind that does "
-                "not know this question",
+                advice,
                 *(trip.received for trip in diagnosis.trips[-_TRIES:] if trip.received),
             )
         replies.append(reply)
     frames = [reply.encode() for reply in replies]
     there = pose.present_in(replies)
-    absent = sum(len(getattr(reply, pose.told)) for reply in replies) - len(there)
+    absent = sum(len(getattr(reply, pose.reported)) for reply in replies) - len(there)
     told = f"{pose.noun}s that are there: {', '.join(map(str, there)) or 'none'}"
     told += f"; told to be absent: {absent}" if absent else ""
     if not there:
@@ -71,4 +73,4 @@ def _requests(probe: Probe, pose: Pose) -> list[Message]:
     if probe.largest_frame is not None:
         most = min(most, _FEW)
     parts = (pose.ids[at : at + most] for at in range(0, len(pose.ids), most))
-    return [pose.read(**{pose.asked: [*part]}) for part in parts]
+    return [pose.read(**{pose.requested: [*part]}) for part in parts]

@@ -10,7 +10,7 @@ import platform
 from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 
-from ..._frame.protocol import SPEC_VERSION
+from ..._frame.protocol import PROTOCOL_VERSION
 from ..._recording.file import NOISE, RecordingFile
 from ..._version import __version__
 
@@ -58,7 +58,7 @@ def _about(diagnosis: Diagnosis, model: str) -> list[str]:
         pyserial = "unknown"
     system = f"{platform.system()} {platform.release()} {platform.machine()}"
     return [
-        f"doctor of {_PACKAGE} {__version__}, spec {SPEC_VERSION}",
+        f"doctor of {_PACKAGE} {__version__}, spec {PROTOCOL_VERSION}",
         f"device: {model or 'not told'}",
         f"adapter: {_blinded(diagnosis.adapter, diagnosis) or 'not known'}",
         f"computer: {system}, Python {platform.python_version()}, pyserial {pyserial}",

@@ -11,13 +11,15 @@ from __future__ import annotations
 
 import os
 import re
+from collections.abc import Iterable, Iterator
 from itertools import chain
 from pathlib import Path
 
 from ._codec.codec import twins
-from ._codec.decoder import StreamDecoder
+from ._codec.decoder import Event, StreamDecoder
 from ._codec.hextext import HexError, HexReader
 from ._codec.noise import Noise
+from ._frame.direction import Direction
 from ._recording.entry import Entry, RecordingError
 from ._recording.file import QUIET
 from ._recording.form import TIMED_LINE, blocks, is_text
@@ -25,24 +27,24 @@ from ._recording.lines import recorded
 
 TYPE_CHECKING = False  # typing alone would double the time that the import takes
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Iterator
     from typing import Protocol
-
-    from ._frame.direction import Direction
-    from ._frame.message import Message
-
-    class Readable(Protocol):
-        """A stream of bytes."""
-
-        def read(self, size: int, /) -> bytes:
-            """Return at most so many bytes; none at the end."""
-            ...
+else:
+    Protocol = object  # it is for type checkers alone
 
 
 __all__ = ["FORMS", "Entry", "RecordingError", "read"]
 
 FORMS = ("auto", "hex", "raw")
 """What a file may hold: hex, as every recording does, or raw bytes; auto goes by its first word."""
+
+
+class Readable(Protocol):
+    """A stream of bytes."""
+
+    def read(self, size: int, /) -> bytes:
+        """Return at most so many bytes; none at the end."""
+        raise NotImplementedError
+
 
 _CHUNK = 65536
 _QUIET_LINE = re.compile(rf"^[ \t]{{0,80}}{QUIET}[ \t\r]{{0,80}}$", re.MULTILINE)
@@ -94,9 +96,7 @@ def _chunks(stream: Readable) -> Iterator[bytes]:
         yield chunk
 
 
-def _streamed(
-    decoded: Iterable[list[Message | Noise]], direction: Direction | None
-) -> Iterator[Entry]:
+def _streamed(decoded: Iterable[list[Event]], direction: Direction | None) -> Iterator[Entry]:
     """Yield the entries of a stream, which says neither when its bytes came nor from whom."""
     offset = 0
     for events in decoded:
@@ -105,13 +105,13 @@ def _streamed(
             offset += len(event.data if isinstance(event, Noise) else event.encode())
 
 
-def _sender(event: Message | Noise, direction: Direction | None) -> str | None:
+def _sender(event: Event, direction: Direction | None) -> str | None:
     if direction is not None:
         return direction.sender
     return None if isinstance(event, Noise) or twins(event) else event.DIRECTION.sender
 
 
-def _raw(chunks: Iterable[bytes], decoder: StreamDecoder) -> Iterator[list[Message | Noise]]:
+def _raw(chunks: Iterable[bytes], decoder: StreamDecoder) -> Iterator[list[Event]]:
     for chunk in chunks:
         yield decoder.feed(chunk)
     yield decoder.flush()
@@ -133,7 +133,7 @@ def _text(text: Iterator[str], direction: Direction | None) -> Iterator[Entry]:
             return
 
 
-def _hex(text: Iterable[str], decoder: StreamDecoder) -> Iterator[list[Message | Noise]]:
+def _hex(text: Iterable[str], decoder: StreamDecoder) -> Iterator[list[Event]]:
     reader = HexReader()
     line = 1
     for block in text:

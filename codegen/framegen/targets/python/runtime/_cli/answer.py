@@ -15,7 +15,7 @@ from .encode import message_named
 from .exit_codes import DONE, UNUSABLE
 from .numerals import whole
 from .usage_error import UsageError
-from .values import fields_as_json, fields_from_text
+from .values import fields_from_text
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
@@ -112,7 +112,7 @@ def _event(event: Message | Noise) -> str:
         return f"unknown {event.data.hex()}"
     if isinstance(event, Noise):
         return f"noise {_dashed(event.reason.value)} {event.data.hex()}"
-    fields = [f"{name}={_text(value)}" for name, value in fields_as_json(event).items()]
+    fields = [f"{name}={_text(value)}" for name, value in event.to_dict().items()]
     return " ".join(["message", type(event).__name__, event.encode().hex(), *fields])
 
 

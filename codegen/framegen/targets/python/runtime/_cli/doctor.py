@@ -33,10 +33,11 @@ if TYPE_CHECKING:
     from .checks.result import Result
 
 ENDS = link.ENDS | {NOT_ALL: "a check has failed"}
-ABOUT = """\
-Looks at ports, permissions, the rate, the replies, their times, and what is there behind the
-device, in the order of the guide to troubleshooting. Each line says `passed`, `failed` or
-`unknown`, what was seen, the bytes that show it, and what to do next. It only reads"""
+ABOUT = f"""\
+Makes these checks, one after the other:
+{", ".join(check.id for check in CHECKS)}.
+Each line says `passed`, `failed` or `unknown`, what was seen, the bytes that show it, and what to
+do next. It only reads"""
 ABOUT += "." if POSE is None else ";\n--move asks before it moves anything."
 _COLOURS = {PASSED: "green", FAILED: "red", UNKNOWN: "yellow"}
 

@@ -8,7 +8,8 @@ import signal
 import sys
 from contextlib import contextmanager
 
-from .._client.client import REPLY_TIMEOUT, Client
+from .._client.base_client import REPLY_TIMEOUT
+from .._client.client import Client
 from .._client.exchanges import LIMITS
 from .._frame.protocol import BAUD
 from .._serial.link_errors import ClosedError, DisconnectedError, TransportError, WriteStuckError

@@ -17,6 +17,7 @@ from ..messages import MESSAGES
 from . import link
 from .encode import message_named
 from .events import KINDS, UNKNOWN, names_of, sender_of, totals
+from .examples import VERBS
 from .exit_codes import DONE, INTERRUPTED
 from .lines import TIMES, Lines
 from .link import add_port, failures_told, open_line
@@ -28,7 +29,7 @@ from .usage_error import UsageError
 TYPE_CHECKING = False
 if TYPE_CHECKING:
     from argparse import ArgumentParser, Namespace
-    from collections.abc import Callable
+    from collections.abc import Callable, Sequence
     from typing import TextIO
 
     from .._codec.noise import Noise
@@ -40,6 +41,7 @@ ABOUT = """\
 One line for each frame and each piece of noise: the time, who sent it, what it says, its bytes.
 Ctrl-C ends it, and the totals follow on the error stream. Colours are for terminals alone, and for
 nobody who has set NO_COLOR."""
+_READERS = "`decode` and `replay`" if "replay" in VERBS else "`decode`"
 # How long one read may take, so that Ctrl-C is noticed on every system.
 _POLL_INTERVAL = 0.25
 
@@ -82,8 +84,8 @@ def add_arguments(parser: ArgumentParser) -> None:
         "--log",
         type=Path,
         metavar="FILE",
-        help="record all of it, shown or not, for `decode` and `replay`; a FILE that holds "
-        "anything is never overwritten",
+        help=f"record all of it, shown or not, for {_READERS}; a FILE that holds anything is never "
+        "overwritten",
     )
     parser.add_argument("-n", type=at_least(1), metavar="N", help="end after so many lines")
     parser.add_argument(
@@ -159,7 +161,7 @@ class Monitor:
             finally:
                 print(self._totals(), file=sys.stderr)
 
-    def _tell(self, events: list[Message | Noise], recorder: Recorder, now: float) -> None:
+    def _tell(self, events: Sequence[Message | Noise], recorder: Recorder, now: float) -> None:
         """Record all events, and print the chosen ones."""
         recorder.record(events, self._direction, now)
         when = self._day() if self._absolute else now

@@ -2,16 +2,15 @@
 
 from __future__ import annotations
 
-import asyncio
 from functools import partial
 from typing import TYPE_CHECKING
 
 from .._frame.protocol import BAUD
 from .._serial.serial_port import open_transport
-from .async_client import close_late
 from .async_controller import AsyncController
-from .client import REPLY_TIMEOUT, REPORT_LIMIT
+from .base_client import REPLY_TIMEOUT, REPORT_LIMIT
 from .exchanges import LIMITS
+from .line_threads import opened
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Generator
@@ -62,12 +61,7 @@ class Opening:
 
     async def _opened(self) -> AsyncController:
         # Opening may take a while (a socket, a slow adapter), and would block the loop.
-        opened = asyncio.get_running_loop().run_in_executor(None, self._open)
-        try:
-            transport = await asyncio.shield(opened)
-        except asyncio.CancelledError:
-            opened.add_done_callback(close_late)
-            raise
+        transport = await opened(self._open)
         try:
             self._controller = self._make(transport)
         except BaseException:

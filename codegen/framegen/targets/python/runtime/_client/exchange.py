@@ -64,16 +64,16 @@ class Exchange:
         items = request.SHAPE.items
         if self.most and items is not None and len(getattr(request, items.name)) > self.most:
             size = len(getattr(request, items.name))
-            problem = f"{size} items are asked for at once, and a reply has room for {self.most}"
+            problem = f"{size} items are requested at once, and a reply has room for {self.most}"
             raise EncodeError(items.name, getattr(request, items.name), problem)
 
     def answers(self, request: Message, message: Message) -> bool:
         """Return whether `message` can be the reply: it holds nothing that was not requested."""
         if self.reply is None or type(message) is not self.reply:
             return False
-        for asked, told in self.echoed:
-            left = column(request, asked)
-            for value in column(message, told):
+        for requested, reported in self.echoed:
+            left = column(request, requested)
+            for value in column(message, reported):
                 if value not in left:
                     return False
                 left.remove(value)
@@ -81,11 +81,11 @@ class Exchange:
 
     def missing(self, request: Message, reply: Message) -> Iterator[tuple[str, int]]:
         """Yield each requested value that is not in the reply, with the field that requested it."""
-        for asked, told in self.echoed:
-            there = set(column(reply, told))
-            for value in dict.fromkeys(column(request, asked)):
+        for requested, reported in self.echoed:
+            there = set(column(reply, reported))
+            for value in dict.fromkeys(column(request, requested)):
                 if value not in there:
-                    yield asked, value
+                    yield requested, value
 
     def seconds(self, request: Message) -> float:
         """Return how many seconds the effect of `request` lasts; 0.0 if it has no such field."""
@@ -102,9 +102,9 @@ class Exchange:
         items = self.reply.SHAPE.items
         lengths = self.reply.LENGTHS
         if items is not None:
-            for asked, told in self.echoed:
-                if told.partition(".")[0] == items.name:
-                    count = len(column(request, asked))
+            for requested, reported in self.echoed:
+                if reported.partition(".")[0] == items.name:
+                    count = len(column(request, requested))
                     if count in items.counts:
                         return lengths[items.counts.index(count)] + UNCOUNTED
         return lengths[-1] + UNCOUNTED

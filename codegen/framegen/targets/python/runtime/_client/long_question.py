@@ -34,5 +34,5 @@ def left_out(request: Message, reply: Message) -> tuple[str, list[int], list[Any
     found = list(EXCHANGES[type(request)].missing(request, reply))
     items = reply.SHAPE.items
     arrived = [] if items is None else list(getattr(reply, items.name))
-    asked = found[0][0] if found else ""
-    return asked, [value for _, value in found], arrived
+    requested = found[0][0] if found else ""
+    return requested, [value for _, value in found], arrived

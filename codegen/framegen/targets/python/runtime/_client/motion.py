@@ -8,7 +8,9 @@ from .request import Sent
 TYPE_CHECKING = False  # typing alone would double the time that the import takes
 if TYPE_CHECKING:
     from collections.abc import Awaitable, Callable
+    from typing import Any
 
+    from .base_client import Steps
     from .request import Request
     from .wire_time import WireTime
 
@@ -23,9 +25,15 @@ class Timed(Sent):
     wait at least, and `ends_at` is not known yet.
     """
 
-    __slots__ = ("_clock", "_request", "lasts")
+    __slots__ = ("_check", "_clock", "_request", "lasts")
 
-    def __init__(self, request: Request, wire_time: WireTime, clock: Callable[[], float]) -> None:
+    def __init__(
+        self,
+        request: Request,
+        wire_time: WireTime,
+        clock: Callable[[], float],
+        check: Callable[[], None],
+    ) -> None:
         duration = wire_time.seconds(len(request.message.encode()))
         sent = request.sent
         delay = max(0.0, wire_time.free_at - clock()) if sent is None else sent.delay
@@ -33,6 +41,8 @@ class Timed(Sent):
         self.lasts = request.exchange.seconds(request.message)
         self._request = request
         self._clock = clock
+        # Raises the error of a line that is lost or closed.
+        self._check = check
 
     @property
     def ends_at(self) -> float | None:
@@ -61,6 +71,13 @@ class Timed(Sent):
             raise error.again() if isinstance(error, TransportError) else error
         return self.replaced or self.remaining == 0.0
 
+    def _until_over(self) -> Steps[bool]:
+        """Wait until it is over; whether it has been carried out."""
+        while not self._over():
+            self._check()
+            yield self.ends_at
+        return not self.replaced
+
     def __repr__(self) -> str:
         return f"{super().__repr__()[:-1]}, lasts={self.lasts})"
 
@@ -68,18 +85,11 @@ class Timed(Sent):
 class Motion(Timed):
     """A command that starts something which goes on for `lasts` seconds; it can be waited for."""
 
-    __slots__ = ("_live",)
+    __slots__ = ("_finish",)
 
-    def __init__(
-        self,
-        request: Request,
-        wire_time: WireTime,
-        clock: Callable[[], float],
-        live: Callable[[float | None], None],
-    ) -> None:
-        super().__init__(request, wire_time, clock)
-        # Lets the client read for a while, until a time at the latest.
-        self._live = live
+    def __init__(self, *what: Any, finish: Callable[[Steps[bool]], bool]) -> None:
+        super().__init__(*what)
+        self._finish = finish
 
     def wait(self) -> bool:
         """Wait until it is over: return True, or False if a newer one has taken its place.
@@ -87,25 +97,17 @@ class Motion(Timed):
         Reports that come meanwhile are kept. Raises TransportError if the line is lost or closed
         before the end.
         """
-        while not self._over():
-            self._live(self.ends_at)
-        return not self.replaced
+        return self._finish(self._until_over())
 
 
 class AsyncMotion(Timed):
     """A command that starts something which goes on for `lasts` seconds; it can be waited for."""
 
-    __slots__ = ("_live",)
+    __slots__ = ("_finish",)
 
-    def __init__(
-        self,
-        request: Request,
-        wire_time: WireTime,
-        clock: Callable[[], float],
-        live: Callable[[float | None], Awaitable[None]],
-    ) -> None:
-        super().__init__(request, wire_time, clock)
-        self._live = live
+    def __init__(self, *what: Any, finish: Callable[[Steps[bool]], Awaitable[bool]]) -> None:
+        super().__init__(*what)
+        self._finish = finish
 
     async def wait(self) -> bool:
         """Wait until it is over: return True, or False if a newer one has taken its place.
@@ -113,6 +115,4 @@ class AsyncMotion(Timed):
         Reports that come meanwhile are kept. Raises TransportError if the line is lost or closed
         before the end.
         """
-        while not self._over():
-            await self._live(self.ends_at)
-        return not self.replaced
+        return await self._finish(self._until_over())

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 from .._frame.protocol import BAUD
 from .._serial.serial_port import open_transport
-from .client import REPLY_TIMEOUT, REPORT_LIMIT
+from .base_client import REPLY_TIMEOUT, REPORT_LIMIT
 from .controller import Controller
 from .exchanges import LIMITS
 

@@ -34,15 +34,15 @@ class ReportFilter:
                 raise TypeError(f"{kind.__name__} is no message that comes to this end")
         for name in self.fields:
             if not any(name in kind.__match_args__ for kind in self.kinds):
-                raise TypeError(self._lacking(name))
+                raise TypeError(self._without_field(name))
 
     def __str__(self) -> str:
         return " or ".join(
-            f"{kind.__name__}({', '.join(f'{name}={value}' for name, value in asked.items())})"
-            for kind, asked in ((kind, self.asked_of(kind)) for kind in self.kinds)
+            f"{kind.__name__}({', '.join(f'{name}={value}' for name, value in requested.items())})"
+            for kind, requested in ((kind, self.requested_of(kind)) for kind in self.kinds)
         )
 
-    def asked_of(self, kind: type[Message]) -> dict[str, int]:
+    def requested_of(self, kind: type[Message]) -> dict[str, int]:
         """Return the values required, in those fields that messages of a class have."""
         known = kind.__match_args__
         return {name: value for name, value in self.fields.items() if name in known}
@@ -60,10 +60,10 @@ class ReportFilter:
         return not set(reports).isdisjoint(self.kinds) and self._agrees(command)
 
     def _agrees(self, message: Message) -> bool:
-        asked = self.asked_of(type(message))
-        return all(getattr(message, name) == value for name, value in asked.items())
+        requested = self.requested_of(type(message))
+        return all(getattr(message, name) == value for name, value in requested.items())
 
-    def _lacking(self, name: str) -> str:
+    def _without_field(self, name: str) -> str:
         known = {kind.__name__: ", ".join(kind.__match_args__) or "none" for kind in self.kinds}
         if len(known) == 1:
             ((only, fields),) = known.items()

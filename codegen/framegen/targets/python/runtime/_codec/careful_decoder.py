@@ -23,7 +23,8 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from .._frame.direction import Direction
-    from .._frame.message import Message
+    from ..messages import Decoded
+    from .decoder import Event
 
 
 class CarefulDecoder:
@@ -38,15 +39,15 @@ class CarefulDecoder:
         self._direction = direction
         self._decoder = StreamDecoder(direction)
         # The message that is held, and the bytes that have come since.
-        self._doubted: Message | None = None
+        self._doubted: Decoded | None = None
         self._later = b""
         # The decoder of what may begin inside it, where that begins, and its events so far.
         self._rival = self._decoder
         self._rival_at = 0
-        self._told: list[Message | Noise] = []
+        self._told: list[Event] = []
 
     @property
-    def doubted(self) -> Message | None:
+    def doubted(self) -> Decoded | None:
         """The message that is held back, if there is one."""
         return self._doubted
 
@@ -62,7 +63,7 @@ class CarefulDecoder:
         """How many bytes must come, at the least, before the next event."""
         return 1 if self._doubted is not None else self._decoder.missing
 
-    def feed(self, data: bytes) -> list[Message | Noise]:
+    def feed(self, data: bytes) -> list[Event]:
         """Take in bytes, and return the events that are certain now."""
         doubted = self._doubted
         if doubted is None:
@@ -76,7 +77,7 @@ class CarefulDecoder:
         self._believe()
         return [doubted, *self.feed(later)]
 
-    def flush(self) -> list[Message | Noise]:
+    def flush(self) -> list[Event]:
         """Decode the bytes held back, as the line is quiet: they are no frame, but may hide one.
 
         A message that is in doubt is one if no byte has come behind it. Otherwise it cannot be
@@ -103,7 +104,7 @@ class CarefulDecoder:
         other._later, other._told = self._later, [*self._told]
         return other
 
-    def _sifted(self, events: list[Message | Noise]) -> list[Message | Noise]:
+    def _sifted(self, events: list[Event]) -> list[Event]:
         """Return the events up to a message that is in doubt; what follows is decoded again."""
         for number, event in enumerate(events):
             if isinstance(event, Noise) or not (self._is_torn(event) or self._doubt(event)):
@@ -117,14 +118,14 @@ class CarefulDecoder:
             return [*events[:number], *found, *(self.feed(rest) if rest else ())]
         return events
 
-    def _is_torn(self, message: Message) -> bool:
+    def _is_torn(self, message: Decoded) -> bool:
         """Return whether a message ends in whole frames, which have filled its gap."""
         return any(
             self._told and not any(isinstance(event, Noise) for event in self._told)
             for _ in self._rivals(message)
         )
 
-    def _doubt(self, message: Message) -> bool:
+    def _doubt(self, message: Decoded) -> bool:
         """Hold a message back if a frame may begin in its last bytes."""
         size = len(message.encode())
         if not any(
@@ -135,7 +136,7 @@ class CarefulDecoder:
         self._doubted, self._later = message, b""
         return True
 
-    def _rivals(self, message: Message) -> Iterator[int]:
+    def _rivals(self, message: Decoded) -> Iterator[int]:
         """Decode anew from each place in a message where another may begin, one after the other."""
         frame = message.encode()
         for at in _beginnings(frame):
@@ -158,7 +159,7 @@ class CarefulDecoder:
             at += len(event.data)
         return at + self._rival.scanned
 
-    def _refuted(self, doubted: Message) -> list[Message | Noise]:
+    def _refuted(self, doubted: Decoded) -> list[Event]:
         """Treat a doubted message as the start of one frame, and then another."""
         self._doubted, self._later = None, b""
         self._decoder = self._rival

@@ -12,9 +12,9 @@ from .noise import Noise, UnknownFrame
 
 TYPE_CHECKING = False  # typing alone would double the time that the import takes
 if TYPE_CHECKING:
-    from .._frame.message import Message
     from .._frame.table import Entry, Table
     from .._frame.verdict import Verdict
+    from .decoder import Event
 
 _TOO_SHORT = Reason.TOO_SHORT
 
@@ -75,7 +75,7 @@ class NoiseLane:
         self._reason = Reason.BAD_HEADER
 
     def search(
-        self, events: list[Message | Noise], data: bytes, base: int, at: int, *, quiet: bool
+        self, events: list[Event], data: bytes, base: int, at: int, *, quiet: bool
     ) -> Entry | None:
         """Search on from data[at], and emit the noise in front of the next message.
 
@@ -114,7 +114,7 @@ class NoiseLane:
 
     def _wait(
         self,
-        events: list[Message | Noise],
+        events: list[Event],
         data: bytes,
         base: int,
         at: int,
@@ -146,7 +146,7 @@ class NoiseLane:
 
     def _cut(
         self,
-        events: list[Message | Noise],
+        events: list[Event],
         data: bytes,
         base: int,
         until: int,
@@ -205,17 +205,13 @@ class NoiseLane:
             at = data.find(HEADER, at + 1, end)
         return True
 
-    def _tell_noise(
-        self, events: list[Message | Noise], data: bytes, base: int, until: int
-    ) -> None:
+    def _tell_noise(self, events: list[Event], data: bytes, base: int, until: int) -> None:
         """Emit the bytes in front of the place `until` as noise."""
         if self.told < until:
             events.append(Noise(data[self.told - base : until - base], self._reason))
             self.told = until
 
-    def _tell_unknown(
-        self, events: list[Message | Noise], data: bytes, base: int, end: int
-    ) -> None:
+    def _tell_unknown(self, events: list[Event], data: bytes, base: int, end: int) -> None:
         """Emit the bytes in front of the place `end` as a frame of unknown command."""
         frame = data[self.told - base : end - base]
         events.append(UnknownFrame(frame, Reason.UNKNOWN_COMMAND))

@@ -2,23 +2,23 @@
 
 from __future__ import annotations
 
-TYPE_CHECKING = False  # typing alone would double the time that the import takes
+from .number import Number
+
+TYPE_CHECKING = False
 if TYPE_CHECKING:
-    from typing import Any, ClassVar
-
-    from typing_extensions import Self
-
-    from .number import Number
+    import typing_extensions as typing
+else:
+    from .typing_later import typing
 
 
 class Element:
     """A named tuple of numbers: equal to the plain tuple of the same numbers, and as immutable."""
 
     __slots__ = ()
-    __match_args__: ClassVar[tuple[str, ...]] = ()
+    __match_args__: typing.ClassVar[tuple[str, ...]] = ()
 
-    FIELDS: ClassVar[tuple[Number, ...]]
-    _fields: ClassVar[tuple[str, ...]]
+    FIELDS: typing.ClassVar[tuple[Number, ...]]
+    _fields: typing.ClassVar[tuple[str, ...]]
 
     def __init_subclass__(cls) -> None:
         cls._fields = cls.__match_args__
@@ -28,10 +28,10 @@ class Element:
         """Return the numbers by name."""
         return {name: getattr(self, name) for name in self._fields}
 
-    def _replace(self, **changes: int) -> Self:
+    def _replace(self, **changes: int) -> typing.Self:
         """Return another such element, with the given numbers in place of its own."""
-        make: Any = type(self)
-        other: Self = make(**{**self._asdict(), **changes})
+        make: typing.Any = type(self)
+        other: typing.Self = make(**{**self._asdict(), **changes})
         return other
 
     __replace__ = _replace  # as `copy.replace` wants it

@@ -1,4 +1,4 @@
-"""Every error that this library raises about frames: one small tree, all of it ValueError too."""
+"""What all errors of this library are, and those about frames and values: these are ValueErrors."""
 
 from __future__ import annotations
 
@@ -17,8 +17,18 @@ class Reason(Enum):
     OUT_OF_RANGE = "out of range"
 
 
+_PACKAGE = __name__.partition("._frame")[0]
+
+
 class ProtocolError(Exception):
     """The base of all errors of this library."""
+
+    __module__ = _PACKAGE
+
+    def __init_subclass__(cls) -> None:
+        # A traceback names it as it is imported: by the package, not by a module inside.
+        if cls.__module__.startswith(f"{_PACKAGE}._"):
+            cls.__module__ = _PACKAGE
 
 
 class EncodeError(ProtocolError, ValueError):

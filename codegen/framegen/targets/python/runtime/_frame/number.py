@@ -9,7 +9,6 @@ from __future__ import annotations
 from operator import index, itemgetter
 from struct import Struct
 
-from .element import Element
 from .errors import EncodeError
 from .field import Field
 from .protocol import STRUCT_ORDER
@@ -67,8 +66,8 @@ class Number(Field["int"]):
 
     def reader(self) -> Callable[[Any], int]:
         """Return a function that reads it from the bytes of a message, or from an element."""
-        if issubclass(self.owner, Element):
-            return itemgetter(self.owner.__match_args__.index(self.name))
+        if issubclass(self.owner, tuple):
+            return itemgetter(vars(self.owner)["__match_args__"].index(self.name))
         at = self.at
         if self.code == "B":
             return lambda message: message._frame[at]

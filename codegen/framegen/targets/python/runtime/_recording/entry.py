@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+from .._codec.decoder import Event
 from .._frame.direction import Direction
 
-TYPE_CHECKING = False  # typing alone would double the time that the import takes
+TYPE_CHECKING = False
 if TYPE_CHECKING:
-    from .._codec.noise import Noise
-    from .._frame.message import Message
+    import typing_extensions as typing
+else:
+    from .._frame.typing_later import typing
 
 SENDERS = {direction.sender: direction for direction in Direction}
 
@@ -29,7 +31,7 @@ class Entry:
 
     def __init__(
         self,
-        event: Message | Noise,
+        event: typing.Any,
         sender: str | None,
         offset: int,
         *,
@@ -37,7 +39,7 @@ class Entry:
         time: float | None = None,
         began: float | None = None,
     ) -> None:
-        self.event = event
+        self.event: Event = event
         self.sender = sender
         self.offset = offset
         self.line = line

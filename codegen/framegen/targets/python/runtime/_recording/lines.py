@@ -6,7 +6,7 @@ import re
 from datetime import datetime
 
 from .._codec.codec import table_for
-from .._codec.decoder import StreamDecoder
+from .._codec.decoder import Event, StreamDecoder
 from .._codec.hextext import HexError, read_hex
 from .._codec.noise import Noise
 from .._frame.direction import RECEIVED
@@ -19,6 +19,7 @@ from .form import LONGEST_LINE, TIMED_LINE
 TYPE_CHECKING = False  # typing alone would double the time that the import takes
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator
+    from typing import Any
 
     from .._frame.direction import Direction
 
@@ -91,14 +92,14 @@ def _sender(who: str, number: int, direction: Direction | None) -> tuple[str | N
     raise RecordingError(f"line {number}: {who!r} is none of those who send: {known}")
 
 
-def _events(data: bytes, sender: str | None, what: str, *, is_noise: bool) -> list[Message | Noise]:
+def _events(data: bytes, sender: str | None, what: str, *, is_noise: bool) -> list[Event]:
     """Return the events of a line's bytes, as its sender's: one, or more if lines were joined.
 
     Bytes recorded as noise stay noise, even if they would be a message by themselves; save for a
     frame whose command was not known then.
     """
     direction = None if sender is None else SENDERS[sender]
-    message = None if is_noise else table_for(direction).find(data)
+    message: Any = None if is_noise else table_for(direction).find(data)
     if message is not None:
         return [message]
     decoder = StreamDecoder(direction)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from functools import partial
 
 from .._log import log
-from .link_errors import ClosedError, DisconnectedError, TransportError
+from .link_errors import ClosedError, DisconnectedError, TransportError, errno_of
 
 TYPE_CHECKING = False  # typing alone would double the time that the import takes
 if TYPE_CHECKING:
@@ -24,6 +24,10 @@ class ErrorMapping:
         self._transport = transport
         self.name = str(getattr(transport, "name", type(transport).__name__))
         self.largest_frame: int | None = getattr(transport, "largest_frame", None)
+        # What has a function called when there is something to read, without anybody waiting.
+        self.on_readable: Callable[[Callable[[], object]], object] | None = getattr(
+            transport, "on_readable", None
+        )
         self._closed = False
 
     def read(self, timeout: float) -> bytes:
@@ -68,8 +72,9 @@ class ErrorMapping:
     def _failed(self, error: Exception) -> TransportError:
         if isinstance(error, OSError):
             advice = "see to the cable and the power, then reconnect()"
-            return DisconnectedError(self.name, f"the line was lost ({error})", advice)
-        # Whoever waits for the line must learn of it, in whichever thread it happened.
+            happened = f"the line was lost ({error})"
+            return DisconnectedError(self.name, happened, advice, errno_of(error))
+        # Whoever waits for the line must hear of it, in whichever thread it happened.
         log().error("%s failed", self.name, exc_info=error)
         happened = f"its transport failed ({error!r})"
         return TransportError(self.name, happened, "mend the transport")

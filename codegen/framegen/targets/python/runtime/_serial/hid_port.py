@@ -6,7 +6,6 @@ zeros; frames of the device come the same way. This follows published descriptio
 
 from __future__ import annotations
 
-import logging
 import math
 import os
 import re
@@ -19,6 +18,7 @@ from .._codec.codec import table_for
 from .._frame.bytes_like import format_hex
 from .._frame.direction import RECEIVED
 from .._frame.protocol import BODY_AT, HEADER, HID_DEVICES, LENGTH_END, UNCOUNTED, read_length
+from .._log import log
 from .hid_devices import UNSEEN, hid_devices, hid_library, report_size
 from .link_errors import (
     ClosedError,
@@ -36,7 +36,6 @@ if TYPE_CHECKING:
     from .hid_devices import HidDevice
 
 _PACKAGE = __name__.partition(".")[0]
-logger = logging.getLogger(_PACKAGE)
 SCHEME = "hid:"
 _IDS = re.compile(r"([0-9a-fA-F]{4}):([0-9a-fA-F]{4})")
 _NAMED = "write hid:// for the one device that is plugged in, hid://VENDOR:PRODUCT or hid://PATH"
@@ -158,7 +157,7 @@ class HidPort:
         self._rest = max(0, end - len(report))
         dropped = report[end:].rstrip(b"\x00")
         if dropped:
-            logger.debug(
+            log().debug(
                 "%s: padding that is not 0 was dropped | %s", self.name, format_hex(dropped)
             )
         return report[:end]

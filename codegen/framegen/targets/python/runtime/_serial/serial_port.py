@@ -15,16 +15,22 @@ from functools import partial
 from typing import TYPE_CHECKING, NamedTuple
 
 from .._frame.protocol import BAUD, DATA_BITS, PARITY, STOP_BITS
-from .link_errors import ClosedError, DisconnectedError, TransportError, WriteStuckError
+from .hid_port import HidPort, open_hid
+from .link_errors import (
+    ClosedError,
+    DisconnectedError,
+    TransportError,
+    WriteStuckError,
+    errno_of,
+)
 from .port_errors import not_opened
 from .port_names import refused_name
+from .transport import Transport
 
 if TYPE_CHECKING:
     from collections.abc import Callable
     from typing import Any
 
-    from .hid_port import HidPort
-    from .transport import Transport
 
 # pyserial reconfigures the port whenever its timeout changes, so that stays as it is; longer waits
 # are made of several, and shorter ones are waited for here. It is also how long closing waits for a
@@ -81,8 +87,6 @@ def open_transport(
     `baud` that no port can be set to.
     """
     if isinstance(port, str) and port.lower().startswith("hid:"):
-        from .hid_port import open_hid
-
         return open_hid(port)
     import serial
 
@@ -261,6 +265,7 @@ class SerialPort:
             self.name,
             f"the line was lost ({error})",
             "see to the cable and the power, then reconnect()",
+            errno_of(error),
         )
 
 

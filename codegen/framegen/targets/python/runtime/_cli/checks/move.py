@@ -64,7 +64,7 @@ class _Motion:
 
     def _position(self) -> int | None:
         """Return its position; None if it does not report one."""
-        request = self._pose.read(**{self._pose.asked: [self._number]})
+        request = self._pose.read(**{self._pose.requested: [self._number]})
         reply = ask_patiently(self._diagnosis, request)
         found = [] if reply is None else self._pose.there([reply])
         return int(getattr(found[0], self._pose.position)) if found else None

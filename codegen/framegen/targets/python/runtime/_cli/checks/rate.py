@@ -8,7 +8,6 @@ from pathlib import Path
 
 from ..._serial.link_errors import ClosedError, DisconnectedError, TransportError
 from .check import Check
-from .question import harmless_question
 from .result import failed, passed, unknown
 
 TYPE_CHECKING = False
@@ -30,10 +29,7 @@ _SILENT = (
 )
 
 
-def _look(diagnosis: Diagnosis) -> Result:
-    question = harmless_question()
-    if question is None:
-        return unknown("the protocol has no question that could be asked of any device")
+def _look(diagnosis: Diagnosis, question: Message) -> Result:
     probe = diagnosis.connected()
     for _ in range(2):
         diagnosis.trips.append(probe.ask(question, extra=EXTRA_TIME))
@@ -122,4 +118,7 @@ def _is_pseudo_terminal(port: str) -> bool:
     return str(Path(port).resolve()).startswith(_PSEUDO_TERMINALS)
 
 
-CHECK = Check("rate", "the device answers at the rate of the protocol", ("opening",), _look)
+def rate_check(question: Message) -> Check:
+    """Return the check that asks this question."""
+    title = "the device answers at the rate of the protocol"
+    return Check("rate", title, ("opening",), lambda each: _look(each, question))

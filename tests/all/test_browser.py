@@ -1,21 +1,26 @@
-"""The reference in a real browser: headless Chromium, from the disk, with no network."""
+"""The pages of the reference in a real browser."""
 
 from __future__ import annotations
 
-import os
 import re
-import shutil
 from typing import TYPE_CHECKING, Any
 
 import pytest
-from framegen.cli import main
 from framegen.language.values import Scale
 
+from tests.docs.browser import (
+    MILLISECONDS,
+    Visit,
+    decoded,
+    launched,
+    needs_chromium,
+    site_on_disk,
+    texts,
+)
 from tests.docs.peers import joined, noisy_lines, reference_events
-from tests.docs.reference import NODE_MODULES, SPECS, reference
+from tests.docs.reference import NODE_MODULES, reference
 from tests.docs.test_hostile_pages import PAYLOADS, hostile
 from tests.factories import vectors_of, write_files
-from tests.timeouts import GENEROUS
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -24,67 +29,25 @@ if TYPE_CHECKING:
     from playwright.sync_api import Browser, BrowserContext, Locator
     from playwright.sync_api import Page as Tab
 
-playwright = pytest.importorskip("playwright.sync_api", reason="playwright is not installed")
-
-CHROMIUM = os.environ.get("CHROMIUM") or shutil.which("chromium")
 AXE = NODE_MODULES / "axe-core" / "axe.min.js"
-ARGUMENTS = [
-    "--no-sandbox",
-    "--disable-gpu",
-    "--disable-background-networking",
-    "--disable-component-update",
-    "--disable-sync",
-    "--no-first-run",
-]
-# How long a browser may take for anything.
-MILLISECONDS = 1000 * GENEROUS
 SITE = reference("busservo")
 VECTORS = vectors_of(SITE.compiled)
 NAMES = [path for path in SITE.pages if "/" not in path]
 PAGES = [*NAMES, "messages/ServoMove.html", "messages/ServoPositions.html", "../index.html"]
 
-pytestmark = pytest.mark.skipif(CHROMIUM is None, reason="chromium is not installed")
+pytestmark = needs_chromium
 
 
 @pytest.fixture(scope="session")
 def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """Return the reference in a folder, as `framegen docs` builds it."""
-    root = tmp_path_factory.mktemp("stick") / "the reference"
-    assert main(["docs", str(SPECS["busservo"]), "--out", str(root)]) == 0
-    return root / "busservo"
+    return site_on_disk(tmp_path_factory.mktemp("stick") / "the reference")
 
 
 @pytest.fixture(scope="module")
 def browser() -> Iterator[Browser]:
-    with playwright.sync_playwright() as started:
-        running = started.chromium.launch(
-            executable_path=CHROMIUM, args=ARGUMENTS, timeout=MILLISECONDS
-        )
+    with launched() as running:
         yield running
-        running.close()
-
-
-class Visit:
-    """One tab that opens pages from the disk, and records errors on them."""
-
-    def __init__(self, context: BrowserContext, folder: Path) -> None:
-        self.folder = folder
-        self.troubles: list[str] = []
-        self.requests: list[str] = []
-        self.tab: Tab = context.new_page()
-        self.tab.set_default_timeout(MILLISECONDS)
-        self.tab.on("console", lambda message: self.troubles.append(message.text))
-        self.tab.on("pageerror", lambda error: self.troubles.append(str(error)))
-        self.tab.on("request", lambda request: self.requests.append(request.url))
-
-    def open(self, path: str) -> Tab:
-        name, mark, rest = path.partition("?")
-        self.tab.goto((self.folder / name).as_uri() + mark + rest)
-        return self.tab
-
-    def style(self, selector: str, name: str) -> str:
-        script = "([selector, name]) => getComputedStyle(document.querySelector(selector))[name]"
-        return str(self.tab.evaluate(script, [selector, name]))
 
 
 @pytest.fixture(scope="module")
@@ -99,18 +62,12 @@ def visit(context: BrowserContext, folder: Path) -> Iterator[Visit]:
     """Yield a visit on which no error may happen, and only pages on the disk be requested."""
     visit = Visit(context, folder)
     yield visit
-    visit.tab.close()
-    assert visit.troubles == []
-    assert [url for url in visit.requests if not url.startswith(folder.parent.as_uri())] == []
+    visit.end()
 
 
 def arrives(tab: Tab, end: str) -> None:
     """Wait for an address with this end: a key or a click only starts the navigation."""
     tab.wait_for_url(re.compile(re.escape(end) + "$"))
-
-
-def texts(found: Locator) -> list[str]:
-    return [text.strip() for text in found.all_inner_texts()]
 
 
 # ---------------------------------------------------------------------------- finding
@@ -156,10 +113,6 @@ def test_everything_is_reached_with_the_keyboard_alone(visit: Visit) -> None:
 # ---------------------------------------------------------------------------- decoding
 
 
-def decoded(tab: Tab) -> list[str]:
-    return texts(tab.locator("#events > li > h3"))
-
-
 def decoded_in_turn(tab: Tab, lines: list[str]) -> list[tuple[list[str], str, list[str]]]:
     """Return headings, summary and cells for each of these inputs, filled in one by one."""
     told = tab.evaluate(
@@ -201,24 +154,6 @@ def test_the_decoder_refuses_the_invalid_vectors(visit: Visit, direction: str) -
     for vector, (_, said, _) in zip(vectors, told, strict=True):
         verdict = f"Taken as one frame: {vector['reason']} at byte {vector['offset']}."
         assert said.endswith(verdict), vector["title"]
-
-
-def test_the_decoder_shows_frames_noise_and_unknown_frames(visit: Visit) -> None:
-    tab = visit.open("decoder.html")
-    tab.get_by_label("Bytes in hex").fill(
-        "00 55 55 08 03 01 E8 03 01 20 03 55 55 03 63 01 55 55 02"
-    )
-    assert decoded(tab) == [
-        "✗ Noise: bad header",
-        "✓ ServoMove",
-        "✗ Unknown frame: unknown command",
-        "✗ Noise: too short",
-    ]
-    cells = texts(tab.locator("#events .strip").nth(1).locator("li"))
-    assert [" ".join(cell.split()) for cell in cells][4:6] == [
-        "6 E8 03 time_ms 1000 ms",
-        "8 01 targets[0].servo_id 1",
-    ]
 
 
 @pytest.mark.parametrize(

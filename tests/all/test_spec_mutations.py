@@ -7,7 +7,6 @@ unseen: they need another guard.
 from __future__ import annotations
 
 import json
-from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeAlias
 
 import pytest
@@ -15,14 +14,15 @@ from framegen.compile import compile_spec
 from framegen.language.load import load, read_source
 from framegen.reading.source import Source
 
+from tests.factories import BUSSERVO, FIRST
+
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
 
 Steps: TypeAlias = "tuple[str | int, ...]"
 Mutation: TypeAlias = "tuple[Steps, Any]"
 
-SPEC = Path(__file__).parent.parent / "spec" / "busservo.yaml"
-TREE: Any = load(read_source(SPEC)).tree.data
+TREE: Any = load(read_source(BUSSERVO)).tree.data
 MESSAGES: Any = TREE["messages"]
 
 GONE = "(gone)"
@@ -434,6 +434,42 @@ BLIND: list[tuple[Steps, Any, str]] = [
 ]
 UNSEEN = {json.dumps([steps, value]) for steps, value, _ in BLIND}
 
+# What tells that a message goes from the host to the controller.
+FACING = {"method", "reply", "reports", "acknowledged", "lasts", "echoed"}
+
+
+def is_out_of_sight(steps: Steps, value: Any) -> bool:
+    """Tell whether no rule can see a change, for a reason that holds for each message alike.
+
+    Of the messages with which the spec began, BLIND tells it one by one.
+    A message that nothing else names may be gone. One that in addition says nothing of a client
+    may go the other way. A number may have a sign where no example has its highest bit set, and a
+    name may stand for another number that the examples show.
+    """
+    if steps[0] != "messages" or steps[1] in FIRST:
+        return False
+    message = MESSAGES[steps[1]]
+    if len(steps) == 2 or steps[2] == "direction":
+        named = any(text == steps[1] for at, text in leaves((), TREE) if at[:2] != steps[:2])
+        return not named and (len(steps) == 2 or not FACING & message.keys())
+    shown = shown_of(message["examples"], steps[3::2])
+    if steps[-1] == "type" and value in HIGHEST_BITS:
+        return 0 <= max(shown, default=-1) < HIGHEST_BITS[value]
+    return steps[-3:-2] == ("values",) and value in shown
+
+
+HIGHEST_BITS = {"i8": 0x80, "i16": 0x8000}
+
+
+def shown_of(examples_of_one: list[Any], names: Steps) -> set[int]:
+    """Return the values of a field in examples; `names` lead to it, and may lead further."""
+    shown = set()
+    for at, value in leaves((), [each["values"] for each in examples_of_one]):
+        to_value = tuple(step for step in at if isinstance(step, str))
+        if to_value == names[: len(to_value)]:
+            shown.add(value)
+    return shown
+
 
 @pytest.mark.parametrize(
     "mutation",
@@ -441,7 +477,7 @@ UNSEEN = {json.dumps([steps, value]) for steps, value, _ in BLIND}
         pytest.param(mutation, id=f"{kind.__name__}: {named(mutation)}")
         for kind in KINDS
         for mutation in kind()
-        if json.dumps(mutation) not in UNSEEN
+        if json.dumps(mutation) not in UNSEEN and not is_out_of_sight(*mutation)
     ],
 )
 def test_a_changed_fact_is_seen(mutation: Mutation) -> None:

@@ -1,0 +1,123 @@
+"""What waits to be sent, and which of it may go now."""
+
+from __future__ import annotations
+
+from collections import deque
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from .._frame.message import Message
+    from .reply_matcher import ReplyMatcher
+    from .request import Request
+    from .settling import Settling
+    from .wire_time import WireTime
+
+# How long before the line is free the next frame is handed over, so that it is never idle. More
+# would be lag that nobody sees.
+_AHEAD = 0.004
+
+
+class RequestQueue:
+    """Requests in the order in which they were submitted.
+
+    A command goes as soon as the line is free, a question once no other is pending, no late reply
+    may come that would look like its own, and the line has settled. A newer request may take the
+    place of what it undoes.
+    """
+
+    def __init__(
+        self, wire_time: WireTime, settling: Settling, matcher: ReplyMatcher, latency: float
+    ) -> None:
+        self._wire_time = wire_time
+        self._settling = settling
+        self._matcher = matcher
+        self._latency = latency
+        self._requests: deque[Request] = deque()
+
+    def __len__(self) -> int:
+        return len(self._requests)
+
+    def __iter__(self) -> Iterator[Request]:
+        return iter(self._requests)
+
+    def add(self, request: Request) -> list[Request]:
+        """Put a request last, and return those whose place it has taken, if it is the latest."""
+        replaced = self._undone_by(request.message) if request.latest else []
+        for each in replaced:
+            self._requests.remove(each)
+        self._requests.append(request)
+        return replaced
+
+    def take(self, now: float) -> Request | None:
+        """Take out the first that may go now, if there is one."""
+        if now < self._wire_time.free_at - _AHEAD:
+            return None
+        request = self._next(now)
+        if request is not None:
+            self._requests.remove(request)
+        return request
+
+    def send_at(self, now: float) -> float | None:
+        """Return when one may go; None while there is none, or only another's end can tell."""
+        if not self._requests:
+            return None
+        free = self._wire_time.free_at - _AHEAD
+        if self._next(now) is not None:
+            return free
+        late = self._matcher.late.ends()
+        times = [*late, *(self._settled_at(request) for request in self._requests)]
+        settled = [at for at in times if at > now]
+        # A question waits for the one before it, whose end brings the driver back here anyway.
+        return max(free, min(settled)) if settled and self._matcher.pending is None else None
+
+    def put_back(self, request: Request) -> None:
+        """Put a request first, for a further attempt."""
+        self._requests.appendleft(request)
+
+    def remove(self, request: Request) -> None:
+        """Take a request out."""
+        self._requests.remove(request)
+
+    def clear(self) -> list[Request]:
+        """Take all requests out, and return them."""
+        waiting = [*self._requests]
+        self._requests.clear()
+        return waiting
+
+    def _next(self, now: float) -> Request | None:
+        for request in self._requests:
+            if request.exchange.reply is None:
+                return request
+            if not self._matcher.may_be_mistaken(request, now) and now >= self._settled_at(request):
+                return request
+        return None
+
+    def _settled_at(self, request: Request) -> float:
+        """Return until when a question is held back, because replies to others may come first."""
+        if request.exchange.reply is None:
+            return float("-inf")
+        size = len(request.message.encode()) + request.reply_size
+        return self._settling.until(self._wire_time.seconds(size) + self._latency)
+
+    def _undone_by(self, message: Message) -> list[Request]:
+        """Return the waiting commands of the same class, for the same ids or fewer."""
+        covered = _subjects(message)
+        return [
+            each
+            for each in self._requests
+            if each.latest
+            and type(each.message) is type(message)
+            and _subjects(each.message) <= covered
+        ]
+
+
+def _subjects(message: Message) -> frozenset[int]:
+    """Return the ids in a message: the first number of each list element, or of all it has."""
+    items = message.SHAPE.items
+    if items is None:
+        return frozenset(getattr(message, name) for name in message.__match_args__[:1])
+    if items.element is None:
+        return frozenset(getattr(message, items.name))
+    return frozenset(item[0] for item in getattr(message, items.name))

@@ -1,0 +1,33 @@
+"""One page in a real browser; tests/all/test_browser.py has them all."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from tests.docs.browser import Visit, decoded, launched, needs_chromium, site_on_disk, texts
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+
+@needs_chromium
+def test_the_decoder_shows_frames_noise_and_unknown_frames(tmp_path: Path) -> None:
+    folder = site_on_disk(tmp_path / "the reference")
+    with launched() as browser:
+        visit = Visit(browser.new_context(), folder)
+        tab = visit.open("decoder.html")
+        tab.get_by_label("Bytes in hex").fill(
+            "00 55 55 08 03 01 E8 03 01 20 03 55 55 03 63 01 55 55 02"
+        )
+        assert decoded(tab) == [
+            "✗ Noise: bad header",
+            "✓ ServoMove",
+            "✗ Unknown frame: unknown command",
+            "✗ Noise: too short",
+        ]
+        cells = texts(tab.locator("#events .strip").nth(1).locator("li"))
+        assert [" ".join(cell.split()) for cell in cells][4:6] == [
+            "6 E8 03 time_ms 1000 ms",
+            "8 01 targets[0].servo_id 1",
+        ]
+        visit.end()

@@ -1,0 +1,126 @@
+"""Programs of asyncio on virtual time: time goes on while all wait, and at no other moment."""
+
+from __future__ import annotations
+
+import asyncio
+import time
+
+import pytest
+from busservo import AsyncController
+from busservo_simulator import VirtualClock, VirtualController
+from busservo_simulator.virtual_loop import VirtualLoop, run_virtual
+
+
+def test_a_sleep_moves_the_clock_on_and_takes_no_time() -> None:
+    clock = VirtualClock()
+    woken: list[tuple[str, float]] = []
+
+    async def sleep(name: str, seconds: float) -> None:
+        await asyncio.sleep(seconds)
+        woken.append((name, clock.now()))
+
+    async def main() -> str:
+        await asyncio.gather(sleep("late", 86_400), sleep("soon", 0.5), sleep("at once", 0))
+        return "done"
+
+    assert run_virtual(main(), clock) == "done"
+    assert woken == [("at once", 0.0), ("soon", 0.5), ("late", 86_400.0)]
+
+
+def test_a_deadline_is_kept_in_virtual_time() -> None:
+    clock = VirtualClock()
+
+    async def main() -> None:
+        with pytest.raises(asyncio.TimeoutError):
+            await asyncio.wait_for(asyncio.sleep(20), 10)
+
+    run_virtual(main(), clock)
+    assert clock.now() == 10
+
+
+def test_time_stands_still_while_a_thread_works() -> None:
+    clock = VirtualClock()
+
+    def slow() -> int:
+        time.sleep(0.05)
+        return 7
+
+    async def main() -> int:
+        alarm = asyncio.ensure_future(asyncio.sleep(1))
+        found = await asyncio.to_thread(slow)
+        assert clock.now() == 0
+        await alarm
+        return found
+
+    assert run_virtual(main(), clock) == 7
+    assert clock.now() == 1
+
+
+def test_who_waits_for_nothing_is_told_so() -> None:
+    ended: list[str] = []
+
+    async def main() -> None:
+        try:
+            await asyncio.Event().wait()
+        finally:
+            ended.append("cancelled")
+
+    with pytest.raises(RuntimeError, match="every task waits, and for nothing that will ever"):
+        run_virtual(main(), VirtualClock())
+    assert ended == ["cancelled"]
+
+
+def test_what_still_runs_at_the_end_is_cancelled() -> None:
+    ended: list[str] = []
+
+    async def other() -> None:
+        try:
+            await asyncio.sleep(100)
+        finally:
+            ended.append("cancelled")
+
+    async def main() -> None:
+        asyncio.ensure_future(other())  # noqa: RUF006 - it is to be left behind
+        await asyncio.sleep(1)
+
+    clock = VirtualClock()
+    run_virtual(main(), clock)
+    assert ended == ["cancelled"]
+    assert clock.now() == 1
+
+
+def test_a_board_speaks_at_its_own_time() -> None:
+    """Question and reply take their time on the wire, to the byte; nobody looks in between."""
+    clock = VirtualClock(follow_reads=True)
+
+    async def main() -> None:
+        with VirtualController(clock=clock, baud=9600) as board:
+            async with AsyncController(
+                board.transport, background=False, clock=clock.now, settle=0
+            ) as controller:
+                assert await controller.read_battery_voltage() == 7500
+                assert clock.now() == pytest.approx((4 + 6) / 960, abs=1e-5)
+                motion = await controller.move_servos([(1, 900)], time_ms=1000)
+                assert await motion.wait()
+                assert await controller.read_servo_positions([1]) == ((1, 900),)
+
+    run_virtual(main(), clock)
+
+
+def test_a_board_that_is_gone_no_longer_moves_the_time() -> None:
+    clock = VirtualClock()
+    with VirtualController(clock=clock) as board:
+        board.spurious_output(b"x")
+
+    async def main() -> None:
+        await asyncio.sleep(10)
+
+    run_virtual(main(), clock)
+    assert clock.now() == 10
+
+
+def test_a_loop_may_be_made_by_hand() -> None:
+    loop = VirtualLoop(VirtualClock())
+    loop.run_until_complete(asyncio.sleep(5))
+    assert loop.time() == loop.clock.now() == 5
+    loop.close()

@@ -1,0 +1,108 @@
+"""What a specification deprecates warns whoever makes it, at their own line, and not who reads."""
+
+import copy
+import inspect
+import pickle
+import warnings
+from collections.abc import Callable, Iterator
+from importlib import import_module
+from types import ModuleType
+from typing import Any
+
+import pytest
+from hypothesis import HealthCheck, given, settings
+from hypothesis import strategies as st
+
+from tests.factories import DEMO, data_of, files_of, library
+
+TEXT = "Vents open by themselves since 2024."
+SAID = f"VentsOpen is deprecated: {TEXT}"
+
+
+@pytest.fixture(scope="module")
+def old(tmp_path_factory: pytest.TempPathFactory) -> Iterator[ModuleType]:
+    """A library with a deprecated command that its client sends, and one that others send."""
+    data = data_of(DEMO)
+    data["messages"]["VentsOpen"]["deprecated"] = TEXT
+    with library(files_of(data), tmp_path_factory.mktemp("deprecated")) as made:
+        yield made
+
+
+class Line:
+    """A transport on which nothing comes back."""
+
+    def read(self, _timeout: float) -> bytes:
+        return b""
+
+    def write(self, _data: bytes) -> None:
+        pass
+
+    def drain(self, _timeout: float) -> None:
+        pass
+
+    def close(self) -> None:
+        pass
+
+
+def sent_by_a_method(old: ModuleType) -> object:
+    with old.Controller(Line(), background=False, settle=0) as controller:
+        return controller.vents_open([(1, 0)], ramp_s=1)
+
+
+MAKING: dict[str, Callable[[ModuleType], object]] = {
+    "made": lambda old: old.VentsOpen(1, [(1, 0)]),
+    "from plain data": lambda old: old.VentsOpen.from_dict({"ramp_s": 1, "vents": [(1, 0)]}),
+    "sent by a method": sent_by_a_method,
+}
+
+
+@pytest.mark.parametrize("how", MAKING)
+def test_what_makes_it_warns_at_its_own_line(old: ModuleType, how: str) -> None:
+    with pytest.warns(DeprecationWarning, match=TEXT) as caught:
+        MAKING[how](old)
+    (warning,) = caught
+    assert str(warning.message) == SAID
+    assert warning.filename == __file__
+    lines, first = inspect.getsourcelines(MAKING[how])
+    assert first <= warning.lineno < first + len(lines)
+
+
+def test_a_line_warns_once_unless_told_otherwise(old: ModuleType) -> None:
+    with warnings.catch_warnings(record=True) as caught:
+        warnings.simplefilter("default")
+        for _ in range(3):
+            old.VentsOpen(1, [(1, 0)])
+    assert [str(each.message) for each in caught] == [SAID]
+
+
+def test_to_read_it_does_not_warn(old: ModuleType) -> None:
+    with pytest.warns(DeprecationWarning, match=TEXT):
+        message = old.VentsOpen(1, [(1, 0)])
+    frame = message.encode()
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        assert old.decode(frame, message.DIRECTION) == message
+        assert old.StreamDecoder(message.DIRECTION).feed(frame) == [message]
+        assert type(message).decode(frame) == message
+        assert pickle.loads(pickle.dumps(message)) == copy.copy(message) == message  # noqa: S301
+        assert message.to_dict() == {"ramp_s": 1, "vents": [{"vent_id": 1, "angle": 0}]}
+
+
+def test_what_is_not_deprecated_does_not_warn(old: ModuleType) -> None:
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        old.VentJammed(1, 0)
+    named = {kind.__name__: kind.DEPRECATED for kind in old.MESSAGES if kind.DEPRECATED}
+    assert named == {
+        "VentsOpen": TEXT,
+        "TextShow": "The display reads the bus by itself since 2024.",
+    }
+
+
+@settings(suppress_health_check=[HealthCheck.function_scoped_fixture], max_examples=5)
+@given(data=st.data())
+def test_strategies_make_it_without_a_word(old: ModuleType, data: Any) -> None:
+    strategies = import_module(f"{old.__name__}.strategies")
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        assert type(data.draw(strategies.vents_open())) is old.VentsOpen

@@ -1,0 +1,157 @@
+"""The errors of the library: one tree, named as users import it, and true as errors of Python's."""
+
+import copy
+import errno
+import inspect
+import pickle
+import subprocess
+import sys
+from typing import Any
+
+import busservo
+import pytest
+from busservo import (
+    AbsentError,
+    ActionGroupStop,
+    ActionGroupStopped,
+    BatteryVoltageRead,
+    ClosedError,
+    DecodeError,
+    DisconnectedError,
+    EchoError,
+    EncodeError,
+    IncompleteReplyError,
+    LimitError,
+    NoReplyError,
+    NoReportError,
+    PortAddressError,
+    PortBusyError,
+    PortNotFoundError,
+    PortPermissionError,
+    ProtocolError,
+    Reason,
+    TransportError,
+    WriteStuckError,
+)
+from busservo._serial.port_errors import not_opened
+
+# What Python's own handlers catch of them: the sentence of the README, error by error.
+FAMILIES: dict[type[ProtocolError], set[type[Exception]]] = {
+    ProtocolError: set(),
+    EncodeError: {ValueError},
+    LimitError: {ValueError},
+    DecodeError: {ValueError},
+    TransportError: {OSError},
+    PortNotFoundError: {OSError},
+    PortBusyError: {OSError},
+    PortPermissionError: {OSError},
+    PortAddressError: {OSError, ValueError},
+    DisconnectedError: {OSError},
+    WriteStuckError: {OSError},
+    ClosedError: {OSError},
+    EchoError: {OSError},
+    NoReplyError: {OSError, TimeoutError},
+    NoReportError: {OSError, TimeoutError},
+    IncompleteReplyError: set(),
+    AbsentError: set(),
+}
+PORT = ("/dev/ttyUSB0", "it is in use", "close the other program")
+LINE_ERRORS = [kind for kind in FAMILIES if issubclass(kind, TransportError)]
+ERRORS: list[ProtocolError] = [
+    ProtocolError("anything"),
+    EncodeError("targets[1].position", 70000, "70000 is outside 0..65535"),
+    LimitError("targets[1].position", 1200, (0, 1000), "give `limits`"),
+    DecodeError(Reason.TOO_SHORT, 3, "the shortest frame has 4 bytes"),
+    *(kind(*PORT) for kind in LINE_ERRORS),
+    *(kind(*PORT, errno.EBUSY) for kind in LINE_ERRORS),
+    NoReplyError(BatteryVoltageRead(), "BatteryVoltage", 0.25, attempts=2, noise=3),
+    NoReportError("ActionGroupStarted", 1.5, {ActionGroupStopped(): 2}),
+    IncompleteReplyError("servo_id", [3], [ActionGroupStop()], [1, 2]),
+    AbsentError("servo_id", [3], [], []),
+]
+each_error = pytest.mark.parametrize("error", ERRORS, ids=lambda error: type(error).__name__)
+
+
+def exported() -> set[type[ProtocolError]]:
+    public = (getattr(busservo, name) for name in busservo.__all__)
+    return {kind for kind in public if inspect.isclass(kind) and issubclass(kind, ProtocolError)}
+
+
+def test_every_error_has_its_family() -> None:
+    assert exported() == set(FAMILIES) == {type(error) for error in ERRORS}
+    for kind, families in FAMILIES.items():
+        caught = {each for each in (ValueError, OSError, TimeoutError) if issubclass(kind, each)}
+        assert caught == families, kind
+
+
+@each_error
+def test_an_error_is_named_as_it_is_imported(error: ProtocolError) -> None:
+    kind = type(error)
+    assert kind.__module__ == "busservo"
+    assert getattr(busservo, kind.__name__) is kind
+
+
+def test_an_error_of_somebody_else_keeps_its_name() -> None:
+    class CableError(TransportError):
+        """The cable of somebody's own transport."""
+
+    assert CableError.__module__ == __name__
+
+
+def test_a_traceback_names_the_package_though_nothing_was_imported_from_it() -> None:
+    code = "from busservo._codec.codec import decode\ndecode(b'', None)"
+    command = [sys.executable, "-c", code]
+    done = subprocess.run(command, check=False, capture_output=True, text=True)
+    assert done.stderr.splitlines()[-1].startswith("busservo.DecodeError: too short")
+
+
+@each_error
+@pytest.mark.parametrize(
+    "copied",
+    [copy.copy]
+    + [
+        lambda error, protocol=protocol: pickle.loads(pickle.dumps(error, protocol))  # noqa: S301
+        for protocol in range(pickle.HIGHEST_PROTOCOL + 1)
+    ],
+)
+def test_an_error_can_be_copied_and_pickled(error: Any, copied: Any) -> None:
+    twin = copied(error)
+
+    assert type(twin) is type(error)
+    assert str(twin) == str(error)
+    assert vars(twin) == vars(error)
+    if isinstance(error, OSError):
+        assert isinstance(twin, OSError)
+        told = twin.errno, twin.strerror, twin.filename
+        assert told == (error.errno, error.strerror, error.filename)
+
+
+@pytest.mark.parametrize("number", [None, errno.EBUSY])
+@pytest.mark.parametrize("kind", LINE_ERRORS)
+def test_an_error_of_the_line_is_an_error_of_the_system(kind: Any, number: int | None) -> None:
+    error: TransportError = kind(*PORT, number)
+    for each in (error, error.again()):
+        assert (each.errno, each.strerror, each.filename) == (number, PORT[1], PORT[0])
+        assert str(each) == "/dev/ttyUSB0: it is in use; close the other program"
+
+
+@pytest.mark.parametrize("error", [each for each in ERRORS if isinstance(each, TimeoutError)])
+def test_what_did_not_come_has_no_number_and_no_file(error: OSError) -> None:
+    assert (error.errno, error.strerror, error.filename) == (None, None, None)
+
+
+@pytest.mark.parametrize(
+    ("number", "kind"),
+    [
+        (errno.EACCES, PortPermissionError),
+        (errno.EBUSY, PortBusyError),
+        (errno.ENOENT, PortNotFoundError),
+        (errno.EISDIR, PortAddressError),
+        (errno.EIO, TransportError),
+    ],
+)
+def test_the_number_of_the_system_is_kept(number: int, kind: type[TransportError]) -> None:
+    error = not_opened("/dev/ttyUSB0", OSError(number, "the system's words"), str)
+    assert type(error) is kind
+    assert error.errno == number
+    assert error.filename == "/dev/ttyUSB0"

@@ -1,0 +1,227 @@
+"""Messages as plain data and back, copied with changes, and shown in a notebook."""
+
+import copy
+import json
+import re
+import subprocess
+import sys
+from html.parser import HTMLParser
+from typing import Any
+
+import pytest
+from busservo import (
+    ActionGroupRun,
+    ActionGroupStop,
+    BatteryVoltage,
+    EncodeError,
+    Message,
+    Noise,
+    Reason,
+    ServoMove,
+    ServoTarget,
+    ServoUnload,
+    UnknownFrame,
+)
+from busservo._cli.values import fields_in_json
+
+from tests.cases import Case, each_case
+
+# ------------------------------------------------------------------ to_dict, from_dict
+
+
+@each_case
+def test_a_message_comes_back_from_plain_data(case: Case) -> None:
+    fields = case.message.to_dict()
+    assert [*fields] == [*case.message.__match_args__]
+    again = json.loads(json.dumps(fields))
+    assert again == fields
+    assert type(case.message).from_dict(again) == case.message
+
+
+@each_case
+def test_plain_data_is_what_the_command_prints(case: Case) -> None:
+    assert json.loads(fields_in_json(case.message)) == case.message.to_dict()
+
+
+def test_elements_are_dicts_and_may_be_given_as_tuples() -> None:
+    move = ServoMove(1000, [(1, 800)])
+    assert move.to_dict() == {"time_ms": 1000, "targets": [{"servo_id": 1, "position": 800}]}
+    for targets in (
+        [(1, 800)],
+        [[1, 800]],
+        [ServoTarget(1, 800)],
+        ({"position": 800, "servo_id": 1},),
+    ):
+        assert ServoMove.from_dict({"targets": targets, "time_ms": 1000}) == move
+
+
+TARGET = {"servo_id": 1, "position": 800}
+
+
+@pytest.mark.parametrize(
+    ("kind", "fields", "said"),
+    [
+        (ServoMove, {"time_ms": 1}, "targets: it is missing; ServoMove has time_ms, targets"),
+        (
+            ServoMove,
+            {"time_ms": 1, "targets": [TARGET], "speed": 2},
+            "speed: there is no such field; ServoMove has time_ms, targets",
+        ),
+        (
+            ServoMove,
+            {"time_ms": 1, "targets": [TARGET], "servo_count": 1},
+            "servo_count: 1 is not given: it follows from targets; leave it out",
+        ),
+        (
+            ServoMove,
+            {"time_ms": 1, "targets": [TARGET, {"servo_id": 1}]},
+            "targets[1].position: it is missing; ServoTarget has servo_id, position",
+        ),
+        (
+            ServoMove,
+            {"time_ms": 1, "targets": [{**TARGET, "speed": 3}]},
+            "targets[0].speed: there is no such field; ServoTarget has servo_id, position",
+        ),
+        (
+            ServoMove,
+            {"time_ms": 1, "targets": [TARGET, {**TARGET, "position": 70000}]},
+            "targets[1].position: 70000 is outside 0..65535",
+        ),
+        (
+            ServoMove,
+            {"time_ms": 1, "targets": TARGET},
+            "targets: {'servo_id': 1, 'position': 800} is not a list of (servo_id, position)",
+        ),
+        (ServoUnload, {"servo_ids": [{"id": 1}]}, "servo_ids[0]: {'id': 1} is not a whole number"),
+        (ActionGroupStop, {"group": 1}, "group: there is no such field; ActionGroupStop has no"),
+        (BatteryVoltage, {"voltage_mv": 7.5}, "voltage_mv: 7.5 is not a whole number"),
+    ],
+)
+def test_what_is_no_message_is_refused_at_its_place(
+    kind: type[Message], fields: dict[str, Any], said: str
+) -> None:
+    with pytest.raises(EncodeError, match=f"^{re.escape(said)}") as caught:
+        kind.from_dict(fields)
+    assert caught.value.path == said.partition(":")[0]
+
+
+def test_what_is_no_mapping_is_no_message() -> None:
+    fields: Any = [1, 2]
+    with pytest.raises(TypeError, match=r"a mapping of fields expected, such as a dict, not \[1"):
+        ServoMove.from_dict(fields)
+
+
+# ------------------------------------------------------------------ copy.replace
+
+
+@each_case
+def test_a_copy_with_no_changes_is_equal(case: Case) -> None:
+    assert case.message.__replace__() == case.message
+
+
+def test_a_copy_may_have_other_fields() -> None:
+    move = ServoMove(1000, [(1, 800)])
+    replace = getattr(copy, "replace", lambda message, **changes: message.__replace__(**changes))
+    assert replace(move, time_ms=5) == ServoMove(5, [(1, 800)])
+    assert move == ServoMove(1000, [(1, 800)])
+    with pytest.raises(EncodeError, match="time_ms: 70000 is outside"):
+        replace(move, time_ms=70000)
+    with pytest.raises(TypeError, match="speed"):
+        replace(move, speed=1)
+
+
+# ------------------------------------------------------------------ in a notebook
+
+
+class Table(HTMLParser):
+    """The cells of a table by row, and every tag and attribute that there is."""
+
+    def __init__(self, text: str) -> None:
+        super().__init__()
+        self.rows: list[list[str]] = []
+        self.tags: set[str] = set()
+        self.attributes: set[str] = set()
+        self.text = ""
+        self.feed(text)
+        self.close()
+
+    def handle_starttag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
+        self.tags.add(tag)
+        self.attributes |= {name for name, _ in attrs}
+        if tag == "tr":
+            self.rows.append([])
+        elif tag in ("td", "th"):
+            self.rows[-1].append("")
+
+    def handle_data(self, data: str) -> None:
+        self.text += data
+        if self.rows:
+            self.rows[-1][-1] += data
+
+
+SHOWN: list[Message | Noise] = [
+    ServoMove(1000, [(1, 800), (9, 200)]),
+    Noise(b"\x00\xff", Reason.BAD_HEADER),
+    UnknownFrame(bytes.fromhex("55 55 04 63 01 02"), Reason.UNKNOWN_COMMAND),
+]
+
+
+@each_case
+def test_a_strip_shows_each_byte_once(case: Case) -> None:
+    table = Table(case.message._repr_html_())
+    if "more" not in table.text:
+        assert bytes.fromhex("".join(table.rows[1])) == case.frame
+
+
+def test_a_strip_shows_fields_with_values_names_and_units() -> None:
+    table = Table(ServoMove(1000, [(1, 800), (9, 200)])._repr_html_())
+    assert table.text.startswith("ServoMove, host to controller, 13 bytes")
+    names = ["header", "length", "command", "servo_count", "time_ms", "targets[0]", "targets[1]"]
+    assert table.rows == [
+        names,
+        ["55 55", "0B", "03", "02", "E8 03", "01 20 03", "09 C8 00"],
+        ["", "11", "3", "2", "1000 ms", "servo_id 1, position 800", "servo_id 9, position 200"],
+    ]
+    assert Table(ActionGroupRun(8, 0)._repr_html_()).rows[2][-1] == "0 (unlimited)"
+
+
+def test_noise_is_shown_with_its_reason_and_an_unknown_frame_with_its_parts() -> None:
+    noise, unknown = (Table(event._repr_html_()) for event in SHOWN[1:])
+    assert noise.text.startswith("Noise: bad header, 2 bytes")
+    assert noise.rows == [["00 FF"]]
+    assert unknown.text.startswith("Unknown frame: command 99, 6 bytes")
+    assert unknown.rows == [
+        ["header", "length", "command", "parameters"],
+        ["55 55", "04", "63", "01 02"],
+        ["", "4", "99", ""],
+    ]
+
+
+def test_a_long_strip_is_cut_and_says_so() -> None:
+    move = Table(ServoMove(1, [(1, 1)] * 83)._repr_html_())
+    assert len(move.rows[0]) == 49
+    assert move.rows[0][-1] == "and 120 bytes more"
+    noise = Table(Noise(bytes(1000), Reason.BAD_HEADER)._repr_html_())
+    assert noise.rows[0][0].endswith("00 00 and 936 bytes more")
+
+
+@pytest.mark.parametrize("event", SHOWN, ids=repr)
+def test_a_strip_is_a_plain_table(event: Message | Noise) -> None:
+    table = Table(event._repr_html_())
+    assert table.tags == {"div", "table", "tr", "td", "th"} - (
+        {"th"} if type(event) is Noise else set()
+    )
+    assert table.attributes == {"style"}
+    # Its colours are those of the page, which may be light or dark.
+    assert not re.search(r"color|background|#", event._repr_html_())
+
+
+def test_nobody_imports_what_shows_strips_before_one_is_shown() -> None:
+    code = "from busservo import ActionGroupStop; ActionGroupStop(); print('html' in sys.modules)"
+    done = subprocess.run(
+        [sys.executable, "-S", "-c", f"import sys; sys.path[:] = {sys.path!r}; {code}"],
+        capture_output=True,
+        text=True,
+        check=True,
+    )
+    assert done.stdout == "False\n"
