@@ -268,7 +268,7 @@ def test_a_new_message_changes_what_shows_it() -> None:
     modules = {
         *("__init__.py", "__init__.pyi", "messages.py", "strategies.py", "vectors.json"),
         *(f"_client/{name}.py" for name in ("exchanges", "controller", "async_controller")),
-        "device.py",
+        *("device.py", "_explanation/model.json"),
     }
     assert touched == {f"docs/reference/busservo/{page}" for page in pages} | {
         f"generated/busservo/{module}" for module in modules
@@ -301,6 +301,7 @@ def test_a_new_named_value_changes_what_shows_it() -> None:
         "docs/reference/busservo/messages/ServoMove.md",
         "generated/busservo/_client/async_controller.py",
         "generated/busservo/_client/controller.py",
+        "generated/busservo/_explanation/model.json",
         "generated/busservo/messages.py",
     }
 

@@ -1,6 +1,6 @@
 """A line that an event loop reads and writes by itself, without a thread, on whatever clock.
 
-For transports that never block, such as a board in the same process, on virtual time.
+For transports that never block, such as a simulator in the same process, on virtual time.
 """
 
 from __future__ import annotations
