@@ -40,7 +40,7 @@ def methods(owner: type) -> Iterator[tuple[str, Any]]:
             if not name.startswith("_") or name.endswith("__"):
                 inner = getattr(value, "fget", None) or getattr(value, "__func__", value)
                 if inspect.isfunction(inner):
-                    yield f"{owner.__name__}.{name}", inner
+                    yield f"{base.__name__}.{name}", inner
 
 
 PUBLIC = dict(public())

@@ -5,8 +5,9 @@ from __future__ import annotations
 
 import asyncio
 from functools import partial
-from typing import TYPE_CHECKING, TypeVar
+from typing import TYPE_CHECKING, Any, TypeVar
 
+from .._serial.transport import Transport
 from .base_client import BaseClient
 from .line_threads import LineThreads, settle
 from .motion import AsyncMotion
@@ -15,12 +16,10 @@ from .request import Request
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
-    from typing import Any
 
     from .._frame.message import Message
     from .._serial.error_mapping import ErrorMapping
     from .._serial.link_errors import TransportError
-    from .._serial.transport import Transport
     from .async_line import AsyncLine
     from .base_client import Steps, Wait
     from .request import Run

@@ -8,6 +8,7 @@ import time
 import weakref
 
 from .._serial.link_errors import TransportError
+from .._serial.transport import Transport
 from .base_client import DRAIN_TIMEOUT, PACKAGE, POLL_INTERVAL, BaseClient
 from .motion import Motion
 from .request import Request
@@ -15,15 +16,18 @@ from .request import Request
 TYPE_CHECKING = False  # typing alone would double the time that the import takes
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable
-    from typing import Any, TypeVar
+    from typing import TypeVar
+
+    import typing_extensions as typing
 
     from .._frame.message import Message
-    from .._serial.transport import Transport
     from .base_client import Steps, Wait
     from .request import Run
 
     _Result = TypeVar("_Result")
     _Reply = TypeVar("_Reply", bound=Message)
+else:
+    from .._frame.typing_later import typing
 
 # How long to wait for another thread's notification, which always comes: so that a mistake costs no
 # more than this.
@@ -33,7 +37,7 @@ _LONGEST_WAIT = 0.25
 class ThreadClient(BaseClient):
     """A client of any number of threads, which take turns in reading the line."""
 
-    def __init__(self, transport: Transport, *, background: bool, **settings: Any) -> None:
+    def __init__(self, transport: Transport, *, background: bool, **settings: typing.Any) -> None:
         super().__init__(transport, **settings)
         # Held for every access to the session, never for a read; acquired again by a signal handler
         # that closes this in the middle of anything. Entered itself, not by one of the conditions:
@@ -72,13 +76,13 @@ class ThreadClient(BaseClient):
         return self._finish(self._whole_reply(message, kind))
 
     def _ask_in_parts(
-        self, kind: type[Message], reply: type[_Reply], items: Iterable[Any]
+        self, kind: type[Message], reply: type[_Reply], items: Iterable[typing.Any]
     ) -> list[_Reply]:
         """Return the replies to a request that is too long for one. Raises IncompleteReplyError."""
         return self._finish(self._replies(kind, reply, items))
 
     def _exchanged(
-        self, kind: type[Message], items: Iterable[Any]
+        self, kind: type[Message], items: Iterable[typing.Any]
     ) -> list[tuple[Message, Message]]:
         """Return the requests for a long list, each with its reply, complete or not."""
         return self._finish(self._exchanges(kind, items))

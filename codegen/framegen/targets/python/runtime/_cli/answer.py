@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import sys
+from warnings import catch_warnings, simplefilter
 
 from .._codec.codec import decode
 from .._codec.decoder import StreamDecoder
@@ -81,7 +82,10 @@ def _encoded(name: str, words: list[str]) -> str:
     kind = message_named(name)
     given = fields_from_text(kind, words)
     try:
-        return f"frame {kind(**given).encode().hex()}"
+        with catch_warnings():
+            # Nothing here is a program that could heed a warning.
+            simplefilter("ignore", DeprecationWarning)
+            return f"frame {kind(**given).encode().hex()}"
     except EncodeError:
         return "refused"
 

@@ -2,17 +2,22 @@
 
 from __future__ import annotations
 
-from .._serial.link_errors import TransportError
-from .request import Sent
+from collections.abc import Awaitable, Callable, Generator
 
-TYPE_CHECKING = False  # typing alone would double the time that the import takes
+from .._serial.link_errors import TransportError
+from .request import Request, Sent
+from .wire_time import WireTime
+
+TYPE_CHECKING = False
 if TYPE_CHECKING:
-    from collections.abc import Awaitable, Callable
-    from typing import Any
+    import typing_extensions as typing
 
     from .base_client import Steps
-    from .request import Request
-    from .wire_time import WireTime
+else:
+    from .._frame.typing_later import typing
+
+# What is waited for, one thing after the other.
+_Waiting: typing.TypeAlias = Generator[Request | float | None, None, bool]
 
 
 class Timed(Sent):
@@ -87,7 +92,7 @@ class Motion(Timed):
 
     __slots__ = ("_finish",)
 
-    def __init__(self, *what: Any, finish: Callable[[Steps[bool]], bool]) -> None:
+    def __init__(self, *what: typing.Any, finish: Callable[[_Waiting], bool]) -> None:
         super().__init__(*what)
         self._finish = finish
 
@@ -105,7 +110,7 @@ class AsyncMotion(Timed):
 
     __slots__ = ("_finish",)
 
-    def __init__(self, *what: Any, finish: Callable[[Steps[bool]], Awaitable[bool]]) -> None:
+    def __init__(self, *what: typing.Any, finish: Callable[[_Waiting], Awaitable[bool]]) -> None:
         super().__init__(*what)
         self._finish = finish
 
