@@ -5,11 +5,13 @@ from pathlib import Path
 
 import pytest
 from framegen.cli import main
-from framegen.explain import Explanation, Reading, Refusal, Row, explain
-from framegen.explain_text import as_json, as_text
+from framegen.explain import explain
+from framegen.explanation import refusals
+from framegen.explanation.explanation import Explanation, Reading, Refusal, Row
+from framegen.explanation.text import as_json, as_text
 from framegen.language.load import load, read_source
 from framegen.language.values import Direction
-from framegen.model import codec, verdict
+from framegen.model import codec
 from framegen.model.model import Model, derive
 from hypothesis import given, settings
 from hypothesis import strategies as st
@@ -266,7 +268,7 @@ def test_a_frame_cut_short_is_explained_up_to_the_cut(model: Model, name: str, d
     (whole,) = explain(model, data, [direction]).readings
     for size in range(len(data)):
         (refusal,) = explain(model, data[:size], [direction]).refusals
-        assert (refusal.reason, refusal.offset) == (verdict.TOO_SHORT, size)
+        assert (refusal.reason, refusal.offset) == (refusals.TOO_SHORT, size)
         paths = [row.path for row in refusal.rows]
         assert paths == [row.path for row in whole.rows if row.end <= size]
 
@@ -288,19 +290,19 @@ def test_a_deprecated_message_says_so_first() -> None:
 
 # What is wrong: hex, direction, reason, offset, how many rows are right.
 REFUSALS = [
-    ("12", HOST, verdict.BAD_HEADER, 0, 0),
-    ("55", HOST, verdict.TOO_SHORT, 1, 0),
-    ("55 54 02 07", HOST, verdict.BAD_HEADER, 1, 0),
-    ("55 55", HOST, verdict.TOO_SHORT, 2, 1),
-    ("55 55 02", HOST, verdict.TOO_SHORT, 3, 2),
-    ("55 55 02 08", HOST, verdict.UNKNOWN_COMMAND, 3, 2),
-    ("55 55 02 08", CONTROLLER, verdict.LENGTH_MISMATCH, 2, 1),
-    ("55 55 05 06 08", HOST, verdict.TOO_SHORT, 5, 4),
-    ("55 55 05 06 08 01", HOST, verdict.TOO_SHORT, 6, 4),
-    ("55 55 02 07 00", HOST, verdict.TRAILING_BYTES, 4, 3),
-    ("55 55 08 03 02 E8 03 01 20 03", HOST, verdict.COUNT_MISMATCH, 4, 3),
+    ("12", HOST, refusals.BAD_HEADER, 0, 0),
+    ("55", HOST, refusals.TOO_SHORT, 1, 0),
+    ("55 54 02 07", HOST, refusals.BAD_HEADER, 1, 0),
+    ("55 55", HOST, refusals.TOO_SHORT, 2, 1),
+    ("55 55 02", HOST, refusals.TOO_SHORT, 3, 2),
+    ("55 55 02 08", HOST, refusals.UNKNOWN_COMMAND, 3, 2),
+    ("55 55 02 08", CONTROLLER, refusals.LENGTH_MISMATCH, 2, 1),
+    ("55 55 05 06 08", HOST, refusals.TOO_SHORT, 5, 4),
+    ("55 55 05 06 08 01", HOST, refusals.TOO_SHORT, 6, 4),
+    ("55 55 02 07 00", HOST, refusals.TRAILING_BYTES, 4, 3),
+    ("55 55 08 03 02 E8 03 01 20 03", HOST, refusals.COUNT_MISMATCH, 4, 3),
     # Short, and its count wrong before that shows.
-    ("55 55 09 15 06 01 02 03", CONTROLLER, verdict.COUNT_MISMATCH, 4, 3),
+    ("55 55 09 15 06 01 02 03", CONTROLLER, refusals.COUNT_MISMATCH, 4, 3),
 ]
 
 
@@ -314,21 +316,21 @@ def test_refusal(hex_text: str, direction: Direction, reason: str, offset: int, 
 
 def test_a_value_out_of_range_is_where_the_frame_ends() -> None:
     refusal, *_ = explained("C3 5A A5 10 00 06 00 00 01 01 FC 7B", GREENHOUSE).refusals
-    assert (refusal.reason, refusal.offset) == (verdict.OUT_OF_RANGE, 10)
+    assert (refusal.reason, refusal.offset) == (refusals.OUT_OF_RANGE, 10)
     assert refusal.expected == "vents[0].angle is -901, outside -900..900"
     assert refusal.rows[-1].path == "vents[0].vent_id"
 
 
 def test_the_direction_that_came_closest_is_told_first() -> None:
-    refusals = explained("55 55 09 15 06 01 02 03 04 05").refusals
-    assert [(refusal.direction, len(refusal.rows)) for refusal in refusals] == [
-        (HOST, 9),
-        (CONTROLLER, 3),
+    refused = explained("55 55 09 15 06 01 02 03 04 05").refusals
+    assert [(refusal.direction, len(refusal.rows)) for refusal in refused] == [
+        (str(HOST), 9),
+        (str(CONTROLLER), 3),
     ]
-    refusals = explained("55 55 02 08").refusals
-    assert [refusal.reason for refusal in refusals] == [
-        verdict.LENGTH_MISMATCH,
-        verdict.UNKNOWN_COMMAND,
+    refused = explained("55 55 02 08").refusals
+    assert [refusal.reason for refusal in refused] == [
+        refusals.LENGTH_MISMATCH,
+        refusals.UNKNOWN_COMMAND,
     ]
 
 
@@ -530,7 +532,7 @@ def test_any_bytes_are_explained(model: Model, data: bytes) -> None:
     explanation = explain(model, data, model.directions)
     page, values = as_text(explanation), as_json(explanation)
     outcomes: list[Reading | Refusal] = [*explanation.readings, *explanation.refusals]
-    assert {outcome.direction for outcome in outcomes} == set(model.directions)
+    assert {outcome.direction for outcome in outcomes} == set(map(str, model.directions))
     assert all(rows_cover(outcome.rows, data) for outcome in outcomes)
     assert all(
         row.end <= refusal.offset for refusal in explanation.refusals for row in refusal.rows

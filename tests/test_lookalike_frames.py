@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import pytest
-from framegen.model.lookalikes import recognise
+from framegen.explanation.lookalikes import recognise
 
 from tests.factories import DEMO, compiled_of, data_of, layout_of
 
@@ -27,7 +27,7 @@ from tests.factories import DEMO, compiled_of, data_of, layout_of
 def test_a_lookalike_is_recognised(
     hex_: str, name: str | None, command: int | None, meaning: str | None
 ) -> None:
-    found = recognise(layout_of(data_of(DEMO)), bytes.fromhex(hex_))
+    found = recognise(layout_of(data_of(DEMO)).plain, bytes.fromhex(hex_))
     told = (None, None, None) if found is None else (found.name, found.command, found.meaning)
     assert told == (name, command, meaning)
 
@@ -37,7 +37,7 @@ def test_a_lookalike_is_cut_into_its_parts_in_the_byte_order(order: str, size: s
     model = compiled_of({**data_of(DEMO), "byte_order": order}).derived
     assert model is not None
     data = bytes.fromhex(f"C3 5A A5 21 {size} FF")
-    found = recognise(model, data)
+    found = recognise(model.plain, data)
     assert found is not None
     assert {placed.path: placed.of(data) for placed in found.parts} == {
         "preamble": b"\xc3\x5a\xa5",

@@ -5,7 +5,7 @@ from pathlib import Path
 import pytest
 from busservo import Message, strategies
 from busservo._codec import lookalikes
-from framegen.model.lookalikes import recognise
+from framegen.explanation.lookalikes import recognise
 from framegen.model.model import Model
 from framegen.targets.python.library_view import LibraryView
 from hypothesis import given
@@ -70,7 +70,7 @@ def examples(model: Model) -> list[tuple[bytes, str]]:
 
 @pytest.mark.parametrize(("data", "title"), examples(LAYOUT))
 def test_the_generator_recognises_the_same(data: bytes, title: str) -> None:
-    found = recognise(LAYOUT, data)
+    found = recognise(LAYOUT.plain, data)
     assert found is not None
     assert found.lookalike.title == lookalikes.recognise(data) == title
 

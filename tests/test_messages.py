@@ -42,7 +42,7 @@ from busservo import (
 )
 from busservo._frame.element import Element
 from busservo._frame.number import U8
-from framegen.model import verdict
+from framegen.explanation import refusals
 from hypothesis import given
 from hypothesis import strategies as st
 
@@ -657,7 +657,7 @@ def test_the_reasons_are_words() -> None:
 def test_the_reasons_are_those_of_the_reference() -> None:
     words = {
         name: word
-        for name, word in vars(verdict).items()
+        for name, word in vars(refusals).items()
         if name.isupper() and isinstance(word, str)
     }
     assert {reason.name: reason.value for reason in Reason} == words

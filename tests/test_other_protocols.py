@@ -132,7 +132,7 @@ def verbs_of(folder: Path, name: str) -> list[str]:
     return [line.split()[0] for line in table.split("\n")]
 
 
-HEARING = ["answer", "decode", "doctor", "encode", "monitor", "ports"]
+HEARING = ["answer", "decode", "docs", "doctor", "encode", "explain", "monitor", "ports"]
 
 
 @pytest.mark.parametrize(

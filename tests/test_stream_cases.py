@@ -10,7 +10,7 @@ from framegen.cases.stream_case import chunks, single_bytes
 from framegen.cases.streams import streams
 from framegen.cases.unknown_id import unknown_id
 from framegen.compile import compile_spec
-from framegen.model import verdict
+from framegen.explanation import refusals
 from framegen.model.stream import ReferenceDecoder
 
 from tests.factories import BUSSERVO, DEMO, compiled_of, data_of, layout_of
@@ -80,13 +80,13 @@ def test_all_that_can_be_told_is_told_in_each_direction(spec: Path) -> None:
         assert {event.kind for event in events if event} == {"message", "unknown", "noise"}
         messages = model.sent(direction).values()
         reasons = {
-            *(verdict.BAD_HEADER, verdict.TOO_SHORT),
-            *(verdict.UNKNOWN_COMMAND, verdict.LENGTH_MISMATCH),
+            *(refusals.BAD_HEADER, refusals.TOO_SHORT),
+            *(refusals.UNKNOWN_COMMAND, refusals.LENGTH_MISMATCH),
         }
         if any(message.items for message in messages):
-            reasons.add(verdict.COUNT_MISMATCH)
+            reasons.add(refusals.COUNT_MISMATCH)
         if any(slot.narrowed for each in messages for slot in each.numbers_by_path.values()):
-            reasons.add(verdict.OUT_OF_RANGE)
+            reasons.add(refusals.OUT_OF_RANGE)
         assert {event.reason for event in events if event and event.reason} >= reasons
         names = {event.message.name for event in events if event and event.message}
         assert names == set(Sender(model, direction).small_frames)

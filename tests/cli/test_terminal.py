@@ -70,6 +70,18 @@ def test_no_colour_where_none_is_wanted(board: VirtualController, variable: dict
         assert "\x1b" not in monitor.shown
 
 
+def test_a_page_is_as_wide_as_the_terminal_and_has_coloured_headings() -> None:
+    with OnTerminal("docs", "BatteryVoltage", COLUMNS="60") as docs:
+        assert docs.end() == 0
+        prose = docs.shown.partition("In Python")[0].replace("\r\n", "\n")
+    assert prose.startswith("\x1b[36mBatteryVoltage\x1b[0m\n")
+    widths = [len(re.sub(r"\x1b\[[0-9]*m", "", line)) for line in prose.split("\n")]
+    assert 50 < max(widths) <= 60
+    with OnTerminal("docs", "BatteryVoltage", NO_COLOR="1") as docs:
+        assert docs.end() == 0
+        assert "\x1b" not in docs.shown
+
+
 def test_a_pipe_that_is_closed_ends_a_monitor(board: VirtualController, tmp_path: Path) -> None:
     log = tmp_path / "line.hex"
     monitor = start("monitor", "--port", board.port, "--log", str(log))

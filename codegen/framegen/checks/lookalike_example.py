@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from framegen.checks.rule import ModelRule, Problem
-from framegen.model.lookalikes import recognise
+from framegen.explanation.lookalikes import recognise
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -17,7 +17,7 @@ def _look(model: Model) -> Iterator[Problem]:
     for name, lookalike in model.spec.lookalikes.items():
         for index, example in enumerate(lookalike.examples):
             path = ("lookalikes", name, "examples", index, "hex")
-            found = recognise(model, example.hex)
+            found = recognise(model.plain, example.hex)
             if found is None:
                 text = f"this is no frame of {lookalike.title}"
                 yield Problem(path, text, "check its length, its checksum and its ids")

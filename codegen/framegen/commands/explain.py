@@ -46,7 +46,7 @@ def run(arguments: Namespace) -> int:
     """Print the explanation. 0 for a frame, 1 for none. Raises Unusable."""
     from framegen.commands.spec_argument import compiled  # noqa: PLC0415
     from framegen.explain import explain  # noqa: PLC0415
-    from framegen.explain_text import as_json, as_text  # noqa: PLC0415
+    from framegen.explanation.text import as_json, as_text  # noqa: PLC0415
     from framegen.reading.yamltree import Unusable  # noqa: PLC0415
 
     spec, words = None, arguments.words

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, TypeAlias
 
 from framegen.conformance.language import HEX_AT, Decode, Encode, Stream
 from framegen.explain import seen_rows
-from framegen.explain_text import table
+from framegen.explanation.text import table
 from framegen.model.codec import Unencodable, encode
 from framegen.model.verdict import weigh, weigh_whole
 from framegen.pluralize import pluralize
@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
 
     from framegen.conformance.comparison import Difference
-    from framegen.explain import Row
+    from framegen.explanation.explanation import Row
     from framegen.model.model import Model
 
     # Lines of an answer, each behind the offset of its first byte, if it has any.
@@ -161,7 +161,7 @@ def _reason(model: Model, difference: Difference, question: Decode | Stream) -> 
         verdict = weigh(model, [question.way], rest, question.max_frame)
     else:
         return None
-    rows = [replace(row, offset=row.offset + at) for row in seen_rows(verdict, rest)]
+    rows = [replace(row, offset=row.offset + at) for row in seen_rows(model, verdict, rest)]
     if verdict.message is not None:
         return _Reason(rows, None, "")
     verdict = replace(verdict, offset=at + verdict.offset)

@@ -6,6 +6,8 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING
 
+from framegen.explanation.protocol import Protocol
+from framegen.model.data import model_data
 from framegen.model.envelope import derive_envelope
 from framegen.model.exchanges import exchanges
 from framegen.model.layout import derive_message
@@ -50,6 +52,11 @@ class Model:
     def directions(self) -> list[Direction]:
         """Those directions that messages have."""
         return [way for way in self.ways if way in self._sent]
+
+    @cached_property
+    def plain(self) -> Protocol:
+        """The model as plain data, for what explains it; a library carries the same."""
+        return Protocol(model_data(self))
 
     def sent(self, direction: Direction) -> Mapping[int, MessageLayout]:
         """Return the messages of one direction, by id."""

@@ -9,7 +9,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Literal
 
-from framegen.model.verdict import BAD_HEADER, UNKNOWN_COMMAND, weigh
+from framegen.explanation.refusals import BAD_HEADER, UNKNOWN_COMMAND
+from framegen.model.verdict import weigh
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator, Sequence

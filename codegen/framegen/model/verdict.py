@@ -7,29 +7,29 @@ gives the reason and the offset. Single frames and streams are judged by this al
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from functools import lru_cache
+from functools import lru_cache, partial
 from itertools import islice
 from typing import TYPE_CHECKING
 
+from framegen.explanation.refusals import (
+    BAD_HEADER,
+    COUNT_MISMATCH,
+    LENGTH_MISMATCH,
+    OUT_OF_RANGE,
+    TOO_SHORT,
+    TRAILING_BYTES,
+    UNKNOWN_COMMAND,
+    Refused,
+)
 from framegen.model.slots import Constant, Number
-from framegen.pluralize import describe_range
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Callable, Sequence
 
     from framegen.language.values import Direction
     from framegen.model.layout import MessageLayout
     from framegen.model.model import Model
     from framegen.model.slots import Placed
-
-# The reasons for which bytes are no frame. Every target and the test vectors use these words.
-TOO_SHORT = "too short"
-TRAILING_BYTES = "trailing bytes"
-BAD_HEADER = "bad header"
-LENGTH_MISMATCH = "length mismatch"
-COUNT_MISMATCH = "count mismatch"
-UNKNOWN_COMMAND = "unknown command"
-OUT_OF_RANGE = "out of range"
 
 
 @dataclass(frozen=True, slots=True)
@@ -38,7 +38,7 @@ class Verdict:
 
     Of a message, `offset` is where its frame ends. Else `message` is None, and `reason` and
     `offset` say where it shows that this is no frame: `too short` may still become one.
-    `expected` says what was due. `seen` are the slots that agreed up to there, and `likely` is the
+    `due` says what was expected. `seen` are the slots that agreed up to there, and `likely` is the
     message that they began, if it is known.
 
     Of a frame of unknown id, `claim` is the size that it claims, which nothing proves; the size of
@@ -48,7 +48,7 @@ class Verdict:
     message: MessageLayout | None
     reason: str
     offset: int
-    expected: str
+    due: Callable[[], str]
     seen: tuple[Placed, ...]
     likely: MessageLayout | None
     claim: int = 0
@@ -59,15 +59,20 @@ class Verdict:
         return self.reason == TOO_SHORT
 
     @property
+    def expected(self) -> str:
+        """What was due."""
+        return self.due()
+
+    @property
     def refusal(self) -> str:
         """Why this is no frame, in a line: `too short at byte 4: a length of 8 makes 10 bytes`."""
         return f"{self.reason} at byte {self.offset}: {self.expected}"
 
 
 class _Refused(Exception):  # noqa: N818 - says what became of the bytes
-    def __init__(self, reason: str, offset: int, expected: str) -> None:
-        super().__init__(reason, offset, expected)
-        self.verdict = reason, offset, expected
+    def __init__(self, reason: str, offset: int) -> None:
+        super().__init__(reason, offset)
+        self.verdict = reason, offset
 
 
 def weigh(
@@ -80,13 +85,13 @@ def weigh(
     largest offset is given.
     """
     if data and data[0] != model.frame.header[0]:
-        return _begins_otherwise(model.frame.opening)
+        return _begins_otherwise(model.plain.frame.opening)
     look = _Look(model, directions, data, max_frame)
     try:
         length, candidates = look.head()
     except _Refused as refused:
         claim = look.claim() if refused.verdict[0] == UNKNOWN_COMMAND else 0
-        return Verdict(None, *refused.verdict, tuple(look.seen), look.likely, claim)
+        return look.refused(*refused.verdict, look.seen, look.likely, claim)
     verdicts = [look.fields(message, length) for message in candidates]
     legal = (verdict for verdict in verdicts if verdict.message is not None)
     # Of equals, `max` gives the first.
@@ -104,7 +109,7 @@ def weigh_whole(model: Model, directions: Sequence[Direction], data: bytes) -> V
 @lru_cache
 def _begins_otherwise(opening: str) -> Verdict:
     """Return the verdict on most offsets of a line, made once."""
-    return Verdict(None, BAD_HEADER, 0, opening, (), None)
+    return Verdict(None, BAD_HEADER, 0, partial(str, opening), (), None)
 
 
 class _Look:
@@ -131,7 +136,7 @@ class _Look:
             if isinstance(slot, Constant):
                 self._constant(placed, slot)
             elif isinstance(slot, Number):
-                number = slot.read(self._whole(placed, self.frame.shortest))
+                number = slot.read(self._whole(placed))
                 if slot.role == "length":
                     length = self._length(number)
                 elif slot.role == "id":
@@ -154,15 +159,33 @@ class _Look:
         """Judge what follows the head as the fields of one message."""
         count = message.count_at(length)
         size = message.size_at(count)
-        due = f"a {self.frame.length.name} of {length} makes {size} bytes"
         seen = list(self.seen)
         try:
             for placed in islice(message.lay_out(count), len(seen), None):
-                self._field(placed, length, count, due)
+                self._field(placed, count)
                 seen.append(placed)
         except _Refused as refused:
-            return Verdict(None, *refused.verdict, tuple(seen), message)
+            return self.refused(*refused.verdict, seen, message)
+        due = self._due(TRAILING_BYTES, size, message)
         return Verdict(message, "", size, due, tuple(seen), message)
+
+    def refused(
+        self,
+        reason: str,
+        offset: int,
+        seen: Sequence[Placed],
+        likely: MessageLayout | None,
+        claim: int = 0,
+    ) -> Verdict:
+        """Return the verdict for a refusal."""
+        due = self._due(reason, offset, likely)
+        return Verdict(None, reason, offset, due, tuple(seen), likely, claim)
+
+    def _due(self, reason: str, offset: int, likely: MessageLayout | None) -> Callable[[], str]:
+        """Return what says what is expected."""
+        plain, ways = self.model.plain, self.directions
+        message = None if likely is None else plain.messages[likely.name]
+        return Refused(plain, ways, self.data, reason, offset, message, self.largest).expected
 
     def _constant(self, placed: Placed, slot: Constant) -> None:
         found = placed.of(self.data)
@@ -170,18 +193,18 @@ class _Look:
             return
         for at, (byte, right) in enumerate(zip(found, slot.data, strict=False), placed.at):
             if byte != right:
-                raise _Refused(BAD_HEADER, at, self.frame.opening)
-        raise _Refused(TOO_SHORT, len(self.data), self.frame.opening)
+                raise _Refused(BAD_HEADER, at)
+        raise _Refused(TOO_SHORT, len(self.data))
 
-    def _whole(self, placed: Placed, due: str) -> bytes:
+    def _whole(self, placed: Placed) -> bytes:
         found = placed.of(self.data)
         if len(found) < placed.size:
-            raise _Refused(TOO_SHORT, len(self.data), due)
+            raise _Refused(TOO_SHORT, len(self.data))
         return found
 
     def _length(self, length: int) -> int:
         if not self._is_possible(length + self.frame.uncounted):
-            raise self._mismatch(length, self._named())
+            raise _Refused(LENGTH_MISMATCH, self.frame.length.at)
         return length
 
     def _is_possible(self, size: int) -> bool:
@@ -191,48 +214,26 @@ class _Look:
         sent = (self.model.sent(direction).get(code) for direction in self.directions)
         return [message for message in sent if message is not None]
 
-    def _named(self) -> list[MessageLayout]:
-        """Return the messages that have the id of these bytes, whatever precedes it."""
-        place = self.frame.id
-        return self._messages(place.read_in(self.data)) if place.is_in(self.data) else []
-
-    def _mismatch(self, length: int, messages: list[MessageLayout]) -> _Refused:
-        name = self.frame.length.name
-        has = " or ".join(
-            f"{message.name} has a {name} of {describe_range(message.lengths)}"
-            for message in messages
-        )
-        if not messages:
-            least, most = (each - self.frame.uncounted for each in (self.frame.least, self.largest))
-            has = f"the {name} of a frame is {least}..{most}"
-        return _Refused(LENGTH_MISMATCH, self.frame.length.at, f"{has}, not {length}")
-
     def _candidates(self, code: int) -> list[MessageLayout]:
         found = self._messages(code)
         if not found:
-            ways = " or ".join(map(str, self.directions))
-            due = f"no message {ways} has the {self.frame.id.name} {code}"
-            raise _Refused(UNKNOWN_COMMAND, self.frame.id.at, due)
+            raise _Refused(UNKNOWN_COMMAND, self.frame.id.at)
         self.likely = found[0]
         return found
 
     def _fitting(self, candidates: list[MessageLayout], length: int) -> list[MessageLayout]:
         fitting = [message for message in candidates if length in message.lengths]
         if not fitting:
-            raise self._mismatch(length, candidates)
+            raise _Refused(LENGTH_MISMATCH, self.frame.length.at)
         return fitting
 
-    def _field(self, placed: Placed, length: int, count: int, due: str) -> None:
+    def _field(self, placed: Placed, count: int) -> None:
         slot = placed.slot
         if isinstance(slot, Constant):
             self._constant(placed, slot)
         if not isinstance(slot, Number):
             return
         if slot.role == "count" and not slot.write(count).startswith(placed.of(self.data)):
-            has = f"a {self.frame.length.name} of {length} makes {slot.name} {count}"
-            shown = f", not {slot.read_in(self.data)}" if slot.is_in(self.data) else ""
-            raise _Refused(COUNT_MISMATCH, placed.at, f"{has}{shown}")
-        value = slot.read(self._whole(placed, due))
-        if not slot.low <= value <= slot.high:
-            why = f"{placed.path} is {value}, outside {slot.low}..{slot.high}"
-            raise _Refused(OUT_OF_RANGE, placed.at, why)
+            raise _Refused(COUNT_MISMATCH, placed.at)
+        if not slot.low <= slot.read(self._whole(placed)) <= slot.high:
+            raise _Refused(OUT_OF_RANGE, placed.at)

@@ -10,6 +10,7 @@ from .._client.exchanges import EXCHANGES
 from ..messages import MESSAGES
 from .events import KINDS
 from .examples import PROGRAM, SUMMARY
+from .reference_topics import TOPICS
 from .shell_completion import CompletionError, Files, Function, Words, script
 from .usage_error import UsageError
 from .verbs import verbs
@@ -47,6 +48,8 @@ def _candidates(command: str, action: Action) -> Candidates | None:
         # Anything can be encoded; what has to do with a port is for what is sent from here.
         kinds = MESSAGES if command.endswith(" encode") else tuple(EXCHANGES)
         return Words([kind.__name__ for kind in kinds])
+    if action.metavar == "MESSAGE|WORD":
+        return Words([*(kind.__name__ for kind in MESSAGES), *TOPICS])
     if action.metavar == "NAME":
         return Words([*KINDS, *(kind.__name__ for kind in MESSAGES)])
     return Files() if action.metavar in _FILES else None

@@ -10,8 +10,10 @@ VERBS = {
     "answer": "Answer questions on standard input: a codec for programs in any language.",
     "bench-line": "Measure how long queries take on a line, compared with what it allows.",
     "decode": "Decode bytes: messages, and noise with the reason.",
+    "docs": "Look up a message: its bytes, fields and examples, and what is known of it.",
     "doctor": "Diagnose a port, a line or a device.",
     "encode": "Make the frame of a message.",
+    "explain": "Take a frame apart byte by byte, or show where and why bytes are no frame.",
     "monitor": "Show the traffic of a line as it arrives.",
     "play": "Play recorded poses.",
     "ports": "List the serial ports, and devices that have none.",
@@ -41,6 +43,14 @@ EXAMPLES = {
         ("busservo decode -t absolute line.hex", "a recording, with the time of day"),
         ("busservo decode --csv line.hex", "a row for each, for a spreadsheet"),
     ),
+    "docs": (
+        ("busservo docs", "every message, in a line"),
+        ("busservo docs ServoMove", "a message: its bytes, fields and examples"),
+        ("busservo docs 0x03", "the messages with this command"),
+        ("busservo docs servo", "whatever has this in its name or its text"),
+        ("busservo docs errata", "where the documents are wrong, and what they leave open"),
+        ("busservo docs lookalikes", "protocols that are easily taken for this one"),
+    ),
     "doctor": (
         ("busservo doctor", "the only port, and the device behind it"),
         ("busservo doctor --port COM7", "this port"),
@@ -62,6 +72,11 @@ EXAMPLES = {
             "busservo encode ServoUnload servo_ids=1,2,3",
             "Switch off the force of one or more servos, so that they can be turned by hand.",
         ),
+    ),
+    "explain": (
+        ("busservo explain 55 55 08 03 01 E8 03 01 20 03", "each byte, and what it says"),
+        ("busservo explain 5555080301E803012003 --direction host", "as sent by the host alone"),
+        ("busservo explain 55 55 08 03 01 E8 03 01 20", "where and why it is no frame"),
     ),
     "monitor": (
         ("busservo monitor --port COM7", "every frame and all noise"),

@@ -10,16 +10,16 @@ from typing import TYPE_CHECKING
 
 from framegen.conformance.device.queries import requests
 from framegen.conformance.device.step import Malformed, Step
-from framegen.model.slots import Number
-from framegen.model.stream import ReferenceDecoder
-from framegen.model.verdict import (
+from framegen.explanation.refusals import (
     COUNT_MISMATCH,
     LENGTH_MISMATCH,
     OUT_OF_RANGE,
     TOO_SHORT,
     UNKNOWN_COMMAND,
-    weigh,
 )
+from framegen.model.slots import Number
+from framegen.model.stream import ReferenceDecoder
+from framegen.model.verdict import weigh
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Iterator

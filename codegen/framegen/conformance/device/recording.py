@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING
 
 from framegen.conformance.device.step import Request
 from framegen.conformance.language import fields
+from framegen.explanation.refusals import TOO_SHORT
 from framegen.model.codec import values_of
-from framegen.model.verdict import TOO_SHORT
 from framegen.reading.yamltree import Unusable
 from framegen.recording_file import NOISE, RecordingFile
 

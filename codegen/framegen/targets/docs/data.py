@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from framegen.model import verdict
+from framegen.explanation import refusals
 from framegen.model.slots import Body, Constant, Items, Number
 from framegen.targets.docs.address import message_page
 
@@ -15,13 +15,13 @@ if TYPE_CHECKING:
 
 # The reasons for which bytes are no frame, by what the script calls them.
 _REASONS = {
-    "tooShort": verdict.TOO_SHORT,
-    "trailing": verdict.TRAILING_BYTES,
-    "header": verdict.BAD_HEADER,
-    "length": verdict.LENGTH_MISMATCH,
-    "count": verdict.COUNT_MISMATCH,
-    "unknown": verdict.UNKNOWN_COMMAND,
-    "range": verdict.OUT_OF_RANGE,
+    "tooShort": refusals.TOO_SHORT,
+    "trailing": refusals.TRAILING_BYTES,
+    "header": refusals.BAD_HEADER,
+    "length": refusals.LENGTH_MISMATCH,
+    "count": refusals.COUNT_MISMATCH,
+    "unknown": refusals.UNKNOWN_COMMAND,
+    "range": refusals.OUT_OF_RANGE,
 }
 
 

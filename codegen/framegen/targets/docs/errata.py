@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
-from framegen.language.formula import Formula
+from framegen.model.data import claim_in_words, concern_in_words
 from framegen.targets.docs.cite import CiteView, Place, cite_view
 
 if TYPE_CHECKING:
-    from framegen.language.spec import Concern
     from framegen.model.model import Model
 
 
@@ -46,9 +45,9 @@ def erratum_views(model: Model) -> list[ErratumView]:
             erratum.title,
             cite_view(model.spec, erratum.cite),
             erratum.concerns.message,
-            _concern(erratum.concerns),
-            _shown(erratum.document),
-            _shown(erratum.bytes_),
+            concern_in_words(erratum.concerns),
+            claim_in_words(erratum.document),
+            claim_in_words(erratum.bytes_),
             erratum.here,
             erratum.why,
             Place(("errata", number - 1)),
@@ -60,26 +59,6 @@ def erratum_views(model: Model) -> list[ErratumView]:
 def unknown_views(model: Model) -> list[UnknownView]:
     """Return every unknown, in the order of the spec."""
     return [
-        UnknownView(unknown.concerns.message, _concern(unknown.concerns), unknown.what)
+        UnknownView(unknown.concerns.message, concern_in_words(unknown.concerns), unknown.what)
         for unknown in model.spec.unknowns
     ]
-
-
-def _concern(concern: Concern) -> str:
-    """Name the fact of the message that is meant."""
-    words = [] if concern.fact is None else [f"its {concern.fact}"]
-    if concern.parameter is not None:
-        words.append(f"parameter {concern.parameter}")
-    if concern.field is not None:
-        words.append(concern.field)
-    if concern.example is not None:
-        words.append(f"in example {concern.example}" if words else f"example {concern.example}")
-    return " ".join(words)
-
-
-def _shown(value: Any) -> str:
-    if value is None:
-        return "nothing"
-    if isinstance(value, list):
-        return ", ".join(_shown(item) for item in value)
-    return str(value) if not isinstance(value, Formula) else f"length {value}"

@@ -5,8 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+from framegen.explanation.lookalikes import recognise
 from framegen.language.values import to_hex
-from framegen.model.lookalikes import recognise
 from framegen.model.slots import Constant
 from framegen.model.verdict import weigh_whole
 from framegen.targets.docs.cite import CiteView, cite_view
@@ -71,7 +71,7 @@ def lookalike_views(model: Model) -> list[LookalikeEntry]:
 
 
 def _frame(model: Model, title: str, data: bytes) -> LookalikeFrame:
-    recognised = recognise(model, data)
+    recognised = recognise(model.plain, data)
     cells = [] if recognised is None else given_strip(recognised.parts, data)
     query = f"hex={data.hex()}&direction={model.directions[0].key}"
     verdicts = [_verdict(model, way, data) for way in model.directions]

@@ -5,9 +5,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+from framegen.explanation.refusals import COUNT_MISMATCH
 from framegen.model.codec import Unencodable, encode
 from framegen.model.slots import Constant
-from framegen.model.verdict import COUNT_MISMATCH
 from framegen.targets.docs.walkthrough import Walkthrough, walkthrough
 
 if TYPE_CHECKING:

@@ -12,11 +12,12 @@ from framegen.model.slots import Body, Constant, Items, Number
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
-    from framegen.explain import Row
+    from framegen.explanation.explanation import Row
+    from framegen.explanation.protocol import Placed
     from framegen.model.envelope import Envelope
     from framegen.model.layout import MessageLayout
     from framegen.model.model import Model
-    from framegen.model.slots import Placed, Slot
+    from framegen.model.slots import Slot
 
 # More elements of a list than this are not shown one by one.
 _MOST_CELLS = 64

@@ -9,10 +9,15 @@ from dataclasses import dataclass, replace
 from itertools import groupby, pairwise
 from typing import TYPE_CHECKING
 
+from framegen.explanation.refusals import (
+    BAD_HEADER,
+    COUNT_MISMATCH,
+    LENGTH_MISMATCH,
+    TOO_SHORT,
+)
 from framegen.language.values import to_hex
 from framegen.model.slots import Number
 from framegen.model.stream import ReferenceDecoder
-from framegen.model.verdict import BAD_HEADER, COUNT_MISMATCH, LENGTH_MISMATCH, TOO_SHORT
 from framegen.pluralize import describe_range, pluralize
 
 if TYPE_CHECKING:

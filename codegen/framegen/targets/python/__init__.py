@@ -6,6 +6,7 @@ from functools import cache
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from framegen.targets.python.carried_model import carried_model
 from framegen.targets.python.client_view import ClientView
 from framegen.targets.python.device_view import DeviceView
 from framegen.targets.python.docstring import docstring
@@ -33,7 +34,13 @@ _SHARED = {
     "_codec/hextext.py": "hextext.py",
     "_recording/file.py": "recording_file.py",
     "_frame/pluralize.py": "pluralize.py",
+    **{
+        f"_explanation/{name}.py": f"explanation/{name}.py"
+        for name in ("__init__", "explanation", "lookalikes", "protocol", "refusals", "text")
+    },
 }
+# What a shared file imports has another place in a library.
+_IMPORT, _IMPORT_THERE = "from ..pluralize import", "from .._frame.pluralize import"
 # What only a protocol with poses has a use for.
 _FOR_POSES = {"_cli/play.py", "_cli/posefile.py", "_cli/positions.py", "_cli/teach.py"}
 
@@ -43,7 +50,8 @@ def render(compiled: Compiled, _snippets: Snippets) -> dict[str, str]:
     library = LibraryView(names_of(compiled.model).library)
     poses = compiled.model.spec.pose is not None
     copied = {name: text for name, text in _runtime().items() if poses or name not in _FOR_POSES}
-    files = {**copied, **dict(_from_templates(library)), "py.typed": ""}
+    explained = {"_explanation/model.json": carried_model(compiled)}
+    files = {**copied, **dict(_from_templates(library)), **explained, "py.typed": ""}
     (root,) = folders(compiled.model)
     return {f"{root}/{name}": text for name, text in files.items()}
 
@@ -59,7 +67,10 @@ def _runtime() -> dict[str, str]:
     root = _HERE / "runtime"
     files = {file.relative_to(root).as_posix(): file for file in sorted(root.rglob("*.py"))}
     files |= {name: _HERE.parents[1] / shared for name, shared in _SHARED.items()}
-    return {name: file.read_text(encoding="utf-8") for name, file in files.items()}
+    return {
+        name: file.read_text(encoding="utf-8").replace(_IMPORT, _IMPORT_THERE)
+        for name, file in files.items()
+    }
 
 
 def _from_templates(library: LibraryView) -> list[tuple[str, str]]:

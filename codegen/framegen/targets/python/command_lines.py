@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, TypeAlias
 
+from framegen.model.exchanges import snake_case
 from framegen.targets.python.escape import Bracketed, Text, literal
 from framegen.targets.python.message_view import MessageView
 
@@ -21,8 +22,10 @@ _ABOUT = {
     "answer": "Answer questions on standard input: a codec for programs in any language.",
     "bench-line": "Measure how long queries take on a line, compared with what it allows.",
     "decode": "Decode bytes: messages, and noise with the reason.",
+    "docs": "Look up a message: its bytes, fields and examples, and what is known of it.",
     "doctor": "Diagnose a port, a line or a device.",
     "encode": "Make the frame of a message.",
+    "explain": "Take a frame apart byte by byte, or show where and why bytes are no frame.",
     "monitor": "Show the traffic of a line as it arrives.",
     "play": "Play recorded poses.",
     "ports": "List the serial ports, and devices that have none.",
@@ -68,6 +71,8 @@ def _examples(model: Model) -> dict[str, list[_Line]]:
     found = {
         "answer": [("", "questions on standard input, until it ends")],
         "decode": _decode_lines(model),
+        "docs": _docs_lines(model),
+        "explain": _explain_lines(model),
         "doctor": [
             ("", "the only port, and the device behind it"),
             ("--port COM7", "this port"),
@@ -132,6 +137,31 @@ def _decode_lines(model: Model) -> list[_Line]:
         ("--json line.bin", "a line of JSON for each message and noise"),
         ("-t absolute line.hex", "a recording, with the time of day"),
         ("--csv line.hex", "a row for each, for a spreadsheet"),
+    ]
+
+
+def _docs_lines(model: Model) -> list[_Line]:
+    """Return the ways to look something up."""
+    message = _messages(model)[0]
+    number = f"0x{message.layout.id:0{2 * message.layout.frame.id.size}X}"
+    return [
+        ("", "every message, in a line"),
+        (message.name, "a message: its bytes, fields and examples"),
+        (number, f"the messages with this {message.layout.frame.id.name}"),
+        (snake_case(message.name).split("_")[0], "whatever has this in its name or its text"),
+        ("errata", "where the documents are wrong, and what they leave open"),
+        ("lookalikes", "protocols that are easily taken for this one"),
+    ]
+
+
+def _explain_lines(model: Model) -> list[_Line]:
+    """Return the ways to have bytes explained."""
+    message = _messages(model)[0]
+    frame, sender = message.example.hex, message.layout.direction.sender
+    return [
+        (frame.hex(" ").upper(), "each byte, and what it says"),
+        (f"{frame.hex().upper()} --direction {sender}", f"as sent by the {sender} alone"),
+        (frame[:-1].hex(" ").upper(), "where and why it is no frame"),
     ]
 
 

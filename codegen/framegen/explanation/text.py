@@ -4,14 +4,13 @@ from __future__ import annotations
 
 from itertools import groupby
 from textwrap import fill
-from typing import TYPE_CHECKING, Any
 
-from framegen.language.values import to_hex
-
+TYPE_CHECKING = False
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
+    from typing import Any
 
-    from framegen.explain import Explanation, Reading, Refusal, Row
+    from .explanation import Explanation, Reading, Refusal, Row
 
 _BYTES_A_LINE = 16
 _LINES_AROUND = 2
@@ -34,7 +33,7 @@ def as_json(explanation: Explanation) -> dict[str, Any]:
         "readings": [
             {
                 "message": reading.message,
-                "direction": str(reading.direction),
+                "direction": reading.direction,
                 "summary": reading.summary,
                 "rows": [_row_json(row) for row in reading.rows],
                 "facts": dict(reading.facts),
@@ -43,7 +42,7 @@ def as_json(explanation: Explanation) -> dict[str, Any]:
         ],
         "refusals": [
             {
-                "direction": str(refusal.direction),
+                "direction": refusal.direction,
                 "reason": refusal.reason,
                 "offset": refusal.offset,
                 "expected": refusal.expected,
@@ -144,3 +143,8 @@ def _pointed(data: bytes, offset: int) -> Iterator[str]:
             yield f"  {'   ' * (offset - at)}^^ byte {offset}"
     if end < len(data):
         yield f"  ... {len(data) - end} bytes after"
+
+
+def to_hex(data: bytes) -> str:
+    """Write bytes as `0A 1B 02 FF`."""
+    return data.hex(" ").upper()

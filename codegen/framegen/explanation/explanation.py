@@ -1,0 +1,273 @@
+"""Explanation of a frame byte by byte, or of where and why bytes stop being a frame.
+
+Content alone: `text` formats it.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from .lookalikes import recognise
+from .refusals import UNKNOWN_COMMAND, Refused
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterable, Iterator, Sequence
+    from typing import TypeAlias
+
+    from .protocol import Message, Placed, Protocol
+
+    # The verdict on bytes as exactly one frame, sent in a direction.
+    Judge: TypeAlias = Callable[[str, bytes], "Judgement"]
+
+# So many of the frames inside other bytes are told.
+_MOST_WITHIN = 8
+
+
+@dataclass(frozen=True)
+class Judgement:
+    """The name of the message that bytes are; or none, with the reason and where it shows."""
+
+    message: str | None
+    reason: str = ""
+    offset: int = 0
+
+
+@dataclass(frozen=True)
+class Row:
+    """Some bytes of a frame that belong together: a part of the frame, or a field.
+
+    `role` is that of its slot; `value` is None for constant bytes; `text` is the value as people
+    write it, `7500 mV = 7.500 V`.
+    """
+
+    offset: int
+    data: bytes
+    path: str
+    role: str
+    value: int | None
+    text: str
+    meaning: str
+
+    @property
+    def end(self) -> int:
+        """The offset after the last byte."""
+        return self.offset + len(self.data)
+
+
+@dataclass(frozen=True)
+class Reading:
+    """The meaning of a frame in one direction; `facts` are lines of a label and a text."""
+
+    message: str
+    direction: str
+    summary: str
+    rows: tuple[Row, ...]
+    facts: tuple[tuple[str, str], ...]
+
+
+@dataclass(frozen=True)
+class Refusal:
+    """Why the bytes are no frame in one direction; `rows` are the slots that agreed."""
+
+    direction: str
+    reason: str
+    offset: int
+    expected: str
+    rows: tuple[Row, ...]
+
+
+@dataclass(frozen=True)
+class Hint:
+    """What the bytes may be instead; `frame` is the frame that the text mentions, if any."""
+
+    text: str
+    frame: bytes = b""
+
+
+@dataclass(frozen=True)
+class Explanation:
+    """An explanation of some bytes. Without readings, they are no frame."""
+
+    protocol: str
+    data: bytes
+    readings: tuple[Reading, ...]
+    refusals: tuple[Refusal, ...]
+    hints: tuple[Hint, ...]
+
+
+def explain(
+    protocol: Protocol, judge: Judge, data: bytes, directions: Sequence[str]
+) -> Explanation:
+    """Explain `data` as one frame sent in any of `directions`."""
+    return _Explainer(protocol, judge, data).explain(directions)
+
+
+def rows_of(data: bytes, slots: Iterable[Placed], message: Message | None) -> tuple[Row, ...]:
+    """Explain the bytes of slots; `message` is the one that they began, if it is known."""
+    return tuple(_row(placed, data, message) for placed in slots)
+
+
+def _row(placed: Placed, data: bytes, message: Message | None) -> Row:
+    slot, piece = placed.slot, placed.of(data)
+    where = (placed.at, piece, placed.path, slot.role)
+    if not slot.is_number:
+        return Row(*where, None, "", slot.about)
+    value = slot.read(piece)
+    if slot.is_field:
+        return Row(*where, value, *slot.in_words(value))
+    meaning = slot.about
+    if slot.role == "length" and message is not None:
+        meaning = message.formula if message.items else f"always {message.formula}"
+    elif slot.role == "id":
+        meaning = "" if message is None else _named(message)
+    return Row(*where, value, str(value), meaning)
+
+
+def _named(message: Message) -> str:
+    vendor_name = message.said.get("vendor_name")
+    return f"{message.name}, {vendor_name} to the vendor" if vendor_name else message.name
+
+
+def _distance(refusal: Refusal) -> tuple[bool, int]:
+    """Order refusals: the direction in which the bytes came closest to a frame is first."""
+    return refusal.reason == UNKNOWN_COMMAND, -len(refusal.rows)
+
+
+@dataclass(frozen=True)
+class _Explainer:
+    """Some bytes, and what there is to explain them by."""
+
+    protocol: Protocol
+    judge: Judge
+    data: bytes
+
+    def explain(self, directions: Sequence[str]) -> Explanation:
+        readings: list[Reading] = []
+        refusals: list[Refusal] = []
+        for direction in directions:
+            judgement = self.judge(direction, self.data)
+            if judgement.message is None:
+                refusals.append(self._refusal(direction, judgement))
+            else:
+                readings.append(self._reading(self.protocol.messages[judgement.message]))
+        refusals.sort(key=_distance)
+        hints = () if readings else tuple(dict.fromkeys(self._hints(refusals)))
+        return Explanation(self.protocol.title, self.data, tuple(readings), tuple(refusals), hints)
+
+    def _reading(self, message: Message) -> Reading:
+        rows = rows_of(self.data, self._slots(message, len(self.data)), message)
+        facts = tuple(self._facts(message))
+        return Reading(message.name, message.direction, message.said["summary"], rows, facts)
+
+    def _refusal(self, direction: str, judgement: Judgement) -> Refusal:
+        reason, offset = judgement.reason, judgement.offset
+        number = self.protocol.frame.id
+        likely = None
+        if number.at + number.size <= offset:
+            likely = self.protocol.message(direction, number.read_in(self.data))
+        largest = self.protocol.largest([direction])
+        refused = Refused(self.protocol, [direction], self.data, reason, offset, likely, largest)
+        right = rows_of(self.data, self._slots(likely, offset), likely)
+        return Refusal(direction, reason, offset, refused.expected(), right)
+
+    def _slots(self, message: Message | None, end: int) -> list[Placed]:
+        """Return the slots up to an offset, in frames of a message if it is known."""
+        frame = self.protocol.frame
+        head = frame.head
+        if message is None or end < head[-1].end:
+            return [placed for placed in head if placed.end <= end]
+        length = frame.length.read_in(self.data)
+        return [placed for placed in message.lay_out(length) if placed.end <= end]
+
+    def _facts(self, message: Message) -> Iterator[tuple[str, str]]:
+        said = message.said
+        if "deprecated" in said:
+            yield "deprecated", said["deprecated"]
+        if said["kind"] in ("command", "query"):
+            yield "reply", said.get("reply", "none is due")
+        for fact, key in (
+            ("reported by", "reports"),
+            ("answers", "answers"),
+            ("reports on", "reports_on"),
+        ):
+            if key in said:
+                yield fact, ", ".join(said[key])
+        for example in said.get("examples", ()):
+            if bytes.fromhex(example["hex"]) == self.data:
+                cite = f" ({example['cite']})" if "cite" in example else ""
+                yield "example", f"{example['title']}{cite}"
+        cite = said["cite"]
+        source = self.protocol.said["sources"].get(cite.partition(",")[0])
+        yield "source", cite if source is None else f"{cite} ({source['title']})"
+
+    def _hints(self, refusals: Sequence[Refusal]) -> Iterator[Hint]:
+        """Suggest what the bytes are instead."""
+        otherwise = self._names(self.protocol.directions, self.data)
+        if otherwise:
+            yield Hint(f"sent the other way, they are {otherwise}")
+            return
+        found = recognise(self.protocol, self.data)
+        if found is not None and "frame" in found.lookalike.said:
+            title, about = found.lookalike.title, " ".join(found.lookalike.said["about"].split())
+            yield Hint(f"this looks like a frame of {_the(title)}. {about}")
+        within = list(self._frames_within())
+        if not within:
+            yield from self._command_hints(refusals)
+        yield from self._length_hints(refusals)
+        yield from within
+
+    def _command_hints(self, refusals: Sequence[Refusal]) -> Iterator[Hint]:
+        """Say what an unknown command means elsewhere, or why it is reserved."""
+        unknown = [each.direction for each in refusals if each.reason == UNKNOWN_COMMAND]
+        if not unknown:
+            return
+        number = self.protocol.frame.id.read_in(self.data)
+        for lookalike in self.protocol.lookalikes.values():
+            if "frame" not in lookalike.said and number in lookalike.commands:
+                yield Hint(f"in {_the(lookalike.title)}, {number} {lookalike.commands[number]}")
+                return
+        for reserved in self.protocol.said["reserved"]:
+            if reserved.get("id") == number and reserved.get("direction", unknown[0]) in unknown:
+                yield Hint(f"{number} is reserved: {reserved['why']}")
+
+    def _length_hints(self, refusals: Sequence[Refusal]) -> Iterator[Hint]:
+        """Try the length that so many bytes should have."""
+        frame, size = self.protocol.frame, len(self.data)
+        length = size - frame.uncounted
+        if length not in range(frame.length.high + 1) or size < frame.body_at:
+            return
+        at, end = frame.length.at, frame.length.at + frame.length.size
+        mended = self.data[:at] + frame.length.write(length) + self.data[end:]
+        names = self._names([refusal.direction for refusal in refusals], mended)
+        if names:
+            yield Hint(
+                f"{size} bytes have a {frame.length.name} of {length}; with that they are {names}",
+                mended,
+            )
+
+    def _frames_within(self) -> Iterator[Hint]:
+        """Find whole frames among the bytes, from the first byte on."""
+        frame, found, at = self.protocol.frame, 0, 0
+        while at + frame.body_at <= len(self.data):
+            size = frame.uncounted + frame.length.read_in(self.data[at:])
+            piece = self.data[at : at + size]
+            names = self._names(self.protocol.directions, piece)
+            if not names:
+                at += 1
+                continue
+            found += 1
+            if found > _MOST_WITHIN:
+                yield Hint(f"more frames follow, from byte {at} on")
+                return
+            yield Hint(f"a frame begins at byte {at}: {names}", piece)
+            at += size
+
+    def _names(self, directions: Sequence[str], data: bytes) -> str:
+        """Name the messages that `data` is, at most one for each direction; empty for none."""
+        judged = [(way, self.judge(way, data).message) for way in directions]
+        return " or ".join(f"{name} ({way})" for way, name in judged if name is not None)
+
+
+def _the(title: str) -> str:
+    return f"the {title.removeprefix('The ')}"

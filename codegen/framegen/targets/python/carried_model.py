@@ -1,0 +1,64 @@
+"""The model that a library carries as data, for the verbs that explain and look up."""
+
+from __future__ import annotations
+
+import json
+from typing import TYPE_CHECKING, Any
+
+from framegen.model.data import model_data
+from framegen.output import banner
+from framegen.targets.python.message_view import MessageView
+from framegen.targets.python.names import names_of, package_of
+from framegen.targets.python.snippet import snippet
+
+if TYPE_CHECKING:
+    from framegen.compile import Compiled
+    from framegen.model.layout import MessageLayout
+    from framegen.model.model import Model
+
+# Down to here a key is a line of its own; what is deeper shares the line.
+_DEPTH = 4
+
+
+def carried_model(compiled: Compiled) -> str:
+    """Return the model as JSON in which a change to one message changes only its lines."""
+    model = compiled.model
+    data = {"comment": banner(compiled.source.path)} | model_data(model)
+    ways = zip(model.ways, names_of(model).library.ways, strict=True)
+    data["members"] = {str(way): there.key for way, there in ways}
+    for layout in model.messages.values():
+        data["messages"][layout.name] |= _usage(model, layout)
+    return f"{_formatted(data, 0)}\n"
+
+
+def _usage(model: Model, layout: MessageLayout) -> dict[str, Any]:
+    """Return how the library and its command send or receive a message."""
+    names = names_of(model)
+    library, message = names.library, names.message(layout.name)
+    example, program = layout.message.examples[0], package_of(model)
+    given = MessageView(message, library).command_words(names.values(layout.name, example.values))
+    words = " ".join([message.name, *given])
+    usage: dict[str, Any] = {
+        "python": snippet(model, layout, example).rstrip().split("\n"),
+        "shell": [f"{program} encode {words}"],
+    }
+    for exchange in library.exchanges:
+        if exchange.request.name == message.name:
+            method = exchange.method
+            usage["shell"].append(f"{program} send --port COM7 {words}")
+            usage["method"] = f"{method.name}({', '.join(method.arguments)})"
+    return usage
+
+
+def _formatted(value: Any, depth: int) -> str:
+    if depth >= _DEPTH or not value or not isinstance(value, (dict, list)):
+        return json.dumps(value)
+    margin = " " * depth
+    if isinstance(value, dict):
+        lines = [f"{json.dumps(key)}: {_formatted(each, depth + 1)}" for key, each in value.items()]
+        begin, end = "{", "}"
+    else:
+        lines = [_formatted(each, depth + 1) for each in value]
+        begin, end = "[", "]"
+    inside = ",\n".join(f"{margin} {line}" for line in lines)
+    return f"{begin}\n{inside}\n{margin}{end}"

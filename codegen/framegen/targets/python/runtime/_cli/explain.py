@@ -1,0 +1,66 @@
+"""The verb `explain`: bytes as one frame, part by part, or where and why they are none."""
+
+from __future__ import annotations
+
+import json
+
+from .._codec.codec import decode
+from .._codec.hextext import HexError, read_hex
+from .._explanation.explanation import Judgement, explain
+from .._explanation.text import as_json, as_text
+from .._frame.direction import Direction
+from .._frame.errors import DecodeError
+from .carried_model import protocol
+from .exit_codes import DONE, NOT_ALL
+from .usage_error import UsageError
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from argparse import ArgumentParser, Namespace
+
+    from .._explanation.explanation import Explanation
+    from .._explanation.protocol import Protocol
+
+ENDS = {NOT_ALL: "the bytes are no frame"}
+_SENDERS = list(dict.fromkeys(direction.sender for direction in Direction))
+
+
+def add_arguments(parser: ArgumentParser) -> None:
+    """Declare the arguments of the verb."""
+    parser.add_argument(
+        "bytes",
+        nargs="+",
+        metavar="HEX",
+        help="bytes in hex: spaced or glued, with 0x and commas or without",
+    )
+    parser.add_argument("--direction", choices=_SENDERS, help="only what this end sends")
+    parser.add_argument("--json", action="store_true", help="print one JSON object")
+
+
+def run(arguments: Namespace) -> int:
+    """Print the explanation."""
+    try:
+        data = read_hex(" ".join(arguments.bytes))
+    except HexError as error:
+        raise UsageError(str(error)) from None
+    if not data:
+        raise UsageError("there are no bytes to explain: give them in hex")
+    explanation = explained(protocol(), data, arguments.direction)
+    print(json.dumps(as_json(explanation)) if arguments.json else as_text(explanation))
+    return DONE if explanation.readings else NOT_ALL
+
+
+def explained(model: Protocol, data: bytes, sender: str | None = None) -> Explanation:
+    """Explain bytes as this library decodes them; as sent by one end alone, if it is given."""
+    ways = {text: Direction(model.said["members"][text]) for text in model.directions}
+
+    def judge(direction: str, frame: bytes) -> Judgement:
+        try:
+            message = decode(frame, ways[direction])
+        except DecodeError as error:
+            return Judgement(None, error.reason.value, error.offset)
+        found = model.message(direction, message.COMMAND)
+        return Judgement(None if found is None else found.name)
+
+    chosen = [text for text, way in ways.items() if sender in (None, way.sender)]
+    return explain(model, judge, data, chosen)

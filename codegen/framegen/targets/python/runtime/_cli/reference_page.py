@@ -1,0 +1,240 @@
+"""The reference in the terminal: the list of all messages, and the page of one."""
+
+from __future__ import annotations
+
+from .._explanation.explanation import rows_of
+from .._explanation.text import to_hex
+from .._frame.pluralize import describe_range
+from .examples import PROGRAM
+from .reference_topics import erratum_lines, unknown_line
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from collections.abc import Iterator, Sequence
+    from typing import Any
+
+    from .._explanation.protocol import Message, Protocol, Slot
+    from .sheet import Sheet
+
+# Elements of a list in an example that are shown one by one.
+_MOST_ROWS = 64
+
+
+def message_list(
+    sheet: Sheet, model: Protocol, messages: Sequence[Message], *, all_of_them: bool
+) -> None:
+    """Print a line for each message, those of each direction together."""
+    if all_of_them:
+        sheet.heading(model.title)
+        sheet.paragraph(model.said["summary"])
+        sheet.paragraphs(model.said["description"])
+    digits = 2 * model.frame.id.size
+    width = max(len(message.name) for message in messages)
+    for direction in model.directions:
+        rows = [
+            (f"{each.id:>3}", f"0x{each.id:0{digits}X}", f"{each.name:<{width}}", _summary(each))
+            for each in messages
+            if each.direction == direction
+        ]
+        if rows:
+            sheet.heading(direction)
+            sheet.columns(rows)
+    if all_of_them:
+        _reserved(sheet, model)
+        sheet.line()
+        sheet.paragraph(
+            f"`{PROGRAM} docs MESSAGE` prints the page of one, `{PROGRAM} docs WORD` lists those "
+            f"that speak of something, `{PROGRAM} docs errata` and `{PROGRAM} docs lookalikes` "
+            f"say what else is known."
+        )
+
+
+def _reserved(sheet: Sheet, model: Protocol) -> None:
+    """Print which ids and names must not be used."""
+    if model.said["reserved"]:
+        sheet.heading("Reserved")
+    for reserved in model.said["reserved"]:
+        what = [str(reserved[key]) for key in ("id", "name", "direction") if key in reserved]
+        sheet.paragraph(f"{', '.join(what)}: {reserved['why']}", 2)
+
+
+def _summary(message: Message) -> str:
+    deprecated = "Deprecated. " if "deprecated" in message.said else ""
+    return f"{deprecated}{message.said['summary']}"
+
+
+def message_page(sheet: Sheet, model: Protocol, message: Message) -> None:
+    """Print all that is known of a message."""
+    said = message.said
+    sheet.heading(message.name)
+    sheet.paragraph(said["summary"])
+    if "deprecated" in said:
+        sheet.paragraph(f"Deprecated: {said['deprecated']}", colour="yellow")
+    sheet.paragraphs(said.get("description", ""))
+    sheet.line()
+    sheet.columns([*_facts(model, message)])
+    sheet.heading("Bytes")
+    sheet.columns([("byte", "hex", "part", "value"), *_pattern(message)])
+    sheet.heading("Fields")
+    _fields(sheet, model, message)
+    sheet.heading("Examples")
+    for number, example in enumerate(said["examples"]):
+        if number:
+            sheet.line()
+        _example(sheet, model, message, example)
+    _slips(sheet, model, message)
+    sheet.heading("In Python")
+    for line in said["python"]:
+        sheet.line(f"  {line}".rstrip())
+    sheet.heading("On the command line")
+    for line in said["shell"]:
+        sheet.line(f"  {line}")
+
+
+def _facts(model: Protocol, message: Message) -> Iterator[tuple[str, str]]:
+    """Yield what there is to say of a message as a whole."""
+    said, frame = message.said, model.frame
+    yield "direction:", f"{message.direction} ({said['kind']})"
+    number = f"0x{message.id:0{2 * frame.id.size}X}, {message.id} in decimal"
+    yield f"{frame.id.name}:", number
+    for label, key in (("vendor's name:", "vendor_name"), ("goes on for:", "lasts")):
+        if key in said:
+            yield label, said[key]
+    if said["kind"] in ("command", "query"):
+        yield "reply:", said.get("reply", "none is due")
+    for label, key in (
+        ("may lead to:", "reports"),
+        ("answers:", "answers"),
+        ("may follow:", "reports_on"),
+    ):
+        if key in said:
+            yield label, ", ".join(said[key])
+    if "acknowledged" in said:
+        yield "acknowledged by:", said["acknowledged"]
+    if "method" in said:
+        yield "sent by:", said["method"]
+    yield "length rule:", _length_rule(message)
+    link, size = model.said["link"], message.largest
+    time = f"{1000 * size * link['bits_per_byte'] / link['baud']:.1f} ms at {link['baud']} baud"
+    yield "largest frame:", f"{size} bytes, {time}"
+    if "since" in said:
+        yield "since:", f"version {said['since']} of the spec"
+    yield "source:", _cited(model, said["cite"])
+
+
+def _length_rule(message: Message) -> str:
+    name = message.frame.length.name
+    if message.items is None:
+        return f"{name} = {message.formula}"
+    return f"{name} = {message.formula}, so it is {describe_range(message.lengths)}"
+
+
+def _cited(model: Protocol, cite: str) -> str:
+    text, kind = model.source(cite)
+    return f"{text} [{kind}]" if kind else text
+
+
+def _pattern(message: Message) -> Iterator[tuple[str, str, str, str]]:
+    """Yield the parts of any frame of the message; a list is shown once."""
+    for slot in message.slots:
+        if slot.role != "list":
+            place = str(slot.at) if slot.at >= 0 else "end"
+            yield place, *_part(message, slot)
+            continue
+        step = "i" if slot.size == 1 else f"{slot.size}i"
+        for field in slot.fields:
+            place = f"{slot.at + field.at} + {step}"
+            yield place, _dots(field.size), slot.path("i", field), field.said["type"]
+
+
+def _part(message: Message, slot: Slot) -> tuple[str, str, str]:
+    if slot.role == "constant":
+        return to_hex(slot.data), slot.name, ""
+    if slot.role == "id":
+        return to_hex(slot.write(message.id)), slot.name, str(message.id)
+    if slot.role == "length":
+        fixed = message.items is None
+        data = to_hex(slot.write(message.lengths[0])) if fixed else _dots(slot.size)
+        return data, slot.name, message.formula
+    return _dots(slot.size), slot.name, slot.said["type"]
+
+
+def _dots(size: int) -> str:
+    # The ASCII of it: not every console has the dots that pages have.
+    return " ".join([".."] * size)
+
+
+def _fields(sheet: Sheet, model: Protocol, message: Message) -> None:
+    if not message.fields:
+        sheet.line("  None: the frame is always the same.")
+    for slot in message.fields:
+        if slot.role != "list":
+            _field(sheet, model, slot, slot.name)
+            continue
+        many = f"{slot.low}..{slot.high} of them, as {slot.said['counter']} says"
+        if "element" in slot.said:
+            sheet.line(f"  {slot.name}  list of {slot.said['element']}, {many}")
+            _said(sheet, model, slot.said)
+            many = ""
+        for field in slot.fields:
+            _field(sheet, model, field, slot.path("i", field), many)
+
+
+def _field(sheet: Sheet, model: Protocol, slot: Slot, path: str, many: str = "") -> None:
+    said = slot.said
+    values = "as many as there are" if slot.role == "count" else f"{slot.low}..{slot.high}"
+    bounds = [said["type"], values, said.get("unit", ""), many]
+    sheet.line(f"  {path}  {', '.join(filter(None, bounds))}")
+    if "scale" in said:
+        step, unit = said["scale"]
+        sheet.paragraph(f"One step is {step} {unit}.", 6)
+    _said(sheet, model, said)
+
+
+def _said(sheet: Sheet, model: Protocol, said: Any) -> None:
+    """Print what is written of a field: what it is, its values, limits and notes."""
+    sheet.paragraph(said.get("about", ""), 6)
+    for name, value in said.get("values", {}).items():
+        cited = f" ({_cited(model, value['cite'])})" if "cite" in value else ""
+        sheet.paragraph(f"{value['value']} is {name}: {value['about']}{cited}", 6)
+    if "limits" in said:
+        limits = said["limits"]
+        others = [f"{who} take {bounds}" for who, bounds in limits["others"].items()]
+        told = "; ".join(["unless told otherwise", *others])
+        sheet.paragraph(f"A client sends {limits['usual']} {told}.", 6)
+    if "signed_as" in said:
+        sheet.paragraph(f"It can be read as {said['signed_as']}, too.", 6)
+    for note in said.get("notes", ()):
+        sheet.paragraph(f"{note['text']} ({_cited(model, note['cite'])})", 6)
+    if "cite" in said:
+        sheet.paragraph(f"Source: {_cited(model, said['cite'])}", 6)
+
+
+def _example(sheet: Sheet, model: Protocol, message: Message, example: Any) -> None:
+    data = bytes.fromhex(example["hex"])
+    origin = _cited(model, example["cite"]) if "cite" in example else ""
+    made = f"constructed: {example['constructed']}" if "constructed" in example else ""
+    sheet.paragraph(f"{example['title']} ({origin or made})", 2)
+    sheet.paragraph(example["hex"], 4)
+    slots = [*message.lay_out(model.frame.length.read_in(data))]
+    rows = rows_of(data, slots[:_MOST_ROWS], message)
+    cells = [(str(row.offset), to_hex(row.data), row.path, row.text) for row in rows]
+    sheet.columns([("  byte", "hex", "part", "value"), *((f"  {at:>4}", *c) for at, *c in cells)])
+
+
+def _slips(sheet: Sheet, model: Protocol, message: Message) -> None:
+    """Print the errata of a message, and what is not known of it."""
+    errata = [
+        (number, each)
+        for number, each in enumerate(model.said["errata"], 1)
+        if each["message"] == message.name
+    ]
+    if errata:
+        sheet.heading("Errata")
+        for number, erratum in errata:
+            erratum_lines(sheet, model, number, erratum)
+    unknowns = [each for each in model.said["unknowns"] if each["message"] == message.name]
+    if unknowns:
+        sheet.heading("Not known")
+        for unknown in unknowns:
+            unknown_line(sheet, unknown)
