@@ -142,3 +142,15 @@ def test_the_drawing_of_the_session_has_every_state_and_every_step() -> None:
     drawing = re.findall(r"\b[A-Z]{4,}\b", (session.__doc__ or "").partition("RequestQueue")[0])
     named = {each.name for each in [*State, *Step]}
     assert {word for word in drawing if word != "STATES"} == named
+
+
+def test_what_is_taken_back_between_two_attempts_may_be_answered_yet() -> None:
+    line = Session(baud=9600, reply_timeout=0.5, report_limit=16)
+    request = tried_again(line)
+    line.cancel(request)
+    following = line.submit(BatteryVoltageRead())
+    assert line.outgoing(1.0) == []
+    answer(line, 1.01, 1)
+    assert line.outgoing(1.01) == [BatteryVoltageRead().encode()]
+    answer(line, 1.03, 2)
+    assert following.reply == BatteryVoltage(2)
