@@ -11,6 +11,7 @@ from .._frame.errors import EncodeError, LimitError
 from .._recording.entry import Entry
 from .._serial.link_errors import NoReplyError
 from . import link
+from .encode import note_deprecated
 from .entries import EntryLines
 from .exit_codes import DONE, NOT_ALL
 from .limits import add_limits, limits_of, refused
@@ -52,6 +53,7 @@ def add_arguments(parser: ArgumentParser) -> None:
 def run(arguments: Namespace) -> int:
     """Send the message, and print the reply."""
     messages = in_parts(arguments.message, arguments.fields)
+    note_deprecated(type(messages[0]))
     if len(messages) > 1:
         told = f"asked in {len(messages)} requests: one reply has no room for so much"
         print(told, file=sys.stderr)

@@ -66,7 +66,7 @@ class LineThreads(AsyncLine):
         if question is not None:
             self._outbox.put(question)
 
-    def look_at(self, tick_at: float | None, resting_until: float) -> None:
+    def look_at(self, tick_at: float | None, resting_until: float, /) -> None:
         """Say `arrived` at that time at the latest; before the other one, nothing is complete."""
         self._tick_at = tick_at
         self._resting_until = resting_until

@@ -6,6 +6,7 @@ import sys
 
 from .._frame.bytes_like import format_hex
 from ..messages import MESSAGES
+from .console import visible
 from .usage_error import UsageError
 from .values import message_from_text
 
@@ -27,12 +28,20 @@ def add_arguments(parser: ArgumentParser) -> None:
 
 def run(arguments: Namespace) -> int:
     """Print the frame in hex, or write its bytes with --raw."""
-    frame = message_from_text(message_named(arguments.message), arguments.fields).encode()
+    kind = message_named(arguments.message)
+    frame = message_from_text(kind, arguments.fields).encode()
+    note_deprecated(kind)
     if arguments.raw:
         sys.stdout.buffer.write(frame)
     else:
         print(format_hex(frame))
     return 0
+
+
+def note_deprecated(kind: type[Message]) -> None:
+    """Say on the error stream why a message should no longer be sent, if it should not."""
+    if kind.DEPRECATED:
+        print(visible(f"note: {kind.__name__} is deprecated: {kind.DEPRECATED}"), file=sys.stderr)
 
 
 def message_named(name: str) -> type[Message]:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from warnings import catch_warnings, simplefilter
+
 from .._frame.errors import EncodeError
 from .numerals import whole_in_any_base
 from .usage_error import UsageError
@@ -68,7 +70,10 @@ def message_from_text(kind: type[Message], words: list[str]) -> Message:
     """Return the message with the fields given as `delay=10 items=1:20,2:30`."""
     given = fields_from_text(kind, words)
     try:
-        return kind(**given)
+        with catch_warnings():
+            # A program is warned at its own line; a command says so in its own words.
+            simplefilter("ignore", DeprecationWarning)
+            return kind(**given)
     except EncodeError as error:
         raise UsageError(str(error)) from None
 

@@ -49,7 +49,7 @@ class AsyncLine:
         """Hand frames over, the last of which is that of `question`, if there is one."""
         raise NotImplementedError
 
-    def look_at(self, tick_at: float | None, resting_until: float) -> None:
+    def look_at(self, tick_at: float | None, resting_until: float, /) -> None:
         """Say `arrived` at that time at the latest; before the other one, nothing is complete."""
         raise NotImplementedError
 

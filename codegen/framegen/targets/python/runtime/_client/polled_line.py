@@ -1,6 +1,6 @@
 """A line that an event loop reads and writes by itself, without a thread, on whatever clock.
 
-For transports that never block, such as a board in the same process, on virtual time.
+For transports that never block, such as a device in the same process, on virtual time.
 """
 
 from __future__ import annotations
@@ -45,7 +45,7 @@ class PolledLine(AsyncLine):
             if question is not None and written is not None:
                 written(question, self._clock())
 
-    def look_at(self, tick_at: float | None, resting_until: float) -> None:  # noqa: ARG002
+    def look_at(self, tick_at: float | None, _resting_until: float, /) -> None:
         """Say `arrived` at that time at the latest; before the other one, nothing is complete."""
         if self._timer is not None:
             self._timer.cancel()
