@@ -138,10 +138,12 @@ HEARING = ["answer", "decode", "docs", "doctor", "encode", "explain", "monitor",
 @pytest.mark.parametrize(
     ("name", "verbs"),
     [
-        ("greenhouse", ["bench-line", *HEARING, "replay", "send"]),
+        pytest.param(
+            "greenhouse", ["bench-line", *HEARING, "replay", "send"], marks=pytest.mark.slow
+        ),
         ("blinds", ["bench-line", *HEARING, "replay", "send", "play", "teach"]),
         ("weather", HEARING),
-        ("stage_lamp", [*HEARING, "replay", "send"]),
+        pytest.param("stage_lamp", [*HEARING, "replay", "send"], marks=pytest.mark.slow),
     ],
 )
 def test_only_what_can_work_is_offered(folder: Path, name: str, verbs: list[str]) -> None:
