@@ -30,7 +30,7 @@ SEED =
 REFERENCE = build/reference
 # What a release is called.
 VERSION =
-# Which mutants: make mutants ONLY='busservo.octets.*'
+# Which mutants, and how many of them: make mutants ONLY='busservo._client.*' SAMPLE=60 SEED=7
 ONLY =
 
 .DEFAULT_GOAL := all
@@ -53,8 +53,9 @@ quick: $(TO_TEST)  ## Run the tests with fewer examples
 test-all: $(TO_TEST) $(TO_LINT)  ## Run the slow tests as well, and eight times as many examples
 	HYPOTHESIS_PROFILE=all $(IN)/python -m pytest --all -n $(WORKERS)
 
+# `make packages` runs all of those.
 sample: $(TO_TEST) $(TO_LINT)  ## Run some of the slow tests: make sample SAMPLE=5 SEED=7
-	$(IN)/python -m pytest -n $(WORKERS) --sample $(SAMPLE) $(if $(SEED),--seed $(SEED))
+	$(IN)/python -m pytest -n $(WORKERS) --ignore tests/all/test_packages.py --sample $(SAMPLE) $(if $(SEED),--seed $(SEED))
 
 coverage: $(TO_TEST)  ## Measure which lines and branches the quick tests reach, commands included
 	$(IN)/coverage erase
@@ -113,9 +114,10 @@ mutants:  ## Change the code in many small ways, and list the changes that no te
 	mkdir -p mutants/src
 	cp -R generated/busservo codegen/framegen mutants/src
 	cp -R tests spec pyproject.toml mutants
-	cd mutants && PYTHONHASHSEED=0 PYTHONDONTWRITEBYTECODE= ../$(MUTATION_VENV)/bin/mutmut run --max-children 1 $(if $(ONLY),'$(ONLY)')
+	cd mutants && PYTHONHASHSEED=0 PYTHONDONTWRITEBYTECODE= ../$(MUTATION_VENV)/bin/python -m tests.mutate \
+		'$(or $(ONLY),*)' $(if $(filter command line,$(origin SAMPLE)),$(SAMPLE) $(SEED))
 	cd mutants/mutants && HYPOTHESIS_PROFILE=quick PYTHONHASHSEED=0 \
-		../../$(MUTATION_VENV)/bin/python -m tests.mutants $(if $(ONLY),'$(ONLY)')
+		../../$(MUTATION_VENV)/bin/python -m tests.mutants '$(or $(ONLY),*)'
 
 wheel: $(TO_BUILD)  ## Build dist/: a wheel and a source distribution of each package
 	rm -rf dist
@@ -175,4 +177,4 @@ clean:  ## Remove everything that these commands make, the virtual environments 
 	find . -name __pycache__ -type d -prune -exec rm -rf {} +
 
 help:  ## Show this
-	@awk -F ':.*## ' '/^[a-z]+:.*## / {printf "  make %-10s %s\n", $$1, $$2}' $(MAKEFILE_LIST)
+	@awk -F ':.*## ' '/^[a-z-]+:.*## / {printf "  make %-10s %s\n", $$1, $$2}' $(MAKEFILE_LIST)

@@ -24,15 +24,24 @@ import pytest
 
 HERE = Path(__file__).parent
 
-# The files that judge each package, those first that soonest cannot be imported.
+# The files that judge each package, the innermost of those named here, and those files first that
+# soonest cannot be imported.
 JUDGES = {
+    "busservo._client": (
+        *("client/test_session", "client/test_request_states", "client/test_possible_replies"),
+        *("client/test_client", "client/test_async_client", "client/test_reports"),
+        *("client/test_closing", "client/test_motion", "client/test_pose", "client/test_gaps"),
+        *("client/test_acknowledgements", "client/test_local_echo", "client/test_virtual_board"),
+        *("client/test_faults", "client/test_conversations", "independent/test_one_fault"),
+    ),
     "framegen": (
-        *("verdict", "reference_stream", "layout", "explain", "check", "edges", "values"),
-        *("formula", "scalars", "vectors"),
+        *("test_verdict", "test_reference_stream", "test_layout", "test_explain"),
+        *("test_bad_specs", "test_findings", "test_edges", "test_values"),
+        *("test_formula", "test_scalars", "test_vectors"),
     ),
     "busservo": (
-        *("decode", "messages", "edges", "narrow_ranges", "vectors", "stream", "oracle_agrees"),
-        "stream_machine",
+        *("test_decode", "test_messages", "test_edges", "test_narrow_ranges", "test_vectors"),
+        *("test_stream", "test_oracle_agrees", "test_stream_machine"),
     ),
 }
 OPTIONS = ("-x", "-q", "--tb=no", "-p", "no:cacheprovider")
@@ -72,8 +81,13 @@ def _judge(name: str) -> int:
     resource.setrlimit(resource.RLIMIT_CPU, (used + SECONDS, used + SECONDS))
     resource.setrlimit(resource.RLIMIT_AS, (BYTES, BYTES))
     os.environ["MUTANT_UNDER_TEST"] = name
-    files = [f"tests/test_{judge}.py" for judge in JUDGES[name.partition(".")[0]]]
+    files = [f"tests/{judge}.py" for judge in JUDGES[package_of(name)]]
     return int(pytest.main([*OPTIONS, *QUIET, *left_out(), *files]))
+
+
+def package_of(name: str) -> str:
+    """Return the innermost package of JUDGES that a mutant belongs to."""
+    return max((each for each in JUDGES if f"{name}.".startswith(f"{each}.")), key=len)
 
 
 def left_out() -> list[str]:
@@ -88,7 +102,7 @@ def main() -> None:
         if not line.startswith("#"):
             import_module(line)
     mutants = list(tried(*sys.argv[1:] or ["*"]))
-    for package in {module.partition(".")[0] for module, _, _ in mutants}:
+    for package in {package_of(module) for module, _, _ in mutants}:
         # A mutant that there is not: nothing is changed, and nothing may fail.
         if verdict(f"{package}.none") != SURVIVED:
             sys.exit(f"the tests of {package} fail without any mutant")

@@ -222,6 +222,11 @@ class _Bare(ast.NodeTransformer):
         is_docstring = isinstance(node.value, ast.Constant) and isinstance(node.value.value, str)
         return None if is_docstring else self.generic_visit(node)
 
+    def visit_Assign(self, node: ast.Assign) -> ast.AST | None:
+        # What the warning says of a deprecated message is words, too.
+        named = [target.id for target in node.targets if isinstance(target, ast.Name)]
+        return None if named == ["DEPRECATED"] else self.generic_visit(node)
+
     def visit_Constant(self, node: ast.Constant) -> ast.AST:
         if self._strings and isinstance(node.value, str):
             node.value = ""

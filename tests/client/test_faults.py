@@ -26,7 +26,7 @@ from busservo import (
     ServoPositionsRead,
 )
 from busservo.strategies import noise
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from tests.client.virtual_line import VirtualLine
@@ -106,7 +106,6 @@ class FaultyBoard:
             yield at + fault.gap * (fault.late < 1), frame[fault.cut :] + fault.after
 
 
-@settings(max_examples=300, deadline=None)
 @given(
     st.lists(faults, min_size=1, max_size=12),
     st.lists(asks, min_size=1, max_size=12),
@@ -153,7 +152,6 @@ def test_right_or_declared_and_in_bounded_time(
     assert line.closed
 
 
-@settings(max_examples=60, deadline=None)
 @given(
     st.lists(st.sampled_from([b"\x55", b"\x55\x55", b"\x55\x55\x15"]), max_size=40), st.booleans()
 )

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 import pytest
 from busservo import (
     ActionGroupCompleted,
@@ -15,6 +17,9 @@ from busservo._codec.careful_decoder import GAP
 
 from tests.client.test_possible_replies import ask, session
 from tests.client.virtual_line import VirtualLine
+
+if TYPE_CHECKING:
+    from pathlib import Path
 
 TORN = BatteryVoltage(0x1D4C).encode()[:4]
 REPORT = ActionGroupCompleted(8, 1)
@@ -110,3 +115,28 @@ def test_a_line_that_never_falls_silent_does_not_keep_a_question_for_ever() -> N
         line.receive(b"\x55\x55", now)
         line.tick(now)
     assert isinstance(request.error, NoReplyError)
+
+
+def test_a_frame_that_breaks_off_is_marked_in_the_trace(tmp_path: Path) -> None:
+    line = VirtualLine(lambda _: [(0.0, b"\x55\x55\x04")])
+    trace = tmp_path / "line.log"
+    with (
+        Controller(line, background=False, clock=line.clock, settle=0, trace=trace) as controller,
+        pytest.raises(NoReplyError),
+    ):
+        controller.read_battery_voltage()
+    assert "# quiet" in trace.read_text(encoding="utf-8")
+
+
+def test_a_reply_behind_a_false_header_is_found_in_time_though_the_line_is_never_quiet() -> None:
+    line = session()
+    request = ask(line, 0.0)
+    # What claims to be positions of 84 servos; the voltage is in the middle of it.
+    line.receive(b"\x55\x55\xff\x15\x54" + BatteryVoltage(7500).encode(), 0.02)
+    for step in range(3, 16):
+        line.tick(step / 50)
+        line.receive(b"\x00", step / 50)
+    assert not request.done
+    line.tick(0.25 + 10 / 960 + GAP)
+    assert request.reply == BatteryVoltage(7500)
+    assert line.counters.timeouts == 0

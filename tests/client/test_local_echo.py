@@ -25,6 +25,7 @@ from busservo import (
 from busservo._client.exchanges import EXCHANGES
 from busservo._client.local_echo import LocalEcho
 from busservo._client.request import Request
+from busservo._client.session import Session
 from hypothesis import given
 from hypothesis import strategies as st
 
@@ -101,6 +102,18 @@ def test_a_report_like_the_command_is_told_apart_from_its_echo() -> None:
     with virtual(one_that_starts) as controller:
         controller.run_action_group(8, times=1)
         assert list(controller.reports(timeout=1)) == [STARTED]
+
+
+def test_an_echo_that_a_later_one_overtakes_is_missing() -> None:
+    line = Session(baud=9600, reply_timeout=0.25, report_limit=16, local_echo=True)
+    first, second = line.submit(ActionGroupStop()), line.submit(ActionGroupRun(8, 1))
+    assert len(line.outgoing(0.0)) == 1
+    assert len(line.outgoing(0.01)) == 1
+    line.receive(second.message.encode(), 0.02)
+    assert isinstance(first.error, EchoError)
+    assert (first.sent, second.error) == (None, None)
+    assert second.sent is not None
+    assert line.idle
 
 
 @pytest.mark.parametrize("answer", [deaf, without, changed])

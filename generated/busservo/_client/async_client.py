@@ -5,27 +5,27 @@ from __future__ import annotations
 
 import asyncio
 import time
+from collections.abc import AsyncIterator, Callable
 from functools import partial
+from os import PathLike
+from types import TracebackType
 from typing import TYPE_CHECKING, TypeVar, overload
 
+from .._frame.message import Message
 from .._frame.protocol import BAUD
 from .._serial.link_errors import TransportError
+from .._serial.transport import Transport
 from .base_client import DRAIN_TIMEOUT, POLL_INTERVAL, REPLY_TIMEOUT, REPORT_LIMIT
 from .exchanges import LIMITS
+from .limits import Bounds
 from .loop_client import LoopClient
+from .report_filter import Kinds
+from .request import Sent
 
 if TYPE_CHECKING:
-    from collections.abc import AsyncIterator, Callable
-    from os import PathLike
-    from types import TracebackType
-
-    from typing_extensions import Self
-
-    from .._frame.message import Message
-    from .._serial.transport import Transport
-    from .limits import Bounds
-    from .report_filter import Kinds
-    from .request import Sent
+    import typing_extensions as typing
+else:
+    from .._frame.typing_later import typing
 
 _Reply = TypeVar("_Reply", bound="Message")
 _Second = TypeVar("_Second", bound="Message")
@@ -80,7 +80,7 @@ class AsyncClient(LoopClient):
         self._reopening = asyncio.Lock()
         self._ending: asyncio.Future[None] | None = None
 
-    async def __aenter__(self) -> Self:
+    async def __aenter__(self) -> typing.Self:
         self._check()
         self._bind()
         return self

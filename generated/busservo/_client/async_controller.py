@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from collections.abc import Iterable
 
 from ..messages import (
     ActionGroupRun,
@@ -12,20 +12,16 @@ from ..messages import (
     BatteryVoltage,
     BatteryVoltageRead,
     ServoMove,
+    ServoPosition,
     ServoPositions,
     ServoPositionsRead,
     ServoUnload,
 )
 from .async_client import AsyncClient
 from .exchanges import POSE
+from .motion import AsyncMotion
 from .pose import HOLD_MS
-
-if TYPE_CHECKING:
-    from collections.abc import Iterable
-
-    from ..messages import ServoPosition
-    from .motion import AsyncMotion
-    from .request import Run, Sent
+from .request import Run, Sent
 
 
 class AsyncController(AsyncClient):

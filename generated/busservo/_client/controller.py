@@ -3,6 +3,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
+
 from ..messages import (
     ActionGroupRun,
     ActionGroupSpeed,
@@ -10,21 +12,16 @@ from ..messages import (
     BatteryVoltage,
     BatteryVoltageRead,
     ServoMove,
+    ServoPosition,
     ServoPositions,
     ServoPositionsRead,
     ServoUnload,
 )
 from .client import Client
 from .exchanges import POSE
+from .motion import Motion
 from .pose import HOLD_MS
-
-TYPE_CHECKING = False  # typing alone would double the time that the import takes
-if TYPE_CHECKING:
-    from collections.abc import Iterable
-
-    from ..messages import ServoPosition
-    from .motion import Motion
-    from .request import Run, Sent
+from .request import Run, Sent
 
 
 class Controller(Client):

@@ -3,18 +3,14 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from os import PathLike
 
 from .._frame.protocol import BAUD
 from .._serial.serial_port import open_transport
 from .base_client import REPLY_TIMEOUT, REPORT_LIMIT
 from .controller import Controller
 from .exchanges import LIMITS
-
-if TYPE_CHECKING:
-    from os import PathLike
-
-    from .limits import Bounds
+from .limits import Bounds
 
 
 def open_controller(

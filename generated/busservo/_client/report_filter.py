@@ -11,7 +11,7 @@ if TYPE_CHECKING:
     from collections.abc import Mapping
     from typing import TypeAlias
 
-    Kinds: TypeAlias = type[Message] | tuple[type[Message], ...]
+Kinds: TypeAlias = type[Message] | tuple[type[Message], ...]
 
 
 class ReportFilter:

@@ -61,9 +61,7 @@ if TYPE_CHECKING:
     ) -> ControllerMessage: ...
 
     @overload
-    def decode(
-        frame: bytes | bytearray | memoryview, direction: Direction | None
-    ) -> Decoded: ...
+    def decode(frame: bytes | bytearray | memoryview, direction: Direction | None) -> Decoded: ...
 
 
 def decode(frame: bytes | bytearray | memoryview, direction: Direction | None) -> Message:

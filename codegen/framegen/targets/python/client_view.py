@@ -132,21 +132,35 @@ class ClientView:
         return relative_import(".messages", names)
 
     @property
-    def import_requests(self) -> str:
-        """The classes that the methods make and expect."""
-        names = {each.request.name for each in self.model.exchanges}
-        names |= {each.reply.name for each in self.model.exchanges if each.reply is not None}
-        return relative_import(".messages", names)
+    def imports(self) -> list[str]:
+        """The imports of the client for threads."""
+        return self._imports("client", "Client", self.methods)
 
     @property
-    def import_elements(self) -> str:
-        """The element classes that the methods return; empty where they return none."""
+    def async_imports(self) -> list[str]:
+        """The imports of the client for asyncio."""
+        return self._imports("async_client", "AsyncClient", self.async_methods)
+
+    def _imports(self, base_module: str, base: str, methods: list[MethodView]) -> list[str]:
+        returned = {method.returns for method in methods}
+        modules: dict[str, set[str]] = {".messages": self._messages, base_module: {base}}
+        modules |= {module: returned.intersection(names) for module, names in _RESULTS.items()}
+        if self.pose is not None:
+            modules |= {"exchanges": {"POSE"}, "pose": {"HOLD_MS"}}
+        return [
+            relative_import(module, names) for module, names in sorted(modules.items()) if names
+        ]
+
+    @property
+    def _messages(self) -> set[str]:
+        """The messages and elements that the methods make, expect and return."""
+        names = {each.request.name for each in self.model.exchanges}
+        names |= {each.reply.name for each in self.model.exchanges if each.reply is not None}
         shown = " ".join(method.returns for method in self.methods)
         lists = [each.items for each in self.model.messages.values()]
         elements = {each.element for each in lists if each is not None and each.element is not None}
-        found = {each for each in elements if f"tuple[{each}, ...]" in shown}
-        names = found | ({self.pose.element} if self.pose else set())
-        return relative_import(".messages", names, 4) if names else ""
+        names |= {each for each in elements if f"tuple[{each}, ...]" in shown}
+        return names | ({self.pose.element} if self.pose else set())
 
     @property
     def iterables(self) -> bool:
@@ -154,35 +168,6 @@ class ClientView:
         return self.pose is not None or any(
             "Iterable[" in method.signature for method in self.methods
         )
-
-    @property
-    def typing(self) -> bool:
-        """Whether the client for threads imports anything for its annotations alone."""
-        return bool(self.iterables or self.import_elements or self.import_results)
-
-    @property
-    def async_typing(self) -> bool:
-        """Whether the client for asyncio imports anything for its annotations alone."""
-        return bool(self.iterables or self.import_elements or self.async_import_results)
-
-    @property
-    def import_results(self) -> list[str]:
-        """The result classes of commands of the client for threads."""
-        return _results(self.methods)
-
-    @property
-    def async_import_results(self) -> list[str]:
-        """The result classes of commands of the client for asyncio."""
-        return _results(self.async_methods)
-
-
-def _results(methods: list[MethodView]) -> list[str]:
-    returned = {method.returns for method in methods}
-    return [
-        relative_import(module, names, 4)
-        for module, of_it in _RESULTS.items()
-        if (names := [name for name in of_it if name in returned])
-    ]
 
 
 def _bounds(range_: Range) -> str:

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 from functools import partial
+from os import PathLike
+from types import TracebackType
 from typing import TYPE_CHECKING
 
 from .._frame.protocol import BAUD
@@ -10,16 +12,14 @@ from .._serial.serial_port import open_transport
 from .async_controller import AsyncController
 from .base_client import REPLY_TIMEOUT, REPORT_LIMIT
 from .exchanges import LIMITS
+from .limits import Bounds
 from .line_threads import opened
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Generator
-    from os import PathLike
-    from types import TracebackType
     from typing import Any
 
     from .._serial.transport import Transport
-    from .limits import Bounds
 
 _HOW = "enter open_async_controller() with `async with`, or await it"
 

@@ -8,8 +8,12 @@ from __future__ import annotations
 
 import time
 import warnings
+from collections.abc import Callable
 from contextlib import suppress
+from os import PathLike
 
+from .._codec.counters import LineCounters
+from .._frame.message import Message
 from .._log import log
 from .._serial.error_mapping import ErrorMapping
 from .._serial.link_errors import (
@@ -18,25 +22,21 @@ from .._serial.link_errors import (
     NoReportError,
     TransportError,
 )
+from .._serial.transport import Transport
 from .exchanges import LIMITS
+from .limits import Bounds
 from .long_question import left_out, parts_of
 from .report_filter import ReportFilter
-from .request import Run
+from .request import Request, Run, Sent
 from .session import Session
 from .trace import Trace
 
 TYPE_CHECKING = False  # typing alone would double the time that the import takes
 if TYPE_CHECKING:
-    from collections.abc import Callable, Generator, Iterable, Mapping
-    from os import PathLike
+    from collections.abc import Generator, Iterable, Mapping
     from typing import Any, TypeAlias, TypeVar
 
-    from .._codec.counters import LineCounters
-    from .._frame.message import Message
-    from .._serial.transport import Transport
-    from .limits import Bounds
     from .report_filter import Kinds
-    from .request import Request, Sent
 
     _Result = TypeVar("_Result")
     _Reply = TypeVar("_Reply", bound=Message)

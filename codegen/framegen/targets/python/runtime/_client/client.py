@@ -4,32 +4,33 @@ from __future__ import annotations
 
 import threading
 import time
+from collections.abc import Callable, Iterator
+from os import PathLike
+from types import TracebackType
 
+from .._frame.message import Message
 from .._frame.protocol import BAUD
 from .._log import log
 from .._serial.link_errors import TransportError
+from .._serial.transport import Transport
 from .base_client import DRAIN_TIMEOUT, REPLY_TIMEOUT, REPORT_LIMIT
 from .exchanges import LIMITS
+from .limits import Bounds
+from .report_filter import Kinds
+from .request import Sent
 from .thread_client import ThreadClient
 
-TYPE_CHECKING = False  # typing alone would double the time that the import takes
+TYPE_CHECKING = False
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator
-    from os import PathLike
-    from types import TracebackType
     from typing import TypeVar, overload
 
-    from typing_extensions import Self
-
-    from .._frame.message import Message
-    from .._serial.transport import Transport
-    from .limits import Bounds
-    from .report_filter import Kinds
-    from .request import Sent
+    import typing_extensions as typing
 
     _Reply = TypeVar("_Reply", bound=Message)
     _Second = TypeVar("_Second", bound=Message)
     _Third = TypeVar("_Third", bound=Message)
+else:
+    from .._frame.typing_later import typing
 
 
 class Client(ThreadClient):
@@ -91,7 +92,7 @@ class Client(ThreadClient):
         self._closed_now = threading.Event()
         self._listen()
 
-    def __enter__(self) -> Self:
+    def __enter__(self) -> typing.Self:
         return self
 
     def __exit__(

@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 
     from .._frame.message import Message
 
-    Bounds: TypeAlias = tuple[int, int]
+Bounds: TypeAlias = tuple[int, int]
 
 
 class Limits:

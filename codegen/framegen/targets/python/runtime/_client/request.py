@@ -2,16 +2,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from enum import Enum
 
 from .._frame.errors import EncodeError
+from .._frame.message import Message
 from .._frame.protocol import UNCOUNTED
 
-TYPE_CHECKING = False
+TYPE_CHECKING = False  # typing alone would double the time that the import takes
 if TYPE_CHECKING:
-    from collections.abc import Callable
-
-    from .._frame.message import Message
     from .exchange import Exchange
 
 

@@ -2,7 +2,11 @@
 
 from __future__ import annotations
 
-from typing import Protocol
+TYPE_CHECKING = False  # typing alone would double the time that the import takes
+if TYPE_CHECKING:
+    from typing import Protocol
+else:
+    Protocol = object  # it is for type checkers alone
 
 
 class Transport(Protocol):
@@ -23,19 +27,16 @@ class Transport(Protocol):
         b"" says that nothing came in that time, and never that the line has ended: that is a
         TransportError.
         """
-        ...
+        raise NotImplementedError
 
     def write(self, data: bytes) -> None:
         """Write all of `data`, or raise, within a second or two: the caller waits for it.
 
         It need not be on the wire yet.
         """
-        ...
 
     def drain(self, timeout: float) -> None:
         """Return once all that was written is on the wire, or after `timeout` seconds."""
-        ...
 
     def close(self) -> None:
         """Close the line; may be called again. A read in another thread ends soon."""
-        ...
