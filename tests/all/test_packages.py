@@ -155,6 +155,10 @@ def test_the_library_runs_alone(
     module = [programs / "python", "-m", "busservo"]
     shown = run(*module, "encode", "ServoMove", "time_ms=1000", "targets=1:800", cwd=tmp_path)
     assert shown == "55 55 08 03 01 E8 03 01 20 03\n"
+    shown = run(programs / "busservo", "explain", "55 55 04 0F 4C 1D", cwd=tmp_path)
+    assert shown.startswith("BatteryVoltage, controller -> host\n")
+    shown = run(programs / "busservo", "docs", "BatteryVoltage", cwd=tmp_path)
+    assert shown.startswith("BatteryVoltage\nThe voltage of the battery.\n")
 
 
 @pytest.mark.parametrize("ending", [".whl", ".tar.gz"])

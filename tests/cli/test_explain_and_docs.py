@@ -8,6 +8,7 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 import pytest
+import yaml
 from busservo._cli import main
 from framegen.cli import main as framegen_main
 from framegen.explain import explain
@@ -19,6 +20,7 @@ from hypothesis import strategies as st
 from tests.factories import (
     BUSSERVO,
     DEMO,
+    Data,
     compiled_of,
     data_of,
     files_of,
@@ -30,6 +32,7 @@ from tests.factories import (
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
     from pathlib import Path
+    from types import ModuleType
 
     from framegen.model.model import Model
 
@@ -57,6 +60,29 @@ def by_reference(model: Model, frame: bytes) -> tuple[str, dict[str, Any]]:
     return as_text(found), as_json(found)
 
 
+def bent_names() -> Data:
+    """Return a spec with an endpoint and a message whose names the library has taken."""
+    text = DEMO.read_text(encoding="utf-8").replace("gateway", "either")
+    made: Data = yaml.safe_load(text.replace("VentsOpen", "Exception"))
+    assert made["endpoints"].keys() >= {"either"}
+    assert "Exception" in made["messages"]
+    return made
+
+
+OTHERS = {"greenhouse": data_of(DEMO), "bent": bent_names()}
+OTHERS |= {name: data_of(DEMO.with_name(f"{name}.yaml")) for name in ("blinds", "weather", "lamp")}
+
+
+@pytest.fixture(scope="module", params=OTHERS)
+def other(
+    request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory
+) -> Iterator[tuple[Data, ModuleType]]:
+    """Yield a spec, and its library."""
+    data = OTHERS[request.param]
+    with library(files_of(data), tmp_path_factory.mktemp(request.param)) as made:
+        yield data, made
+
+
 @pytest.fixture(scope="module")
 def house(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Explain]:
     with library(files_of(data_of(DEMO)), tmp_path_factory.mktemp("house")) as made:
@@ -71,22 +97,24 @@ def servo() -> Explain:
 # ---------------------------------------------------------------------------- one explanation
 
 
-def frames_of(spec: Path) -> list[bytes]:
+def frames_of(data: Data) -> list[bytes]:
     """Return every single frame of the test vectors, legal or not, and those of look-alikes."""
-    vectors, model = vectors_of(compiled_of(data_of(spec))), layout_of(data_of(spec))
+    vectors, model = vectors_of(compiled_of(data)), layout_of(data)
     given = [bytes.fromhex(case["hex"]) for kind in ("valid", "invalid") for case in vectors[kind]]
     others = [each.hex for other in model.spec.lookalikes.values() for each in other.examples]
     return [*given, *others, given[0] + given[1], b"\x00" + given[0]]
 
 
-@pytest.mark.parametrize("frame", frames_of(BUSSERVO), ids=lambda frame: frame[:12].hex())
+@pytest.mark.parametrize("frame", frames_of(data_of(BUSSERVO)), ids=lambda frame: frame[:12].hex())
 def test_both_commands_explain_alike(servo: Explain, frame: bytes) -> None:
     assert servo(frame) == by_reference(SERVO, frame)
 
 
-@pytest.mark.parametrize("frame", frames_of(DEMO), ids=lambda frame: frame[:12].hex())
-def test_any_library_explains_as_framegen_does(house: Explain, frame: bytes) -> None:
-    assert house(frame) == by_reference(HOUSE, frame)
+def test_any_library_explains_as_framegen_does(other: tuple[Data, ModuleType]) -> None:
+    data, made = other
+    told, model = carried_by(made.__name__), layout_of(data)
+    frames = frames_of(data)
+    assert [told(frame) for frame in frames] == [by_reference(model, frame) for frame in frames]
 
 
 @st.composite
@@ -159,7 +187,7 @@ def test_a_library_carries_the_model_that_framegen_explains_by(spec: Path, model
     (carried,) = (
         json.loads(text) for path, text in files_of(data_of(spec)).items() if "model.json" in path
     )
-    usage = ("python", "shell", "method")
+    usage = ("python", "shell", "method", "class")
     carried["messages"] = {
         name: {key: value for key, value in said.items() if key not in usage}
         for name, said in carried["messages"].items()
@@ -263,6 +291,23 @@ def test_a_page_shows_all_that_is_written_of_a_message(name: str, capsys: Captur
             facts += [slip.title, slip.here, slip.why]
     facts += [each.what for each in SERVO.spec.unknowns if each.concerns.message == name]
     assert [fact for fact in facts if " ".join(fact.split()) not in page] == []
+
+
+@pytest.mark.filterwarnings("ignore:.* is deprecated:DeprecationWarning")
+def test_any_library_has_its_pages(other: tuple[Data, ModuleType], capsys: Capture) -> None:
+    data, made = other
+    command = import_module(f"{made.__name__}._cli").main
+    for words in ([], ["errata"], ["lookalikes"], *([name] for name in data["messages"])):
+        assert command(["docs", *words]) == 0
+        page, errors = capsys.readouterr()
+        assert errors == ""
+        assert page.startswith(words[0] if words and words[0] in data["messages"] else "")
+    # By the name that the class has, too, where the spec's was taken.
+    for name in [*data["messages"], *(kind.__name__ for kind in made.MESSAGES)]:
+        assert command(["docs", name, "--json"]) == 0
+        said = json.loads(capsys.readouterr().out)
+        assert command(said["shell"][0].split()[1:]) == 0
+        assert capsys.readouterr().out.strip() == said["examples"][0]["hex"]
 
 
 def test_each_byte_of_an_example_is_shown(capsys: Capture) -> None:

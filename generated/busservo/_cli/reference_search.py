@@ -61,7 +61,8 @@ def folded(word: str) -> str:
 
 
 def _names(message: Message) -> list[str]:
-    names = [message.name, message.said.get("vendor_name", "")]
+    said = message.said
+    names = [message.name, said.get("class", ""), said.get("vendor_name", "")]
     return [folded(name) for name in names if name]
 
 

@@ -42,6 +42,8 @@ def _usage(model: Model, layout: MessageLayout) -> dict[str, Any]:
         "python": snippet(model, layout, example).rstrip().split("\n"),
         "shell": [f"{program} encode {words}"],
     }
+    if message.name != layout.name:
+        usage["class"] = message.name
     for exchange in library.exchanges:
         if exchange.request.name == message.name:
             method = exchange.method

@@ -111,6 +111,8 @@ def _facts(model: Protocol, message: Message) -> Iterator[tuple[str, str]]:
             yield label, ", ".join(said[key])
     if "acknowledged" in said:
         yield "acknowledged by:", said["acknowledged"]
+    if "class" in said:
+        yield "class:", said["class"]
     if "method" in said:
         yield "sent by:", said["method"]
     yield "length rule:", _length_rule(message)
