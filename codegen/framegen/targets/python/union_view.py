@@ -49,9 +49,8 @@ class UnionView:
     @property
     def declared(self) -> str:
         """The assignment that makes it."""
-        sent = [message for way in self.ways for message in self.model.sent(way).values()]
-        order = list(self.model.messages.values())
-        names = [message.name for message in sorted(sent, key=order.index)]
+        messages = self.model.messages.values()
+        names = [message.name for message in messages if message.direction in self.ways]
         return type_alias(self.name, names)
 
     @property
