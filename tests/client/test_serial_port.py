@@ -34,6 +34,7 @@ from busservo import (
     open_transport,
 )
 from busservo._codec.rejects import Rejects
+from busservo._serial import serial_port
 from busservo._serial.hid_port import HidPort
 from busservo._serial.port_errors import not_opened
 from busservo._serial.serial_port import SerialPort
@@ -687,3 +688,11 @@ def test_a_port_that_fails_to_open_in_a_way_of_its_own_is_told_in_its_words(
     with pytest.raises(TransportError, match=r"it cannot be opened .*Input/output") as caught:
         open_transport("COM7")
     assert type(caught.value) is TransportError
+
+
+def test_a_pseudo_terminal_is_opened_though_it_keeps_no_parity(
+    board: PtyBoard, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(serial_port, "PARITY", "even")
+    with open_controller(board.port, **LIVE) as controller:
+        assert controller.read_battery_voltage() == 7500

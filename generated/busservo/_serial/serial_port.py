@@ -10,8 +10,10 @@ from __future__ import annotations
 import math
 import select
 import socket
+import sys
 import threading
 import time
+from contextlib import suppress
 from functools import partial
 from typing import TYPE_CHECKING, NamedTuple
 
@@ -122,6 +124,16 @@ def open_transport(
     return SerialPort(port, opened, partial(open_transport, port, baud=baud, exclusive=exclusive))
 
 
+def _refused_by_terminal() -> type[Exception]:
+    """Return what termios raises, which is no OSError, for settings that a terminal does not keep.
+
+    A pseudo terminal keeps no parity, and so refuses to be set a second time, whatever is set; what
+    pyserial itself needs to know of it is set all the same.
+    """
+    error: type[Exception] = getattr(sys.modules.get("termios"), "error", OSError)
+    return error
+
+
 class SerialPort:
     """An open port of pyserial, as a transport. `reopen` opens the same one anew."""
 
@@ -133,7 +145,8 @@ class SerialPort:
         if self._handle is not None:
             # Only then does pyserial return how much was taken. Its own time-out is also raised if
             # all was, but the process had been stopped meanwhile.
-            port.write_timeout = 0
+            with suppress(_refused_by_terminal()):
+                port.write_timeout = 0
         self._at_once = getattr(port, "timeout", None) == 0
         self._closed = False
         # Held until it is closed; acquired again by the thread that closes it, as in a signal
