@@ -13,6 +13,7 @@ from framegen.targets.python.snippet import snippet
 
 if TYPE_CHECKING:
     from framegen.compile import Compiled
+    from framegen.model.exchanges import Exchange
     from framegen.model.layout import MessageLayout
     from framegen.model.model import Model
 
@@ -26,12 +27,13 @@ def carried_model(compiled: Compiled) -> str:
     data = {"comment": banner(compiled.source.path)} | model_data(model)
     ways = zip(model.ways, names_of(model).library.ways, strict=True)
     data["members"] = {str(way): there.key for way, there in ways}
+    asked = {exchange.request.name: exchange for exchange in names_of(model).library.exchanges}
     for layout in model.messages.values():
-        data["messages"][layout.name] |= _usage(model, layout)
+        data["messages"][layout.name] |= _usage(model, layout, asked)
     return f"{_formatted(data, 0)}\n"
 
 
-def _usage(model: Model, layout: MessageLayout) -> dict[str, Any]:
+def _usage(model: Model, layout: MessageLayout, exchanges: dict[str, Exchange]) -> dict[str, Any]:
     """Return how the library and its command send or receive a message."""
     names = names_of(model)
     library, message = names.library, names.message(layout.name)
@@ -44,11 +46,10 @@ def _usage(model: Model, layout: MessageLayout) -> dict[str, Any]:
     }
     if message.name != layout.name:
         usage["class"] = message.name
-    for exchange in library.exchanges:
-        if exchange.request.name == message.name:
-            method = exchange.method
-            usage["shell"].append(f"{program} send --port COM7 {words}")
-            usage["method"] = f"{method.name}({', '.join(method.arguments)})"
+    if message.name in exchanges:
+        method = exchanges[message.name].method
+        usage["shell"].append(f"{program} send --port COM7 {words}")
+        usage["method"] = f"{method.name}({', '.join(method.arguments)})"
     return usage
 
 
