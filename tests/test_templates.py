@@ -122,7 +122,8 @@ def test_every_emitted_module_is_a_template_or_a_runtime_file() -> None:
     templates = {t.relative_to(TARGET / "templates").as_posix()[:-6] for t in TEMPLATES}
     runtime = {r.relative_to(TARGET / "runtime").as_posix() for r in RUNTIME} - _FOR_POSES
     assert templates & runtime == set()
-    assert emitted == templates | runtime | {*_SHARED} | {"py.typed"}
+    data = {"py.typed", "_explanation/model.json"}
+    assert emitted == templates | runtime | {*_SHARED} | data
 
 
 @pytest.mark.parametrize("path", SOURCES, ids=lambda path: path.relative_to(CODEGEN).as_posix())

@@ -13,7 +13,7 @@ from framegen.targets.python.snippet import snippet
 
 if TYPE_CHECKING:
     from framegen.compile import Compiled
-    from framegen.model.exchanges import Exchange
+    from framegen.language.values import Method
     from framegen.model.layout import MessageLayout
     from framegen.model.model import Model
 
@@ -27,13 +27,13 @@ def carried_model(compiled: Compiled) -> str:
     data = {"comment": banner(compiled.source.path)} | model_data(model)
     ways = zip(model.ways, names_of(model).library.ways, strict=True)
     data["members"] = {str(way): there.key for way, there in ways}
-    asked = {exchange.request.name: exchange for exchange in names_of(model).library.exchanges}
+    methods = {each.request.name: each.method for each in names_of(model).library.exchanges}
     for layout in model.messages.values():
-        data["messages"][layout.name] |= _usage(model, layout, asked)
+        data["messages"][layout.name] |= _usage(model, layout, methods)
     return f"{_formatted(data, 0)}\n"
 
 
-def _usage(model: Model, layout: MessageLayout, exchanges: dict[str, Exchange]) -> dict[str, Any]:
+def _usage(model: Model, layout: MessageLayout, methods: dict[str, Method]) -> dict[str, Any]:
     """Return how the library and its command send or receive a message."""
     names = names_of(model)
     library, message = names.library, names.message(layout.name)
@@ -46,8 +46,8 @@ def _usage(model: Model, layout: MessageLayout, exchanges: dict[str, Exchange]) 
     }
     if message.name != layout.name:
         usage["class"] = message.name
-    if message.name in exchanges:
-        method = exchanges[message.name].method
+    if message.name in methods:
+        method = methods[message.name]
         usage["shell"].append(f"{program} send --port COM7 {words}")
         usage["method"] = f"{method.name}({', '.join(method.arguments)})"
     return usage

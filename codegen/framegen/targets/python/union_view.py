@@ -49,8 +49,8 @@ class UnionView:
     @property
     def declared(self) -> str:
         """The assignment that makes it."""
-        sent = {message.name for way in self.ways for message in self.model.sent(way).values()}
-        names = [each.name for each in self.model.messages.values() if each.name in sent]
+        messages = self.model.messages.values()
+        names = [message.name for message in messages if message.direction in self.ways]
         return type_alias(self.name, names)
 
     @property
