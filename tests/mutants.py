@@ -32,7 +32,12 @@ JUDGES = {
         *("client/test_client", "client/test_async_client", "client/test_reports"),
         *("client/test_closing", "client/test_motion", "client/test_pose", "client/test_gaps"),
         *("client/test_acknowledgements", "client/test_local_echo", "client/test_virtual_board"),
-        *("client/test_faults", "client/test_conversations", "independent/test_one_fault"),
+        *(
+            "client/test_hid_port",
+            "client/test_faults",
+            "client/test_conversations",
+            "independent/test_one_fault",
+        ),
     ),
     "framegen": (
         *("test_verdict", "test_reference_stream", "test_layout", "test_explain"),

@@ -14,7 +14,7 @@ from framegen.render import render
 
 from tests.factories import yaml_of
 
-FEW = 16
+FEW = 32
 
 
 def many(number: int) -> Source:

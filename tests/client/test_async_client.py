@@ -10,7 +10,8 @@ import subprocess
 import sys
 import time
 import warnings
-from typing import TYPE_CHECKING, TypeVar
+from inspect import signature
+from typing import TYPE_CHECKING, Any, TypeVar
 
 import pytest
 from busservo import (
@@ -33,6 +34,8 @@ from busservo import (
     ServoPositions,
     ServoPositionsRead,
     TransportError,
+    open_async_controller,
+    open_controller,
 )
 from busservo._client.base_client import POLL_INTERVAL
 
@@ -41,7 +44,7 @@ from tests.client.loop_line import LoopLine, client, run
 from tests.timeouts import GENEROUS, LIVE
 
 if TYPE_CHECKING:
-    from collections.abc import Coroutine
+    from collections.abc import Callable, Coroutine
     from pathlib import Path
 
 _T = TypeVar("_T")
@@ -65,6 +68,13 @@ def test_both_clients_have_the_same_methods() -> None:
         return {name for name in dir(kind) if not name.startswith("_")}
 
     assert public(Controller) == public(AsyncController)
+
+
+def test_both_are_opened_with_the_same_defaults() -> None:
+    def defaults(opening: Callable[..., Any]) -> dict[str, Any]:
+        return {each.name: each.default for each in signature(opening).parameters.values()}
+
+    assert defaults(open_controller) == defaults(open_async_controller)
 
 
 def test_the_methods_of_the_spec() -> None:

@@ -17,6 +17,7 @@ from busservo import (
     ServoMove,
     ServoPositions,
     ServoPositionsRead,
+    ServoUnload,
     TransportError,
 )
 from busservo._client.exchange import Exchange
@@ -271,6 +272,28 @@ def test_the_latest_takes_the_place_of_what_it_covers() -> None:
         now += 0.01
     assert kept == [ServoMove(20, [(1, 49), (2, 49)]).encode(), ServoMove(20, [(3, 49)]).encode()]
     assert line.counters.replaced == 98
+
+
+def test_the_latest_takes_the_place_of_what_names_the_same_servos_or_fewer() -> None:
+    line = session()
+    line.submit(ActionGroupStop())
+    line.outgoing(0.0)
+    for servo_ids in ([1, 2], [3], [2, 1], [4, 2, 1]):
+        line.submit(ServoUnload(servo_ids), latest=True)
+    kept = [line.outgoing(now)[0] for now in (1.0, 2.0)]
+    assert kept == [ServoUnload([3]).encode(), ServoUnload([4, 2, 1]).encode()]
+    assert line.idle
+
+
+def test_bytes_of_half_a_frame_are_told_where_no_reply_came() -> None:
+    line = session()
+    request = asked(line, BatteryVoltageRead())
+    line.receive(BatteryVoltage(7500).encode()[:-1], 0.02)
+    while not request.done:
+        assert line.tick_at is not None
+        line.tick(line.tick_at)
+    assert isinstance(request.error, NoReplyError)
+    assert request.error.noise == 5
 
 
 def test_half_a_frame_does_not_grow_together_with_the_next_reply() -> None:
