@@ -102,7 +102,7 @@ def measure(
         able = [peer for peer in present if kind not in peer.lacks]
         for peer in present:
             if peer not in able:
-                results.outcomes[row, peer.name] = "no"
+                results.measurements[row, peer.name] = "no"
         if row in messages.ROWS:
             cases = ours.message_cases(row) if ours else []
             cases += [messages.peer_case(row, peer) for peer in able]

@@ -45,8 +45,8 @@ class Case:
     plain: Callable[[Any], object] = lambda value: value
     """The result as the floor gives it."""
 
-    def outcome(self) -> object:
-        """Return the contender's result, in the form of the floor."""
+    def evaluate(self) -> object:
+        """Evaluate the contender's result, in the form of the floor."""
         return self.plain(eval(self.result, dict(self.names)))
 
 
@@ -88,14 +88,14 @@ def _decode(
 def measure(row: str, cases: Iterable[Case], rounds: int, seconds: float, into: Results) -> None:
     """Measure these contenders in this row, by samples of about `seconds`."""
     base = floor_case(row)
-    expected = base.outcome()
+    expected = base.evaluate()
     floor_sample = sampling.statement_sample(base.statement, base.names, seconds)
     for case in cases:
-        given = case.outcome()
+        given = case.evaluate()
         if given != expected:
             error = WrongResultError(f"gives {given!r}, not {expected!r}")
             into.refuse(row, case.contender, error)
             continue
         sample = sampling.statement_sample(case.statement, case.names, seconds)
         pairs = sampling.between(floor_sample, sample, rounds)
-        into.outcomes[row, case.contender] = sampling.ratio(pairs)
+        into.measurements[row, case.contender] = sampling.ratio(pairs)

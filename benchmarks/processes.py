@@ -61,7 +61,7 @@ def measure_import(
     except FailedError as error:
         into.refuse("import", contender, error)
         return
-    into.outcomes["import", contender] = sampling.spread(
+    into.measurements["import", contender] = sampling.spread(
         [1000 * (own - bare) for own, bare in pairs]
     )
 
@@ -77,4 +77,4 @@ def measure_command(
     except FailedError as error:
         into.refuse(row, contender, error)
         return
-    into.outcomes[row, contender] = sampling.spread(taken)
+    into.measurements[row, contender] = sampling.spread(taken)

@@ -132,22 +132,22 @@ def _comparison(
 
 
 def _any(results: Results, row: str) -> bool:
-    return any(measured == row for measured, _ in results.outcomes)
+    return any(measured == row for measured, _ in results.measurements)
 
 
 def _cell(results: Results, row: str, contender: str) -> str:
     is_ratio_to_floor = row.startswith(("encode", "decode", "stream"))
     if contender == FLOOR and is_ratio_to_floor:
         return "1.00"
-    outcome = results.outcomes.get((row, contender), _NOTHING)
-    return outcome if isinstance(outcome, str) else _figure(outcome.median)
+    measured = results.measurements.get((row, contender), _NOTHING)
+    return measured if isinstance(measured, str) else _figure(measured.median)
 
 
 def _notes(results: Results, present: Sequence[Peer], absent: Sequence[Absent]) -> Iterator[str]:
     """Yield remarks on single contenders, for readers of the tables."""
     for peer in present:
         for kind, reason in peer.lacks.items():
-            if any(row.startswith(kind) for row, _ in results.outcomes):
+            if any(row.startswith(kind) for row, _ in results.measurements):
                 yield f"{peer.name}: {reason}."
     for one in absent:
         if one.reason != NOT_INSTALLED:

@@ -1,4 +1,4 @@
-"""The results of a run: one outcome for every row and contender."""
+"""The results of a run: one measurement for every row and contender."""
 
 from __future__ import annotations
 
@@ -25,9 +25,9 @@ class WrongResultError(Exception):
 
 @dataclass
 class Results:
-    """Outcomes in the order in which they were measured."""
+    """Measurements in the order in which they were measured."""
 
-    outcomes: dict[tuple[str, str], Spread | str] = field(default_factory=dict)
+    measurements: dict[tuple[str, str], Spread | str] = field(default_factory=dict)
     """By row and contender: what was measured, or the reason why nothing was."""
 
     sizes: dict[str, int] = field(default_factory=dict)
@@ -38,10 +38,10 @@ class Results:
 
     def spread(self, row: str, contender: str) -> Spread | None:
         """Return the measurement of a contender in a row, if there is one."""
-        outcome = self.outcomes.get((row, contender))
-        return outcome if isinstance(outcome, Spread) else None
+        measured = self.measurements.get((row, contender))
+        return measured if isinstance(measured, Spread) else None
 
     def refuse(self, row: str, contender: str, error: Exception) -> None:
         """Record that a contender failed, or gave a wrong result, and was not timed."""
-        self.outcomes[row, contender] = "failed"
+        self.measurements[row, contender] = "failed"
         self.wrong.append(f"{contender}, {row}: {error}")

@@ -107,7 +107,7 @@ def measure(
             partial(case.seconds, kind=kind, chunk=chunk, size=size),
             rounds,
         )
-        into.outcomes[row, case.contender] = sampling.ratio(pairs)
+        into.measurements[row, case.contender] = sampling.ratio(pairs)
 
 
 def measure_noise(
@@ -121,4 +121,4 @@ def measure_noise(
             partial(case.seconds, kind=kind, chunk=chunk, size=largest),
             rounds,
         )
-        into.outcomes[row, case.contender] = sampling.ratio(pairs)
+        into.measurements[row, case.contender] = sampling.ratio(pairs)

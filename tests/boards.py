@@ -51,7 +51,7 @@ def no_board_refuses_anything(
 
     def closed(self: VirtualController) -> None:
         close(self)
-        if not self._line.unheard:  # it was not unplugged in the middle of a frame
+        if not self._line.in_transit:  # it was not unplugged in the middle of a frame
             self.board.quiet()  # half a frame is refused as well
 
     monkeypatch.setattr(Rejects, "add", recorded)

@@ -167,7 +167,7 @@ def _messages(old: Model, new: Model) -> Iterator[Difference]:
         if was.direction == old.roles.sent and message.direction == new.roles.sent:
             yield from _method(f"{path}.method", was, message)
             yield from _result(path, was, message, names)
-        yield from _told(path, was.message, message.message)
+        yield from _remarks(path, was.message, message.message)
     for name, message in before.items():
         if name not in new.messages:
             yield Difference("message-removed", f"messages.{message.name}", message.name)
@@ -218,7 +218,7 @@ def _fields(path: str, old: tuple[Number, ...], new: tuple[Number, ...]) -> Iter
 
 def _properties(path: str, old: list[Number], new: list[Number]) -> Iterator[Difference]:
     """Compare the properties that a message or an element has besides its numbers."""
-    was, now = _told_besides(old), _told_besides(new)
+    was, now = _properties_of(old), _properties_of(new)
     for name in dict.fromkeys([*was, *now]):
         here = f"{path}.{name}"
         if name not in was:
@@ -229,7 +229,7 @@ def _properties(path: str, old: list[Number], new: list[Number]) -> Iterator[Dif
             yield from _changed("property-changed", here, was[name], now[name])
 
 
-def _told_besides(fields: Iterable[Number]) -> dict[str, str]:
+def _properties_of(fields: Iterable[Number]) -> dict[str, str]:
     """Return each such property by its name, with what it is computed from."""
     found: dict[str, str] = {}
     for each in fields:
@@ -312,7 +312,7 @@ def _range(path: str, old: tuple[int, int], new: tuple[int, int]) -> Iterator[Di
     yield from _changed(kind, path, *(f"{low}..{high}" for low, high in (old, new)))
 
 
-def _told(path: str, old: Message, new: Message) -> Iterator[Difference]:
+def _remarks(path: str, old: Message, new: Message) -> Iterator[Difference]:
     """Compare what neither bytes nor programs depend on."""
     yield from _changed(
         "message-deprecated", f"{path}.deprecated", old.deprecated or None, new.deprecated or None

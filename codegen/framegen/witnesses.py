@@ -116,12 +116,12 @@ def find_missing(model: Model, witnesses: Sequence[Witness], root: Path) -> list
         for each in found
         if each.witness.of in ("messages", "requests", "queries")
     }
-    told = [
+    reported = [
         each
         for each in found
         if each.witness.of != "fields" or (each.witness.file, each.subject.message) not in whole
     ]
-    return sorted(told, key=lambda each: [*texts].index(each.witness.file))
+    return sorted(reported, key=lambda each: [*texts].index(each.witness.file))
 
 
 # ------------------------------------------------------------------ what a spec has to be shown

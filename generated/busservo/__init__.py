@@ -12,7 +12,7 @@ buzzer and an LED. Whether a frame is whole can only be judged from its header, 
 command and, where it has one, its count.
 """
 
-# Each is imported when it is first asked for: nobody waits for what is not used. Editors and type
+# Each is imported when it is first needed: nobody waits for what is not used. Editors and type
 # checkers read the same from __init__.pyi.
 _HOMES = {
     "MESSAGES": "messages",

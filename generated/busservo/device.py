@@ -74,8 +74,8 @@ class Device:
 
     def take(self) -> list[Report]:
         """Return the messages that wait to be sent, in order, and empty the queue."""
-        waiting, self._queue = self._queue, []
-        return waiting
+        pending, self._queue = self._queue, []
+        return pending
 
     def accepted(self, message: Message) -> None:
         """Handle any message, before its own handler; override it to see them all."""

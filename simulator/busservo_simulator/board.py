@@ -145,7 +145,9 @@ class Board(Device):
             self._log("board", f"{len(message.servo_ids)} servos fit in no reply: silence")
             return None
         there = (self.servos.get(servo_id) for servo_id in message.servo_ids)
-        return ServoPositions([self._told(servo) for servo in there if servo and not servo.missing])
+        return ServoPositions(
+            [self._reported(servo) for servo in there if servo and not servo.missing]
+        )
 
     def on_battery_voltage_read(self, message: BatteryVoltageRead) -> BatteryVoltage:  # noqa: ARG002 - it has no fields
         """Return the present voltage."""
@@ -209,7 +211,7 @@ class Board(Device):
         called = self.servos.values() if servo_id == EVERY_SERVO else [self.servos.get(servo_id)]
         return [servo for servo in called if servo and not servo.missing and not servo.off]
 
-    def _told(self, servo: Servo) -> tuple[int, int]:
+    def _reported(self, servo: Servo) -> tuple[int, int]:
         absent = ServoPosition.POSITION_ABSENT
         return servo.servo_id, absent if servo.off else servo.position
 

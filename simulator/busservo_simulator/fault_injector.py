@@ -44,7 +44,7 @@ class FaultInjector:
     def reports(self, report: Report) -> Iterator[Report]:
         """Yield the reports that are sent in place of `report`."""
         if self._happens(self.faults.unasked):
-            yield self._unasked()
+            yield self._unsolicited()
         if isinstance(report, REPLIES) and self._happens(self.faults.dropped):
             return
         if isinstance(report, ServoPositions) and (self.faults.fewer or self.faults.absent):
@@ -87,7 +87,7 @@ class FaultInjector:
         # Nothing is drawn for what cannot happen: one fault more leaves the others where they were.
         return chance > 0 and self._random.random() < chance
 
-    def _unasked(self) -> Report:
+    def _unsolicited(self) -> Report:
         group = self._random.randrange(256)
         reports: list[Report] = [
             ActionGroupStarted(group, 1),

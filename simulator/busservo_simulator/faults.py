@@ -37,7 +37,7 @@ class Faults:
     duplicated: float = _chance("a reply is sent twice")
     dropped: float = _chance("a reply is never sent")
     fewer: float = _chance("a servo is left out of a reply; the chance is that of each servo")
-    absent: float = _chance("a servo is told to be off, by 65535; the chance is that of each servo")
+    absent: float = _chance("a servo is reported off, by 65535; the chance is that of each servo")
     wrong_count: float = _chance("a reply counts one servo more, or fewer, than its length holds")
     unasked: float = _chance("a report that nobody asked for comes in front of a frame")
     hang_up: float = _chance("the line is cut in the middle of a frame")

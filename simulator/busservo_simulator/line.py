@@ -52,7 +52,7 @@ class Line:
         self.faults = faults or Faults()
         # Replies that the board keeps back, and when they go out.
         self._late: list[tuple[float, Report]] = []
-        self._waiting = b""
+        self._coalesced = b""
         self._waits_until = 0.0
         self._hangs_up_at: float | None = None
         self._babble = b""
@@ -92,7 +92,7 @@ class Line:
         return min((moment for moment in moments if moment is not None), default=None)
 
     @property
-    def unheard(self) -> int:
+    def in_transit(self) -> int:
         """How many bytes of the host are still on their way."""
         return self._to_board.held
 
@@ -126,7 +126,7 @@ class Line:
     def reboot(self, seconds: float) -> None:
         """Switch the board off and on: what it has kept back is never sent."""
         self._late.clear()
-        self._waiting = b""
+        self._coalesced = b""
         self.board.reboot(seconds)
 
     def spurious_output(
@@ -142,7 +142,7 @@ class Line:
         """Cut the line: the bytes on their way are lost."""
         self.hung_up = True
         self._hangs_up_at = None
-        self._waiting = b""
+        self._coalesced = b""
         self._to_board.clear()
         self._to_host.clear()
 
@@ -158,7 +158,7 @@ class Line:
             self._to_board.next_event,
             self.board.next_event,
             self._babbles_at,
-            self._waits_until if self._waiting else None,
+            self._waits_until if self._coalesced else None,
             self._late[0][0] if self._late else None,
         )
         return min((moment for moment in moments if moment is not None), default=None)
@@ -172,8 +172,8 @@ class Line:
                 self._send_reports(moment)
         while self._late and self._late[0][0] <= moment:
             self._send_frame(self._late.pop(0)[1], moment)
-        if self._waiting and self._waits_until <= moment:
-            self._send_waiting(moment)
+        if self._coalesced and self._waits_until <= moment:
+            self._send_coalesced(moment)
         if self._babbles_at is not None and self._babbles_at <= moment:
             self.send(self._babble, moment)
             self._babbles_at += self._babble_pause
@@ -191,21 +191,21 @@ class Line:
             return
         sending = self._injector.sending(report)
         if sending.waits:
-            self._waiting += b"".join(data for _, data in sending.pieces)
+            self._coalesced += b"".join(data for _, data in sending.pieces)
             self._waits_until = moment + COALESCING
             return
-        waiting, self._waiting = self._waiting, b""
+        pending, self._coalesced = self._coalesced, b""
         # It is late from when it was due, whatever is still in front of it.
         start = moment
         for pause, data in sending.pieces:
-            self.send(waiting + data, start + pause)
-            start, waiting = self._to_host.free_at, b""
+            self.send(pending + data, start + pause)
+            start, pending = self._to_host.free_at, b""
         if sending.hangs_up:
             self._hangs_up_at = self._to_host.free_at
 
-    def _send_waiting(self, moment: float) -> None:
-        waiting, self._waiting = self._waiting, b""
-        self.send(waiting, moment)
+    def _send_coalesced(self, moment: float) -> None:
+        pending, self._coalesced = self._coalesced, b""
+        self.send(pending, moment)
 
     def _sampled(self, data: bytes, sent_at: float, read_at: float) -> tuple[bytes, float]:
         """Return the bytes that are read for those sent, and the seconds that each takes."""

@@ -83,7 +83,7 @@ class MemoryEnd:
         """Return once the last byte has arrived at the board, or after `timeout` seconds."""
         with self._changed:
             end = self._host_time() + timeout
-            while self._plugged and self._line.unheard:
+            while self._plugged and self._line.in_transit:
                 left = end - self._host_time()
                 if left <= 0:
                     return

@@ -275,7 +275,7 @@ class VirtualController:
     def _serve(self) -> None:
         while not self._closing:
             with self._changed:
-                listening = not self._paced or self._line.unheard < AHEAD
+                listening = not self._paced or self._line.in_transit < AHEAD
                 data = self._end.receive() if listening else b""
                 if data:
                     self._line.host_baud = self._end.host_baud

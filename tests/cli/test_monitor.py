@@ -290,8 +290,8 @@ def test_a_long_wait_shows_that_it_goes_on(monkeypatch: pytest.MonkeyPatch) -> N
     watched("--only", "noise", line=Line(b"", b"", FRAME, b"\x13" + FRAME))
     last = "nothing to show for 3 s (Ctrl-C ends); 6 bytes: 1 message, 0 bytes of noise"
     assert terminal.getvalue() == (
-        "\rnothing heard for 1 s (Ctrl-C ends)"
-        "\rnothing heard for 2 s (Ctrl-C ends)"
+        "\rnothing received for 1 s (Ctrl-C ends)"
+        "\rnothing received for 2 s (Ctrl-C ends)"
         f"\r{last}"
         f"\r{' ' * len(last)}  \r"  # before a line is shown; and with room for ^C
         "\r  \r13 bytes: 2 messages, 1 byte of noise; 1 line shown\n"
@@ -304,7 +304,7 @@ def test_a_wait_is_no_wider_than_its_terminal(monkeypatch: pytest.MonkeyPatch) -
     monkeypatch.setattr(terminal, "fileno", lambda: 7)
     monkeypatch.setattr(os, "get_terminal_size", lambda _: os.terminal_size((20, 24)))
     watched(line=Line(silence=1))
-    assert terminal.getvalue().startswith("\rnothing heard for 1\r")
+    assert terminal.getvalue().startswith("\rnothing received fo\r")
 
 
 @pytest.mark.parametrize(

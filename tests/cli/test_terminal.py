@@ -34,7 +34,7 @@ def board() -> Iterator[VirtualController]:
 
 def test_ctrl_c_ends_a_monitor_with_its_totals(board: VirtualController) -> None:
     with OnTerminal("monitor", "--port", board.port) as monitor:
-        monitor.wait_for("nothing heard for [0-9]+ s")
+        monitor.wait_for("nothing received for [0-9]+ s")
         board.report(BatteryVoltage(7500))
         monitor.wait_for(r"7500 mV \| 55 55 04 0F 4C 1D\r\n")
         monitor.wait_for("nothing to show for [0-9]+ s")
@@ -63,7 +63,7 @@ def test_sigterm_ends_a_monitor_as_cleanly(board: VirtualController) -> None:
 @pytest.mark.parametrize("variable", [{"NO_COLOR": "1"}, {"TERM": "dumb"}])
 def test_no_colour_where_none_is_wanted(board: VirtualController, variable: dict[str, str]) -> None:
     with OnTerminal("monitor", "--port", board.port, "-n", "1", **variable) as monitor:
-        monitor.wait_for("nothing heard")
+        monitor.wait_for("nothing received")
         board.report(BatteryVoltage(7500))
         assert monitor.end() == 0
         assert monitor.lines[0].endswith(f"  controller  {BATTERY}")

@@ -168,7 +168,7 @@ def test_a_difference_is_found_where_it_is(question: str, said: list[str], at: i
 def test_a_program_that_answers_rightly_conforms() -> None:
     trial = held(lambda _question, right, _asked: right, STOP, CUT, LINE, ENCODE)
     assert trial.conforms
-    assert (trial.asked, trial.agreed, trial.differences, trial.smallest) == (4, 4, [], None)
+    assert (trial.questions, trial.agreed, trial.differences, trial.smallest) == (4, 4, [], None)
 
 
 def test_what_is_unsupported_is_counted_and_no_difference() -> None:
@@ -177,7 +177,7 @@ def test_what_is_unsupported_is_counted_and_no_difference() -> None:
 
     trial = held(change, STOP, LINE, LINE)
     assert trial.conforms
-    assert (trial.asked, trial.agreed, dict(trial.unsupported)) == (3, 1, {"stream": 2})
+    assert (trial.questions, trial.agreed, dict(trial.unsupported)) == (3, 1, {"stream": 2})
 
 
 def test_what_is_unsupported_is_said_alone() -> None:
@@ -215,7 +215,7 @@ def test_a_program_that_ends_now_and_then_is_asked_on() -> None:
         return Reply((), "it ended") if question == CUT else right
 
     trial = held(change, STOP, CUT, STOP, CUT, LINE)
-    assert (trial.asked, trial.agreed, trial.stopped) == (5, 3, "")
+    assert (trial.questions, trial.agreed, trial.stopped) == (5, 3, "")
     assert [found.failure for found in trial.differences] == ["it ended"] * 2
 
 
@@ -230,12 +230,12 @@ def test_a_program_that_always_fails_is_not_asked_for_ever(
         return right if question == STOP else Reply((), "it fails", hangs)
 
     trial = held(change, STOP, STOP, *[LINE] * 100)
-    assert (trial.asked, trial.stopped) == (asked, why)
+    assert (trial.questions, trial.stopped) == (asked, why)
 
 
 def test_a_program_that_never_answered_is_asked_no_more() -> None:
     trial = held(lambda *_: Reply((), "it ended with status 1 before it printed a line"), STOP, CUT)
-    assert (trial.asked, trial.stopped, trial.conforms) == (1, "it never answered", False)
+    assert (trial.questions, trial.stopped, trial.conforms) == (1, "it never answered", False)
 
 
 def test_what_hangs_is_given_less_time_while_it_is_shrunk() -> None:

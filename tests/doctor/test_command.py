@@ -154,7 +154,7 @@ def test_a_report_of_no_port_at_all_is_one_too(tmp_path: Path) -> None:
     with board_with() as board:
         diagnosis = diagnosis_of(board, port=None, ports=list)
         told = report_of(diagnosis, tmp_path / "report.hex", "")
-    assert "# device: not told\n# adapter: not known\n" in told
+    assert "# device: not stated\n# adapter: not known\n" in told
     assert "# line: no port, 9600 baud\n# failed port: no serial port is plugged in\n" in told
 
 

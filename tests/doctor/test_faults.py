@@ -96,7 +96,7 @@ CASES = {
     ),
     "all servos off": Case(
         Faults(absent=1.0),
-        told={"present": (FAILED, "none; told to be absent: 6", "supply of the servos")},
+        told={"present": (FAILED, "none; reported absent: 6", "supply of the servos")},
     ),
     "some servos missing": Case(Faults(fewer=0.5, seed=1)),
     "wrong counts": Case(
@@ -144,7 +144,7 @@ CASES = {
     "spurious output": Case(
         before=lambda board: board.spurious_output(b"\x00\xf8", 20, ignore_input=False),
         told={
-            "silence": (FAILED, "bytes that are no frame came unasked", "see that the rate"),
+            "silence": (FAILED, "bytes that are no frame came unsolicited", "see that the rate"),
             "reply": (FAILED, "answered with noise around it", "grounds"),
         },
     ),
@@ -152,7 +152,7 @@ CASES = {
         before=lambda board: board.spurious_output(b"\x00\xf8", 20),
         told=NO_REPLY
         | {
-            "silence": (FAILED, "bytes that are no frame came unasked", "see that the rate"),
+            "silence": (FAILED, "bytes that are no frame came unsolicited", "see that the rate"),
             "rate": (FAILED, "that are no reply", "at which rate the device is set"),
         },
     ),

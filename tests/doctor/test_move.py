@@ -53,7 +53,7 @@ def test_what_is_not_there_is_not_moved() -> None:
         assert board.accepted == 1
         assert (found.state, found.advice) == (FAILED, "see the check `present`")
         board.servos[2].off = True
-        assert "tells no position, so it was not moved" in moved(board, 2).seen
+        assert "reports no position, so it was not moved" in moved(board, 2).seen
         assert board.accepted == 2
 
 

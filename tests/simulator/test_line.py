@@ -221,7 +221,7 @@ def test_nothing_that_arrives_can_make_the_board_fail(
         line.read(moment)
         moment += pause
     line.read(moment + 100)
-    assert line.unheard == 0
+    assert line.in_transit == 0
 
 
 @given(CHUNKS, FAULTS, RATES)

@@ -132,7 +132,7 @@ def _remark(found: Survey | Written) -> None:
 def _sum_up(outputs: Sequence[Output], specs: Sequence[Compiled], root: Path, what: str) -> None:
     files = pluralize(sum(len(output.files) + 1 for output in outputs), "file")
     source = specs[0].source.name if len(specs) == 1 else pluralize(len(specs), "spec")
-    # Paths are shown as they are below the root: so it is told where that is another folder.
+    # Paths are shown as they are below the root: so it is said where that is another folder.
     below = "" if os.path.realpath(root) == os.path.realpath(Path()) else f" below {_near(root)}"
     _tell(f"{files} from {source}{below}: {what}")
 

@@ -71,7 +71,7 @@ def _stream(model: Model, dice: _Dice, way: Direction) -> Stream:
             parts.append(None)
     small = max(model.frame.least, min(_SMALL, largest))
     most = dice.pick((largest, largest, small, model.frame.least + dice.below(_SMALL)))
-    # What can be told is told without waiting for quiet.
+    # What is certain is reported without waiting for quiet.
     last = () if dice.below(6) == 0 else (None,)
     return Stream(way, most, (*parts, *last))
 

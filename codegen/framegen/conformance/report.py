@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from framegen.language.spec import Protocol
     from framegen.model.model import Model
 
-# So many kinds of differences are told.
+# So many kinds of differences are shown.
 _KINDS = 12
 # The two sides of a difference.
 _COLOURS = {"reference": "green", "program": "red"}
@@ -36,7 +36,7 @@ def as_text(model: Model, trial: Trial, command: Sequence[str]) -> Iterator[str]
         yield from _kinds(trial.differences)
         yield ""
     if trial.stopped:
-        yield f"stopped after {pluralize(trial.asked, 'question')}: {trial.stopped}"
+        yield f"stopped after {pluralize(trial.questions, 'question')}: {trial.stopped}"
     yield f"{_short(visible(' '.join(command)))}: {_verdict(model.spec.protocol, trial)}"
     if trial.unsupported:
         verbs = ", ".join(f"{count} {verb}" for verb, count in sorted(trial.unsupported.items()))
@@ -53,8 +53,8 @@ def _verdict(protocol: Protocol, trial: Trial) -> str:
     if trial.conforms:
         return f"conforms to {what}: {pluralize(trial.agreed, 'answer')} as the reference's"
     if not trial.differences:
-        return f"supports nothing of {what}: {pluralize(trial.asked, 'question')} not supported"
-    answers = pluralize(trial.asked - trial.unsupported.total(), "answer")
+        return f"supports nothing of {what}: {pluralize(trial.questions, 'question')} not supported"
+    answers = pluralize(trial.questions - trial.unsupported.total(), "answer")
     return f"differs from {what} in {len(trial.differences)} of {answers}"
 
 
@@ -119,7 +119,7 @@ def as_json(model: Model, trial: Trial, command: Sequence[str], seed: int | None
         "version": protocol.version,
         "program": list(command),
         "conforms": trial.conforms,
-        "asked": trial.asked,
+        "asked": trial.questions,
         "agreed": trial.agreed,
         "differed": len(trial.differences),
         "unsupported": {kind.verb: trial.unsupported[kind.verb] for kind in _QUESTIONS},
@@ -158,8 +158,8 @@ def as_badge(model: Model, trial: Trial) -> str:
     protocol = model.spec.protocol
     label = f"{protocol.name} {protocol.version}"
     if not trial.conforms:
-        asked = trial.asked - trial.unsupported.total()
-        return badge(label, f"{trial.agreed} of {asked}", "bad")
+        answers = trial.questions - trial.unsupported.total()
+        return badge(label, f"{trial.agreed} of {answers}", "bad")
     if trial.unsupported:
         without = ", ".join(f"{count} {verb}" for verb, count in sorted(trial.unsupported.items()))
         return badge(label, f"conforms, {without} not supported", "fair")

@@ -97,13 +97,13 @@ def _rows(ours: _Lines, theirs: _Lines) -> Iterator[tuple[str, str, str]]:
 
 def _placed(lines: Sequence[str]) -> _Lines:
     """Return each line with the offset of its first byte, which follows from the lines before."""
-    offsets = accumulate((len(_told(line)) // 2 for line in lines), initial=0)
+    offsets = accumulate((len(_hex_of(line)) // 2 for line in lines), initial=0)
     return [
-        (str(at) if _told(line) else "", line) for at, line in zip(offsets, lines, strict=False)
+        (str(at) if _hex_of(line) else "", line) for at, line in zip(offsets, lines, strict=False)
     ]
 
 
-def _told(line: str) -> str:
+def _hex_of(line: str) -> str:
     """Return the bytes of an event, in hex."""
     words = line.split()
     at = HEX_AT.get(words[0], 0) if words and words[0] != "frame" else 0
@@ -112,13 +112,13 @@ def _told(line: str) -> str:
 
 def _parting(difference: Difference) -> int:
     """Return the byte at which the events of two streams begin to differ."""
-    before = sum(len(_told(line)) // 2 for line in difference.expected[: difference.at])
+    before = sum(len(_hex_of(line)) // 2 for line in difference.expected[: difference.at])
     one, other = (
         "".join(lines[difference.at : difference.at + 1])
         for lines in (difference.expected, difference.answered)
     )
     # Of noise for the same reason, as far as both have it.
-    alike = min(_told(one), _told(other), key=len)
+    alike = min(_hex_of(one), _hex_of(other), key=len)
     if one and other and (one.startswith(other) or other.startswith(one)):
         before += len(alike) // 2
     return before

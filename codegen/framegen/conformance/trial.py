@@ -45,7 +45,7 @@ class Trial:
     `last_words` is what the program had printed on its error stream when it first gave no answer.
     """
 
-    asked: int = 0
+    questions: int = 0
     agreed: int = 0
     unsupported: Counter[str] = field(default_factory=Counter)
     differences: list[Difference] = field(default_factory=list)
@@ -66,7 +66,7 @@ def hold(model: Model, program: Program, questions: Iterable[tuple[str, Question
     before = behind = ""
     for title, question in questions:
         reply = program.ask(question.line)
-        trial.asked += 1
+        trial.questions += 1
         before, previous = question.line, before
         if unsupported(reply):
             trial.unsupported[question.verb] += 1
@@ -81,7 +81,7 @@ def hold(model: Model, program: Program, questions: Iterable[tuple[str, Question
         if reply.failure:
             trial.last_words = trial.last_words or program.last_words
             failures[reply.hangs] += 1
-            trial.stopped = _enough(failures, answered=trial.asked > len(trial.differences))
+            trial.stopped = _enough(failures, answered=trial.questions > len(trial.differences))
             if trial.stopped:
                 break
     if trial.differences:

@@ -96,7 +96,7 @@ class ReferenceDecoder:
                 continue
             if rest.startswith(header):
                 reason = verdict.reason
-            _tell_noise(events, at, rest[:1], reason)
+            _emit_noise(events, at, rest[:1], reason)
             at += 1
         return events
 
@@ -117,7 +117,7 @@ class ReferenceDecoder:
         return any(self.weigh(data[at:]).message for at in range(1, len(data)))
 
 
-def _tell_noise(events: list[Event], at: int, data: bytes, reason: str) -> None:
+def _emit_noise(events: list[Event], at: int, data: bytes, reason: str) -> None:
     """Add noise, joined with noise of the same reason in front of it."""
     if events and events[-1].kind == "noise" and events[-1].reason == reason:
         before = events.pop()

@@ -18,7 +18,7 @@ from .._serial.link_errors import NoReplyError
 from . import link
 from .console import visible
 from .exit_codes import DONE, INTERRUPTED, NOT_ALL
-from .link import add_port, add_timeout, failures_told, open_client
+from .link import add_port, add_timeout, failures_reported, open_client
 from .numerals import at_least
 from .progress_thread import shown_progress
 from .questions import exchange_named
@@ -58,7 +58,7 @@ def add_arguments(parser: ArgumentParser) -> None:
 def run(arguments: Namespace) -> int:
     """Send the requests, and print the result, also when it ended early."""
     trips = Trips(_question(arguments), arguments.port, arguments.baud)
-    with failures_told(), open_client(arguments, settle=0) as client:
+    with failures_reported(), open_client(arguments, settle=0) as client:
         try:
             trips.make(client, arguments.n)
         except KeyboardInterrupt:
@@ -80,12 +80,12 @@ def _question(arguments: Namespace) -> Message:
     if arguments.message is None and usual is not None:
         return usual()
     questions = [kind.__name__ for kind, each in EXCHANGES.items() if each.reply is not None]
-    told = f"questions are {', '.join(questions) or 'unknown to this protocol'}"
+    known = f"questions are {', '.join(questions) or 'unknown to this protocol'}"
     if arguments.message is None:
-        raise UsageError(f"name the question that is to be asked; {told}")
+        raise UsageError(f"name the question that is to be asked; {known}")
     kind, exchange = exchange_named(arguments.message)
     if exchange.reply is None:
-        raise UsageError(f"nothing answers {kind.__name__}, so it cannot be timed; {told}")
+        raise UsageError(f"nothing answers {kind.__name__}, so it cannot be timed; {known}")
     question = message_from_text(kind, arguments.fields)
     try:
         exchange.check(question)
@@ -114,7 +114,7 @@ class Trips:
         """Make `count` round trips. Raises TransportError once the line is lost."""
         began = time.perf_counter()
         try:
-            with shown_progress(lambda _: f"{self._asked} of {count} asked; Ctrl-C ends"):
+            with shown_progress(lambda _: f"{self._requested} of {count} asked; Ctrl-C ends"):
                 for _ in range(count):
                     self._make_one(client)
         finally:
@@ -138,7 +138,7 @@ class Trips:
         self.errors[kind] = self.errors.get(kind, 0) + 1
 
     @property
-    def _asked(self) -> int:
+    def _requested(self) -> int:
         return len(self._taken) + self.errors.get("no reply", 0)
 
     def as_record(self) -> dict[str, Any]:
@@ -148,7 +148,7 @@ class Trips:
         return {
             "question": type(self._question).__name__,
             "baud": None if self._baud == math.inf else self._baud,
-            "asked": self._asked,
+            "asked": self._requested,
             "answered": len(taken),
             "errors": self.errors,
             "unsolicited": self._unsolicited,
@@ -166,7 +166,7 @@ class Trips:
         found = self.as_record()
         name = " ".join(filter(None, [found["question"], fields_as_text(self._question)]))
         lines = [
-            f"{name} on {visible(self._port)}: {self._asked} asked, {len(self._taken)} answered"
+            f"{name} on {visible(self._port)}: {self._requested} asked, {len(self._taken)} answered"
         ]
         if self._taken:
             there, size = len(self._question.encode()), round(median(self._sizes))
@@ -192,5 +192,5 @@ class Trips:
             lines.append(
                 f"  too soon        {early} had a reply that no such wire can have carried"
             )
-        told = ", ".join(f"{number} {kind}" for kind, number in self.errors.items())
-        return "\n".join([*lines, f"  errors          {told or 'none'}"])
+        errors = ", ".join(f"{number} {kind}" for kind, number in self.errors.items())
+        return "\n".join([*lines, f"  errors          {errors or 'none'}"])

@@ -87,8 +87,8 @@ def totals(seen: Counters) -> str:
     unknown = (
         f", {pluralize(seen.unknown_frames, 'unknown frame')} in it" if seen.unknown_frames else ""
     )
-    told = f"{pluralize(seen.fed, 'byte')}: {pluralize(seen.messages, 'message')}"
-    return f"{told}, {pluralize(seen.noise, 'byte')} of noise{unknown}"
+    totals = f"{pluralize(seen.fed, 'byte')}: {pluralize(seen.messages, 'message')}"
+    return f"{totals}, {pluralize(seen.noise, 'byte')} of noise{unknown}"
 
 
 def _why(noise: Noise, direction: Direction | None) -> str:

@@ -125,7 +125,7 @@ class _Warnings(logging.Handler):
 
 
 @contextmanager
-def failures_told() -> Iterator[None]:
+def failures_reported() -> Iterator[None]:
     """Turn errors of a port into one line that says what to do.
 
     SIGTERM ends the body as Ctrl-C does: totals are printed, the port closed, the terminal

@@ -41,7 +41,9 @@ class Playback:
         self._progress = Progress(sys.stderr)
         self._decoder = StreamDecoder(RECEIVED)
         # What the listener has received: bytes, or the error that ended it; and when.
-        self._heard: queue.SimpleQueue[tuple[bytes | TransportError, float]] = queue.SimpleQueue()
+        self._received: queue.SimpleQueue[tuple[bytes | TransportError, float]] = (
+            queue.SimpleQueue()
+        )
         self._over = threading.Event()
         self._last = 0.0
 
@@ -68,21 +70,21 @@ class Playback:
             self._over.set()
             listener.join(1.0)
             self._progress.end()
-            told = f"{sent} of {pluralize(count, 'frame')} sent, {pluralize(size, 'byte')}"
+            summary = f"{sent} of {pluralize(count, 'frame')} sent, {pluralize(size, 'byte')}"
             try:
                 self._show(self._decoder.flush(), time.monotonic())
             finally:
-                print(f"{told}; came back: {totals(self._decoder.counters)}", file=sys.stderr)
+                print(f"{summary}; came back: {totals(self._decoder.counters)}", file=sys.stderr)
 
     def _listen(self, line: Transport) -> None:
         while not self._over.is_set():
             try:
                 data = line.read(_POLL_INTERVAL)
             except TransportError as error:
-                self._heard.put((error, time.monotonic()))
+                self._received.put((error, time.monotonic()))
                 return
             if data:
-                self._heard.put((data, time.monotonic()))
+                self._received.put((data, time.monotonic()))
 
     def _wait(self, until: float, what: str) -> None:
         """Show what comes back until a time. Raises TransportError once the line is lost."""
@@ -90,7 +92,7 @@ class Playback:
         while (left := until - time.monotonic()) > 0:
             try:
                 pause = GAP if self._decoder.pending else _POLL_INTERVAL
-                heard, now = self._heard.get(timeout=min(left, pause))
+                received, now = self._received.get(timeout=min(left, pause))
             except queue.Empty:
                 now = time.monotonic()
                 if self._decoder.pending and now - self._last >= GAP:
@@ -98,10 +100,10 @@ class Playback:
                 if now - began >= PROGRESS_INTERVAL:
                     self._progress.show(f"{what} in {left:.0f} s")
                 continue
-            if isinstance(heard, TransportError):
-                raise heard
+            if isinstance(received, TransportError):
+                raise received
             self._last = now
-            self._show(self._decoder.feed(heard), now)
+            self._show(self._decoder.feed(received), now)
 
     def _show(self, events: Sequence[Message | Noise], now: float) -> None:
         for event in events:

@@ -46,8 +46,8 @@ def read_poses(path: Path, pose: Pose) -> list[Recorded]:
     try:
         text = path.read_text(encoding="utf-8")
     except (OSError, UnicodeDecodeError) as error:
-        told = getattr(error, "strerror", None) or error
-        raise UsageError(f"{path} cannot be read: {told}") from None
+        problem = getattr(error, "strerror", None) or error
+        raise UsageError(f"{path} cannot be read: {problem}") from None
     try:
         data = json.loads(text, object_pairs_hook=_without_doubles)
     except json.JSONDecodeError as error:
@@ -118,8 +118,10 @@ class _Reader:
         if data["format"] != FORMAT:
             raise self._wrong("format", f"{_shown(data['format'])} is not {FORMAT!r}")
         if data["version"] != VERSION or isinstance(data["version"], bool):
-            told = f"{_shown(data['version'])} is no version that is known here, which is {VERSION}"
-            raise self._wrong("version", told)
+            problem = (
+                f"{_shown(data['version'])} is no version that is known here, which is {VERSION}"
+            )
+            raise self._wrong("version", problem)
         if not isinstance(data["poses"], list):
             raise self._wrong("poses", f"{_shown(data['poses'])} is no list")
         return [self._recorded(each, f"poses[{at}]") for at, each in enumerate(data["poses"])]
@@ -133,8 +135,8 @@ class _Reader:
             for key, value in data["positions"].items()
         }
         if len(positions) not in range(1, self._pose.room + 1):
-            told = f"{len(positions)} {self._pose.noun}s is outside 1..{self._pose.room}"
-            raise self._wrong(here, f"{told}, which one motion has room for")
+            problem = f"{len(positions)} {self._pose.noun}s is outside 1..{self._pose.room}"
+            raise self._wrong(here, f"{problem}, which one motion has room for")
         time_ms = data.get("time_ms")
         if time_ms is not None:
             time_ms = self._value(self._pose.duration, time_ms, f"{place}.time_ms")
@@ -144,14 +146,14 @@ class _Reader:
             and not isinstance(pause, bool)
             and 0 <= pause <= LONGEST_PAUSE
         ):
-            told = f"{_shown(pause)} is no number of seconds from 0 to {LONGEST_PAUSE:g}"
-            raise self._wrong(f"{place}.pause_s", told)
+            problem = f"{_shown(pause)} is no number of seconds from 0 to {LONGEST_PAUSE:g}"
+            raise self._wrong(f"{place}.pause_s", problem)
         return Recorded(positions, time_ms, pause)
 
     def _number(self, key: str, place: str) -> int:
         if not (key.isascii() and key.isdecimal()) or str(int(key[:9])) != key:
-            told = f'{key[:40]!r} is no number of a {self._pose.noun}, such as "1"'
-            raise self._wrong(place, told)
+            problem = f'{key[:40]!r} is no number of a {self._pose.noun}, such as "1"'
+            raise self._wrong(place, problem)
         return self._value(self._pose.item, int(key), f"{place}.{key}")
 
     def _value(self, number: Any, value: Any, place: str) -> int:

@@ -35,10 +35,10 @@ def in_parts(name: str, words: list[str]) -> list[Message]:
     items = kind.SHAPE.items
     if not exchange.most or items is None or kind.__match_args__ != (items.name,):
         return [message_from_text(kind, words)]
-    asked = fields_from_text(kind, words)[items.name]
-    if len(asked) <= exchange.most:
+    requested = fields_from_text(kind, words)[items.name]
+    if len(requested) <= exchange.most:
         return [message_from_text(kind, words)]
     try:
-        return parts_of(kind, asked)
+        return parts_of(kind, requested)
     except EncodeError as error:
         raise UsageError(str(error)) from None

@@ -13,7 +13,7 @@ from . import link
 from .examples import PROGRAM
 from .exit_codes import DONE, INTERRUPTED, NOT_ALL
 from .limits import add_limits, limits_of
-from .link import add_port, add_timeout, failures_told, open_client
+from .link import add_port, add_timeout, failures_reported, open_client
 from .numerals import whole
 from .posefile import Recorded, read_poses, write_poses
 from .positions import (
@@ -66,19 +66,19 @@ def run(arguments: argparse.Namespace) -> int:
     """Record as long as somebody presses Enter."""
     pose = the_pose()
     kept = _kept(arguments, pose)
-    with failures_told(), open_client(arguments, limits=limits_of(arguments)) as controller:
+    with failures_reported(), open_client(arguments, limits=limits_of(arguments)) as controller:
         try:
             ids = arguments.ids or find_present(controller, pose)
         except NoReplyError as error:
             print(error, file=sys.stderr)
             return NOT_ALL
         if not ids:
-            told = f"no {pose.noun} is there: is the supply of the {pose.noun}s on?"
-            print(told, file=sys.stderr)
+            hint = f"no {pose.noun} is there: is the supply of the {pose.noun}s on?"
+            print(hint, file=sys.stderr)
             return NOT_ALL
         if len(ids) > pose.room:
-            told = f"{len(ids)} {pose.noun}s are more than the {pose.room} that one motion moves"
-            raise UsageError(f"{told}; choose some by --ids")
+            problem = f"{len(ids)} {pose.noun}s are more than the {pose.room} that one motion moves"
+            raise UsageError(f"{problem}; choose some by --ids")
         lesson = _Lesson(controller, pose, ids, arguments.file, kept, limits_of(arguments))
         if not arguments.yes and not _agreed(
             f"{listed(pose, ids)} will go limp, and what they hold up falls: hold it. Let go?"
@@ -114,9 +114,9 @@ class _Lesson:
         left = f"{who} {'is' if len(self._ids) == 1 else 'are'} limp"
         self._controller.send(self._pose.letting_go(self._ids))
         try:
-            asked = self._record()
+            ended = self._record()
             ending = "Hold everything where it is now?"
-            if (hold_after or (asked and _agreed(ending))) and self._held():
+            if (hold_after or (ended and _agreed(ending))) and self._held():
                 left = f"{who} held"
         except KeyboardInterrupt:
             print(file=sys.stderr)
@@ -125,8 +125,8 @@ class _Lesson:
             recorded = len(self._poses) - self._before
             print(f"{pluralize(recorded, 'pose')} recorded; {left}", file=sys.stderr)
             if recorded:
-                told = f"`{PROGRAM} play {self._path} --dry-run` shows what would be sent"
-                print(told, file=sys.stderr)
+                hint = f"`{PROGRAM} play {self._path} --dry-run` shows what would be sent"
+                print(hint, file=sys.stderr)
         return DONE
 
     def _record(self) -> bool:

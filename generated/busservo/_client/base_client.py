@@ -126,7 +126,7 @@ class BaseClient:
     def send_latest(self, message: Message) -> None:
         """Send a command when the line is free, unless a newer one replaces it; do not wait.
 
-        It replaces a waiting command of the same class for the same ids, or for fewer. So a stream
+        It replaces a queued command of the same class for the same ids, or for fewer. So a stream
         of commands faster than the line is thinned out instead of falling behind. Raises LimitError
         for values outside the limits.
         """

@@ -18,7 +18,7 @@ else:
     from .._frame.typing_later import typing
 
 # What is waited for, one thing after the other.
-_Waiting: typing.TypeAlias = Generator[Request | float | None, None, bool]
+_Ending: typing.TypeAlias = Generator[Request | float | None, None, bool]
 
 
 class Timed(Sent):
@@ -93,7 +93,7 @@ class Motion(Timed):
 
     __slots__ = ("_finish",)
 
-    def __init__(self, *what: typing.Any, finish: Callable[[_Waiting], bool]) -> None:
+    def __init__(self, *what: typing.Any, finish: Callable[[_Ending], bool]) -> None:
         super().__init__(*what)
         self._finish = finish
 
@@ -111,7 +111,7 @@ class AsyncMotion(Timed):
 
     __slots__ = ("_finish",)
 
-    def __init__(self, *what: typing.Any, finish: Callable[[_Waiting], Awaitable[bool]]) -> None:
+    def __init__(self, *what: typing.Any, finish: Callable[[_Ending], Awaitable[bool]]) -> None:
         super().__init__(*what)
         self._finish = finish
 

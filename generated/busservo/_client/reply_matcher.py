@@ -72,7 +72,7 @@ class ReplyMatcher:
     # ------------------------------------------------------------------ sending
 
     def may_be_mistaken(self, request: Request, now: float) -> bool:
-        """Whether the reply to a question could not be told from another one that may come yet."""
+        """Whether a reply to a question might be confused with one that may yet come."""
         reply = request.exchange.reply
         if self.pending is not None:
             return True

@@ -83,9 +83,9 @@ class RequestQueue:
 
     def clear(self) -> list[Request]:
         """Take all requests out, and return them."""
-        waiting = [*self._requests]
+        requests = [*self._requests]
         self._requests.clear()
-        return waiting
+        return requests
 
     def _next(self, now: float) -> Request | None:
         for request in self._requests:
@@ -103,7 +103,7 @@ class RequestQueue:
         return self._settling.until(self._wire_time.seconds(size) + self._latency)
 
     def _undone_by(self, message: Message) -> list[Request]:
-        """Return the waiting commands of the same class, for the same ids or fewer."""
+        """Return the queued commands of the same class, for the same ids or fewer."""
         covered = _subjects(message)
         return [
             each

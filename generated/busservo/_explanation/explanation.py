@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     # The verdict on bytes as exactly one frame, sent in a direction.
     Judge: TypeAlias = Callable[[str, bytes], "Judgement"]
 
-# So many of the frames inside other bytes are told.
+# So many of the frames inside other bytes are shown.
 _MOST_WITHIN = 8
 
 

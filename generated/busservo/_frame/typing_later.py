@@ -9,7 +9,7 @@ from __future__ import annotations
 
 
 class _Typing:
-    """Stands for the module: each name is looked up there when it is asked for."""
+    """Stands for the module: each name is looked up there when it is needed."""
 
     __slots__ = ()
 

@@ -76,7 +76,7 @@ class Permission:
     def _holds(self, data: bytes, places: range) -> str:
         """Return the first forbidden message that begins at one of these places."""
         for at in self._headers(data, places):
-            if self._id(data, at) not in self._guarded:
+            if self._id(data, at) not in self._forbidden:
                 continue
             for way in self._ways:
                 message = weigh(self.model, [way], data[at : at + self._largest]).message
@@ -107,7 +107,7 @@ class Permission:
         return self.model.largest(self._ways)
 
     @cached_property
-    def _guarded(self) -> dict[int, MessageLayout]:
+    def _forbidden(self) -> dict[int, MessageLayout]:
         """By id, every message that a device may receive and that is not allowed."""
         return {
             message.id: message
@@ -131,7 +131,7 @@ class Permission:
             for each in spec.reserved
             if each.id is not None and each.direction != received
         }
-        found |= {code: f"a frame of {message.name}" for code, message in self._guarded.items()}
+        found |= {code: f"a frame of {message.name}" for code, message in self._forbidden.items()}
         harmless = {self.model.messages[name].id for name in self.allowed}
         return {code: what for code, what in found.items() if code not in harmless}
 

@@ -32,7 +32,7 @@ class Recording:
         self._path = path
         self._file: RecordingFile | None = None
         if path is not None:
-            with self._failures_told():
+            with self._failures_reported():
                 self._file = RecordingFile(path)
 
     def __enter__(self) -> Self:
@@ -45,20 +45,20 @@ class Recording:
         traceback: TracebackType | None,
     ) -> None:
         if self._file is not None:
-            # What went wrong before it is what is told.
-            with self._failures_told() if kind is None else suppress(OSError):
+            # The earlier error is the one to report.
+            with self._failures_reported() if kind is None else suppress(OSError):
                 self._file.close()
 
     def begin(self, port: str) -> None:
         """Note what is recorded, and start its clock."""
         if self._file is not None:
-            with self._failures_told():
+            with self._failures_reported():
                 self._file.begin(port)
 
     def note(self, text: str) -> None:
         """Note what is tried next."""
         if self._file is not None:
-            with self._failures_told():
+            with self._failures_reported():
                 self._file.note(text)
 
     def sent(self, burst: Burst, now: float) -> None:
@@ -75,7 +75,7 @@ class Recording:
         if event.message is None:
             self._write(event.data, received.at, NOISE, event.reason)
             if event.reason == TOO_SHORT and self._file is not None:
-                with self._failures_told():
+                with self._failures_reported():
                     self._file.quiet()
             return
         said = fields(event.message, values_of(event.message, event.data))
@@ -84,11 +84,11 @@ class Recording:
 
     def _write(self, data: bytes, at: float, who: str, what: str) -> None:
         if self._file is not None:
-            with self._failures_told():
+            with self._failures_reported():
                 self._file.write(data, at, who, what)
 
     @contextmanager
-    def _failures_told(self) -> Iterator[None]:
+    def _failures_reported(self) -> Iterator[None]:
         try:
             yield
         except FileExistsError as error:

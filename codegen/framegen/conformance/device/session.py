@@ -21,8 +21,8 @@ if TYPE_CHECKING:
 
 # A reply that is due is waited for so many timeouts longer, to tell a late one from none.
 _LATE = 4
-# What comes in so many seconds before anything is sent was not asked for.
-_UNASKED = 0.25
+# What comes in so many seconds before anything is sent is unsolicited.
+_LISTENING = 0.25
 # The line is quiet once nothing has come for so many seconds.
 _QUIET = 0.05
 # So long a device may go on sending by itself, in seconds, before it is not waited for any more.
@@ -99,7 +99,7 @@ class Session:
 
     def listen(self) -> list[Received]:
         """Read what a device sends unsolicited, before anything is sent."""
-        self._read_until(self.now + _UNASKED)
+        self._read_until(self.now + _LISTENING)
         return self._end()
 
     def send(self, burst: Burst) -> Transcript:
@@ -114,7 +114,7 @@ class Session:
         self._sent = (self._sent + data)[-self._most :]
         due = [request.reply for request in requests_of(burst) if request.reply is not None]
         until = at + max(limits, default=self.timing.timeout)
-        # A late reply is told from none; and a beginning that is none may hold back one in time.
+        # Longer, to recognise a late reply; and a beginning of none may hold back one in time.
         self._read_until(until + _LATE * self.timing.timeout if due else until, due)
         return Transcript(at, burst, limits, self._end())
 

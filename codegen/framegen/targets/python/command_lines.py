@@ -60,7 +60,7 @@ def verbs(model: Model) -> list[VerbView]:
     about = _ABOUT | (_OF_QUESTIONS if _questions(model) else {})
     found: list[VerbView] = []
     for verb, lines in sorted(_examples(model).items()):
-        shown = [(f"{program} {verb} {words}".rstrip(), told) for words, told in lines]
+        shown = [(f"{program} {verb} {words}".rstrip(), meaning) for words, meaning in lines]
         found.append(VerbView(verb, about[verb], _pairs(shown)))
     return found
 

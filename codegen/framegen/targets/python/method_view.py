@@ -99,10 +99,10 @@ class MethodView:
         for name in self._names:
             about, *rest = self._argument(name).argument_doc
             found.append(" ".join([f"`{name}`: {about}", *rest]))
-        return [*found, *self._outcome]
+        return [*found, *self._returns_and_raises]
 
     @property
-    def _outcome(self) -> list[str]:
+    def _returns_and_raises(self) -> list[str]:
         reply, result = self.exchange.reply, self._result
         if reply is None:
             return [*self._handed_over, f"{_REFUSED}, and TransportError."]
@@ -149,7 +149,7 @@ class MethodView:
 
     @property
     def query(self) -> str:
-        """What a question is asked with; empty for a command."""
+        """The arguments that a question is sent with; empty for a command."""
         reply, split = self.exchange.reply, self.exchange.split
         if reply is None:
             return ""

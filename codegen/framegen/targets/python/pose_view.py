@@ -58,7 +58,7 @@ class PoseView:
 
     @property
     def requested(self) -> str:
-        """The numbers that are asked about."""
+        """The numbers that are requested."""
         [name] = arguments_of(self._message(self.pose.read).message)
         return name
 

@@ -19,8 +19,8 @@ if TYPE_CHECKING:
 
 
 def _look(diagnosis: Diagnosis) -> Result:
-    asked = [event for trip in diagnosis.trips for _, event in trip.events]
-    came = [*asked, *diagnosis.unasked, *diagnosis.strange]
+    answers = [event for trip in diagnosis.trips for _, event in trip.events]
+    came = [*answers, *diagnosis.unsolicited, *diagnosis.strange]
     if not came:
         return unknown("nothing came that could be looked at")
     noise = [each for each in came if isinstance(each, Noise)]
@@ -34,14 +34,14 @@ def _look(diagnosis: Diagnosis) -> Result:
                 data,
             )
     for each in noise:
-        told = _told(each)
-        if told:
+        likeness = _likeness(each)
+        if likeness:
             advice = "an unknown edition of the device, or bytes that were lost: send a report in"
-            return failed(told, advice, each.data)
+            return failed(likeness, advice, each.data)
     return passed("what came is this protocol")
 
 
-def _told(noise: Noise) -> str:
+def _likeness(noise: Noise) -> str:
     """Return what a piece of noise has in common with a frame; empty for nothing."""
     if isinstance(noise, UnknownFrame):
         return f"a frame of command {noise.command} came, which is none of this protocol's"

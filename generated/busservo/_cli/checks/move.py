@@ -5,7 +5,7 @@ from __future__ import annotations
 
 from ..._client.exchanges import LIMITS
 from .check import Check
-from .present import ask_patiently
+from .present import ask_repeatedly
 from .result import failed, passed, unknown
 
 TYPE_CHECKING = False
@@ -39,22 +39,22 @@ class _Motion:
         """Move it, if it reports its position and that is within the limits."""
         began = self._position()
         if began is None:
-            told = f"{self._name} tells no position, so it was not moved"
-            return failed(told, "see the check `present`")
+            seen = f"{self._name} reports no position, so it was not moved"
+            return failed(seen, "see the check `present`")
         low, high = LIMITS.usual or (self._pose.place.low, self._pose.place.high)
         if not low <= began <= high:
-            told = f"{self._name} is at {began}, outside {low}..{high}, so it was not moved"
-            return unknown(told, "turn it into that range by hand")
+            seen = f"{self._name} is at {began}, outside {low}..{high}, so it was not moved"
+            return unknown(seen, "turn it into that range by hand")
         target = began + STEP if began + STEP <= high else began - STEP
         reached, ended = self._moved(target), self._moved(began)
-        told = f"{self._name} was at {began}, was sent to {target}, and was then at {reached}"
+        seen = f"{self._name} was at {began}, was sent to {target}, and was then at {reached}"
         if reached is None or abs(reached - target) > STEP // 2:
             advice = "see to its supply, which USB is not, and that nothing holds it"
-            return failed(told, advice)
-        told += f"; sent back, it is at {ended}"
+            return failed(seen, advice)
+        seen += f"; sent back, it is at {ended}"
         if ended is None or abs(ended - began) > STEP // 2:
-            return failed(told, "see that nothing holds it")
-        return passed(told)
+            return failed(seen, "see that nothing holds it")
+        return passed(seen)
 
     def _moved(self, target: int) -> int | None:
         """Send it to a target, and return its position afterwards."""
@@ -66,6 +66,6 @@ class _Motion:
     def _position(self) -> int | None:
         """Return its position; None if it does not report one."""
         request = self._pose.read(**{self._pose.requested: [self._number]})
-        reply = ask_patiently(self._diagnosis, request)
+        reply = ask_repeatedly(self._diagnosis, request)
         found = [] if reply is None else self._pose.there([reply])
         return int(getattr(found[0], self._pose.position)) if found else None

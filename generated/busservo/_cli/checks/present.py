@@ -36,7 +36,7 @@ def _look(diagnosis: Diagnosis, pose: Pose) -> Result:
         advice = f"see the check `reply`; if that has passed, {advice}"
     replies: list[Message] = []
     for request in _requests(diagnosis.connected(), pose):
-        reply = ask_patiently(diagnosis, request)
+        reply = ask_repeatedly(diagnosis, request)
         if reply is None:
             ids = getattr(request, pose.requested)
             return failed(
@@ -49,15 +49,15 @@ def _look(diagnosis: Diagnosis, pose: Pose) -> Result:
     frames = [reply.encode() for reply in replies]
     there = pose.present_in(replies)
     absent = sum(len(getattr(reply, pose.reported)) for reply in replies) - len(there)
-    told = f"{pose.noun}s that are there: {', '.join(map(str, there)) or 'none'}"
-    told += f"; told to be absent: {absent}" if absent else ""
+    seen = f"{pose.noun}s that are there: {', '.join(map(str, there)) or 'none'}"
+    seen += f"; reported absent: {absent}" if absent else ""
     if not there:
         advice = f"see to the supply of the {pose.noun}s, which USB is not, and to their cables"
-        return failed(told, advice, *frames)
-    return passed(told, *frames)
+        return failed(seen, advice, *frames)
+    return passed(seen, *frames)
 
 
-def ask_patiently(diagnosis: Diagnosis, request: Message) -> Message | None:
+def ask_repeatedly(diagnosis: Diagnosis, request: Message) -> Message | None:
     """Return the first reply to a question, sent a few times; None if none comes."""
     for _ in range(_TRIES):
         trip = diagnosis.connected().ask(request, extra=EXTRA_TIME)

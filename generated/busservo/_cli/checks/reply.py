@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     from .result import Result
     from .trip import Trip
 
-_ASKED = 10
+_REQUESTS = 10
 # After so many questions without a reply, the next would not be answered either.
 _SILENCES = 3
 
@@ -34,7 +34,7 @@ def _look(diagnosis: Diagnosis) -> Result:
         return unknown("there was no reply to look at: see the check `rate`")
     probe, question = diagnosis.connected(), diagnosis.trips[0].question
     silences = 0
-    for _ in range(_ASKED):
+    for _ in range(_REQUESTS):
         trip = probe.ask(question, extra=EXTRA_TIME)
         diagnosis.trips.append(trip)
         silences = 0 if trip.replies else silences + 1
@@ -45,15 +45,15 @@ def _look(diagnosis: Diagnosis) -> Result:
         trouble = _trouble(trip, _longest(diagnosis, trip))
         if trouble:
             troubles.setdefault(trouble, []).append(trip)
-    asked = len(diagnosis.trips)
+    count = len(diagnosis.trips)
     if not troubles:
         last = diagnosis.trips[-1].replies[0][1]
-        told = f"{asked} of {asked} questions were answered, each by one whole reply: {last!r}"
-        return passed(told, last.encode())
-    told = ", ".join(f"{len(trips)} {what}" for what, trips in troubles.items())
+        seen = f"{count} of {count} questions were answered, each by one whole reply: {last!r}"
+        return passed(seen, last.encode())
+    seen = ", ".join(f"{len(trips)} {what}" for what, trips in troubles.items())
     worst = next(what for what in _ADVICE if what in troubles)
     shown = [trip.received for trips in troubles.values() for trip in trips if trip.received]
-    return failed(f"of {asked} questions {told}", _ADVICE[worst], *shown)
+    return failed(f"of {count} questions {seen}", _ADVICE[worst], *shown)
 
 
 def _longest(diagnosis: Diagnosis, trip: Trip) -> float:

@@ -59,7 +59,7 @@ def _about(diagnosis: Diagnosis, model: str) -> list[str]:
     system = f"{platform.system()} {platform.release()} {platform.machine()}"
     return [
         f"doctor of {_PACKAGE} {__version__}, spec {PROTOCOL_VERSION}",
-        f"device: {model or 'not told'}",
+        f"device: {model or 'not stated'}",
         f"adapter: {_blinded(diagnosis.adapter, diagnosis) or 'not known'}",
         f"computer: {system}, Python {platform.python_version()}, pyserial {pyserial}",
         f"line: {_kind_of(diagnosis.port)}, {diagnosis.stated}",

@@ -32,21 +32,21 @@ def _look(diagnosis: Diagnosis) -> Result:
     sizes = len(answered[0].question.encode()) + len(answered[0].replies[0][1].encode())
     wire_ms = probe.wire_time.seconds(sizes) * 1000
     wire = f"{wire_ms:.2f} ms, which {sizes} bytes take at {probe.baud:g}"
-    told = (
+    seen = (
         f"the median of {len(taken)} is {median(taken) * 1000:.2f} ms; the wire needs {wire} baud"
     )
     if not early:
-        return passed(told)
+        return passed(seen)
     # If a reply to an earlier question was taken for another's, one reply is left over.
     if all(len(trip.replies) == 1 for trip in answered):
         return unknown(
-            f"{told}: this is no line of that rate, but one such as TCP, a pseudo terminal or USB",
+            f"{seen}: this is no line of that rate, but one such as TCP, a pseudo terminal or USB",
             "say so: --baud inf, or baud=math.inf in Python; then no reply can come too soon",
             *early,
         )
     return failed(
         f"{len(early)} of {len(answered)} replies were there before the line could have carried "
-        f"question and reply ({told})",
+        f"question and reply ({seen})",
         "these answer an earlier question: replies come late, or twice; see the check `reply`",
         *early,
     )

@@ -109,9 +109,9 @@ function makeCodec(protocol) {
   // large their frames can be there.
   function listenTo(direction, maxFrame) {
     const ways = protocol.directions.filter(({ key }) => direction === null || key === direction);
-    const heard = ways.flatMap(({ key }) => kinds.filter((kind) => kind.direction === key));
-    const named = new Map(heard.map(({ id }) => [id, heard.filter((kind) => kind.id === id)]));
-    const sizes = heard.map((kind) => sizeOf(kind, kind.counts.high));
+    const carried = ways.flatMap(({ key }) => kinds.filter((kind) => kind.direction === key));
+    const named = new Map(carried.map(({ id }) => [id, carried.filter((kind) => kind.id === id)]));
+    const sizes = carried.map((kind) => sizeOf(kind, kind.counts.high));
     return { named, largest: Math.min(maxFrame, Math.max(0, ...sizes)) };
   }
 
@@ -210,7 +210,7 @@ function makeCodec(protocol) {
     return whole ? "unknown" : "begun";
   }
 
-  // A message or an unknown frame, as it is told.
+  // A message or an unknown frame, as it is shown.
   function eventOf({ type, frame, reason, offset }, at, bytes) {
     const said = frame ? messageOf(frame, bytes) : { reason, refusedAt: at + offset };
     return { type, at, bytes, ...said };

@@ -151,9 +151,9 @@ function wayOf(word) {
   return ways.length === 1 ? ways[0].key : "";
 }
 
-const asked = new URLSearchParams(location.search);
-byId("hex").value = asked.get("hex") || byId("hex").value;
-byId("direction").value = wayOf(asked.get("direction"));
+const query = new URLSearchParams(location.search);
+byId("hex").value = query.get("hex") || byId("hex").value;
+byId("direction").value = wayOf(query.get("direction"));
 byId("hex").addEventListener("input", decode);
 byId("direction").addEventListener("change", decode);
 byId("message").addEventListener("change", offer);

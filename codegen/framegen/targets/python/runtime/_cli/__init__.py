@@ -55,7 +55,7 @@ def _module(name: str) -> Any:
 
 def _parser(name: str, verb: Any) -> console.Parser:
     ends: dict[int, str] = MEANINGS | getattr(verb, "ENDS", {})
-    statuses = [(str(code), told) for code, told in sorted(ends.items())]
+    statuses = [(str(code), meaning) for code, meaning in sorted(ends.items())]
     about = [VERBS[name], *([verb.ABOUT] if hasattr(verb, "ABOUT") else [])]
     parser = console.Parser(
         prog=f"{PROGRAM} {name}",

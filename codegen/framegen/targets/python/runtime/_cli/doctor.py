@@ -16,7 +16,7 @@ from .checks.result import FAILED, PASSED, STATES, UNKNOWN
 from .colour import painted, takes_colour
 from .console import visible, write_as_it_is
 from .exit_codes import DONE, LINE_LOST, NOT_ALL
-from .link import add_port, add_timeout, failures_told, open_line
+from .link import add_port, add_timeout, failures_reported, open_line
 from .numerals import at_least
 from .progress_thread import shown_progress
 from .usage_error import UsageError
@@ -47,8 +47,8 @@ def add_arguments(parser: ArgumentParser) -> None:
     add_port(parser, required=False)
     add_timeout(parser)
     if POSE is not None:
-        told = f"also move this {POSE.noun} by {STEP} steps and back; asks first"
-        parser.add_argument("--move", type=at_least(0), metavar="ID", help=told)
+        about = f"also move this {POSE.noun} by {STEP} steps and back; asks first"
+        parser.add_argument("--move", type=at_least(0), metavar="ID", help=about)
         parser.add_argument("--yes", action="store_true", help="do not ask before --move")
     parser.add_argument(
         "--report", metavar="FILE", help="write a recording of it all, to be sent to others"
@@ -74,7 +74,7 @@ def run(arguments: Namespace) -> int:
         opener=_open,
     )
     findings: list[tuple[Check, Result]] = []
-    with failures_told():
+    with failures_reported():
         try:
             found = examine(diagnosis, checks)
             while (finding := _next(found)) is not None:
@@ -86,8 +86,8 @@ def run(arguments: Namespace) -> int:
             if report is not None:
                 _finish(report, arguments, diagnosis, findings)
     states = [result.state for _, result in findings]
-    told = ", ".join(f"{states.count(each)} {each}" for each in STATES)
-    print(told, file=sys.stderr)
+    totals = ", ".join(f"{states.count(each)} {each}" for each in STATES)
+    print(totals, file=sys.stderr)
     if diagnosis.lost:
         return LINE_LOST
     return NOT_ALL if FAILED in states else DONE
@@ -106,14 +106,14 @@ def _open(port: str, baud: float) -> Transport:
 def _confirm(arguments: Namespace, pose: Pose) -> None:
     """Ask whether something may be moved. Raises UsageError if it may not."""
     if arguments.move not in pose.ids:
-        told = f"{pose.noun}s have numbers from {pose.ids[0]} to {pose.ids[-1]}"
-        raise UsageError(f"--move {arguments.move}: {told}")
+        known = f"{pose.noun}s have numbers from {pose.ids[0]} to {pose.ids[-1]}"
+        raise UsageError(f"--move {arguments.move}: {known}")
     if arguments.yes:
         return
     if not sys.stdin.isatty():
         raise UsageError("--move asks first, and nobody is there to answer: say --yes")
-    told = f"{pose.noun} {arguments.move} will move by {STEP} steps and back; keep clear of it"
-    print(f"{told}. Go on? [y/N] ", end="", file=sys.stderr, flush=True)
+    warning = f"{pose.noun} {arguments.move} will move by {STEP} steps and back; keep clear of it"
+    print(f"{warning}. Go on? [y/N] ", end="", file=sys.stderr, flush=True)
     if sys.stdin.readline().strip().lower() not in {"y", "yes"}:
         raise UsageError("nothing was moved, and nothing looked at")
 
@@ -134,8 +134,8 @@ def _finish(
     try:
         report.write(diagnosis, findings, arguments.model)
     except OSError as error:
-        told = f"{arguments.report} cannot be written: {error.strerror or error}"
-        raise UsageError(told) from None
+        problem = f"{arguments.report} cannot be written: {error.strerror or error}"
+        raise UsageError(problem) from None
 
 
 def _as_json(check: Check, result: Result) -> str:

@@ -20,7 +20,7 @@ from .events import KINDS, UNKNOWN, names_of, sender_of, totals
 from .examples import VERBS
 from .exit_codes import DONE, INTERRUPTED
 from .lines import TIMES, Lines
-from .link import add_port, failures_told, open_line
+from .link import add_port, failures_reported, open_line
 from .numerals import at_least
 from .progress import PROGRESS_INTERVAL, Progress
 from .recorder import Recorder
@@ -100,7 +100,7 @@ def run(arguments: Namespace) -> int:
     # Names are checked before a port is opened or a file begun.
     monitor = Monitor(arguments, sys.stdout)
     with (
-        failures_told(),
+        failures_reported(),
         closing(open_line(arguments.port, arguments.baud)) as line,
         Recorder(arguments.log) as recorder,
     ):
@@ -182,7 +182,7 @@ class Monitor:
     def _so_far(self, waited: float) -> str:
         seen = self._decoder.counters
         if not seen.fed:
-            return f"nothing heard for {waited:.0f} s (Ctrl-C ends)"
+            return f"nothing received for {waited:.0f} s (Ctrl-C ends)"
         return f"nothing to show for {waited:.0f} s (Ctrl-C ends); {totals(seen)}"
 
     def _totals(self) -> str:

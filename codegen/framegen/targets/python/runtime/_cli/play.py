@@ -13,7 +13,7 @@ from .._frame.pluralize import pluralize
 from . import link
 from .exit_codes import DONE, INTERRUPTED
 from .limits import add_limits, limits_of
-from .link import add_port, add_timeout, failures_told, open_client
+from .link import add_port, add_timeout, failures_reported, open_client
 from .numerals import at_least, from_zero, whole
 from .posefile import LONGEST_PAUSE, check_limits, read_poses
 from .positions import UNREAD, hold, in_options, listed, the_pose
@@ -78,12 +78,12 @@ def run(arguments: argparse.Namespace) -> int:
     if arguments.dry_run:
         at = 0.0
         for step in chain.from_iterable(repeat(steps, arguments.repeat)):
-            print(step.told(at), flush=True)
+            print(step.line(at), flush=True)
             at += step.wire + step.seconds
         total = pluralize(len(steps) * arguments.repeat, "pose")
         print(f"{total} in {at:.3f} s: nothing was sent", file=sys.stderr)
         return DONE
-    with failures_told(), open_client(arguments, limits=limits) as controller:
+    with failures_reported(), open_client(arguments, limits=limits) as controller:
         return _play(controller, pose, steps, arguments.repeat, limits)
 
 
@@ -101,7 +101,7 @@ class _Step:
         self.seconds = time_ms / 1000 + pause
         self.wire = WireTime(arguments.baud).seconds(len(self.message.encode()))
 
-    def told(self, at: float) -> str:
+    def line(self, at: float) -> str:
         """Return the line that is printed for it."""
         what = f"{type(self.message).__name__} {fields_as_text(self.message)}"
         return f"{at:12.6f}  pose {self.number}  {what}"
@@ -115,7 +115,7 @@ def _play(
     try:
         for step in chain.from_iterable(repeat(steps, times)):
             at = time.monotonic()
-            print(step.told(at - began), flush=True)
+            print(step.line(at - began), flush=True)
             sent = controller.send(step.message)
             _wait(at + sent.delay + sent.duration + step.seconds)
             done += 1
@@ -124,8 +124,8 @@ def _play(
         try:
             hold(controller, pose, ids, limits)
         except UNREAD as error:
-            told = f"the motion under way goes on to its end: {in_options(error)}"
-            print(f"\n{told}", file=sys.stderr)
+            state = f"the motion under way goes on to its end: {in_options(error)}"
+            print(f"\n{state}", file=sys.stderr)
         else:
             print(f"\n{listed(pose, ids)} held", file=sys.stderr)
         return INTERRUPTED
@@ -148,6 +148,6 @@ def _time(text: str) -> int:
     except ValueError as error:
         raise argparse.ArgumentTypeError(str(error)) from None
     if not bounds.low <= given <= bounds.high:
-        told = f"{given} is outside {bounds.low}..{bounds.high} milliseconds"
-        raise argparse.ArgumentTypeError(told)
+        problem = f"{given} is outside {bounds.low}..{bounds.high} milliseconds"
+        raise argparse.ArgumentTypeError(problem)
     return given

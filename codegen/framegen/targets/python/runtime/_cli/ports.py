@@ -39,8 +39,8 @@ def run(arguments: Namespace) -> int:
         print("no serial port is plugged in", file=sys.stderr)
     if devices is None and HID_DEVICES and not any(usb for _, usb, _ in serial):
         known = ", ".join(f"{vendor:04X}:{product:04X}" for vendor, product, _ in HID_DEVICES)
-        told = f"USB HID devices ({known}) have no serial port, and are not listed without"
-        print(f"{told} hidapi: pip install hidapi", file=sys.stderr)
+        hint = f"USB HID devices ({known}) have no serial port, and are not listed without"
+        print(f"{hint} hidapi: pip install hidapi", file=sys.stderr)
     return 0
 
 

@@ -20,8 +20,8 @@ def shown_progress(tell: Callable[[float], str]) -> Iterator[None]:
 
     A thread of its own does so: the body reads no clock of ours.
     """
-    waiting = Progress(sys.stderr)
-    if not waiting.seen:
+    progress = Progress(sys.stderr)
+    if not progress.seen:
         yield
         return
     ended = threading.Event()
@@ -29,7 +29,7 @@ def shown_progress(tell: Callable[[float], str]) -> Iterator[None]:
 
     def run() -> None:
         while not ended.wait(PROGRESS_INTERVAL):
-            waiting.show(tell(time.monotonic() - began))
+            progress.show(tell(time.monotonic() - began))
 
     thread = threading.Thread(target=run, daemon=True)
     thread.start()
@@ -38,4 +38,4 @@ def shown_progress(tell: Callable[[float], str]) -> Iterator[None]:
     finally:
         ended.set()
         thread.join()
-        waiting.clear()
+        progress.clear()

@@ -33,7 +33,7 @@ class Recorder:
         self._file: RecordingFile | None = None
         self._began = 0.0
         if path is not None:
-            with self._failures_told():
+            with self._failures_reported():
                 self._file = RecordingFile(path)
 
     def __enter__(self) -> Self:
@@ -47,14 +47,14 @@ class Recorder:
     ) -> None:
         if self._file is not None:
             # The earlier error is the one to report.
-            with self._failures_told() if kind is None else suppress(OSError):
+            with self._failures_reported() if kind is None else suppress(OSError):
                 self._file.close()
 
     def begin(self, port: str, now: float) -> None:
         """Write where it was recorded, and when that began, by the clock of `now` and the day's."""
         self._began = now
         if self._file is not None:
-            with self._failures_told():
+            with self._failures_reported():
                 self._file.begin(port)
 
     def record(
@@ -73,17 +73,17 @@ class Recorder:
                 what = event.reason.value
             elif who != EITHER:
                 what = repr(event)
-            with self._failures_told():
+            with self._failures_reported():
                 self._file.write(bytes_of(event), now - self._began, who, what)
 
     def quiet(self) -> None:
         """Write that half a frame was given up: what follows is not its other half."""
         if self._file is not None:
-            with self._failures_told():
+            with self._failures_reported():
                 self._file.quiet()
 
     @contextmanager
-    def _failures_told(self) -> Iterator[None]:
+    def _failures_reported(self) -> Iterator[None]:
         try:
             yield
         except OSError as error:

@@ -202,8 +202,8 @@ def _said(sheet: Sheet, model: Protocol, said: Any) -> None:
     if "limits" in said:
         limits = said["limits"]
         others = [f"{who} take {bounds}" for who, bounds in limits["others"].items()]
-        told = "; ".join(["unless told otherwise", *others])
-        sheet.paragraph(f"A client sends {limits['usual']} {told}.", 6)
+        conditions = "; ".join(["unless told otherwise", *others])
+        sheet.paragraph(f"A client sends {limits['usual']} {conditions}.", 6)
     if "signed_as" in said:
         sheet.paragraph(f"It can be read as {said['signed_as']}, too.", 6)
     for note in said.get("notes", ()):

@@ -18,7 +18,7 @@ from . import link
 from .events import bytes_of, in_words
 from .exit_codes import DONE, INTERRUPTED
 from .lines import Lines
-from .link import add_port, failures_told, open_line
+from .link import add_port, failures_reported, open_line
 from .numerals import above_zero
 from .playback import Playback
 from .recording import opened
@@ -40,7 +40,7 @@ the line can carry it; raw bytes and plain hex have no times, and go as fast as 
 device sent is left out. What is no frame, or may be of either end, is refused before anything is
 sent, unless an option says what to do with it. What is sent is printed, and so is what comes back.
 
-The device does at once what it is told, within the limits of `send` or beyond them: give it
+The device does at once what is sent, within the limits of `send` or beyond them: give it
 room, and look at --dry-run first."""
 
 
@@ -98,7 +98,7 @@ def run(arguments: argparse.Namespace) -> int:
         if arguments.dry_run:
             _show(timed, arguments.baud)
             return DONE
-        with failures_told(), closing(open_line(port, arguments.baud)) as line:
+        with failures_reported(), closing(open_line(port, arguments.baud)) as line:
             try:
                 Playback(sys.stdout).play(line, timed, count)
             except KeyboardInterrupt:
@@ -182,5 +182,5 @@ def _show(timed: Iterable[tuple[Entry, float]], baud: float) -> None:
         lines.show(entry.event, entry.direction, at)
         size += len(bytes_of(entry.event))
         ends = at + wire.seconds(len(bytes_of(entry.event)))
-    told = f"{pluralize(lines.count, 'frame')}, {pluralize(size, 'byte')} in {ends:.3f} s"
-    print(f"{told}: nothing was sent", file=sys.stderr)
+    summary = f"{pluralize(lines.count, 'frame')}, {pluralize(size, 'byte')} in {ends:.3f} s"
+    print(f"{summary}: nothing was sent", file=sys.stderr)

@@ -14,7 +14,7 @@ from .encode import note_deprecated
 from .entries import EntryLines
 from .exit_codes import DONE, NOT_ALL
 from .limits import add_limits, limits_of, refused
-from .link import add_port, add_timeout, failures_told, open_client
+from .link import add_port, add_timeout, failures_reported, open_client
 from .numerals import at_least
 from .progress_thread import shown_progress
 from .questions import in_parts
@@ -27,7 +27,7 @@ if TYPE_CHECKING:
     from .._client.client import Client
     from .._frame.message import Message
 
-ENDS = link.ENDS | {NOT_ALL: "no reply came in time, or it told less than was asked"}
+ENDS = link.ENDS | {NOT_ALL: "no reply came in time, or it reported less than was requested"}
 
 
 def add_arguments(parser: ArgumentParser) -> None:
@@ -54,13 +54,13 @@ def run(arguments: Namespace) -> int:
     messages = in_parts(arguments.message, arguments.fields)
     note_deprecated(type(messages[0]))
     if len(messages) > 1:
-        told = f"asked in {len(messages)} requests: one reply has no room for so much"
-        print(told, file=sys.stderr)
+        note = f"asked in {len(messages)} requests: one reply has no room for so much"
+        print(note, file=sys.stderr)
     lines = EntryLines(sys.stdout, "json" if arguments.json else "text")
     missing: dict[str, list[int]] = {}
     silent: NoReplyError | None = None
     with (
-        failures_told(),
+        failures_reported(),
         open_client(
             arguments, retries=arguments.retries, limits=limits_of(arguments)
         ) as controller,
@@ -78,12 +78,12 @@ def run(arguments: Namespace) -> int:
             if reply is not None:
                 lines.show(Entry(reply, reply.DIRECTION.sender, 0))
                 sys.stdout.flush()
-                asked, lacks, _ = left_out(message, reply)
-                missing.setdefault(asked, []).extend(lacks)
-    for asked, values in missing.items():
+                requested, left, _ = left_out(message, reply)
+                missing.setdefault(requested, []).extend(left)
+    for requested, values in missing.items():
         if values:
-            told = ", ".join(str(value) for value in values)
-            print(f"the reply is incomplete: nothing of {asked} {told}", file=sys.stderr)
+            listed = ", ".join(str(value) for value in values)
+            print(f"the reply is incomplete: nothing of {requested} {listed}", file=sys.stderr)
     if silent is not None:
         print(silent, file=sys.stderr)
     return NOT_ALL if silent is not None or any(missing.values()) else DONE

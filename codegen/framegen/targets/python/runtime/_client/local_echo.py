@@ -85,10 +85,10 @@ class LocalEcho:
 
     def clear(self) -> list[Request]:
         """Forget all expected echoes, and return their requests."""
-        waiting = [request for request, _, _ in self._expected]
+        pending = [request for request, _, _ in self._expected]
         self._expected.clear()
         self._held = b""
-        return waiting
+        return pending
 
 
 class EchoWatch:

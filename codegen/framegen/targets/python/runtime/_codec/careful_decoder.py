@@ -33,7 +33,15 @@ class CarefulDecoder:
     It has no clock either: its driver calls `flush` when the line has been quiet.
     """
 
-    __slots__ = ("_decoder", "_direction", "_doubted", "_later", "_rival", "_rival_at", "_told")
+    __slots__ = (
+        "_decoder",
+        "_direction",
+        "_doubted",
+        "_later",
+        "_rival",
+        "_rival_at",
+        "_rival_events",
+    )
 
     def __init__(self, direction: Direction | None) -> None:
         self._direction = direction
@@ -44,7 +52,7 @@ class CarefulDecoder:
         # The decoder of what may begin inside it, where that begins, and its events so far.
         self._rival = self._decoder
         self._rival_at = 0
-        self._told: list[Event] = []
+        self._rival_events: list[Event] = []
 
     @property
     def doubted(self) -> Decoded | None:
@@ -69,9 +77,9 @@ class CarefulDecoder:
         if doubted is None:
             return self._sifted(self._decoder.feed(data))
         self._later += data
-        self._told += self._rival.feed(data)
+        self._rival_events += self._rival.feed(data)
         if self._next_begins() < len(doubted.encode()):
-            return self._refuted(doubted) if self._has_told_a_message() else []
+            return self._refuted(doubted) if self._rival_found_a_message() else []
         # What follows continues no frame: the one that is held was whole.
         later = self._later
         self._believe()
@@ -87,7 +95,7 @@ class CarefulDecoder:
         if doubted is None:
             return self._decoder.flush()
         if self._later:
-            self._told += self._rival.flush()
+            self._rival_events += self._rival.flush()
             return self._refuted(doubted)
         self._believe()
         return [doubted]
@@ -101,7 +109,7 @@ class CarefulDecoder:
         other = CarefulDecoder(self._direction)
         other._decoder, other._rival = copy(self._decoder), copy(self._rival)
         other._doubted, other._rival_at = self._doubted, self._rival_at
-        other._later, other._told = self._later, [*self._told]
+        other._later, other._rival_events = self._later, [*self._rival_events]
         return other
 
     def _sifted(self, events: list[Event]) -> list[Event]:
@@ -121,7 +129,7 @@ class CarefulDecoder:
     def _is_torn(self, message: Decoded) -> bool:
         """Return whether a message ends in whole frames, which have filled its gap."""
         return any(
-            self._told and not any(isinstance(event, Noise) for event in self._told)
+            self._rival_events and not any(isinstance(event, Noise) for event in self._rival_events)
             for _ in self._rivals(message)
         )
 
@@ -129,7 +137,7 @@ class CarefulDecoder:
         """Hold a message back if a frame may begin in its last bytes."""
         size = len(message.encode())
         if not any(
-            not self._has_told_a_message() and self._next_begins() < size
+            not self._rival_found_a_message() and self._next_begins() < size
             for _ in self._rivals(message)
         ):
             return False
@@ -141,11 +149,11 @@ class CarefulDecoder:
         frame = message.encode()
         for at in _beginnings(frame):
             self._rival, self._rival_at = StreamDecoder(self._direction), at
-            self._told = self._rival.feed(frame[at:])
+            self._rival_events = self._rival.feed(frame[at:])
             yield at
 
-    def _has_told_a_message(self) -> bool:
-        return any(not isinstance(event, Noise) for event in self._told)
+    def _rival_found_a_message(self) -> bool:
+        return any(not isinstance(event, Noise) for event in self._rival_events)
 
     def _next_begins(self) -> int:
         """Return the byte of the doubted message at which the next frame begins.
@@ -153,7 +161,7 @@ class CarefulDecoder:
         It may yet prove to begin later, as long as its own decoder has not reported it.
         """
         at = self._rival_at
-        for event in self._told:
+        for event in self._rival_events:
             if not isinstance(event, Noise):
                 return at
             at += len(event.data)
@@ -164,7 +172,7 @@ class CarefulDecoder:
         self._doubted, self._later = None, b""
         self._decoder = self._rival
         torn = Noise(doubted.encode()[: self._rival_at], Reason.TOO_SHORT)
-        return [torn, *self._sifted(self._told)]
+        return [torn, *self._sifted(self._rival_events)]
 
 
 def _beginnings(frame: bytes) -> Iterator[int]:

@@ -41,7 +41,7 @@ class StreamDecoder:
     never raises on input, and never holds more than the largest legal frame.
 
     `direction` says who sends: for a client that of the device's messages, and None for a line on
-    which both can be heard. A frame that is legal in both is read in the one declared first. A
+    which both are received. A frame that is legal in both is read in the one declared first. A
     frame of more than `max_frame` bytes is refused by its length, so that no more than that is ever
     held.
     """
@@ -79,9 +79,9 @@ class StreamDecoder:
     @property
     def counters(self) -> Counters:
         """What has been seen so far."""
-        told = self._noise.told
-        noise, unknown_frames = told - self._message_bytes, self._noise.unknown_frames
-        return Counters(told + len(self._held), self._messages, noise, unknown_frames)
+        emitted = self._noise.emitted
+        noise, unknown_frames = emitted - self._message_bytes, self._noise.unknown_frames
+        return Counters(emitted + len(self._held), self._messages, noise, unknown_frames)
 
     def __copy__(self) -> StreamDecoder:
         other = _new(type(self))
@@ -106,14 +106,14 @@ class StreamDecoder:
     def flush(self) -> list[Event]:
         """Decode the bytes held back, as the line is quiet: they are no frame, but may hide one."""
         events = self._read(self._held, quiet=True)
-        self._noise.begin_anew(self._noise.told)
+        self._noise.begin_anew(self._noise.emitted)
         return events
 
     def _read(self, data: bytes, *, quiet: bool) -> list[Event]:
         """Return the events that are certain, and keep the rest of the bytes."""
         events: list[typing.Any] = []
         look_up, noise = self._table.get, self._noise
-        base, size, at = noise.told, len(data), self._scanned
+        base, size, at = noise.emitted, len(data), self._scanned
         # Where a search goes on, no frame can begin before it has ended.
         entry = None if at else look_up(data[:BODY_AT])
         while True:
@@ -144,7 +144,7 @@ class StreamDecoder:
             entry = noise.search(events, data, base, at, quiet=quiet)
             at = noise.at - base
             if entry is None:
-                self._hold(data, noise.told - base, at, noise.wake - base)
+                self._hold(data, noise.emitted - base, at, noise.wake - base)
                 return events
 
     def _hold(self, data: bytes, start: int, scanned: int, wake: int) -> None:

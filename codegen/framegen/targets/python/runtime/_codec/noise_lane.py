@@ -42,7 +42,7 @@ class NoiseLane:
         "_refused",
         "_table",
         "at",
-        "told",
+        "emitted",
         "unknown_frames",
         "wake",
     )
@@ -58,7 +58,7 @@ class NoiseLane:
         self._last = -1
         # Where the bytes begin that are not emitted yet, where the search goes on, and how many
         # bytes of the stream must be there before it does.
-        self.told = self.at = self.wake = 0
+        self.emitted = self.at = self.wake = 0
         self.unknown_frames = 0
 
     def copy(self) -> NoiseLane:
@@ -71,7 +71,7 @@ class NoiseLane:
 
     def begin_anew(self, at: int) -> None:
         """Start a new piece of noise at `at`: everything in front of it has been emitted."""
-        self.told = at
+        self.emitted = at
         self._reason = Reason.BAD_HEADER
 
     def search(
@@ -80,7 +80,7 @@ class NoiseLane:
         """Search on from data[at], and emit the noise in front of the next message.
 
         `data` begins at the place `base`. Returns the entry of the message, which begins at `at`;
-        None if none came, and `told`, `at` and `wake` say what is held.
+        None if none came, and `emitted`, `at` and `wake` say what is held.
         """
         table, refused = self._table, self._refused
         known = table.verdicts
@@ -96,7 +96,7 @@ class NoiseLane:
                 if verdict is None or entry is not None:
                     if refused:
                         self._cut(events, data, base, at, at, final=True)
-                    self._tell_noise(events, data, base, base + at)
+                    self._emit_noise(events, data, base, base + at)
                     self.at = base + at
                     return entry
             if verdict.is_open:
@@ -130,8 +130,8 @@ class NoiseLane:
         # Of an unknown command, only the length of its claim is not known yet.
         weighed = at if verdict.reason is _TOO_SHORT else len(data)
         self._cut(events, data, base, at, weighed, final=quiet)
-        if self.told > base + at:
-            return self.told - base
+        if self.emitted > base + at:
+            return self.emitted - base
         if quiet and at < len(data):
             return at if data.startswith(HEADER, at) else at + 1
         self.at = self.wake = base + at
@@ -141,7 +141,7 @@ class NoiseLane:
             self.wake += BODY_AT
         if self._refused:
             first, _, _, claim = self._refused[0]
-            self.wake = min(self.wake, max(first, self.told) + claim)
+            self.wake = min(self.wake, max(first, self.emitted) + claim)
         return None
 
     def _cut(
@@ -163,22 +163,22 @@ class NoiseLane:
         until, weighed = until + base, weighed + base
         horizon = _NEVER if final else len(data) + base
         for number, (first, last, reason, claim) in enumerate(self._refused):
-            at = max(first, self.told)
+            at = max(first, self.emitted)
             while at <= last:
                 end = at + claim
                 if claim and end > horizon:
                     del self._refused[:number]
-                    self._tell_noise(events, data, base, at)
+                    self._emit_noise(events, data, base, at)
                     return
                 own = claim and end <= weighed
                 if own and self._stands_alone(data, at - base, end - base):
-                    self._tell_noise(events, data, base, at)
-                    self._tell_unknown(events, data, base, end)
+                    self._emit_noise(events, data, base, at)
+                    self._emit_unknown(events, data, base, end)
                     at = end
                     continue
                 # A piece of noise begins, unless it continues a run of headers.
                 if reason is not self._reason or at != self._last + 1:
-                    self._tell_noise(events, data, base, at)
+                    self._emit_noise(events, data, base, at)
                     self._reason = reason
                 # In a run, this holds for all that end in the same run, or behind data[weighed].
                 if claim and at < last:
@@ -189,7 +189,7 @@ class NoiseLane:
                 self._last = at
                 at += 1
         self._refused.clear()
-        self._tell_noise(events, data, base, until)
+        self._emit_noise(events, data, base, until)
 
     def _stands_alone(self, data: bytes, start: int, end: int) -> bool:
         """Return whether data[start:end] proves by itself that no message begins in it.
@@ -205,15 +205,15 @@ class NoiseLane:
             at = data.find(HEADER, at + 1, end)
         return True
 
-    def _tell_noise(self, events: list[Event], data: bytes, base: int, until: int) -> None:
+    def _emit_noise(self, events: list[Event], data: bytes, base: int, until: int) -> None:
         """Emit the bytes in front of the place `until` as noise."""
-        if self.told < until:
-            events.append(Noise(data[self.told - base : until - base], self._reason))
-            self.told = until
+        if self.emitted < until:
+            events.append(Noise(data[self.emitted - base : until - base], self._reason))
+            self.emitted = until
 
-    def _tell_unknown(self, events: list[Event], data: bytes, base: int, end: int) -> None:
+    def _emit_unknown(self, events: list[Event], data: bytes, base: int, end: int) -> None:
         """Emit the bytes in front of the place `end` as a frame of unknown command."""
-        frame = data[self.told - base : end - base]
+        frame = data[self.emitted - base : end - base]
         events.append(UnknownFrame(frame, Reason.UNKNOWN_COMMAND))
         self.unknown_frames += 1
         self.begin_anew(end)

@@ -92,10 +92,10 @@ def _not_opened(port: str, seen: HidDevice, error: Exception) -> TransportError:
         f'ATTRS{{idVendor}}=="{seen.vendor:04x}", ATTRS{{idProduct}}=="{seen.product_id:04x}", '
         'TAG+="uaccess"'
     )
-    told = f"as root, put this line into /etc/udev/rules.d/70-{_PACKAGE}.rules: {rule} ; replug"
+    remedy = f"as root, put this line into /etc/udev/rules.d/70-{_PACKAGE}.rules: {rule} ; replug"
     if seen.path.startswith("/dev/") and not os.access(seen.path, os.R_OK | os.W_OK):
-        return PortPermissionError(port, f"permission is denied to {seen.path}", told)
-    advice = f"close the other program that has it; on Linux it may be the permission: {told}"
+        return PortPermissionError(port, f"permission is denied to {seen.path}", remedy)
+    advice = f"close the other program that has it; on Linux it may be the permission: {remedy}"
     return TransportError(port, f"{seen.ids} cannot be opened ({error}; {UNSEEN})", advice)
 
 

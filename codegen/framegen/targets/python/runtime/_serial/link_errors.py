@@ -109,8 +109,8 @@ class NoReplyError(ProtocolError, TimeoutError):
 
     def __str__(self) -> str:
         tries = f" to {self.attempts} requests" if self.attempts > 1 else ""
-        asked = f"no {self.reply} came within {self.waited:.3f} s{tries} of {self.request!r}"
-        return f"{asked}; {self._what_came()}"
+        problem = f"no {self.reply} came within {self.waited:.3f} s{tries} of {self.request!r}"
+        return f"{problem}; {self._what_came()}"
 
     def _what_came(self) -> str:
         came: list[str] = []
@@ -152,7 +152,7 @@ class IncompleteReplyError(ProtocolError):
     def __str__(self) -> str:
         missing = ", ".join(str(number) for number in self.missing)
         return (
-            f"nothing was told of {self.asked} {missing}; "
+            f"nothing was reported of {self.asked} {missing}; "
             f"what did arrive ({len(self.arrived)}) is kept in `arrived`"
         )
 

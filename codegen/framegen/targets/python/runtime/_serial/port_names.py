@@ -61,11 +61,11 @@ def _refused_pattern(port: str, pattern: str) -> TransportError | None:
 
 
 def _refused_option(port: str, scheme: str, rest: str) -> TransportError | None:
-    known, begin, told = ADDRESSES[scheme]
+    known, begin, options = ADDRESSES[scheme]
     for option in filter(None, rest.partition(begin)[2].split("&")):
         if re.fullmatch(known, option) is None:
             happened = f"{option!r} is no option of {scheme}://"
-            return PortAddressError(port, happened, f"its options are {told}")
+            return PortAddressError(port, happened, f"its options are {options}")
     return None
 
 

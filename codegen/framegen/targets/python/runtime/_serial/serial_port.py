@@ -173,13 +173,13 @@ class SerialPort:
                 return b""
             if self._at_once:
                 return bytes(self._port.read(_MOST))
-            waiting = self._port.in_waiting
-            data: bytes = self._port.read(min(waiting, _MOST) or 1)
+            arrived = self._port.in_waiting
+            data: bytes = self._port.read(min(arrived, _MOST) or 1)
             while data and len(data) < _MOST:
-                waiting = self._port.in_waiting
-                if not waiting:
+                arrived = self._port.in_waiting
+                if not arrived:
                     break
-                data += self._port.read(min(waiting, _MOST))
+                data += self._port.read(min(arrived, _MOST))
         except _GONE as error:
             raise self._failed(error) from error
         return data

@@ -58,7 +58,7 @@ class Diagnosis:
         self.lost = False
         self.probe: Probe | None = None
         # Unsolicited events, and the round trips at the rate that proved right.
-        self.unasked: list[Message | Noise] = []
+        self.unsolicited: list[Message | Noise] = []
         self.trips: list[Trip] = []
         # Noise at other rates.
         self.strange: list[Noise] = []

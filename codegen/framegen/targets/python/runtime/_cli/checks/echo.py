@@ -19,8 +19,8 @@ def _look(diagnosis: Diagnosis) -> Result:
     if diagnosis.local_echo:
         if len(echoed) == len(trips):
             return passed("what is sent comes back, as you said", *echoed)
-        told = f"what is sent came back {len(echoed)} of {len(trips)} times"
-        return failed(told, "leave out --local-echo, if the adapter has none", *echoed)
+        seen = f"what is sent came back {len(echoed)} of {len(trips)} times"
+        return failed(seen, "leave out --local-echo, if the adapter has none", *echoed)
     if echoed:
         return failed(
             f"what is sent came back {len(echoed)} of {len(trips)} times: a local echo, as of an "

@@ -24,11 +24,11 @@ def _look(diagnosis: Diagnosis) -> Result:
         )
     if not diagnosis.hid_devices:
         return passed(f"no USB HID device ({known}) is plugged in")
-    told = ", ".join(f"{each.ids} {each.product}".rstrip() for each in diagnosis.hid_devices)
+    seen = ", ".join(f"{each.ids} {each.product}".rstrip() for each in diagnosis.hid_devices)
     if diagnosis.port is not None and diagnosis.port.lower().startswith("hid:"):
-        return passed(f"{told} is plugged in")
+        return passed(f"{seen} is plugged in")
     return unknown(
-        f"{told} is plugged in, a device without a serial port ({UNSEEN})",
+        f"{seen} is plugged in, a device without a serial port ({UNSEEN})",
         "if that is the device you mean: pip install hidapi, and --port hid://",
     )
 

@@ -26,8 +26,8 @@ def _look(diagnosis: Diagnosis) -> Result:
             return passed(str(each))
     if "://" in diagnosis.port:
         return passed(f"{diagnosis.port} is an address, which nothing lists")
-    told = f"{diagnosis.port} is not among the ports that are listed ({found or 'none'})"
-    return unknown(told, "go on if it is a name of your own for a port, or a pseudo terminal")
+    seen = f"{diagnosis.port} is not among the ports that are listed ({found or 'none'})"
+    return unknown(seen, "go on if it is a name of your own for a port, or a pseudo terminal")
 
 
 def _choose(diagnosis: Diagnosis, found: str) -> Result:
@@ -36,8 +36,8 @@ def _choose(diagnosis: Diagnosis, found: str) -> Result:
     devices = diagnosis.hid_devices or []
     if not by_usb and devices:
         diagnosis.port = "hid://"
-        told = f"{_NONE}, but a USB HID device is, which has none"
-        return passed(f"{told}: {devices[0].ids} {devices[0].product}".rstrip())
+        seen = f"{_NONE}, but a USB HID device is, which has none"
+        return passed(f"{seen}: {devices[0].ids} {devices[0].product}".rstrip())
     if not by_usb and len(diagnosis.ports) == 1:
         diagnosis.port = diagnosis.ports[0].name
         return unknown(f"no port is plugged in by USB; {found} is taken", _PLUG_IN)

@@ -53,14 +53,14 @@ def _answered(diagnosis: Diagnosis, question: Message) -> Result:
     trip = diagnosis.connect(other).ask(question)
     diagnosis.connect()
     if trip.replies:
-        told = f"it answers at {stated} and at {other} baud alike: a pseudo terminal without a rate"
-        return unknown(told, "", reply)
+        seen = f"it answers at {stated} and at {other} baud alike: a pseudo terminal without a rate"
+        return unknown(seen, "", reply)
     return passed(f"it answers at {stated}", reply)
 
 
 def _searched(diagnosis: Diagnosis, question: Message) -> Result:
     """Return the result for a device that does not answer: whether it does at another rate."""
-    asked = f"{type(question).__name__} was not answered"
+    unanswered = f"{type(question).__name__} was not answered"
     found = [trip.received for trip in diagnosis.trips if trip.received]
     tried: list[str] = []
     for rate in _RATES:
@@ -73,7 +73,7 @@ def _searched(diagnosis: Diagnosis, question: Message) -> Result:
             diagnosis.strange += [each for trip in diagnosis.trips for each in trip.noise]
             diagnosis.trips = [trip]
             return failed(
-                f"{asked} at {diagnosis.stated}, but is at {rate}",
+                f"{unanswered} at {diagnosis.stated}, but is at {rate}",
                 f"set the device to {diagnosis.stated}, or say --baud {rate} "
                 f"(baud={rate} in Python)",
                 trip.replies[0][1].encode(),
@@ -82,16 +82,16 @@ def _searched(diagnosis: Diagnosis, question: Message) -> Result:
         diagnosis.strange += trip.noise
     diagnosis.connect()
     if tried:
-        asked += f", nor at {', '.join(tried)} baud"
+        unanswered += f", nor at {', '.join(tried)} baud"
     if not found:
-        return failed(f"{asked}: nothing came at all", _SILENT)
-    told = f"{asked}: {sum(map(len, found))} bytes came"
+        return failed(f"{unanswered}: nothing came at all", _SILENT)
+    seen = f"{unanswered}: {sum(map(len, found))} bytes came"
     if all(trip.echoed and not trip.noise for trip in diagnosis.trips if trip.received):
-        return failed(f"{told}, which are the question itself", _SILENT, *found)
+        return failed(f"{seen}, which are the question itself", _SILENT, *found)
     advice = (
         "see at which rate the device is set, that the grounds are joined, and the checks below"
     )
-    return failed(f"{told} that are no reply", advice, *found)
+    return failed(f"{seen} that are no reply", advice, *found)
 
 
 def _tried(diagnosis: Diagnosis, question: Message, rate: int) -> Trip | None:

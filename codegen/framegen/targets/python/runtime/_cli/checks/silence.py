@@ -15,19 +15,19 @@ _LISTENING = 0.3
 
 
 def _look(diagnosis: Diagnosis) -> Result:
-    diagnosis.unasked = diagnosis.connected().listen(_LISTENING)
-    noise = [each.data for each in diagnosis.unasked if isinstance(each, Noise)]
+    diagnosis.unsolicited = diagnosis.connected().listen(_LISTENING)
+    noise = [each.data for each in diagnosis.unsolicited if isinstance(each, Noise)]
     if noise:
         return failed(
-            f"{sum(map(len, noise))} bytes that are no frame came unasked",
+            f"{sum(map(len, noise))} bytes that are no frame came unsolicited",
             "see that the rate is right, that the grounds are joined, and that the plug is the "
             "device's",
             *noise,
         )
-    told = [repr(each) for each in diagnosis.unasked if not isinstance(each, Noise)]
-    if told:
-        frames = (each.encode() for each in diagnosis.unasked if not isinstance(each, Noise))
-        return passed(f"reports came unasked, as they may: {', '.join(told[:3])}", *frames)
+    reports = [repr(each) for each in diagnosis.unsolicited if not isinstance(each, Noise)]
+    if reports:
+        frames = (each.encode() for each in diagnosis.unsolicited if not isinstance(each, Noise))
+        return passed(f"unsolicited reports came, as they may: {', '.join(reports[:3])}", *frames)
     return passed(f"nothing came within {_LISTENING:g} s")
 
 
