@@ -28,8 +28,8 @@ from tests.client.conversation import (
     Ledger,
     converse,
     converse_async,
-    heard_by,
-    heard_by_async,
+    reports_received,
+    reports_received_async,
 )
 from tests.independent import long_run
 from tests.timeouts import GENEROUS, await_that
@@ -142,7 +142,7 @@ def with_threads(requests: int, rounds: int, seed: int) -> None:
             for turn in range(rounds):
                 seeds = range(seed + turn * THREADS, seed + (turn + 1) * THREADS)
                 list(pool.map(lambda each: converse(controller, ledger, each, size), seeds))
-                watch.round((turn + 1) * size * THREADS, heard_by(controller, ledger))
+                watch.round((turn + 1) * size * THREADS, reports_received(controller, ledger))
             watch.end(size * THREADS * rounds)
 
 
@@ -161,8 +161,8 @@ async def with_tasks(requests: int, rounds: int, seed: int) -> None:
                 seeds = range(seed + turn * TASKS, seed + (turn + 1) * TASKS)
                 talks = (converse_async(controller, ledger, each, size) for each in seeds)
                 await asyncio.gather(*talks)
-                heard = await heard_by_async(controller, ledger)
-                watch.round((turn + 1) * size * TASKS, heard)
+                received = await reports_received_async(controller, ledger)
+                watch.round((turn + 1) * size * TASKS, received)
             watch.end(size * TASKS * rounds)
 
 

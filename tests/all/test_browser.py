@@ -115,7 +115,7 @@ def test_everything_is_reached_with_the_keyboard_alone(visit: Visit) -> None:
 
 def decoded_in_turn(tab: Tab, lines: list[str]) -> list[tuple[list[str], str, list[str]]]:
     """Return headings, summary and cells for each of these inputs, filled in one by one."""
-    told = tab.evaluate(
+    shown = tab.evaluate(
         """(lines) => lines.map((line) => {
             const texts = (selector) =>
                 [...document.querySelectorAll(selector)].map((each) => each.innerText);
@@ -128,7 +128,7 @@ def decoded_in_turn(tab: Tab, lines: list[str]) -> list[tuple[list[str], str, li
     )
     return [
         ([each.strip() for each in headings], summary, [" ".join(each.split()) for each in cells])
-        for headings, [summary], cells in told
+        for headings, [summary], cells in shown
     ]
 
 
@@ -137,8 +137,8 @@ def test_the_decoder_reads_the_valid_vectors(visit: Visit, direction: str) -> No
     tab = visit.open("decoder.html")
     tab.get_by_label("Sent").select_option(direction)
     vectors = [each for each in VECTORS["valid"] if each["direction"] == direction]
-    told = decoded_in_turn(tab, [each["hex"] for each in vectors])
-    assert [(*headings, summary) for headings, summary, _ in told] == [
+    shown = decoded_in_turn(tab, [each["hex"] for each in vectors])
+    assert [(*headings, summary) for headings, summary, _ in shown] == [
         (f"✓ {each['message']}", "Frames: 1. Bytes of noise: 0.") for each in vectors
     ]
 
@@ -150,8 +150,8 @@ def test_the_decoder_refuses_the_invalid_vectors(visit: Visit, direction: str) -
     vectors = [
         each for each in VECTORS["invalid"] if each["direction"] == direction and each["hex"]
     ]
-    told = decoded_in_turn(tab, [each["hex"] for each in vectors])
-    for vector, (_, said, _) in zip(vectors, told, strict=True):
+    shown = decoded_in_turn(tab, [each["hex"] for each in vectors])
+    for vector, (_, said, _) in zip(vectors, shown, strict=True):
         verdict = f"Taken as one frame: {vector['reason']} at byte {vector['offset']}."
         assert said.endswith(verdict), vector["title"]
 
@@ -173,7 +173,7 @@ def test_the_decoder_refuses_the_invalid_vectors(visit: Visit, direction: str) -
         ),
     ],
 )
-def test_why_bytes_are_no_frame_is_told_where_they_may_be_meant_as_one(
+def test_refused_bytes_are_summarized_with_the_reason(
     visit: Visit, text: str, summary: str
 ) -> None:
     tab = visit.open("decoder.html")
@@ -195,8 +195,8 @@ def test_an_example_is_cut_into_the_same_cells_as_on_its_page(visit: Visit) -> N
     tab = visit.open("decoder.html")
     for way, examples in shown.items():
         tab.get_by_label("Sent").select_option(way)
-        told = decoded_in_turn(tab, [*examples])
-        assert [strip for _, _, strip in told] == [*examples.values()]
+        entries = decoded_in_turn(tab, [*examples])
+        assert [strip for _, _, strip in entries] == [*examples.values()]
 
 
 def test_values_are_shown_in_their_larger_unit_as_they_are_explained(visit: Visit) -> None:
@@ -205,11 +205,11 @@ def test_values_are_shown_in_their_larger_unit_as_they_are_explained(visit: Visi
     values = [0, 1, -1, 7, -150, 99, 7500, 65535, -0x8000_0000, 0xFFFF_FFFF]
     for text in scales:
         step, unit = text.split()
-        told = tab.evaluate(
+        shown = tab.evaluate(
             "([values, scale]) => values.map((value) => scaled(value, scale))",
             [values, {"step": step, "unit": unit}],
         )
-        assert told == [Scale.parse(text).of(value) for value in values]
+        assert shown == [Scale.parse(text).of(value) for value in values]
 
 
 @pytest.mark.parametrize("word", ["controller", "controller_to_host"])

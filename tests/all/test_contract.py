@@ -22,7 +22,15 @@ from framegen.targets.python.names import names_of
 from tests.contract.conversation import converse
 from tests.contract.healing import healed
 from tests.contract.libraries import Library, imported, library_of, linted, type_checked
-from tests.contract.mutants import rotations, singly, specs, stretched, structures, telling, told
+from tests.contract.mutants import (
+    rotations,
+    singly,
+    specs,
+    stretched,
+    structures,
+    with_odd_text,
+    with_texts,
+)
 from tests.contract.pages import not_inert, pages_of
 from tests.factories import compiled_of
 
@@ -41,7 +49,7 @@ ONLY = os.environ.get("CONTRACT_ONLY", "")
 ALL = os.environ.get("CONTRACT") == "all"
 # How many of each a sample has: specs full of odd text, and specs with one thing changed. Type
 # checkers look at so many of each batch: they take as long for one as all else for twenty.
-TOLD, STRETCHED, CHANGED = 4, 8, 30
+ODD_TEXTS, STRETCHED, CHANGED = 4, 8, 30
 BATCH, TYPED = 300, (20 if ALL or ONLY else 2)
 
 
@@ -77,20 +85,20 @@ def shown(failures: dict[str, list[str]]) -> str:
 
 
 @pytest.mark.parametrize("spec", specs())
-def test_odd_text_leaves_nothing_but_itself(spec: str, tmp_path: Path) -> None:
-    plain = telling(spec, {})
+def test_odd_text_changes_neither_code_nor_markup(spec: str, tmp_path: Path) -> None:
+    plain = with_texts(spec, {})
     compiled = accepted(plain.data)
     assert compiled is not None
     code, pages = library("plain", compiled).code, pages_of(plain.data)
-    mutants = sample([told(spec, each) for each in range(rotations())], TOLD)
-    failures = _told_wrongly(mutants, code, pages, tmp_path / "all") if mutants else {}
+    mutants = sample([with_odd_text(spec, each) for each in range(rotations())], ODD_TEXTS)
+    failures = _effects_of_odd_text(mutants, code, pages, tmp_path / "all") if mutants else {}
     for mutant in [each for each in mutants if str(each) in failures][:2]:
-        failures = _told_wrongly(singly(mutant), code, pages, tmp_path / "singly") | failures
+        failures = _effects_of_odd_text(singly(mutant), code, pages, tmp_path / "singly") | failures
     if failures:
         pytest.fail(shown(failures))
 
 
-def _told_wrongly(
+def _effects_of_odd_text(
     mutants: list[Mutant], code: str, pages: Reference, folder: Path
 ) -> dict[str, list[str]]:
     """Return the effects of odd text, by mutant."""
@@ -179,5 +187,5 @@ def _conversed(made: Library, compiled: Compiled, folder: Path) -> Iterator[str]
     try:
         with imported(made, folder) as module:
             converse(module, names_of(compiled.model).library)
-    except Exception as error:  # noqa: BLE001 - whatever it is, it is told with the mutant
+    except Exception as error:  # noqa: BLE001 - whatever it is, it is reported with the mutant
         yield f"{type(error).__name__}: {error}"

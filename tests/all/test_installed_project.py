@@ -50,7 +50,7 @@ def installed(python: Path) -> set[str]:
 
 
 @pytest.mark.parametrize("name", NAMES)
-def test_linters_have_nothing_against_any_of_it(name: str, tmp_path: Path) -> None:
+def test_linters_accept_a_new_project(name: str, tmp_path: Path) -> None:
     project = begun(name, tmp_path)
     run(sys.executable, "-m", "ruff", "check", "--no-cache", cwd=project)
     run(sys.executable, "-m", "ruff", "format", "--check", "--no-cache", cwd=project)
@@ -58,7 +58,7 @@ def test_linters_have_nothing_against_any_of_it(name: str, tmp_path: Path) -> No
     assert done.stdout.startswith("Success: no issues found in ")
 
 
-def test_its_own_tests_see_a_library_that_is_not_of_its_spec(tmp_path: Path) -> None:
+def test_the_tests_of_a_project_fail_on_a_library_of_another_spec(tmp_path: Path) -> None:
     project = begun("kiln", tmp_path)
     vectors = project / "generated" / "kiln" / "vectors.json"
     text = vectors.read_text(encoding="utf-8")
@@ -70,7 +70,7 @@ def test_its_own_tests_see_a_library_that_is_not_of_its_spec(tmp_path: Path) -> 
     assert "\n1 failed, " in done.stdout
 
 
-def test_it_is_installed_as_it_says_and_its_commands_work(tmp_path: Path) -> None:
+def test_a_project_installs_by_its_readme_and_its_commands_work(tmp_path: Path) -> None:
     project = begun("kiln", tmp_path / "kiln")
     here = environment(tmp_path / "venv")
     python = here / f"python{EXE}"
@@ -91,7 +91,7 @@ def test_it_is_installed_as_it_says_and_its_commands_work(tmp_path: Path) -> Non
     assert run(kiln, "--version", cwd=tmp_path).stdout == "kiln 0.2.0, spec 0.2.0\n"
 
 
-def test_its_wheel_and_its_sdist_need_pyserial_alone(tmp_path: Path) -> None:
+def test_the_wheel_and_the_sdist_of_a_project_need_pyserial_alone(tmp_path: Path) -> None:
     project = begun("kiln", tmp_path / "kiln")
     here = environment(tmp_path / "venv")
     python = here / f"python{EXE}"

@@ -9,7 +9,7 @@ from tests.documents import ROOT
 
 
 @pytest.mark.skipif(shutil.which("git") is None, reason="there is no git here")
-def test_the_pages_work_on_a_machine_that_is_new_to_us() -> None:
+def test_the_pages_work_on_a_fresh_machine() -> None:
     command = ["bash", str(ROOT / ".ci" / "newcomer")]
     done = subprocess.run(command, capture_output=True, encoding="utf-8", check=False)
     if done.returncode == 2:

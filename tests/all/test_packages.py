@@ -87,7 +87,7 @@ def files_of(built: Path, name: str, ending: str) -> list[Path]:
 
 
 @pytest.mark.parametrize("name", FOLDERS)
-def test_a_package_holds_what_it_says(built: Path, name: str) -> None:
+def test_a_package_has_its_metadata_and_files(built: Path, name: str) -> None:
     (wheel,) = files_of(built, name, ".whl")
     (source,) = files_of(built, name, ".tar.gz")
     with zipfile.ZipFile(wheel) as archive:

@@ -1,4 +1,4 @@
-"""Every fact of the spec is guarded: change any one of them, and `framegen check` reports it.
+"""Every fact of the spec is checked: change any one of them, and `framegen check` reports it.
 
 Facts that `check` cannot see by nature are listed in BLIND, each with its reason, and held to be
 unseen: they need another guard.
@@ -360,7 +360,7 @@ KINDS: list[Callable[[], Iterator[Mutation]]] = [
 SHOWN_TOO = "the examples show that number as well, and do not say what it means"
 SWALLOWED = "examples of look-alikes say no values, and what the code leaves is parameters"
 NOT_MISSED = "nothing else speaks of it; `framegen diff` shows what was removed"
-SAME_BYTES = "no frame at hand tells the two apart; the contract tests of the library must"
+SAME_BYTES = "no frame at hand distinguishes the two; the contract tests of the library must"
 SMALL_NUMBERS = "no frame at hand has the highest bit set; the contract tests must try it"
 OUTSIDE = "no frame carries it"
 
@@ -434,14 +434,14 @@ BLIND: list[tuple[Steps, Any, str]] = [
 ]
 UNSEEN = {json.dumps([steps, value]) for steps, value, _ in BLIND}
 
-# What tells that a message goes from the host to the controller.
+# What says that a message goes from the host to the controller.
 FACING = {"method", "reply", "reports", "acknowledged", "lasts", "echoed"}
 
 
 def is_out_of_sight(steps: Steps, value: Any) -> bool:
-    """Tell whether no rule can see a change, for a reason that holds for each message alike.
+    """Return whether no rule can see a change, for a reason that holds for each message alike.
 
-    Of the messages with which the spec began, BLIND tells it one by one.
+    Of the messages with which the spec began, BLIND lists them one by one.
     A message that nothing else names may be gone. One that in addition says nothing of a client
     may go the other way. A number may have a sign where no example has its highest bit set, and a
     name may stand for another number that the examples show.
@@ -480,7 +480,7 @@ def shown_of(examples_of_one: list[Any], names: Steps) -> set[int]:
         if json.dumps(mutation) not in UNSEEN and not is_out_of_sight(*mutation)
     ],
 )
-def test_a_changed_fact_is_seen(mutation: Mutation) -> None:
+def test_a_changed_fact_of_the_spec_is_reported(mutation: Mutation) -> None:
     assert rules_broken(mutated(*mutation)) != set()
 
 
@@ -488,6 +488,8 @@ def test_a_changed_fact_is_seen(mutation: Mutation) -> None:
     ("steps", "value", "why"),
     [pytest.param(*blind, id=named((blind[0], blind[1]))) for blind in BLIND],
 )
-def test_what_check_cannot_see_is_known(steps: Steps, value: Any, why: str) -> None:
+def test_the_changes_that_check_cannot_detect_are_listed(
+    steps: Steps, value: Any, why: str
+) -> None:
     """Once this fails, `check` sees more than it did: move the line to the facts that are seen."""
     assert rules_broken(mutated(steps, value)) == set(), why

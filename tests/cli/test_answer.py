@@ -46,7 +46,7 @@ HOST = "host_to_controller"
 
 
 @pytest.mark.parametrize(
-    ("question", "told"),
+    ("question", "expected"),
     [
         ("tell me", "ask `decode WAY HEX`, `encode NAME FIELDS` or `stream WAY LARGEST PARTS`"),
         ("decode", "ask `decode WAY HEX`, "),
@@ -61,12 +61,12 @@ HOST = "host_to_controller"
         ("encode ServoUnload servo_ids=one", "servo_ids[0]: 'one' is no number"),
     ],
 )
-def test_a_question_that_makes_no_sense_is_told_so(question: str, told: str) -> None:
-    with pytest.raises(UsageError, match=re.escape(told)):
+def test_a_malformed_question_is_refused_with_the_reason(question: str, expected: str) -> None:
+    with pytest.raises(UsageError, match=re.escape(expected)):
         answer(question)
 
 
-def test_what_makes_no_sense_stops_nothing(
+def test_a_malformed_question_does_not_end_the_session(
     capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     lines = b"decode \x1b\xff 55\n\n  \nencode ActionGroupStop\n"
@@ -92,7 +92,7 @@ def test_an_unknown_frame_and_a_bound_for_frames() -> None:
     ]
 
 
-def test_nothing_that_is_answered_waits_for_more() -> None:
+def test_each_question_is_answered_before_the_next_arrives() -> None:
     with subprocess.Popen(
         [sys.executable, "-m", "busservo", "answer"],
         stdin=subprocess.PIPE,
@@ -104,7 +104,7 @@ def test_nothing_that_is_answered_waits_for_more() -> None:
         for question in ("encode ActionGroupStop", "encode BatteryVoltageRead"):
             process.stdin.write(f"{question}\n")
             process.stdin.flush()
-            # The next question is asked only when this one is answered: else both would wait.
+            # The next question is sent only when this one is answered: else both would wait.
             assert process.stdout.readline().startswith("frame 5555")
             assert process.stdout.readline() == "end\n"
         process.stdin.close()

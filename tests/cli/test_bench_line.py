@@ -19,7 +19,7 @@ WORDS = ("ServoPositionsRead", "servo_ids=1,2,3,4,5,6")
 PATIENT = ("--timeout", str(GENEROUS))
 
 
-def test_it_tells_round_trips_and_the_share_of_what_the_line_allows(
+def test_round_trips_and_the_share_of_the_line_rate_are_reported(
     capsys: pytest.CaptureFixture[str],
 ) -> None:
     with VirtualController("tcp", baud=9600) as board:
@@ -60,7 +60,7 @@ def test_a_line_that_takes_no_time_allows_any_rate(capsys: pytest.CaptureFixture
     assert (found["baud"], found["wire"], found["share"]) == (None, 0.0, None)
 
 
-def test_a_line_that_is_faster_than_its_rate_is_none(
+def test_replies_faster_than_the_line_rate_are_reported(
     capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     line = VirtualLine(lambda _: [(0.001, BatteryVoltage(7500))])
@@ -68,13 +68,13 @@ def test_a_line_that_is_faster_than_its_rate_is_none(
     monkeypatch.setattr(bench_line, "open_client", lambda *_, **__: client)
     monkeypatch.setattr(bench_line, "time", SimpleNamespace(perf_counter=line.clock))
     assert main(["bench-line", "--port", "COM7", "-n", "30"]) == 0
-    told = capsys.readouterr().out
-    assert "it is faster than that rate, so try --baud inf" in told
-    assert "too soon        3 questions had a reply that no such wire can have carried" in told
-    assert "slips" not in told
+    output = capsys.readouterr().out
+    assert "it is faster than that rate, so try --baud inf" in output
+    assert "too soon        3 questions had a reply that no such wire can have carried" in output
+    assert "slips" not in output
 
 
-def test_a_reply_that_comes_twice_is_named_and_not_taken_for_speed(
+def test_a_duplicate_reply_is_counted_and_not_taken_for_speed(
     capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     reply = BatteryVoltage(7500)
@@ -85,9 +85,9 @@ def test_a_reply_that_comes_twice_is_named_and_not_taken_for_speed(
     monkeypatch.setattr(bench_line, "open_client", lambda *_, **__: client)
     monkeypatch.setattr(bench_line, "time", SimpleNamespace(perf_counter=line.clock))
     assert main(["bench-line", "--port", "COM7", "-n", "30"]) == 0
-    told = capsys.readouterr().out
-    assert "faster" not in told
-    assert "slips           1 reply to nothing, sent twice or too late: dropped" in told
+    output = capsys.readouterr().out
+    assert "faster" not in output
+    assert "slips           1 reply to nothing, sent twice or too late: dropped" in output
 
 
 def test_errors_are_counted_by_kind(
@@ -110,7 +110,7 @@ def test_errors_are_counted_by_kind(
     assert lines[-1] == "  errors          2 no reply, 1 incomplete reply"
 
 
-def test_a_line_that_is_lost_ends_it(capsys: pytest.CaptureFixture[str]) -> None:
+def test_a_lost_line_ends_the_measurement(capsys: pytest.CaptureFixture[str]) -> None:
     with VirtualController("tcp", faults=Faults(hang_up=1.0)) as board:
         assert main(["bench-line", "--port", board.port, *PATIENT]) == 3
     output, errors = capsys.readouterr()
@@ -128,7 +128,7 @@ def test_silence_alone_gives_no_times(capsys: pytest.CaptureFixture[str]) -> Non
 
 
 @pytest.mark.parametrize(
-    ("words", "told"),
+    ("words", "expected"),
     [
         (["ServoMove", "time_ms=1", "targets=1:2"], "nothing answers ServoMove, so it cannot be"),
         (["ActionGroupStarted"], "ActionGroupStarted is never sent from here"),
@@ -145,11 +145,11 @@ def test_silence_alone_gives_no_times(capsys: pytest.CaptureFixture[str]) -> Non
     ],
 )
 def test_what_cannot_be_measured_is_refused(
-    capsys: pytest.CaptureFixture[str], words: list[str], told: str
+    capsys: pytest.CaptureFixture[str], words: list[str], expected: str
 ) -> None:
     assert main(["bench-line", "--port", "no-such-port", *words]) == 2
     errors = capsys.readouterr().err
-    assert told in errors
+    assert expected in errors
     assert "no such port" not in errors
 
 

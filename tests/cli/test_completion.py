@@ -81,7 +81,7 @@ OFFERED = [
     ("framegen explain spec/bus", ["spec/busservo.yaml"]),
     ("framegen generate --out do", ["docs"]),
 ]
-# Where bash, which alone is told so, puts no blank behind what it offers.
+# Where bash, which alone is given this rule, puts no blank behind what it offers.
 GO_ON = [
     ("busservo encode ServoMove t", True),
     ("busservo-simulator --fault noise", True),
@@ -123,7 +123,7 @@ def in_bash(line: str) -> list[str]:
 
 @needs_bash
 @pytest.mark.parametrize(("line", "offered"), OFFERED)
-def test_bash_offers(line: str, offered: list[str]) -> None:
+def test_bash_completes(line: str, offered: list[str]) -> None:
     found = in_bash(line)
     assert sorted(each for each in found if not each.startswith("compopt")) == offered
 
@@ -143,7 +143,7 @@ def test_a_port_without_a_name_is_a_file_once_a_path_is_begun() -> None:
 
 @needs_fish
 @pytest.mark.parametrize(("line", "offered"), OFFERED)
-def test_fish_offers(line: str, offered: list[str], tmp_path: Path) -> None:
+def test_fish_completes(line: str, offered: list[str], tmp_path: Path) -> None:
     file = tmp_path / "script.fish"
     file.write_text(script(line.partition(" ")[0], "fish"), encoding="utf-8")
     ports = f"function busservo; printf '{PORTS}'; end"
@@ -205,12 +205,12 @@ def test_without_shtab_there_is_a_hint(
 ) -> None:
     monkeypatch.setitem(sys.modules, "shtab", None)
     assert PROGRAMS[program](["--print-completion", "bash"]) == 2
-    told = "completion is made by shtab, which is not installed here: pip install shtab"
-    assert capsys.readouterr() == ("", f"{program}: error: {told}\n")
+    hint = "completion is made by shtab, which is not installed here: pip install shtab"
+    assert capsys.readouterr() == ("", f"{program}: error: {hint}\n")
 
 
 @pytest.mark.parametrize("program", PROGRAMS)
-def test_a_shtab_that_knows_no_fish_is_to_be_renewed(
+def test_a_shtab_too_old_for_fish_gets_a_hint_to_upgrade(
     program: str, capsys: Capture, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     shtab = pytest.importorskip("shtab")
@@ -220,8 +220,8 @@ def test_a_shtab_that_knows_no_fish_is_to_be_renewed(
 
     monkeypatch.setattr(shtab, "complete", refuse)
     assert PROGRAMS[program](["--print-completion", "fish"]) == 2
-    told = "this shtab is too old to know fish: pip install --upgrade shtab"
-    assert capsys.readouterr() == ("", f"{program}: error: {told}\n")
+    hint = "this shtab is too old to know fish: pip install --upgrade shtab"
+    assert capsys.readouterr() == ("", f"{program}: error: {hint}\n")
 
 
 @pytest.mark.parametrize("program", PROGRAMS)

@@ -39,7 +39,7 @@ def test_the_bytes_may_be_words_or_a_file_or_standard_input(
         assert capsys.readouterr().out == SHOWN, words
 
 
-def test_what_is_raw_and_long_is_read_piece_by_piece(
+def test_long_raw_input_is_read_in_pieces(
     capsys: pytest.CaptureFixture[str], tmp_path: Path
 ) -> None:
     recording = tmp_path / "long.bin"
@@ -52,7 +52,7 @@ def test_what_is_raw_and_long_is_read_piece_by_piece(
 
 
 @pytest.mark.parametrize(
-    ("words", "told"),
+    ("words", "expected"),
     [
         (["--file", "line.bin", "55"], "give either --file or bytes, not both"),
         (["--file", "absent.bin"], "absent.bin cannot be read: No such file or directory"),
@@ -64,23 +64,23 @@ def test_what_is_raw_and_long_is_read_piece_by_piece(
         (["55", "zz"], "no hex: 'z' in 'zz' is no hex digit"),
     ],
 )
-def test_what_cannot_be_decoded_is_told_in_a_line(
+def test_input_that_cannot_be_decoded_is_reported_in_one_line(
     capsys: pytest.CaptureFixture[str],
     monkeypatch: pytest.MonkeyPatch,
     tmp_path: Path,
     words: list[str],
-    told: str,
+    expected: str,
 ) -> None:
     monkeypatch.chdir(tmp_path)
     assert main(["decode", *words]) == 2
     output, errors = capsys.readouterr()
     assert output == ""
-    assert told in errors
+    assert expected in errors
     assert errors.startswith("busservo: error: ")
     assert errors.count("\n") == 1
 
 
-def test_a_folder_is_no_file(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
+def test_a_folder_is_refused_as_input(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
     assert main(["decode", "--file", str(tmp_path)]) == 2
     assert "cannot be read: " in capsys.readouterr().err
 
@@ -104,7 +104,7 @@ def test_numbers_may_have_any_base_and_values_their_names(
 
 
 @pytest.mark.parametrize(
-    ("words", "told"),
+    ("words", "expected"),
     [
         (["ServoMove", "1000"], "'1000' is no field: write it as NAME=VALUE"),
         (["ServoMove", "tme=1"], "ServoMove has no field 'tme'; it is written ServoMove time_ms="),
@@ -122,13 +122,13 @@ def test_numbers_may_have_any_base_and_values_their_names(
         (["Zzz"], "there is no message 'Zzz'; there are "),
     ],
 )
-def test_what_cannot_be_encoded_is_told_in_a_line(
-    capsys: pytest.CaptureFixture[str], words: list[str], told: str
+def test_a_message_that_cannot_be_encoded_is_reported_in_one_line(
+    capsys: pytest.CaptureFixture[str], words: list[str], expected: str
 ) -> None:
     assert main(["encode", *words]) == 2
     output, errors = capsys.readouterr()
     assert output == ""
-    assert told in errors
+    assert expected in errors
     assert errors.count("\n") == 1
 
 

@@ -48,11 +48,11 @@ def carried_by(package: str) -> Explain:
     verb, data = (import_module(f"{package}._cli.{name}") for name in ("explain", "carried_model"))
     text, model = import_module(f"{package}._explanation.text"), data.protocol()
 
-    def told(frame: bytes) -> tuple[str, dict[str, Any]]:
+    def explained(frame: bytes) -> tuple[str, dict[str, Any]]:
         found = verb.explained(model, frame)
         return text.as_text(found), text.as_json(found)
 
-    return told
+    return explained
 
 
 def by_reference(model: Model, frame: bytes) -> tuple[str, dict[str, Any]]:
@@ -112,9 +112,11 @@ def test_both_commands_explain_alike(servo: Explain, frame: bytes) -> None:
 
 def test_any_library_explains_as_framegen_does(other: tuple[Data, ModuleType]) -> None:
     data, made = other
-    told, model = carried_by(made.__name__), layout_of(data)
+    explained, model = carried_by(made.__name__), layout_of(data)
     frames = frames_of(data)
-    assert [told(frame) for frame in frames] == [by_reference(model, frame) for frame in frames]
+    assert [explained(frame) for frame in frames] == [
+        by_reference(model, frame) for frame in frames
+    ]
 
 
 @st.composite
@@ -155,28 +157,28 @@ def test_any_library_explains_any_bytes_as_framegen_does(house: Explain, frame: 
 )
 def test_both_commands_print_the_same(words: str, capsys: Capture) -> None:
     ended = framegen_main(["explain", str(BUSSERVO), *words.split()])
-    told = capsys.readouterr()
-    assert (main(["explain", *words.split()]), capsys.readouterr()) == (ended, told)
-    assert told.err == ""
-    assert "55 55" in told.out
+    result = capsys.readouterr()
+    assert (main(["explain", *words.split()]), capsys.readouterr()) == (ended, result)
+    assert result.err == ""
+    assert "55 55" in result.out
 
 
 @pytest.mark.parametrize(
-    ("words", "told"),
+    ("words", "expected"),
     [
         (["5"], "no hex: '5' is half a byte; did you mean 05?"),
         ([""], "there are no bytes to explain: give them in hex"),
         (["55", "--direction", "nobody"], "invalid choice: 'nobody'"),
     ],
 )
-def test_what_cannot_be_explained_is_told_in_a_line(
-    words: list[str], told: str, capsys: Capture
+def test_input_that_cannot_be_explained_is_reported_in_one_line(
+    words: list[str], expected: str, capsys: Capture
 ) -> None:
     assert main(["explain", *words]) == 2
     output, errors = capsys.readouterr()
     assert output == ""
     assert errors.startswith("busservo: error: ")
-    assert told in errors.split("\n")[0]
+    assert expected in errors.split("\n")[0]
 
 
 # ---------------------------------------------------------------------------- the model as data
@@ -255,7 +257,9 @@ def test_a_message_is_found(words: str, names: list[str], capsys: Capture) -> No
         ("-", "`busservo docs` lists all messages"),
     ],
 )
-def test_what_is_not_found_is_told_with_what_is_near(word: str, hint: str, capsys: Capture) -> None:
+def test_an_unknown_topic_is_reported_with_a_similar_one(
+    word: str, hint: str, capsys: Capture
+) -> None:
     assert main(["docs", word]) == 2
     output, errors = capsys.readouterr()
     assert output == ""
@@ -326,7 +330,7 @@ def test_what_a_page_says_to_type_can_be_typed(name: str, capsys: Capture) -> No
     exec(code, {})  # noqa: S102 - what the page shows
 
 
-def test_errata_and_what_is_not_known_are_a_page(capsys: Capture) -> None:
+def test_errata_and_unknowns_are_a_page(capsys: Capture) -> None:
     page = " ".join(printed(capsys, "errata").split())
     for slip in SERVO.spec.errata:
         for text in (slip.title, slip.here, slip.why):

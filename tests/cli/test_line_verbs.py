@@ -54,7 +54,7 @@ def test_a_command_arrives_and_prints_nothing(capsys: pytest.CaptureFixture[str]
     assert "ServoUnload" not in capsys.readouterr().out
 
 
-def test_a_reply_that_leaves_something_out_is_printed_and_what_it_lacks_is_named(
+def test_an_incomplete_reply_is_printed_and_what_is_missing_is_named(
     capsys: pytest.CaptureFixture[str],
 ) -> None:
     with VirtualController("tcp", servos=[1, 3]) as board:
@@ -65,7 +65,7 @@ def test_a_reply_that_leaves_something_out_is_printed_and_what_it_lacks_is_named
     assert errors == "the reply is incomplete: nothing of servo_ids 2, 9\n"
 
 
-def test_what_one_reply_has_no_room_for_is_asked_in_parts_as_the_controller_does(
+def test_a_question_too_large_for_one_reply_is_sent_in_parts(
     capsys: pytest.CaptureFixture[str],
 ) -> None:
     servos = range(1, 201)
@@ -74,9 +74,9 @@ def test_what_one_reply_has_no_room_for_is_asked_in_parts_as_the_controller_does
         assert main(["send", "--port", board.port, *words, *PATIENT]) == 0
         assert board.accepted == 3
     output, errors = capsys.readouterr()
-    told = [json.loads(line)["fields"]["positions"] for line in output.splitlines()]
-    assert [len(each) for each in told] == [84, 84, 32]
-    assert [each["servo_id"] for part in told for each in part] == [*servos]
+    parts = [json.loads(line)["fields"]["positions"] for line in output.splitlines()]
+    assert [len(each) for each in parts] == [84, 84, 32]
+    assert [each["servo_id"] for part in parts for each in part] == [*servos]
     assert errors == "asked in 3 requests: one reply has no room for so much\n"
 
 
@@ -147,13 +147,13 @@ def test_a_local_echo_is_expected_where_it_was_said(
     assert ("leave out local_echo" in errors) == (not echoes)
 
 
-def test_silence_is_told_from_success(capsys: pytest.CaptureFixture[str]) -> None:
+def test_a_missing_reply_has_an_exit_status_of_its_own(capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["send", "--port", "loop://", "BatteryVoltageRead"]) == 1
     assert "no BatteryVoltage came" in capsys.readouterr().err
 
 
 @pytest.mark.parametrize(
-    ("words", "told"),
+    ("words", "expected"),
     [
         (["send", "--port", "no-such-port", "ActionGroupStop"], "there is no such port"),
         (["send", "--port", "gopher://x", "ActionGroupStop"], "that begins with gopher://"),
@@ -203,12 +203,12 @@ def test_silence_is_told_from_success(capsys: pytest.CaptureFixture[str]) -> Non
         ),
     ],
 )
-def test_what_cannot_be_done_is_said_in_a_line(
-    capsys: pytest.CaptureFixture[str], words: list[str], told: str
+def test_unusable_arguments_are_refused_in_one_line(
+    capsys: pytest.CaptureFixture[str], words: list[str], expected: str
 ) -> None:
     assert main(words) == 2
     errors = capsys.readouterr().err
-    assert told in errors
+    assert expected in errors
     assert "Traceback" not in errors
 
 
@@ -254,7 +254,7 @@ def test_where_nobody_can_list_such_boards_it_says_so(
     ]
 
 
-def test_ports_are_told_with_what_usb_knows_of_them(
+def test_ports_are_listed_with_their_usb_descriptions(
     capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     board = ListPortInfo("/dev/ttyUSB0")
@@ -279,12 +279,12 @@ def test_a_line_that_is_lost_in_the_middle_of_a_reply_has_a_status_of_its_own(
 ) -> None:
     with VirtualController("tcp", faults=Faults(hang_up=1.0)) as board:
         assert main(["send", "--port", board.port, "BatteryVoltageRead", *PATIENT]) == 3
-        told = capsys.readouterr().err
-        assert told.startswith(f"busservo: error: {board.port}: the line was lost")
-        assert told.endswith("; see to the cable and the power, then run this again\n")
+        errors = capsys.readouterr().err
+        assert errors.startswith(f"busservo: error: {board.port}: the line was lost")
+        assert errors.endswith("; see to the cable and the power, then run this again\n")
 
 
-def test_simulate_hands_over(capsys: pytest.CaptureFixture[str]) -> None:
+def test_simulate_runs_the_simulator(capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["simulate", "--help"]) == 0
     shown = capsys.readouterr().out
     assert shown.startswith("usage: busservo simulate ")
@@ -394,14 +394,14 @@ def test_no_port_is_said_where_nothing_is_plugged_in(
     assert capsys.readouterr() == ("", "no serial port is plugged in\n")
 
 
-def test_more_than_a_reply_has_room_for_is_refused_where_it_cannot_be_asked_in_parts(
+def test_a_question_too_large_for_one_reply_is_refused_where_it_cannot_be_split(
     capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """As for a protocol whose question has more fields than its list."""
     monkeypatch.setattr(send, "in_parts", lambda *_: [ServoPositionsRead(range(85))])
     assert main(["send", "--port", "loop://", "ServoPositionsRead"]) == 2
-    told = "85 items are requested at once, and a reply has room for 84\n"
-    assert capsys.readouterr().err.endswith(told)
+    problem = "85 items are requested at once, and a reply has room for 84\n"
+    assert capsys.readouterr().err.endswith(problem)
 
 
 def test_ctrl_c_is_quiet_where_no_terminal_has_shown_it(
@@ -425,7 +425,7 @@ def test_a_verb_can_be_run_from_any_thread() -> None:
     assert signal.getsignal(signal.SIGTERM) is before
 
 
-def test_a_package_that_the_simulator_lacks_is_not_taken_for_the_simulator(
+def test_a_missing_dependency_of_the_simulator_is_not_taken_for_the_simulator(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     monkeypatch.delitem(sys.modules, "busservo_simulator.cli", raising=False)

@@ -122,7 +122,7 @@ def test_the_time_of_day_is_as_on_a_clock() -> None:
         (["--only", "controller", "--hide", "BatteryVoltage"], []),
     ],
 )
-def test_only_what_is_asked_for(words: list[str], expected: list[str]) -> None:
+def test_only_the_requested_messages_are_shown(words: list[str], expected: list[str]) -> None:
     assert [line[14:] for line in watched(*words)] == expected
 
 
@@ -130,7 +130,7 @@ def test_a_frame_of_unknown_command_is_shown_as_one_and_as_noise() -> None:
     unknown = "unknown     command=1 parameters=2A | 55 55 03 01 2A"
     for only in ("unknown", "noise"):
         line = Line(bytes.fromhex("55 55 03 01 2A"), FRAME)
-        assert [told[14:] for told in watched("--only", only, line=line)] == [unknown]
+        assert [each[14:] for each in watched("--only", only, line=line)] == [unknown]
 
 
 BOTH = (
@@ -143,7 +143,7 @@ BOTH = (
 )
 
 
-def test_both_ends_on_one_line_are_told_apart_as_far_as_they_can_be() -> None:
+def test_both_ends_on_one_line_are_distinguished_where_possible() -> None:
     assert [line[14:] for line in watched("--direction", "any", line=Line(*BOTH))] == [
         "host        BatteryVoltageRead | 55 55 02 0F",
         BATTERY,
@@ -175,7 +175,7 @@ def test_what_either_end_may_have_sent_is_kept_when_in_doubt(
 
 def test_json_says_the_same() -> None:
     line = Line(ActionGroupRun(group=8, times=1).encode(), b"\x13\x55\x55\x03\x01\x2a" + FRAME)
-    shown = [json.loads(told) for told in watched("--direction", "any", "--json", line=line)]
+    shown = [json.loads(each) for each in watched("--direction", "any", "--json", line=line)]
     fields = {"group": 8, "times": 1}
     assert shown == [
         {
@@ -215,7 +215,7 @@ def test_half_a_frame_is_given_up_when_the_line_is_quiet() -> None:
     ]
 
 
-def test_what_was_heard_before_the_line_was_lost_is_kept(
+def test_what_was_received_before_the_line_was_lost_is_kept(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     log = tmp_path / "line.hex"
@@ -231,17 +231,17 @@ def test_totals_say_how_much_of_it_was_shown(capsys: pytest.CaptureFixture[str])
 
 
 @pytest.mark.parametrize("direction", ["controller", "any", "host"])
-def test_decode_tells_of_the_log_what_the_monitor_told(
+def test_decode_prints_of_the_log_what_the_monitor_printed(
     tmp_path: Path, capsys: pytest.CaptureFixture[str], direction: str
 ) -> None:
     log = tmp_path / "line.hex"
     pieces = (b"\x00\x55", *BOTH, b"\x13", FRAME[:4], b"", b"\x55\x55\x03\x01\x2a", *BOTH)
     words = ["--direction", direction]
     shown = watched(*words, line=Line(*pieces, silence=1), log=log)
-    told = capsys.readouterr().err
+    printed = capsys.readouterr().err
     assert main(["decode", *words, str(log)]) == 0
     decoded = capsys.readouterr()
-    assert decoded.err == told
+    assert decoded.err == printed
     assert decoded.out.splitlines() == shown
 
 
@@ -284,7 +284,7 @@ def test_there_is_colour_on_terminals_that_take_it(
     assert not any("\x1b" in line for line in watched("--json", screen=Terminal()))
 
 
-def test_a_long_wait_shows_that_it_goes_on(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_long_wait_shows_progress(monkeypatch: pytest.MonkeyPatch) -> None:
     terminal = Terminal()
     monkeypatch.setattr(sys, "stderr", terminal)
     watched("--only", "noise", line=Line(b"", b"", FRAME, b"\x13" + FRAME))
@@ -308,7 +308,7 @@ def test_a_wait_is_no_wider_than_its_terminal(monkeypatch: pytest.MonkeyPatch) -
 
 
 @pytest.mark.parametrize(
-    ("words", "told"),
+    ("words", "expected"),
     [
         (["-n", "0"], "argument -n: 0 is below 1, the least there can be"),
         (["-n", "some"], "argument -n: 'some' is no whole number"),
@@ -322,15 +322,15 @@ def test_a_wait_is_no_wider_than_its_terminal(monkeypatch: pytest.MonkeyPatch) -
         (["--log", "no/such/folder"], "folder cannot be written: No such file"),
     ],
 )
-def test_what_makes_no_sense_is_refused(
-    capsys: pytest.CaptureFixture[str], words: list[str], told: str
+def test_unusable_arguments_are_refused(
+    capsys: pytest.CaptureFixture[str], words: list[str], expected: str
 ) -> None:
     assert main(["monitor", "--port", "loop://", *words]) == 2
-    assert told in capsys.readouterr().err
+    assert expected in capsys.readouterr().err
 
 
 @pytest.mark.skipif(not os.path.exists("/dev/full"), reason="there is no full disk here")  # noqa: PTH110 - as short
-def test_a_full_disk_is_told(capsys: pytest.CaptureFixture[str]) -> None:
+def test_a_full_disk_is_reported(capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["monitor", "--port", "loop://", "--log", "/dev/full"]) == 2
     assert capsys.readouterr().err.endswith(
         "/dev/full cannot be written: No space left on device\n"
@@ -345,25 +345,25 @@ class FullDisk(io.StringIO):
         raise OSError(errno.ENOSPC, "No space left on device")
 
 
-def test_a_recording_whose_end_does_not_fit_is_told(tmp_path: Path) -> None:
+def test_a_recording_whose_end_does_not_fit_is_reported(tmp_path: Path) -> None:
     recorder = Recorder(tmp_path / "line.hex")
     assert recorder._file is not None
     recorder._file._file.close()
     recorder._file._file = cast("TextIOWrapper[Any]", FullDisk())
     with pytest.raises(UsageError, match=r"line\.hex.*No space left"), recorder:
         pass
-    # What went wrong before it is what is told.
+    # The first error is the one that is reported.
     with pytest.raises(DisconnectedError), recorder:
         raise DisconnectedError("COM7", "the line was lost", "plug it in again")
 
 
-def test_the_same_sign_of_life_is_written_once() -> None:
+def test_an_unchanged_progress_text_is_written_once() -> None:
     class Terminal(io.StringIO):
         def isatty(self) -> bool:
             return True
 
     screen = Terminal()
-    waiting = Progress(screen)
+    progress = Progress(screen)
     for text in ("opening COM7, 1 s", "opening COM7, 1 s", "opening COM7, 2 s"):
-        waiting.show(text)
+        progress.show(text)
     assert screen.getvalue() == "\ropening COM7, 1 s\ropening COM7, 2 s"

@@ -133,7 +133,7 @@ def test_json_and_csv_say_the_same(log: Path, capsys: pytest.CaptureFixture[str]
         assert row["reason"] == record.get("reason", "")
 
 
-def test_what_either_end_may_have_sent_is_told_in_csv_too(
+def test_csv_marks_what_either_end_may_have_sent(
     capsys: pytest.CaptureFixture[str],
 ) -> None:
     assert main(["decode", STARTED, "--csv"]) == 0
@@ -147,7 +147,7 @@ def test_what_either_end_may_have_sent_is_told_in_csv_too(
 
 
 @pytest.mark.parametrize(
-    ("text", "words", "told"),
+    ("text", "words", "expected"),
     [
         (ASK, ["-t", "delta"], "holds no times: the first column is the byte at which each begins"),
         (f"{ASK}  # 1 s, host: a", ["-t", "absolute"], "does not say when it began: times are sec"),
@@ -156,18 +156,20 @@ def test_what_either_end_may_have_sent_is_told_in_csv_too(
         ("", ["-t", "zero"], None),
     ],
 )
-def test_times_that_are_not_there_are_said_to_be_missing(
-    log: Path, capsys: pytest.CaptureFixture[str], text: str, words: list[str], told: str | None
+def test_missing_times_are_reported(
+    log: Path, capsys: pytest.CaptureFixture[str], text: str, words: list[str], expected: str | None
 ) -> None:
     log.write_text(text)
     assert main(["decode", str(log), *words]) == 0
     *notes, totals = capsys.readouterr().err.splitlines()
-    assert [note.startswith(f"{log} {told}") for note in notes] == ([] if told is None else [True])
+    assert [note.startswith(f"{log} {expected}") for note in notes] == (
+        [] if expected is None else [True]
+    )
     assert "noise" in totals
 
 
 @pytest.mark.parametrize(
-    ("data", "told"),
+    ("data", "expected"),
     [
         ("55 55 01 07 01 20 03 E8 03 E8", "the LX-16A bus servo protocol"),
         ("55 55 02 01 55 55 02 0D", "the dialect of LeArm and uHand boards"),
@@ -176,11 +178,13 @@ def test_times_that_are_not_there_are_said_to_be_missing(
     ],
 )
 def test_what_is_mostly_noise_may_be_another_protocol(
-    capsys: pytest.CaptureFixture[str], data: str, told: str | None
+    capsys: pytest.CaptureFixture[str], data: str, expected: str | None
 ) -> None:
     assert main(["decode", data]) == 0
     _, *hints = capsys.readouterr().err.splitlines()
-    assert hints == ([] if told is None else [f"hint: most of it is noise; it looks like {told}"])
+    assert hints == (
+        [] if expected is None else [f"hint: most of it is noise; it looks like {expected}"]
+    )
 
 
 def test_a_pipe_that_pauses_within_a_byte_holds_hex_all_the_same() -> None:
@@ -195,9 +199,9 @@ def test_a_pipe_that_pauses_within_a_byte_holds_hex_all_the_same() -> None:
         os.write(decode.stdin.fileno(), b"55 55 02 07\n5")
         # It has read that far, and has not waited for more to say so.
         assert decode.stdout.readline() == b"     0  host        ActionGroupStop | 55 55 02 07\n"
-        rest, told = decode.communicate(b"5 55 02 07", timeout=GENEROUS)
+        rest, errors = decode.communicate(b"5 55 02 07", timeout=GENEROUS)
     assert rest.splitlines() == [b"     4  host        ActionGroupStop | 55 55 02 07"]
-    assert told.splitlines() == [b"8 bytes: 2 messages, 0 bytes of noise"]
+    assert errors.splitlines() == [b"8 bytes: 2 messages, 0 bytes of noise"]
 
 
 def test_what_is_hex_at_first_and_then_is_not_is_refused(
@@ -205,9 +209,9 @@ def test_what_is_hex_at_first_and_then_is_not_is_refused(
 ) -> None:
     log.write_bytes(bytes.fromhex(ASK).hex().encode() + b"\n\x00\x01")
     assert main(["decode", str(log)]) == 2
-    told = capsys.readouterr().err
-    assert told.startswith(f"busservo: error: {log}, line 2: no hex: '\\x00'")
-    assert told.endswith("raw bytes need --format raw, in Python form='raw'\n")
+    errors = capsys.readouterr().err
+    assert errors.startswith(f"busservo: error: {log}, line 2: no hex: '\\x00'")
+    assert errors.endswith("raw bytes need --format raw, in Python form='raw'\n")
     assert main(["decode", str(log), "--format", "raw", "--strict"]) == 1
 
 

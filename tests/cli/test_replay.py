@@ -56,20 +56,20 @@ def log(tmp_path: Path) -> Path:
 
 def replayed(log: Path, *words: str) -> tuple[int, list[Message | Noise]]:
     """Replay, and return the exit status and the messages that a board received."""
-    heard: list[Message | Noise] = []
+    received: list[Message | Noise] = []
     with (
         VirtualController("tcp") as board,
-        mock.patch.object(board.board, "accepted", heard.append),
-        mock.patch.object(board.board, "rejected", heard.append),
+        mock.patch.object(board.board, "accepted", received.append),
+        mock.patch.object(board.board, "rejected", received.append),
     ):
         status = main(["replay", str(log), "--port", board.port, *words])
-        # Whoever calls next is let in once all has been heard that was sent before.
+        # The next client is let in once all has been received that was sent before.
         address = ("127.0.0.1", int(board.port.rpartition(":")[2]))
         with socket.create_connection(address, GENEROUS) as caller:
             caller.sendall(LAST.encode())
-            await_that(lambda: LAST in heard)
-    assert heard.pop() == LAST
-    return status, heard
+            await_that(lambda: LAST in received)
+    assert received.pop() == LAST
+    return status, received
 
 
 def test_a_trace_of_a_client_is_played_without_what_came_back(
@@ -85,8 +85,8 @@ def test_a_trace_of_a_client_is_played_without_what_came_back(
         board.send_bytes(b"\x13")
         controller.read_battery_voltage()
         controller.read_servo_positions([1])
-    status, heard = replayed(log)
-    assert (status, heard) == (0, [MOVE, ASK, READ])
+    status, received = replayed(log)
+    assert (status, received) == (0, [MOVE, ASK, READ])
     output, errors = capsys.readouterr()
     assert "host        BatteryVoltageRead | 55 55 02 0F\n" in output
     assert re.search(r"  controller  BatteryVoltage voltage_mv=.* \| 55 55 04 0F", output)
@@ -105,7 +105,7 @@ def test_a_log_of_a_monitor_is_played(log: Path) -> None:
     assert replayed(log) == (0, [MOVE, ASK])
 
 
-def test_a_line_that_is_lost_ends_it_and_says_how_far_it_got(
+def test_a_lost_line_ends_the_replay_and_the_progress_is_reported(
     log: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     log.write_text(f"{hexed(ASK)}  # 0 s, host: a\n{hexed(ASK)}  # 9 s, host: b\n")
@@ -160,7 +160,7 @@ def test_standard_input_is_played(monkeypatch: pytest.MonkeyPatch) -> None:
         (["--speed", "inf"], ["0.000000", "0.010417", "0.014583"]),
     ],
 )
-def test_it_keeps_the_recorded_pace_or_the_line_s(
+def test_a_replay_keeps_the_recorded_pace_or_that_of_the_line(
     log: Path, capsys: pytest.CaptureFixture[str], speed: list[str], times: list[str]
 ) -> None:
     log.write_text(
@@ -189,7 +189,7 @@ EITHER = f"{hexed(RUN)}  # 0.1 s, either: ActionGroupRun(...) or ActionGroupStar
 
 
 @pytest.mark.parametrize(
-    ("text", "words", "heard"),
+    ("text", "words", "received"),
     [
         (f"{EITHER}{hexed(ASK)}  # 1 s, host: b\n", ["--either", "send"], [RUN, ASK]),
         (f"{EITHER}{hexed(ASK)}  # 1 s, host: b\n", ["--either", "skip"], [ASK]),
@@ -201,7 +201,7 @@ EITHER = f"{hexed(RUN)}  # 0.1 s, either: ActionGroupRun(...) or ActionGroupStar
             ["--skip-noise"],
             [ASK],
         ),
-        # It was none when it was heard, and so it is none now.
+        # It was no frame when it was received, and so it is none now.
         (
             f"{hexed(MOVE)}  # 0 s, host noise: cut\n{hexed(ASK)}  # 1 s, host: b\n",
             ["--skip-noise"],
@@ -210,14 +210,14 @@ EITHER = f"{hexed(RUN)}  # 0.1 s, either: ActionGroupRun(...) or ActionGroupStar
         ("55 55 02 0F 55 55 02 0F 55 55 04 0F 4C 1D", [], [ASK, ASK]),
     ],
 )
-def test_what_is_doubtful_is_sent_when_told(
-    log: Path, text: str, words: list[str], heard: list[Message]
+def test_ambiguous_frames_are_sent_on_request(
+    log: Path, text: str, words: list[str], received: list[Message]
 ) -> None:
     log.write_text(text)
-    assert replayed(log, "--speed", "inf", *words) == (0, heard)
+    assert replayed(log, "--speed", "inf", *words) == (0, received)
 
 
-def test_what_came_back_may_be_told_late(log: Path) -> None:
+def test_received_frames_may_be_recorded_out_of_order(log: Path) -> None:
     log.write_text(
         f"{hexed(MOVE)}  # 2 s, host: a\n55 55 04 0F 4C 1D  # 1 s, controller: late\n"
         f"13  # 0.5 s, noise: bad header\n{hexed(ASK)}  # 2 s, host: b\n"
@@ -230,13 +230,13 @@ def test_raw_sends_every_byte_whoever_sent_it(log: Path) -> None:
     log.write_text(
         f"13  # 0 s, noise: bad header\n{EITHER}{hexed(ServoUnload([1]))}  # 1 s, controller: no!\n"
     )
-    status, heard = replayed(log, "--raw", "--speed", "inf")
+    status, received = replayed(log, "--raw", "--speed", "inf")
     assert status == 0
-    assert [type(event) for event in heard] == [Noise, ActionGroupRun, ServoUnload]
+    assert [type(event) for event in received] == [Noise, ActionGroupRun, ServoUnload]
 
 
 @pytest.mark.parametrize(
-    ("text", "words", "told"),
+    ("text", "words", "expected"),
     [
         (EITHER, [], "line 1: it is ActionGroupRun or ActionGroupStarted group=8 times=1, and nob"),
         (hexed(RUN), [], "byte 0: it is ActionGroupRun or ActionGroupStarted"),
@@ -272,23 +272,23 @@ def test_raw_sends_every_byte_whoever_sent_it(log: Path) -> None:
     ],
 )
 def test_what_is_malformed_is_refused_before_anything_is_sent(
-    log: Path, capsys: pytest.CaptureFixture[str], text: str, words: list[str], told: str
+    log: Path, capsys: pytest.CaptureFixture[str], text: str, words: list[str], expected: str
 ) -> None:
     log.write_text(text)
     assert replayed(log, *words) == (2, [])
     errors = capsys.readouterr().err
-    assert told in errors
+    assert expected in errors
     assert "Traceback" not in errors
 
 
-def test_a_file_that_is_not_there_is_told(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_a_missing_file_is_reported(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["replay", str(tmp_path / "none.hex"), "--dry-run"]) == 2
     assert "none.hex cannot be read: No such file or directory" in capsys.readouterr().err
 
 
-def test_without_a_port_it_only_shows(log: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_without_a_port_a_replay_is_only_shown(
+    log: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
     log.write_text(hexed(ASK))
     assert main(["replay", str(log)]) == 2
     assert "replay needs --port PORT, or --dry-run" in capsys.readouterr().err

@@ -38,7 +38,7 @@ def board() -> Iterator[VirtualController]:
 
 
 @pytest.fixture
-def heard(board: VirtualController) -> list[Message]:
+def received(board: VirtualController) -> list[Message]:
     """Return the messages that the board has understood, in order."""
     messages: list[Message] = []
     accepted = board.board.accepted
@@ -71,7 +71,7 @@ def kinds(messages: list[Message]) -> list[type[Message]]:
 
 def test_poses_are_recorded_at_each_enter_and_held_at_the_end(
     board: VirtualController,
-    heard: list[Message],
+    received: list[Message],
     typed: Any,
     tmp_path: Path,
     capsys: pytest.CaptureFixture[str],
@@ -85,9 +85,9 @@ def test_poses_are_recorded_at_each_enter_and_held_at_the_end(
     assert "'what' is nothing that can be done here" in errors
     assert "2 poses recorded; servos 1, 2, 3 held\n" in errors
     # The last of them may be on its way yet.
-    await_that(lambda: len(heard) == 9)
-    assert heard[4] == ServoUnload([1, 2, 3])
-    assert heard[5:] == [
+    await_that(lambda: len(received) == 9)
+    assert received[4] == ServoUnload([1, 2, 3])
+    assert received[5:] == [
         *(2 * [ServoPositionsRead([1, 2, 3])]),
         ServoPositionsRead([1, 2, 3]),
         ServoMove(time_ms=100, targets=[(1, 500), (2, 500), (3, 500)]),
@@ -101,9 +101,9 @@ def test_poses_are_recorded_at_each_enter_and_held_at_the_end(
 
 
 @pytest.mark.parametrize("keys", ["", "\n", "n\n", "q\n", "no\ny\n"])
-def test_nothing_goes_limp_unless_that_is_agreed_to(
+def test_no_servo_is_released_without_consent(
     board: VirtualController,
-    heard: list[Message],
+    received: list[Message],
     typed: Any,
     keys: str,
     tmp_path: Path,
@@ -112,28 +112,28 @@ def test_nothing_goes_limp_unless_that_is_agreed_to(
     typed(keys)
     words = ["teach", str(tmp_path / "new"), "--port", board.port, "--ids", "1"]
     assert main([*words, *PATIENT]) == 0
-    assert heard == []
+    assert received == []
     assert "nothing was let go, and nothing recorded" in capsys.readouterr().err
     assert list(tmp_path.iterdir()) == []
 
 
-@pytest.mark.parametrize(("keys", "told"), [("\n", "are limp"), ("\nq\n", "are limp")])
-def test_what_nobody_agrees_to_hold_stays_limp(
+@pytest.mark.parametrize(("keys", "expected"), [("\n", "are limp"), ("\nq\n", "are limp")])
+def test_servos_stay_limp_unless_holding_is_confirmed(
     board: VirtualController,
     typed: Any,
     keys: str,
-    told: str,
+    expected: str,
     tmp_path: Path,
     capsys: pytest.CaptureFixture[str],
 ) -> None:
     typed(keys)
     words = ["teach", str(tmp_path / "new"), "--port", board.port, "--yes", "--ids", "1-2"]
     assert main([*words, *PATIENT]) == 0
-    assert f"1 pose recorded; servos 1, 2 {told}" in capsys.readouterr().err
+    assert f"1 pose recorded; servos 1, 2 {expected}" in capsys.readouterr().err
     assert [board.servos[each].loaded for each in (1, 2, 3)] == [False, False, True]
 
 
-def test_holding_can_be_had_without_being_asked(
+def test_the_hold_option_needs_no_confirmation(
     board: VirtualController, typed: Any, tmp_path: Path
 ) -> None:
     typed("\n")
@@ -142,9 +142,9 @@ def test_holding_can_be_had_without_being_asked(
     await_that(lambda: board.servos[2].loaded)
 
 
-def test_who_does_not_answer_costs_a_pose_and_no_more(
+def test_a_silent_servo_costs_only_the_pose(
     board: VirtualController,
-    heard: list[Message],
+    received: list[Message],
     typed: Any,
     tmp_path: Path,
     capsys: pytest.CaptureFixture[str],
@@ -157,7 +157,7 @@ def test_who_does_not_answer_costs_a_pose_and_no_more(
     assert "nothing recorded: " in errors
     assert "are off or missing: servo_ids 2, 9" in errors
     assert "not held: " in errors
-    assert ServoMove not in kinds(heard)
+    assert ServoMove not in kinds(received)
     assert list(tmp_path.iterdir()) == []
 
 
@@ -167,18 +167,18 @@ def test_what_is_far_outside_the_limits_is_not_recorded_as_if_it_were_not(
     typed("\nq\ny\n")
     words = ["teach", str(tmp_path / "new"), "--port", board.port, "--yes", "--ids", "1"]
     assert main([*words, "--limits", "600..2500", *PATIENT]) == 0
-    told = (
+    problem = (
         "positions[0].position: 500 is outside the limits 600..2500; "
         "--limits 0..1000 is for what is usual, --limits 500..2500 is for PWM servo boards, "
         "--limits none sends anything\n"
     )
     errors = capsys.readouterr().err
-    assert f"nothing recorded: {told}" in errors
-    assert f"not held: {told}" in errors
+    assert f"nothing recorded: {problem}" in errors
+    assert f"not held: {problem}" in errors
     assert list(tmp_path.iterdir()) == []
 
 
-def test_where_nothing_is_there_nothing_is_let_go(
+def test_without_any_servo_nothing_is_released(
     typed: Any, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     typed("y\n")
@@ -198,9 +198,9 @@ def test_more_than_one_motion_moves_are_not_taught(
     assert "84 servos are more than the 83 that one motion moves" in capsys.readouterr().err
 
 
-def test_a_file_that_is_there_is_never_lost_unasked(
+def test_an_existing_file_is_never_overwritten_without_consent(
     board: VirtualController,
-    heard: list[Message],
+    received: list[Message],
     typed: Any,
     tmp_path: Path,
     capsys: pytest.CaptureFixture[str],
@@ -211,7 +211,7 @@ def test_a_file_that_is_there_is_never_lost_unasked(
     words = ["teach", str(file), "--port", board.port, "--yes", "--ids", "1-3", *PATIENT]
     assert main(words) == 2
     assert "is there already; --append records behind" in capsys.readouterr().err
-    assert (heard, file.read_text()) == ([], before)
+    assert (received, file.read_text()) == ([], before)
     typed("q\nn\n")
     assert main([*words, "--force"]) == 0
     assert file.read_text() == before
@@ -228,7 +228,7 @@ def test_a_file_that_is_there_is_never_lost_unasked(
 
 
 @pytest.mark.parametrize(
-    ("words", "told"),
+    ("words", "expected"),
     [
         (["--ids", "1-"], "'1-' is no number, nor two like 1-6"),
         (["--ids", "\u0661"], "is no number, nor two like 1-6"),
@@ -239,11 +239,11 @@ def test_a_file_that_is_there_is_never_lost_unasked(
         (["--force"], "is no file that could be written anew: name another"),
     ],
 )
-def test_teach_says_what_is_of_no_use(
-    words: list[str], told: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+def test_teach_refuses_unusable_arguments(
+    words: list[str], expected: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     assert main(["teach", str(tmp_path), "--port", "loop://", *words]) == 2
-    assert told in capsys.readouterr().err
+    assert expected in capsys.readouterr().err
 
 
 class Folder:
@@ -253,9 +253,9 @@ class Folder:
         raise IsADirectoryError(21, "Is a directory")
 
 
-def test_where_nobody_can_answer_nothing_is_let_go(
+def test_where_nobody_can_answer_nothing_is_released(
     board: VirtualController,
-    heard: list[Message],
+    received: list[Message],
     monkeypatch: pytest.MonkeyPatch,
     tmp_path: Path,
     capsys: pytest.CaptureFixture[str],
@@ -264,12 +264,12 @@ def test_where_nobody_can_answer_nothing_is_let_go(
     words = ["teach", str(tmp_path / "new"), "--port", board.port, "--ids", "1", *PATIENT]
     assert main(words) == 0
     assert "nothing was let go" in capsys.readouterr().err
-    assert heard == []
+    assert received == []
     assert main([*words, "--yes"]) == 0
     assert "0 poses recorded; servo 1 is limp\n" in capsys.readouterr().err
 
 
-def test_what_is_limp_is_told_where_a_pose_cannot_be_written(
+def test_limp_servos_are_named_when_a_pose_cannot_be_written(
     board: VirtualController,
     monkeypatch: pytest.MonkeyPatch,
     tmp_path: Path,
@@ -291,7 +291,7 @@ def test_what_is_limp_is_told_where_a_pose_cannot_be_written(
     assert "new cannot be written: No such file or directory" in errors
 
 
-def test_a_file_that_cannot_be_written_is_told_before_anything_is_let_go(
+def test_an_unwritable_file_is_reported_before_any_servo_is_released(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     assert main(["teach", str(tmp_path / "no" / "new"), "--port", "loop://"]) == 2
@@ -309,7 +309,7 @@ TWO = (
 
 def test_poses_are_played_in_their_order(
     board: VirtualController,
-    heard: list[Message],
+    received: list[Message],
     tmp_path: Path,
     capsys: pytest.CaptureFixture[str],
 ) -> None:
@@ -322,7 +322,7 @@ def test_poses_are_played_in_their_order(
         ServoMove(time_ms=30, targets=[(1, 500)]),
     ]
     # The last of them may be on its way yet.
-    assert heard[:3] == [*cycle, cycle[0]]
+    assert received[:3] == [*cycle, cycle[0]]
     output, errors = capsys.readouterr()
     times = [float(line.split()[0]) for line in output.splitlines()]
     assert [line.split()[1:3] for line in output.splitlines()] == 2 * [["pose", "1"], ["pose", "2"]]
@@ -398,9 +398,9 @@ REFUSED: list[tuple[str, str]] = [
 ]
 
 
-@pytest.mark.parametrize(("text", "told"), REFUSED, ids=lambda each: each[-60:])
+@pytest.mark.parametrize(("text", "expected"), REFUSED, ids=lambda each: each[-60:])
 def test_a_file_is_looked_at_as_a_whole_before_the_port_is_opened(
-    text: str, told: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+    text: str, expected: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     file = tmp_path / "poses.json"
     file.write_text(text, encoding="utf-8")
@@ -408,13 +408,11 @@ def test_a_file_is_looked_at_as_a_whole_before_the_port_is_opened(
     output, errors = capsys.readouterr()
     assert output == ""
     assert errors.startswith(f"busservo: error: {file}")
-    assert told in errors
+    assert expected in errors
     assert len(errors) < 500
 
 
-def test_a_file_that_cannot_be_read_is_told(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_an_unreadable_file_is_reported(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     (tmp_path / "raw").write_bytes(b"\xff\x00")
     for name in ("missing", "raw", "."):
         assert main(["play", str(tmp_path / name), "--dry-run"]) == 2
@@ -422,17 +420,17 @@ def test_a_file_that_cannot_be_read_is_told(
 
 
 def test_positions_for_other_boards_are_played_where_limits_say_so(
-    board: VirtualController, heard: list[Message], tmp_path: Path
+    board: VirtualController, received: list[Message], tmp_path: Path
 ) -> None:
     file = tmp_path / "poses.json"
     file.write_text(poses_of({"positions": {"1": 2500}, "time_ms": 1}, {"positions": {"1": 500}}))
     words = ["play", str(file), "--port", board.port, "--time-ms", "1"]
     assert main([*words, "--limits", "500..2500"]) == 0
-    assert heard[0] == ServoMove(time_ms=1, targets=[(1, 2500)])
+    assert received[0] == ServoMove(time_ms=1, targets=[(1, 2500)])
 
 
 @pytest.mark.parametrize(
-    ("words", "told"),
+    ("words", "expected"),
     [
         ([], "play needs --port PORT, or --dry-run"),
         (["--dry-run", "--repeat", "0"], "0 is below 1"),
@@ -446,17 +444,17 @@ def test_positions_for_other_boards_are_played_where_limits_say_so(
         (["--dry-run", "--limits", "1_0..2_0"], "is no LOW..HIGH"),
     ],
 )
-def test_play_says_what_is_of_no_use(
-    words: list[str], told: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+def test_play_refuses_unusable_arguments(
+    words: list[str], expected: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     file = tmp_path / "poses.json"
     file.write_text(poses_of(GOOD))
     assert main(["play", str(file), *words]) == 2
-    assert told in capsys.readouterr().err
+    assert expected in capsys.readouterr().err
 
 
 def test_send_refuses_what_is_outside_the_limits(
-    board: VirtualController, heard: list[Message], capsys: pytest.CaptureFixture[str]
+    board: VirtualController, received: list[Message], capsys: pytest.CaptureFixture[str]
 ) -> None:
     words = ["send", "--port", board.port, "ServoMove", "time_ms=1", "targets=1:500,2:1500"]
     assert main(words) == 2
@@ -464,7 +462,7 @@ def test_send_refuses_what_is_outside_the_limits(
         "busservo: error: targets[1].position: 1500 is outside the limits 0..1000; "
         "--limits 500..2500 is for PWM servo boards, --limits none sends anything\n"
     )
-    assert heard == []
+    assert received == []
     for limits in ("500..2500", "none"):
         assert main([*words, "--limits", limits]) == 0
 
@@ -481,7 +479,7 @@ recorded = st.builds(
 
 
 @given(st.lists(recorded, max_size=5))
-def test_what_is_written_is_read_again(poses: list[Recorded]) -> None:
+def test_a_written_file_is_read_back(poses: list[Recorded]) -> None:
     with TemporaryDirectory() as folder:
         file = Path(folder, "poses.json")
         write_poses(file, poses)
@@ -509,7 +507,7 @@ if sys.platform == "linux":
     @pytest.mark.parametrize(
         ("key", "status"), [(CTRL_C, 130), (CTRL_D, 0), (b"q\nn\n", 0), (b"Q\nyes\n", 0)]
     )
-    def test_what_is_recorded_is_kept_however_it_ends(
+    def test_recorded_poses_are_kept_however_teach_ends(
         board: VirtualController, key: bytes, status: int, tmp_path: Path
     ) -> None:
         file = tmp_path / "poses.json"

@@ -55,9 +55,9 @@ def test_sigterm_ends_a_monitor_as_cleanly(board: VirtualController) -> None:
     board.spurious_output(BatteryVoltage(7500).encode())
     monitor.stdout.readline()
     monitor.terminate()
-    _, told = monitor.communicate(timeout=GENEROUS)
+    _, errors = monitor.communicate(timeout=GENEROUS)
     assert monitor.returncode == 143
-    assert re.fullmatch("[0-9]+ bytes: [0-9]+ messages?, [0-9]+ bytes? of noise\n", told)
+    assert re.fullmatch("[0-9]+ bytes: [0-9]+ messages?, [0-9]+ bytes? of noise\n", errors)
 
 
 @pytest.mark.parametrize("variable", [{"NO_COLOR": "1"}, {"TERM": "dumb"}])
@@ -99,44 +99,44 @@ def test_a_pipe_that_is_closed_ends_a_monitor(board: VirtualController, tmp_path
     monitor.stdout.close()
     assert monitor.wait(GENEROUS) == 141
     assert monitor.stderr is not None
-    told = monitor.stderr.read()
+    errors = monitor.stderr.read()
     monitor.stderr.close()
     assert "BatteryVoltage" in head.stdout
-    assert "messages" in told
-    assert "Traceback" not in told
-    assert len(told.splitlines()) == 1
+    assert "messages" in errors
+    assert "Traceback" not in errors
+    assert len(errors.splitlines()) == 1
 
 
-def test_a_full_disk_is_told_of_whatever_is_printed() -> None:
+def test_a_full_disk_behind_standard_output_is_reported() -> None:
     with open("/dev/full", "w") as full:  # noqa: PTH123 - a device
         done = run(
             "decode", "55 55 02 07", stdout=full, stderr=subprocess.PIPE, capture_output=False
         )
     assert done.returncode == 2
-    told = done.stderr.splitlines()
-    assert "the output cannot be written" in told[-1]
+    errors = done.stderr.splitlines()
+    assert "the output cannot be written" in errors[-1]
     assert "Traceback" not in done.stderr
 
 
 @pytest.mark.parametrize("via", ["pty", "tcp"])
-def test_a_line_that_is_lost_is_told_and_what_was_seen_is_kept(tmp_path: Path, via: str) -> None:
+def test_a_lost_line_is_reported_and_the_log_is_kept(tmp_path: Path, via: str) -> None:
     log = tmp_path / "line.hex"
     with VirtualController("pty" if via == "pty" else "tcp") as board:
         monitor = start("monitor", "--port", board.port, "--log", str(log), "--json")
         assert monitor.stdout is not None
-        # A TCP port hears nobody before it has let them in.
+        # A TCP port receives nothing before it has accepted the client.
         await_that(lambda: log.exists() and getattr(board._end, "_guest", True))
         # In one piece: where the frame has been read, the half behind it has been, too.
         frame = BatteryVoltage(7500).encode()
         board.send_bytes(frame + frame[:3])
         first = monitor.stdout.readline()
         board.unplug()
-        rest, told = monitor.communicate(timeout=GENEROUS)
+        rest, errors = monitor.communicate(timeout=GENEROUS)
     assert monitor.returncode == 3
     assert "7500" in first
     assert '"noise": "55 55 04"' in rest
-    assert "Traceback" not in told
-    totals, error = told.splitlines()
+    assert "Traceback" not in errors
+    totals, error = errors.splitlines()
     assert totals == "9 bytes: 1 message, 3 bytes of noise"
     assert error.startswith(f"busservo: error: {board.port if via == 'tcp' else '/dev/'}")
     assert error.endswith("see to the cable and the power, then run this again")
@@ -149,8 +149,8 @@ def test_send_shows_that_it_waits_for_a_silent_board() -> None:
     with OnTerminal(*words) as send:
         send.wait_for("waiting for BatteryVoltage, [0-9]+ s")
         assert send.end() == 1
-        (told, rest) = send.lines
-        assert told.startswith("no BatteryVoltage came within ")
+        (errors, rest) = send.lines
+        assert errors.startswith("no BatteryVoltage came within ")
         assert rest == ""
 
 
@@ -184,7 +184,7 @@ def test_ctrl_c_ends_a_replay_and_says_how_far_it_got(
     assert board.rejects.total == 0
 
 
-def test_a_replay_tells_of_a_line_that_is_lost(board: VirtualController, tmp_path: Path) -> None:
+def test_a_replay_reports_a_lost_line(board: VirtualController, tmp_path: Path) -> None:
     log = tmp_path / "line.hex"
     log.write_text("55 55 02 0F  # 0.0 s, host: a\n55 55 02 0F  # 3600.0 s, host: another\n")
     replay = start("replay", str(log), "--port", board.port)
@@ -192,9 +192,9 @@ def test_a_replay_tells_of_a_line_that_is_lost(board: VirtualController, tmp_pat
     assert replay.stdout.readline().endswith("  BatteryVoltageRead | 55 55 02 0F\n")
     assert replay.stdout.readline().endswith(f"  controller  {BATTERY}\n")
     board.unplug()
-    _, told = replay.communicate(timeout=GENEROUS)
+    _, errors = replay.communicate(timeout=GENEROUS)
     assert replay.returncode == 3
-    totals, error = told.splitlines()
+    totals, error = errors.splitlines()
     assert totals.startswith("1 of 2 frames sent, 4 bytes; came back: 6 bytes: 1 message")
     assert "the line was lost" in error
 
@@ -207,12 +207,12 @@ def test_ctrl_c_ends_a_measurement_with_what_was_measured(board: VirtualControll
         assert bench.end() == 130
         first, *rows, rest = bench.lines
     # What came too soon or to nothing may have rows of its own: a pty takes no time.
-    told = {row[:18].strip(): row[18:] for row in rows}
+    values = {row[:18].strip(): row[18:] for row in rows}
     assert first.startswith(f"BatteryVoltageRead on {board.port}: ")
-    assert told["the wire alone"] == "10.42 ms: 4 bytes there and 6 back, at 9600 baud"
-    assert told["round trips"].startswith("min ")
-    assert " a second, " in told["rate"]
-    assert (told["errors"], rest) == ("none", "")
+    assert values["the wire alone"] == "10.42 ms: 4 bytes there and 6 back, at 9600 baud"
+    assert values["round trips"].startswith("min ")
+    assert " a second, " in values["rate"]
+    assert (values["errors"], rest) == ("none", "")
 
 
 def test_a_measurement_ends_with_the_line_and_keeps_what_was_measured(
@@ -222,8 +222,8 @@ def test_a_measurement_ends_with_the_line_and_keeps_what_was_measured(
     bench = start(*words, "--json")
     await_that(lambda: board.accepted >= 3)
     board.unplug()
-    shown, told = bench.communicate(timeout=GENEROUS)
+    shown, errors = bench.communicate(timeout=GENEROUS)
     assert bench.returncode == 3
     assert '"question": "BatteryVoltageRead"' in shown
-    assert "the line was lost" in told
-    assert "Traceback" not in told
+    assert "the line was lost" in errors
+    assert "Traceback" not in errors

@@ -49,7 +49,7 @@ class Ledger:
 
     def __init__(self, board: VirtualController) -> None:
         self.board = board
-        self.asked = 0
+        self.questions = 0
         self.reported: list[Report] = []
         self.right = self.refused = self.reconnected = 0
         # By number, so that a long soak needs no more room than a short one.
@@ -61,17 +61,17 @@ class Ledger:
         reports = injector.reports
 
         def noted(report: Report) -> Iterator[Report]:
-            for told in reports(report):
-                if not isinstance(told, REPLIES):
-                    self.reported.append(told)
-                yield told
+            for sent in reports(report):
+                if not isinstance(sent, REPLIES):
+                    self.reported.append(sent)
+                yield sent
 
         injector.reports = noted  # type: ignore[method-assign]
 
     def _next(self) -> int:
-        self.asked += 1
+        self.questions += 1
         # Of 16 bits, and never the number that stands for a servo that is not there.
-        return self.asked % ABSENT
+        return self.questions % ABSENT
 
     def _voltage(self, _message: BatteryVoltageRead) -> BatteryVoltage:
         return BatteryVoltage(self._next())
@@ -85,52 +85,56 @@ class Ledger:
         with self._lock:
             assert len(values) <= 1, "of one reply, all values are the same"
             for value in values:
-                number = self.asked - (self.asked - value) % ABSENT
-                assert before < number <= self.asked, "a value was told before it was asked for"
+                number = self.questions - (self.questions - value) % ABSENT
+                assert before < number <= self.questions, (
+                    "a value was given before it was requested"
+                )
                 assert not self._given[number], "a reply was given to two callers"
                 self._given[number] = 1
             self.right += 1
 
-    def given_part(self, before: int, asked: list[int], error: IncompleteReplyError) -> None:
+    def given_part(self, before: int, requested: list[int], error: IncompleteReplyError) -> None:
         """Record a call that returned some servos, and which are missing."""
         there = [each for each in error.arrived if isinstance(each, ServoPosition)]
-        assert sorted([*(each.servo_id for each in there), *error.missing]) == sorted(asked)
+        assert sorted([*(each.servo_id for each in there), *error.missing]) == sorted(requested)
         assert error.missing
         self.given(before, {each.position for each in there} - {ABSENT})
 
-    def given_all(self, before: int, asked: list[int], told: tuple[ServoPosition, ...]) -> None:
+    def given_all(
+        self, before: int, requested: list[int], positions: tuple[ServoPosition, ...]
+    ) -> None:
         """Record a call that returned all servos."""
-        assert sorted(each.servo_id for each in told) == sorted(asked)
-        self.given(before, {each.position for each in told} - {ABSENT})
+        assert sorted(each.servo_id for each in positions) == sorted(requested)
+        self.given(before, {each.position for each in positions} - {ABSENT})
 
     def over(self, controller: Controller | AsyncController) -> bool:
         """Return whether the board has received everything: it has then sent all its reports."""
         return self.board.accepted == controller.counters.sent
 
 
-def heard_by(controller: Controller, ledger: Ledger) -> list[Message]:
+def reports_received(controller: Controller, ledger: Ledger) -> list[Message]:
     """Return the reports, once all have come, and any that should not be there."""
     await_that(lambda: ledger.over(controller))
-    heard: list[Message] = []
+    received: list[Message] = []
     for report in controller.reports(timeout=GENEROUS if ledger.reported else 0.1):
-        heard.append(report)
-        if len(heard) == len(ledger.reported):
+        received.append(report)
+        if len(received) == len(ledger.reported):
             break
-    return heard + list(controller.reports(timeout=0.1))
+    return received + list(controller.reports(timeout=0.1))
 
 
-async def heard_by_async(controller: AsyncController, ledger: Ledger) -> list[Message]:
+async def reports_received_async(controller: AsyncController, ledger: Ledger) -> list[Message]:
     """Return the same, for asyncio."""
     end = time.monotonic() + GENEROUS
     while not ledger.over(controller):
         assert time.monotonic() < end
         await asyncio.sleep(0.001)
-    heard: list[Message] = []
+    received: list[Message] = []
     async for report in controller.reports(timeout=GENEROUS if ledger.reported else 0.1):
-        heard.append(report)
-        if len(heard) == len(ledger.reported):
+        received.append(report)
+        if len(received) == len(ledger.reported):
             break
-    return heard + [report async for report in controller.reports(timeout=0.1)]
+    return received + [report async for report in controller.reports(timeout=0.1)]
 
 
 def turns(seed: int, count: int) -> Iterator[list[int] | str]:
@@ -153,7 +157,7 @@ def converse(
 ) -> None:
     """Make `count` calls. Whatever goes wrong: a right value or a declared error, in time."""
     for turn in turns(seed, count):
-        before, began = ledger.asked, now()
+        before, began = ledger.questions, now()
         try:
             if turn == "battery":
                 ledger.given(before, {controller.read_battery_voltage()})
@@ -187,7 +191,7 @@ async def converse_async(
 ) -> None:
     """Make `count` calls, for asyncio."""
     for turn in turns(seed, count):
-        before, began = ledger.asked, now()
+        before, began = ledger.questions, now()
         try:
             if turn == "battery":
                 ledger.given(before, {await controller.read_battery_voltage()})

@@ -38,7 +38,7 @@ class Rfc2217Server:
         self._serial = PtyPort(port, timeout=0)
         self._listener = socket.create_server(("127.0.0.1", 0))
         self._listener.settimeout(0.05)
-        # Where pyserial's client is told nothing, it gives up after 3 s.
+        # Where pyserial's client receives nothing, it gives up after 3 s.
         number = self._listener.getsockname()[1]
         self.url = f"rfc2217://127.0.0.1:{number}?timeout={GENEROUS:.0f}"
         self._guest: socket.socket | None = None

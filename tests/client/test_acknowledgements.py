@@ -89,7 +89,7 @@ def test_a_run_is_acknowledged_by_the_report_with_its_values(
     assert run.started is bool(started)
 
 
-def test_a_line_that_has_never_told_of_a_start_misses_none() -> None:
+def test_a_line_that_never_reported_a_start_expects_none() -> None:
     line = session()
     first = ran(line)
     line.tick(OVER)
@@ -113,9 +113,9 @@ def test_each_of_two_equal_runs_wants_a_report_of_its_own() -> None:
 def test_a_long_reply_before_the_report_does_not_make_it_late() -> None:
     line = seen_one()
     question = line.submit(ServoPositionsRead(range(84)))
-    asked_at = 0.0
-    line.outgoing(asked_at)
-    line.written(question, asked_at)
+    sent_at = 0.0
+    line.outgoing(sent_at)
+    line.written(question, sent_at)
     run = ran(line, now=0.1)
     reply = ServoPositions([(servo, 500) for servo in range(84)]).encode()
     # It comes piece by piece, and the report behind it.
@@ -140,7 +140,7 @@ def test_half_a_report_is_waited_for() -> None:
     assert run.started is True
 
 
-def test_its_time_begins_when_the_port_has_it() -> None:
+def test_the_time_of_a_run_begins_when_the_port_has_it() -> None:
     line = seen_one()
     request = line.submit(ActionGroupRun(8, 1))
     line.outgoing(0.0)
@@ -155,7 +155,7 @@ def test_its_time_begins_when_the_port_has_it() -> None:
     assert request.sent.started is False
 
 
-def test_what_the_port_has_not_yet_has_no_time_yet() -> None:
+def test_a_run_not_yet_written_has_no_deadline() -> None:
     line = seen_one()
     first, second, third = (line.submit(ActionGroupRun(group, 1)) for group in (1, 2, 3))
     for now in (0.0, 0.1, 0.2):
@@ -170,7 +170,7 @@ def test_what_the_port_has_not_yet_has_no_time_yet() -> None:
     assert line.acknowledgements.unwritten
 
 
-def test_on_another_line_nothing_is_known_of_what_the_old_one_carried() -> None:
+def test_a_new_line_knows_nothing_of_runs_on_the_old_one() -> None:
     line = seen_one()
     run = ran(line)
     line.fail(DisconnectedError("line", "lost", "again"))
@@ -198,7 +198,7 @@ class Board:
         self._free_at = 0.0
         self._on_the_wire: list[tuple[float, int]] = []
 
-    def hear(self, frame: bytes, at: float) -> None:
+    def receive(self, frame: bytes, at: float) -> None:
         match busservo.decode(frame, Direction.HOST_TO_CONTROLLER):
             case ActionGroupRun(group, times):
                 delay = self._delays[group]
@@ -220,8 +220,8 @@ class Board:
 
 @given(
     st.lists(
-        # How much later than the one before it is asked for, how long the board takes to say so,
-        # and how many servos are asked about right behind it.
+        # How much later than the one before it is requested, how long the board takes to say so,
+        # and how many servos are read right behind it.
         st.tuples(
             st.sampled_from([0, 1, 50, 300, 600]),
             st.none() | st.integers(0, 240),
@@ -232,29 +232,29 @@ class Board:
     ),
     st.integers(3, 40),
 )
-def test_what_is_said_of_runs_is_what_the_board_has_done(
-    asked: list[tuple[int, int | None, int]], step: int
+def test_acknowledgements_match_what_the_board_has_done(
+    requested: list[tuple[int, int | None, int]], step: int
 ) -> None:
     """Over a line that is read every `step` milliseconds, and has no room for all at once."""
-    line, board = seen_one(), Board([delay for _, delay, _ in asked])
-    times = accumulate(later for later, _, _ in asked)
-    waiting = deque(zip(times, range(6), (servos for _, _, servos in asked), strict=False))
+    line, board = seen_one(), Board([delay for _, delay, _ in requested])
+    times = accumulate(later for later, _, _ in requested)
+    pending = deque(zip(times, range(6), (servos for _, _, servos in requested), strict=False))
     sent: list[Request] = []
     for now in (at / 1000 for at in range(0, 8000, step)):
-        while waiting and waiting[0][0] / 1000 <= now:
-            _, group, servos = waiting.popleft()
+        while pending and pending[0][0] / 1000 <= now:
+            _, group, servos = pending.popleft()
             sent.append(line.submit(ActionGroupRun(group, 1)))
             if servos:
                 line.submit(ServoPositionsRead(range(servos)))
         for frame in line.outgoing(now):
-            board.hear(frame, line.wire_time.free_at)
+            board.receive(frame, line.wire_time.free_at)
         line.acknowledgements.written(now)
         if line.unwritten is not None:
             line.written(line.unwritten, now)
         line.receive(board.arrived(now), now)
         line.tick(now)
     started = [each.sent.started for each in sent if isinstance(each.sent, Run)]
-    assert started == [delay is not None for _, delay, _ in asked]
+    assert started == [delay is not None for _, delay, _ in requested]
 
 
 # -------------------------------------------------------------------- both clients

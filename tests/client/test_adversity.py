@@ -113,7 +113,7 @@ def test_pulled_in_the_middle_of_a_reply(board: VirtualController) -> None:
         board.plug_in()
         again(controller)
         # Half of the reply had come on the old line. It is not the beginning of the next. (The
-        # voltage is not asked for again before its reply has had time to come all the same.)
+        # voltage is not requested again before its reply has had time to come all the same.)
         assert controller.read_servo_positions([1]) == (ServoPosition(1, 500),)
 
 
@@ -179,7 +179,7 @@ def test_a_port_that_somebody_else_has_is_busy() -> None:
 
 
 @needs_pty
-def test_a_thief_who_reads_along_takes_replies_and_never_makes_a_wrong_one() -> None:
+def test_another_reader_of_the_port_costs_replies_and_makes_none_wrong() -> None:
     with VirtualController("pty") as board:
         stolen = 0
         begun, over = threading.Event(), threading.Event()
@@ -197,16 +197,16 @@ def test_a_thief_who_reads_along_takes_replies_and_never_makes_a_wrong_one() -> 
 
         thread = threading.Thread(target=steal)
         thread.start()
-        outcomes = set()
+        results = set()
         try:
             assert begun.wait(BOUND)
             with open_controller(board.port, exclusive=False, reply_timeout=0.02) as controller:
-                asked, end = 0, time.monotonic() + BOUND
-                while asked < 60 or (not stolen and time.monotonic() < end):
-                    asked += 1
+                requests, end = 0, time.monotonic() + BOUND
+                while requests < 60 or (not stolen and time.monotonic() < end):
+                    requests += 1
                     with bounded():
                         try:
-                            outcomes.add(controller.read_battery_voltage())
+                            results.add(controller.read_battery_voltage())
                         except (NoReplyError, TransportError) as error:
                             if isinstance(error, TransportError):
                                 again(controller)
@@ -214,7 +214,7 @@ def test_a_thief_who_reads_along_takes_replies_and_never_makes_a_wrong_one() -> 
             over.set()
             thread.join()
         assert stolen
-        assert outcomes <= {7500}
+        assert results <= {7500}
 
 
 # -------------------------------------------------------------------- rebooted
@@ -224,7 +224,7 @@ def test_a_board_that_reboots_is_silent_and_then_back_by_itself() -> None:
     answer = BatteryVoltage(7500)
     with virtual_board() as (board, clock), on_time_of(clock, board) as controller:
         assert controller.request(BatteryVoltageRead()) == answer
-        # It is silent for longer than anybody waits here, until it is told otherwise.
+        # It is silent for longer than anybody waits here, until the test ends that.
         board.reboot(60)
         with pytest.raises(NoReplyError, match="is the device switched on"):
             controller.read_battery_voltage()
@@ -238,8 +238,8 @@ def test_a_board_that_reboots_is_silent_and_then_back_by_itself() -> None:
 
 def test_a_board_whose_port_goes_away_while_it_reboots(board: VirtualController) -> None:
     with open_controller(board.port, **LIVE) as controller:
-        heard: list[object] = []
-        controller.on_report(heard.append)
+        received: list[object] = []
+        controller.on_report(received.append)
         board.report(ActionGroupStopped())
         assert next(controller.reports(timeout=BOUND)) == ActionGroupStopped()
         board.unplug()
@@ -253,7 +253,7 @@ def test_a_board_whose_port_goes_away_while_it_reboots(board: VirtualController)
         assert next(controller.reports(timeout=BOUND)) == ActionGroupCompleted(8, 1)
         assert controller.read_battery_voltage() == 7500
         # Callbacks and counters live on.
-        await_that(lambda: heard == [ActionGroupStopped(), ActionGroupCompleted(8, 1)])
+        await_that(lambda: received == [ActionGroupStopped(), ActionGroupCompleted(8, 1)])
         assert controller.counters.reports == 2
 
 
@@ -357,7 +357,7 @@ def test_close_ends_what_waits_on_a_live_line(board: VirtualController) -> None:
     with ThreadPoolExecutor(4) as pool, bounded():
         asking = [pool.submit(controller.read_battery_voltage) for _ in range(2)]
         listening = pool.submit(lambda: list(controller.reports()))
-        waiting = pool.submit(controller.wait_for, ActionGroupStopped, timeout=BOUND)
+        pending = pool.submit(controller.wait_for, ActionGroupStopped, timeout=BOUND)
         while not board.accepted:
             time.sleep(0.002)
         controller.close()
@@ -365,7 +365,7 @@ def test_close_ends_what_waits_on_a_live_line(board: VirtualController) -> None:
             with pytest.raises(ClosedError):
                 each.result(BOUND)
         with pytest.raises(ClosedError):
-            waiting.result(BOUND)
+            pending.result(BOUND)
         assert listening.result(BOUND) == []
 
 

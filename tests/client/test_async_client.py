@@ -116,35 +116,35 @@ def test_a_hundred_tasks_share_a_controller() -> None:
             await asyncio.gather(*(ask(number) for number in range(100)))
             while controller.counters.reports < 300:
                 await asyncio.sleep(0.001)
-            heard = [report async for report in controller.reports(timeout=0.1)]
-            assert len(heard) == 300
+            received = [report async for report in controller.reports(timeout=0.1)]
+            assert len(received) == 300
             assert controller.counters.unsolicited == 0
 
     run_live(work())
 
 
 def test_a_cancelled_question_leaves_the_line_usable() -> None:
-    asked: list[Message] = []
+    requests: list[Message] = []
 
     def late(message: Message) -> list[Message]:
-        asked.append(message)
-        return [] if len(asked) == 1 else answered(message)
+        requests.append(message)
+        return [] if len(requests) == 1 else answered(message)
 
     line = LoopLine(late)
 
     async def work() -> None:
         async with client(line, **LIVE) as controller:
             task = asyncio.ensure_future(controller.read_battery_voltage())
-            while not asked:
+            while not requests:
                 await asyncio.sleep(0)
             task.cancel()
             with pytest.raises(asyncio.CancelledError):
                 await task
-            waiting = asyncio.ensure_future(controller.read_battery_voltage())
+            pending = asyncio.ensure_future(controller.read_battery_voltage())
             await asyncio.sleep(0)
-            waiting.cancel()
+            pending.cancel()
             assert await controller.read_servo_positions([1]) == ((1, 10),)
-            for report in answered(asked[0]):
+            for report in answered(requests[0]):
                 line.say(report)  # the late reply of the first
             assert await controller.read_battery_voltage() == 7500
             assert controller.counters.unsolicited == 1
@@ -181,8 +181,8 @@ def test_waiting_for_a_group_to_end() -> None:
 
     async def work() -> None:
         async with client(LoopLine(board), **LIVE) as controller:
-            heard: list[Message] = []
-            controller.on_report(heard.append)
+            received: list[Message] = []
+            controller.on_report(received.append)
             await controller.run_action_group(8, times=1)
             # It has ended before anybody waits for it, and counts all the same.
             assert await controller.read_battery_voltage() == 7500
@@ -196,7 +196,7 @@ def test_waiting_for_a_group_to_end() -> None:
                 (ActionGroupStopped, ActionGroupCompleted), group=8, timeout=GENEROUS
             )
             assert ended == ActionGroupCompleted(8, 1)
-            assert heard == 2 * [ActionGroupStarted(8, 1), ActionGroupCompleted(8, 1)]
+            assert received == 2 * [ActionGroupStarted(8, 1), ActionGroupCompleted(8, 1)]
 
     run(work())
 
@@ -220,12 +220,12 @@ def test_unplugged_while_questions_are_under_way() -> None:
     async def work() -> None:
         async with client(line, **LIVE) as controller:
             tasks = [asyncio.ensure_future(controller.read_battery_voltage()) for _ in range(5)]
-            waiting = asyncio.ensure_future(
+            pending = asyncio.ensure_future(
                 controller.wait_for(ActionGroupStopped, timeout=GENEROUS)
             )
             await asyncio.sleep(0.02)
             line.unplug()
-            for task in [*tasks, waiting]:
+            for task in [*tasks, pending]:
                 with pytest.raises(DisconnectedError):
                     await task
             await controller.reconnect()
@@ -296,7 +296,7 @@ def test_every_frame_is_logged_and_traced(tmp_path: Path, caplog: pytest.LogCapt
     assert "4 messages, 0 bytes of noise" in done.stderr
 
 
-def test_nothing_is_logged_unless_asked_for(caplog: pytest.LogCaptureFixture) -> None:
+def test_nothing_is_logged_by_default(caplog: pytest.LogCaptureFixture) -> None:
     async def work() -> None:
         async with client(LoopLine(), **LIVE) as controller:
             await controller.read_battery_voltage()
@@ -354,25 +354,25 @@ def test_moves_faster_than_the_line_do_not_pile_up() -> None:
     run(work(), line)
 
 
-def test_a_callback_that_fails_hurts_nobody_else_and_ends_when_told(
+def test_a_callback_that_fails_affects_no_other_and_can_be_removed(
     caplog: pytest.LogCaptureFixture,
 ) -> None:
     line = LoopLine()
 
     async def work() -> None:
         async with client(line) as controller:
-            heard: list[Message] = []
+            received: list[Message] = []
             controller.on_report(lambda _: 1 / 0)
-            stop = controller.on_report(heard.append)
+            stop = controller.on_report(received.append)
             line.say(ActionGroupStopped())
-            told = await controller.wait_for(ActionGroupStopped, timeout=GENEROUS)
-            assert told == ActionGroupStopped()
-            assert heard == [ActionGroupStopped()]
+            report = await controller.wait_for(ActionGroupStopped, timeout=GENEROUS)
+            assert report == ActionGroupStopped()
+            assert received == [ActionGroupStopped()]
             stop()
             stop()  # what has been ended may be ended again
             line.say(ActionGroupCompleted(8, 1))
             await controller.wait_for(ActionGroupCompleted, timeout=GENEROUS)
-            assert heard == [ActionGroupStopped()]
+            assert received == [ActionGroupStopped()]
 
     run(work(), line)
     assert caplog.text.count("ZeroDivisionError") == 2
@@ -392,8 +392,8 @@ def test_a_client_belongs_to_the_loop_in_which_it_was_first_used() -> None:
     run_live(work())
 
 
-def test_a_question_of_one_request_names_what_its_reply_lacks() -> None:
-    """As for a protocol whose replies have room for all that can be asked at once."""
+def test_a_question_of_one_request_names_what_is_missing_from_its_reply() -> None:
+    """As for a protocol whose replies have room for all that can be requested at once."""
 
     def partly(_message: Message) -> list[Message]:
         return [ServoPositions([(2, 20)])]
@@ -448,8 +448,8 @@ def test_a_report_and_the_end_of_a_motion_come_at_their_time_to_the_moment() -> 
     async def work() -> None:
         async with client(line, **LIVE) as controller:
             line.say(ActionGroupCompleted(8, 1), delay=3600.25)
-            told = await controller.wait_for(ActionGroupCompleted, timeout=4000)
-            assert told == ActionGroupCompleted(8, 1)
+            report = await controller.wait_for(ActionGroupCompleted, timeout=4000)
+            assert report == ActionGroupCompleted(8, 1)
             assert line.clock.now() == 3600.25
             motion = await controller.move_servos([(1, 500)], 60_000)
             assert await motion.wait()
@@ -458,7 +458,7 @@ def test_a_report_and_the_end_of_a_motion_come_at_their_time_to_the_moment() -> 
     run(work(), line)
 
 
-def test_a_transport_that_cannot_tell_when_something_has_come_is_polled() -> None:
+def test_a_transport_without_notification_is_polled() -> None:
     class Silent(LoopLine):
         on_readable = None  # type: ignore[assignment]
 
@@ -504,11 +504,11 @@ def test_a_client_without_threads_that_is_forgotten_gives_its_line_back() -> Non
     async def work() -> None:
         controller = client(line, **LIVE)
         assert await controller.read_battery_voltage() == 7500
-        with warnings.catch_warnings(record=True) as told:
+        with warnings.catch_warnings(record=True) as caught:
             warnings.simplefilter("always")
             del controller
             gc.collect()
-        assert "loop line was never closed" in str(told[0].message)
+        assert "loop line was never closed" in str(caught[0].message)
         line.say(ActionGroupStopped())
         await asyncio.sleep(1)
 

@@ -92,7 +92,7 @@ def test_the_methods_of_the_spec() -> None:
 
 
 @pytest.mark.parametrize("count", [1, 84, 85, 168, 200])
-def test_positions_are_asked_for_in_parts(count: int) -> None:
+def test_positions_are_requested_in_parts(count: int) -> None:
     line = VirtualLine(at_once)
     servos = range(1, count + 1)
     found = virtual(line).read_servo_positions(servos)
@@ -130,7 +130,7 @@ def test_what_did_not_arrive_is_named_and_what_did_is_kept() -> None:
     assert len(caught.value.replies) == 2
 
 
-def test_retries_are_off_unless_asked_for_and_only_for_questions() -> None:
+def test_retries_are_off_by_default_and_only_for_questions() -> None:
     line = VirtualLine()
     controller = virtual(line)
     with pytest.raises(NoReplyError):
@@ -259,7 +259,7 @@ def test_waiting_for_one_of_several_reports() -> None:
         controller.wait_for((ActionGroupCompleted, ActionGroupStopped), group=8, timeout=1)
 
 
-def test_what_came_instead_of_a_report_is_told() -> None:
+def test_a_missing_report_is_an_error_that_names_what_came_instead() -> None:
     line = VirtualLine()
     controller = virtual(line)
     with pytest.raises(NoReportError, match="what came instead: no report at all"):
@@ -284,21 +284,21 @@ def test_what_came_instead_of_a_report_is_told() -> None:
 def test_callbacks_may_use_the_client_and_fail_alone(caplog: pytest.LogCaptureFixture) -> None:
     line = VirtualLine(at_once)
     controller = virtual(line)
-    heard: list[object] = []
+    received: list[object] = []
     controller.on_report(lambda _: 1 / 0)
     stop = controller.on_report(
-        lambda report: heard.append((report, controller.read_battery_voltage()))
+        lambda report: received.append((report, controller.read_battery_voltage()))
     )
     line.say(ActionGroupStopped())
     line.say(ActionGroupCompleted(8, 1))
     assert controller.read_battery_voltage() == 7500
-    assert heard == [(ActionGroupStopped(), 7500), (ActionGroupCompleted(8, 1), 7500)]
+    assert received == [(ActionGroupStopped(), 7500), (ActionGroupCompleted(8, 1), 7500)]
     assert "ZeroDivisionError" in caplog.text
     stop()
     stop()  # what has been ended may be ended again
     line.say(ActionGroupStopped())
     assert list(controller.reports(timeout=0.1))[-1] == ActionGroupStopped()
-    assert len(heard) == 2
+    assert len(received) == 2
 
 
 def test_eight_threads_share_a_controller() -> None:
@@ -318,35 +318,35 @@ def test_eight_threads_share_a_controller() -> None:
         list(pool.map(work, range(8)))
         said = {(number, turn) for number in range(8) for turn in range(40)}
         await_that(lambda: controller.counters.reports >= 320)
-        heard = list(controller.reports(timeout=0.1))
+        received = list(controller.reports(timeout=0.1))
         assert {
-            (each.group, each.times) for each in heard if isinstance(each, ActionGroupCompleted)
+            (each.group, each.times) for each in received if isinstance(each, ActionGroupCompleted)
         } == said
-        assert len(heard) == 320
+        assert len(received) == 320
     assert controller.counters.unsolicited == 0
     assert line.drained == len(line.received) == 640
 
 
 def test_a_report_reaches_a_callback_while_somebody_waits_for_another() -> None:
     line = LiveLine()
-    heard: list[Message] = []
+    received: list[Message] = []
     with Controller(line, **LIVE) as controller, ThreadPoolExecutor(1) as pool:
-        controller.on_report(heard.append)
-        waiting = pool.submit(controller.wait_for, ActionGroupCompleted, timeout=GENEROUS)
+        controller.on_report(received.append)
+        pending = pool.submit(controller.wait_for, ActionGroupCompleted, timeout=GENEROUS)
         line.say(ActionGroupStarted(8, 1))
-        await_that(lambda: heard == [ActionGroupStarted(8, 1)])
-        assert not waiting.done()
+        await_that(lambda: received == [ActionGroupStarted(8, 1)])
+        assert not pending.done()
         line.say(ActionGroupCompleted(8, 1))
-        assert waiting.result(GENEROUS) == ActionGroupCompleted(8, 1)
+        assert pending.result(GENEROUS) == ActionGroupCompleted(8, 1)
 
 
-def test_a_report_reaches_a_callback_while_nobody_asks() -> None:
+def test_a_report_reaches_a_callback_without_any_call() -> None:
     line = LiveLine()
     with Controller(line) as controller:
-        heard = threading.Event()
-        controller.on_report(lambda _: heard.set())
+        received = threading.Event()
+        controller.on_report(lambda _: received.set())
         line.say(ActionGroupStopped())
-        assert heard.wait(GENEROUS)
+        assert received.wait(GENEROUS)
 
 
 def test_unplugged_while_a_question_is_under_way() -> None:
@@ -383,7 +383,7 @@ def test_close_ends_the_waits_of_other_threads() -> None:
     with ThreadPoolExecutor(3) as pool:
         asking = pool.submit(controller.read_battery_voltage)
         listening = pool.submit(lambda: list(controller.reports()))
-        waiting = pool.submit(controller.wait_for, ActionGroupStopped, timeout=GENEROUS)
+        pending = pool.submit(controller.wait_for, ActionGroupStopped, timeout=GENEROUS)
         while not line.received:
             threading.Event().wait(0.005)
         controller.close()
@@ -391,7 +391,7 @@ def test_close_ends_the_waits_of_other_threads() -> None:
             asking.result(GENEROUS)
         assert listening.result(GENEROUS) == []
         with pytest.raises(ClosedError):
-            waiting.result(GENEROUS)
+            pending.result(GENEROUS)
 
 
 def test_an_error_of_the_system_from_a_transport_is_one_of_ours() -> None:
@@ -448,12 +448,12 @@ def test_a_long_trace_is_read_back(tmp_path: Path) -> None:
         assert "1200 messages, 0 bytes of noise" in shown.stderr
 
 
-def test_nothing_is_logged_unless_asked_for(caplog: pytest.LogCaptureFixture) -> None:
+def test_nothing_is_logged_by_default(caplog: pytest.LogCaptureFixture) -> None:
     virtual(VirtualLine(at_once)).read_battery_voltage()
     assert caplog.records == []
 
 
-def test_the_codec_pays_for_no_client() -> None:
+def test_the_codec_imports_no_client() -> None:
     def loaded(code: str) -> str:
         shown = f"{code}; import sys; print(sorted({HEAVY} & set(sys.modules)))"
         done = subprocess.run(
@@ -469,8 +469,8 @@ def test_the_codec_pays_for_no_client() -> None:
     assert "asyncio" not in loaded("import busservo; busservo.Controller")
 
 
-def test_a_question_of_one_request_names_what_its_reply_lacks() -> None:
-    """As for a protocol whose replies have room for all that can be asked at once."""
+def test_a_question_of_one_request_names_what_is_missing_from_its_reply() -> None:
+    """As for a protocol whose replies have room for all that can be requested at once."""
     line = VirtualLine(lambda _: [(0.0, ServoPositions([(2, 20)]))])
     with pytest.raises(IncompleteReplyError) as caught:
         virtual(line)._ask(ServoPositionsRead([1, 2, 3]), ServoPositions)
@@ -480,7 +480,7 @@ def test_a_question_of_one_request_names_what_its_reply_lacks() -> None:
         virtual(VirtualLine(at_once))._ask(BatteryVoltageRead(), ServoPositions)
 
 
-def test_what_is_shown_of_a_client_tells_its_state() -> None:
+def test_the_repr_of_a_client_shows_its_state() -> None:
     line = VirtualLine(at_once)
     controller = virtual(line)
     assert repr(controller) == "<Controller on virtual line, open>"
@@ -492,7 +492,7 @@ def test_what_is_shown_of_a_client_tells_its_state() -> None:
     assert repr(controller) == "<Controller on virtual line, closed>"
 
 
-def test_what_is_shown_of_a_line_tells_its_numbers() -> None:
+def test_the_repr_of_a_line_shows_its_statistics() -> None:
     controller = virtual(VirtualLine(at_once))
     sent = controller.send(ActionGroupStop())
     assert repr(sent) == "Sent(ActionGroupStop(), delay=0.0000, duration=0.0042)"

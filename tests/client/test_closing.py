@@ -150,10 +150,10 @@ def test_closing_in_the_middle_of_a_write_does_not_wait_for_itself(
 
 def test_a_callback_may_close_while_another_thread_does() -> None:
     line = SlowToClose()
-    told, closed = threading.Event(), threading.Event()
+    notified, closed = threading.Event(), threading.Event()
 
     def close_too(_report: Message) -> None:
-        told.set()
+        notified.set()
         assert line.draining.wait(GENEROUS)
         controller.close()
         closed.set()
@@ -162,7 +162,7 @@ def test_a_callback_may_close_while_another_thread_does() -> None:
         controller = Controller(line)
         controller.on_report(close_too)
         line.say(ActionGroupStopped())
-        assert told.wait(GENEROUS)
+        assert notified.wait(GENEROUS)
         closing = pool.submit(controller.close)
         assert line.draining.wait(GENEROUS)
         assert closed.wait(GENEROUS), "it waits for nobody who may be waiting for it"
@@ -190,7 +190,7 @@ def test_a_client_that_is_forgotten_says_so_and_gives_everything_back(tmp_path: 
     controller = Controller(line, **LIVE, trace=trace)
     assert controller.read_battery_voltage() == 7500
     assert len(own_threads()) == 1
-    # Wherever the last one to hold it is, that thread is told, not this one: it warns there.
+    # The thread that drops the last reference gets the warning, which need not be this one.
     warned: list[str] = []
     controller.__class__ = type("Watched", (Controller,), {"__del__": _watched(warned)})
     del controller
@@ -397,7 +397,7 @@ def test_a_call_that_is_interrupted_leaves_the_line_usable() -> None:
         assert controller.counters.unsolicited == 1
 
 
-def test_what_waits_is_sent_although_the_machine_pauses_while_closing() -> None:
+def test_pending_frames_are_sent_although_the_machine_pauses_while_closing() -> None:
     line = VirtualLine()
     # Each look at the clock may be the one before which the machine pauses.
     pauses = iter([0.0, 60.0])
@@ -645,7 +645,7 @@ def test_closing_waits_only_for_a_while_for_a_port_that_does_not_open_with_async
     assert Counted.open == 0
 
 
-def test_opening_again_that_fails_after_it_was_cancelled_is_nobodys_error() -> None:
+def test_a_cancelled_reconnect_that_fails_raises_nowhere() -> None:
     begun, go_on = threading.Event(), threading.Event()
 
     class Gone(LiveLine):
@@ -723,7 +723,7 @@ class Troublesome(LiveLine):
     """A line that can be used, but neither drained nor closed without an error."""
 
     def drain(self, _timeout: float) -> None:
-        raise OSError("it cannot tell")
+        raise OSError("no status")
 
     def close(self) -> None:
         super().close()
@@ -767,7 +767,7 @@ def test_what_is_still_to_be_sent_when_the_line_is_lost_does_not_hold_up_closing
     await_that(lambda: not own_threads())
 
 
-def test_a_command_whose_turn_comes_as_the_line_is_lost_is_not_told_to_be_sent() -> None:
+def test_a_command_whose_turn_comes_as_the_line_is_lost_is_not_reported_as_sent() -> None:
     line = LiveLine()
     now = time.monotonic()
 
@@ -776,7 +776,7 @@ def test_a_command_whose_turn_comes_as_the_line_is_lost_is_not_told_to_be_sent()
         async with AsyncController(line, clock=lambda: now) as controller:
             assert repr(controller) == "<AsyncController on live line, open>"
             await controller.unload_servos(range(100))
-            waiting = asyncio.ensure_future(controller.stop_action_group())
+            pending = asyncio.ensure_future(controller.stop_action_group())
             await asyncio.sleep(0)
             # The loop stands still until it is the turn of the second command. When it goes on, the
             # line is lost, as it learns only after that command has been handed over.
@@ -786,7 +786,7 @@ def test_a_command_whose_turn_comes_as_the_line_is_lost_is_not_told_to_be_sent()
             line.unplug()
             await_that(lambda: len(own_threads()) == 1)
             with pytest.raises(DisconnectedError):
-                await waiting
+                await pending
             assert repr(controller) == "<AsyncController on live line, failed>"
             assert controller.counters.sent == 2
 
@@ -794,20 +794,20 @@ def test_a_command_whose_turn_comes_as_the_line_is_lost_is_not_told_to_be_sent()
     assert line.received == [ServoUnload(range(100))]
 
 
-def test_what_arrives_after_a_line_was_given_up_is_not_told() -> None:
-    class Deaf(Refusing):
+def test_what_arrives_after_a_line_was_given_up_is_not_reported() -> None:
+    class WithoutInput(Refusing):
         reads = 0
 
         def read(self, timeout: float) -> bytes:
             self.reads += 1
             return super().read(timeout)
 
-    line = Deaf()
+    line = WithoutInput()
 
     async def work() -> None:
         async with AsyncController(line) as controller:
-            heard: list[object] = []
-            controller.on_report(heard.append)
+            received: list[object] = []
+            controller.on_report(received.append)
             controller.send_latest(ServoUnload([1]))
             # The loop stands still: first it will learn that the write has failed, then of this.
             await_that(lambda: len(own_threads()) == 1)
@@ -817,7 +817,7 @@ def test_what_arrives_after_a_line_was_given_up_is_not_told() -> None:
             with pytest.raises(DisconnectedError, match="takes no bytes"):
                 await controller.wait_for(ActionGroupStopped, timeout=GENEROUS)
             await asyncio.sleep(0)
-            assert heard == []
+            assert received == []
             assert controller.counters.reports == 0
 
     asyncio.run(work())
@@ -826,7 +826,7 @@ def test_what_arrives_after_a_line_was_given_up_is_not_told() -> None:
 # -------------------------------------------------------------------- a loop that is no more
 
 
-class Unheard(AsyncController):
+class Forgotten(AsyncController):
     """A client whose warning is of no interest."""
 
     def __del__(self) -> None:  # type: ignore[override]
@@ -836,8 +836,8 @@ class Unheard(AsyncController):
 def test_a_line_goes_quiet_when_its_loop_has_ended() -> None:
     line = LiveLine()
 
-    async def work() -> Unheard:
-        controller = Unheard(line)
+    async def work() -> Forgotten:
+        controller = Forgotten(line)
         await controller.stop_action_group()
         return controller
 
@@ -863,7 +863,7 @@ def test_a_client_that_is_forgotten_while_the_port_takes_its_question() -> None:
     line = Slow()
 
     async def work() -> None:
-        controller = Unheard(line)
+        controller = Forgotten(line)
         asking = asyncio.ensure_future(controller.read_battery_voltage())
         assert await asyncio.get_running_loop().run_in_executor(None, begun.wait, GENEROUS)
         asking.cancel()
@@ -876,7 +876,7 @@ def test_a_client_that_is_forgotten_while_the_port_takes_its_question() -> None:
     gc.collect()
     await_that(lambda: line.closed)
     go_on.set()
-    # Nobody is left to hear that the question is written, and the thread that wrote it ends.
+    # Nobody is left to notify that the question is written, and the thread that wrote it ends.
     await_that(lambda: not own_threads())
 
 

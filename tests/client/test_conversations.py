@@ -27,8 +27,8 @@ from tests.client.conversation import (
     Ledger,
     converse,
     converse_async,
-    heard_by,
-    heard_by_async,
+    reports_received,
+    reports_received_async,
 )
 
 if TYPE_CHECKING:
@@ -42,7 +42,7 @@ if TYPE_CHECKING:
 
 WAYS = ["memory", "tcp"] if sys.platform == "win32" else ["memory", "tcp", "pty"]
 REPLY_TIMEOUT = 0.25
-# A reply may come long after its request has timed out, but not so late that nobody could tell it
+# A reply may come long after its request has timed out, but not so late that nothing could tell it
 # from the next: that is after as long again. In pieces, it takes a little longer.
 LATE = 1.7 * REPLY_TIMEOUT
 # A question waits for the late reply of the one before, for twice as long as that was given, and
@@ -75,7 +75,9 @@ def virtual(faults: Faults) -> tuple[VirtualController, Ledger, VirtualClock]:
 
 
 @given(schedules, st.integers(0, 2**32), st.integers(0, 2))
-def test_whatever_the_schedule_of_faults(faults: Faults, seed: int, retries: int) -> None:
+def test_answers_and_reports_are_right_under_any_schedule_of_faults(
+    faults: Faults, seed: int, retries: int
+) -> None:
     board, ledger, clock = virtual(faults)
     with (
         board,
@@ -112,14 +114,14 @@ def test_a_line_that_is_cut_in_mid_frame_comes_back(faults: Faults, seed: int, c
         board.advance(2 * REPLY_TIMEOUT)
         board.plug_in()
         controller.reconnect()
-        heard = list(controller.reports(timeout=1))
+        received = list(controller.reports(timeout=1))
         # What was under way when the line was cut is lost; nothing else is, and nothing is made up.
         rest: Iterator[Message] = iter(ledger.reported)
-        assert all(report in rest for report in heard)
+        assert all(report in rest for report in received)
 
 
 @given(schedules, st.integers(0, 2**32), st.integers(0, 2), st.sampled_from([0.0, 0.05]))
-def test_whatever_the_schedule_of_faults_with_asyncio(
+def test_answers_and_reports_are_right_under_any_schedule_of_faults_with_asyncio(
     faults: Faults, seed: int, retries: int, cut: float
 ) -> None:
     """Three tasks share the client, or one where the line is cut, which opens it again."""
@@ -137,16 +139,16 @@ def test_whatever_the_schedule_of_faults_with_asyncio(
         ) as controller:
             tasks, turns = (1, 15) if cut else (3, 5)
             # Each may have to wait for all that the others ask.
-            asked = 1 + (tasks - 1) * turns
-            bound = asked * (MOST + retries * REPLY_TIMEOUT) + 0.001
+            questions = 1 + (tasks - 1) * turns
+            bound = questions * (MOST + retries * REPLY_TIMEOUT) + 0.001
             talks = (
                 converse_async(controller, ledger, seed + task, turns, clock.now, bound)
                 for task in range(tasks)
             )
             await asyncio.gather(*talks)
             if not cut:
-                heard = [report async for report in controller.reports(timeout=1)]
-                assert heard == ledger.reported
+                received = [report async for report in controller.reports(timeout=1)]
+                assert received == ledger.reported
                 assert controller.counters.lost_reports == 0
 
     with board:
@@ -227,7 +229,7 @@ LINES = [(way, kind) for way in WAYS for kind in FAULTS]
 def at_once(talk: Callable[[str, str], None], lines: Iterable[tuple[str, str]] = LINES) -> None:
     """Run the same conversation on each of these lines at once: most of one is waiting."""
 
-    def told(line: tuple[str, str]) -> str:
+    def failure(line: tuple[str, str]) -> str:
         try:
             talk(*line)
         except Exception:  # noqa: BLE001 - it is shown
@@ -236,10 +238,10 @@ def at_once(talk: Callable[[str, str], None], lines: Iterable[tuple[str, str]] =
 
     lines = [*lines]
     with ThreadPoolExecutor(len(lines)) as pool:
-        assert "\n".join(filter(None, pool.map(told, lines))) == ""
+        assert "\n".join(filter(None, pool.map(failure, lines))) == ""
 
 
-def test_over_a_live_line(tmp_path: Path) -> None:
+def test_answers_and_reports_are_right_over_a_live_line(tmp_path: Path) -> None:
     def talk(way: str, kind: str) -> None:
         seed = WAYS.index(way)
         folder = tmp_path / kind
@@ -247,14 +249,14 @@ def test_over_a_live_line(tmp_path: Path) -> None:
             with opened(board, way) as controller:
                 converse(controller, ledger, seed, 12)
                 if kind == "mixed":
-                    assert heard_by(controller, ledger) == ledger.reported
+                    assert reports_received(controller, ledger) == ledger.reported
                 assert controller.counters.lost_reports == 0
             assert ledger.right >= 3
 
     at_once(talk)
 
 
-def test_over_a_live_line_with_asyncio(tmp_path: Path) -> None:
+def test_answers_and_reports_are_right_over_a_live_line_with_asyncio(tmp_path: Path) -> None:
     def talk(way: str, kind: str) -> None:
         seed = 10 + WAYS.index(way)
         folder = tmp_path / kind
@@ -264,7 +266,7 @@ def test_over_a_live_line_with_asyncio(tmp_path: Path) -> None:
                 async with opened_async(board, way) as controller:
                     await converse_async(controller, ledger, seed, 12)
                     if kind == "mixed":
-                        assert await heard_by_async(controller, ledger) == ledger.reported
+                        assert await reports_received_async(controller, ledger) == ledger.reported
                     assert controller.counters.lost_reports == 0
 
             asyncio.run(work())
@@ -278,7 +280,7 @@ def test_eight_threads_share_a_line_with_faults(tmp_path: Path) -> None:
         with board_at(way, tmp_path, replace(FAULTS[kind], seed=3)) as (board, ledger):
             with opened(board, way) as controller, ThreadPoolExecutor(8) as pool:
                 list(pool.map(lambda seed: converse(controller, ledger, seed, 3), range(8)))
-                assert heard_by(controller, ledger) == ledger.reported
+                assert reports_received(controller, ledger) == ledger.reported
             assert ledger.right >= 5
 
     at_once(talk, [(way, "mixed") for way in WAYS])
@@ -297,8 +299,8 @@ def test_a_hundred_tasks_share_a_line_with_faults(seed: int) -> None:
                 for each in range(100)
             )
             await asyncio.gather(*talks)
-            heard = [report async for report in controller.reports(timeout=1)]
-            assert heard == ledger.reported
+            received = [report async for report in controller.reports(timeout=1)]
+            assert received == ledger.reported
 
     with board:
         run_virtual(work(), clock)

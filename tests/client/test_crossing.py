@@ -55,5 +55,5 @@ def test_a_request_crosses_the_modules_that_the_design_names() -> None:
     assert len(named()) == 6
     assert set(named()) <= entered
     crossed = [*dict.fromkeys(filter(None, at_the_port))]
-    # The steps of the call, and the session, are asked and return: they wait for no port.
+    # The steps of the call, and the session, are called and return: they wait for no port.
     assert crossed == [each for each in named() if each not in ("base_client", "session")]

@@ -56,7 +56,7 @@ faults = st.builds(
     Fault,
     dropped=st.sampled_from([False, False, False, True]),
     # As a share of the time that the client allows; what is later than twice that, no client that
-    # numbers nothing can tell from the next reply.
+    # numbers nothing can distinguish from the next reply.
     late=st.sampled_from([0.0, 0.0, 0.2, 0.8, 1.05, 1.5, 1.9]),
     before=st.just(b"") | noise(max_size=12) | st.just(b"\x55") | st.just(b"\x55" * 9),
     after=st.just(b"") | st.just(b"\x00\xff") | st.just(b"\x55"),
@@ -80,18 +80,18 @@ class FaultyBoard:
 
     def __init__(self, plan: list[Fault]) -> None:
         self.plan = plan
-        self.asked = 0
+        self.questions = 0
         self.reported: list[Message] = []
 
     def answer(self, message: Message) -> Iterator[tuple[float, bytes]]:
-        fault = self.plan[self.asked % len(self.plan)]
-        self.asked += 1
+        fault = self.plan[self.questions % len(self.plan)]
+        self.questions += 1
         if isinstance(message, BatteryVoltageRead):
-            reply: Message = BatteryVoltage(self.asked)
+            reply: Message = BatteryVoltage(self.questions)
             size = 6
         elif isinstance(message, ServoPositionsRead):
-            told = message.servo_ids[fault.left_out :]
-            reply = ServoPositions([(servo, self.asked) for servo in told])
+            servos = message.servo_ids[fault.left_out :]
+            reply = ServoPositions([(servo, self.questions) for servo in servos])
             size = 5 + 3 * len(message.servo_ids)
         else:
             return
@@ -111,7 +111,7 @@ class FaultyBoard:
     st.lists(asks, min_size=1, max_size=12),
     st.integers(0, 2),
 )
-def test_right_or_declared_and_in_bounded_time(
+def test_every_call_returns_the_right_value_or_an_error_in_bounded_time(
     plan: list[Fault], questions: list[list[int] | None], retries: int
 ) -> None:
     board = FaultyBoard(plan)
@@ -125,7 +125,7 @@ def test_right_or_declared_and_in_bounded_time(
         baud=9600,
     )
     for question in questions:
-        before, began = board.asked, line.now
+        before, began = board.questions, line.now
         try:
             if question is None:
                 values = {client.read_battery_voltage()}
@@ -141,8 +141,8 @@ def test_right_or_declared_and_in_bounded_time(
             values = (
                 {each.position for each in there} if named == question_in_order(question) else {-1}
             )
-        # Every value was told to this very call, be it to an earlier attempt of it.
-        assert values <= set(range(before + 1, board.asked + 1))
+        # Every value was sent for this very call, be it to an earlier attempt of it.
+        assert values <= set(range(before + 1, board.questions + 1))
         most = REPLY_TIMEOUT + 40 / 960
         assert line.now - began <= most * (retries + 1) + 2 * most
     # Nothing that was reported is lost, whatever became of the replies.

@@ -65,7 +65,7 @@ def test_a_port_found_empty_for_longer_than_the_gap_ends_a_frame(
     assert line.counters.noise == (len(frame) if ends else 0)
 
 
-def test_whoever_drives_it_is_told_to_look_when_a_gap_is_over() -> None:
+def test_the_next_tick_is_due_when_a_gap_is_over() -> None:
     line = session()
     line.receive(TORN, 1.0)
     assert line.tick_at == pytest.approx(1.0 + GAP)

@@ -146,17 +146,17 @@ def test_a_session_by_usb_hid_with_asyncio(library: Library) -> None:
 
 
 def test_a_frame_that_no_report_holds_is_refused_and_the_line_lives_on(library: Library) -> None:
-    told = (
+    problem = (
         "targets: the frame has 67 bytes, and this line carries 64 at once: room for 19 of 20",
         "servo_ids: the frame has 65 bytes, and this line carries 64 at once: room for 59 of 60",
     )
     with open_controller("hid://", **LIVE) as controller:
         with pytest.raises(EncodeError) as caught:
             controller.move_servos([(each, 500) for each in range(20)], time_ms=0)
-        assert str(caught.value) == told[0]
+        assert str(caught.value) == problem[0]
         with pytest.raises(EncodeError) as caught:
             controller.unload_servos(range(60))
-        assert str(caught.value) == told[1]
+        assert str(caught.value) == problem[1]
         controller.move_servos([(each, 500) for each in range(19)], time_ms=0)
         assert controller.read_battery_voltage() == 7500
     assert max(len(each.rstrip(b"\0")) for each in library.devices[0].written) == 1 + 64
@@ -274,7 +274,7 @@ def test_silence_is_no_reply(library: Library) -> None:
 
 
 @pytest.mark.parametrize(
-    ("found", "port", "error", "told"),
+    ("found", "port", "error", "expected"),
     [
         ([], "hid://", PortNotFoundError, r"no USB HID device is plugged in \(0483:5750\)"),
         ([OTHER | {"path": b"1"}], "hid://", PortNotFoundError, "no USB HID device"),
@@ -290,10 +290,10 @@ def test_silence_is_no_reply(library: Library) -> None:
         ([plugged(path=b"busy")], "hid://", TransportError, "0483:5750 cannot be opened .*udev"),
     ],
 )
-def test_a_board_that_cannot_be_had_is_told_with_what_helps(
-    found: list[dict[str, object]], port: str, error: type[Exception], told: str
+def test_a_board_that_cannot_be_opened_is_reported_with_advice(
+    found: list[dict[str, object]], port: str, error: type[Exception], expected: str
 ) -> None:
-    with pytest.raises(error, match=told):
+    with pytest.raises(error, match=expected):
         open_hid(port, library=Library(*found))
 
 
@@ -314,11 +314,11 @@ def test_without_the_extra_it_says_how_to_get_it(
     """Another package is imported by the same name, and is no help either."""
     for name in ("hid", "hidraw"):
         monkeypatch.setitem(sys.modules, name, module)
-    told = (
+    problem = (
         "hid://: USB HID needs the package hidapi, which is not installed "
         r"\(not seen on hardware yet\); pip install hidapi"
     )
-    with pytest.raises(TransportError, match=told):
+    with pytest.raises(TransportError, match=problem):
         open_controller("hid://")
 
 
@@ -334,7 +334,7 @@ def test_the_module_that_leaves_the_device_to_the_kernel_is_preferred(
     assert hid_library("hid://") is second
 
 
-def test_linux_tells_of_boards_without_the_extra(
+def test_linux_lists_boards_without_the_extra(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     for name in ("hid", "hidraw"):

@@ -36,7 +36,7 @@ from tests.timeouts import GENEROUS
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable
 
-    Heard = Iterable[tuple[float, bytes | Message]]
+    Incoming = Iterable[tuple[float, bytes | Message]]
 
 STARTED = ActionGroupStarted(8, 1)
 
@@ -45,20 +45,20 @@ def wire(message: Message) -> float:
     return len(message.encode()) / 960
 
 
-def echoing(message: Message) -> Heard:
+def echoing(message: Message) -> Incoming:
     """Yield the echo of a half-duplex adapter, and the replies of a board with a voltage only."""
     yield wire(message), message.encode()
     if isinstance(message, BatteryVoltageRead):
         yield wire(message) + 0.02, BatteryVoltage(7500)
 
 
-def one_that_starts(message: Message) -> Heard:
+def one_that_starts(message: Message) -> Incoming:
     yield from echoing(message)
     if isinstance(message, ActionGroupRun):
         yield wire(message) + 0.02, STARTED
 
 
-def in_pieces(message: Message) -> Heard:
+def in_pieces(message: Message) -> Incoming:
     """Yield the echo byte by byte, with a report in front of it."""
     yield 0.0, STARTED
     for number, byte in enumerate(message.encode()):
@@ -67,38 +67,38 @@ def in_pieces(message: Message) -> Heard:
         yield wire(message) + 0.02, BatteryVoltage(7500)
 
 
-def deaf(_message: Message) -> Heard:
+def silent(_message: Message) -> Incoming:
     return ()
 
 
-def without(message: Message) -> Heard:
+def without(message: Message) -> Incoming:
     return [each for each in echoing(message) if each[1] != message.encode()]
 
 
-def changed(message: Message) -> Heard:
+def changed(message: Message) -> Incoming:
     frame = bytearray(message.encode())
     frame[-1] ^= 1
     yield wire(message), bytes(frame)
 
 
-def virtual(answer: Callable[[Message], Heard], *, local_echo: bool = True) -> Controller:
+def virtual(answer: Callable[[Message], Incoming], *, local_echo: bool = True) -> Controller:
     line = VirtualLine(answer)
     return Controller(line, background=False, clock=line.clock, settle=0, local_echo=local_echo)
 
 
 @pytest.mark.parametrize("answer", [echoing, in_pieces])
-def test_what_was_sent_comes_back_and_is_dropped(answer: Callable[[Message], Heard]) -> None:
+def test_what_was_sent_comes_back_and_is_dropped(answer: Callable[[Message], Incoming]) -> None:
     with virtual(answer) as controller:
         assert controller.read_battery_voltage() == 7500
         controller.stop_action_group()
         controller.run_action_group(8, times=1)
-        heard = [STARTED] * 3 if answer is in_pieces else []
-        assert list(controller.reports(timeout=1)) == heard
+        received = [STARTED] * 3 if answer is in_pieces else []
+        assert list(controller.reports(timeout=1)) == received
         assert controller.counters.echoes == 3
         assert controller.counters.noise == 0
 
 
-def test_a_report_like_the_command_is_told_apart_from_its_echo() -> None:
+def test_a_report_like_the_command_is_distinguished_from_its_echo() -> None:
     with virtual(one_that_starts) as controller:
         controller.run_action_group(8, times=1)
         assert list(controller.reports(timeout=1)) == [STARTED]
@@ -116,8 +116,8 @@ def test_an_echo_that_a_later_one_overtakes_is_missing() -> None:
     assert line.idle
 
 
-@pytest.mark.parametrize("answer", [deaf, without, changed])
-def test_a_missing_echo_is_an_error(answer: Callable[[Message], Heard]) -> None:
+@pytest.mark.parametrize("answer", [silent, without, changed])
+def test_a_missing_echo_is_an_error(answer: Callable[[Message], Incoming]) -> None:
     with virtual(answer) as controller:
         with pytest.raises(EchoError, match="leave out local_echo") as caught:
             controller.move_servos([(1, 500)], time_ms=0)
@@ -127,9 +127,9 @@ def test_a_missing_echo_is_an_error(answer: Callable[[Message], Heard]) -> None:
 
 
 def test_after_a_missing_echo_the_line_goes_on() -> None:
-    answers = [deaf, echoing]
+    answers = [silent, echoing]
 
-    def answer(message: Message) -> Heard:
+    def answer(message: Message) -> Incoming:
         return answers[0](message)
 
     with virtual(answer) as controller:
@@ -143,7 +143,7 @@ def test_after_a_missing_echo_the_line_goes_on() -> None:
 def test_a_motion_that_nobody_waits_for_says_so_in_the_log(
     caplog: pytest.LogCaptureFixture,
 ) -> None:
-    with virtual(deaf) as controller:
+    with virtual(silent) as controller:
         controller.send_latest(ServoMove(0, [(1, 500)]))
         assert list(controller.reports(timeout=1)) == []
     assert "has not come back" in caplog.text
@@ -193,7 +193,7 @@ def test_the_same_in_real_time_for_asyncio() -> None:
 # ---------------------------------------------------------------- unless it is said
 
 
-def test_an_echo_that_nobody_spoke_of_is_told_by_what_no_board_can_send(
+def test_an_undeclared_echo_is_recognized_by_what_no_board_can_send(
     caplog: pytest.LogCaptureFixture,
 ) -> None:
     with caplog.at_level(logging.WARNING), virtual(echoing, local_echo=False) as controller:

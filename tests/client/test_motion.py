@@ -113,14 +113,14 @@ def test_with_a_board_in_virtual_time_the_servo_is_there_when_the_motion_is_over
 # -------------------------------------------------------------------- while it is waited for
 
 
-def test_reports_are_kept_and_told_while_a_motion_is_waited_for(virtual: Virtual) -> None:
+def test_reports_are_kept_and_delivered_while_a_motion_is_waited_for(virtual: Virtual) -> None:
     line, controller = virtual.line, virtual.controller
-    heard: list[float] = []
-    controller.on_report(lambda _: heard.append(line.now))
+    received: list[float] = []
+    controller.on_report(lambda _: received.append(line.now))
     motion = controller.move_servos([(1, 800)], 1000)
     line.say(ActionGroupStopped(), 0.5)
     motion.wait()
-    assert heard == [pytest.approx(0.5, abs=0.03)]
+    assert received == [pytest.approx(0.5, abs=0.03)]
     assert list(controller.reports(timeout=0)) == [ActionGroupStopped()]
 
 
@@ -141,19 +141,19 @@ def test_a_line_that_is_lost_or_closed_ends_the_wait(virtual: Virtual) -> None:
 def test_closing_in_another_thread_ends_the_wait() -> None:
     with ThreadPoolExecutor() as pool, Controller(LiveLine()) as controller:
         motion = controller.move_servos([(1, 800)], LONG)
-        waiting = pool.submit(motion.wait)
-        assert not waiting.done()
+        pending = pool.submit(motion.wait)
+        assert not pending.done()
         controller.close()
         with pytest.raises(ClosedError):
-            waiting.result(GENEROUS)
+            pending.result(GENEROUS)
 
 
 def test_a_motion_is_waited_for_while_others_talk() -> None:
     with ThreadPoolExecutor() as pool, Controller(LiveLine(), **LIVE) as controller:
         motions = [controller.move_servos([(servo, 800)], 50) for servo in range(1, 5)]
-        waiting = [pool.submit(motion.wait) for motion in motions]
+        pending = [pool.submit(motion.wait) for motion in motions]
         assert controller.read_battery_voltage() == 7500
-        assert [each.result(GENEROUS) for each in waiting] == [True] * 4
+        assert [each.result(GENEROUS) for each in pending] == [True] * 4
         assert all(motion.remaining == 0.0 for motion in motions)
 
 
@@ -209,8 +209,8 @@ def test_a_motion_is_waited_for_in_a_task() -> None:
             assert motion.remaining == 0.0
             assert line.clock.now() == pytest.approx(began + 0.05, abs=1e-4)
             assert await motion.wait(), "it may be waited for again"
-            heard = [report async for report in controller.reports(timeout=0)]
-            assert heard == [ActionGroupStopped()]
+            received = [report async for report in controller.reports(timeout=0)]
+            assert received == [ActionGroupStopped()]
 
     run(work(), line)
 
@@ -223,8 +223,8 @@ def test_in_a_task_the_latest_move_takes_the_place_of_what_waits() -> None:
                 await controller.move_servos([(1, position)], 20, latest=True)
                 for position in range(50)
             ]
-            waiting = asyncio.gather(*(motion.wait() for motion in motions))
-            ended = await asyncio.wait_for(waiting, GENEROUS)
+            pending = asyncio.gather(*(motion.wait() for motion in motions))
+            ended = await asyncio.wait_for(pending, GENEROUS)
             assert ended == [not motion.replaced for motion in motions]
             assert (ended[0], ended[-1], sum(ended)) == (True, True, 2)
             moves = [message for message in line.received if isinstance(message, ServoMove)]
@@ -243,14 +243,14 @@ def test_in_a_task_a_line_that_is_lost_or_closed_ends_the_wait(latest: bool) -> 
             async with client(line, baud=1000) as controller:
                 await controller.move_servos([(1, 500)], 20)
                 motion = await controller.move_servos([(1, 800)], LONG, latest=latest)
-                waiting = asyncio.ensure_future(motion.wait())
+                pending = asyncio.ensure_future(motion.wait())
                 await asyncio.sleep(0)
                 if error is ClosedError:
                     await controller.close()
                 else:
                     line.unplug()
                 with pytest.raises(error):
-                    await asyncio.wait_for(waiting, GENEROUS)
+                    await asyncio.wait_for(pending, GENEROUS)
 
     run(work())
 

@@ -55,7 +55,7 @@ def client_of(line: VirtualLine, **given: Any) -> Controller:
     return Controller(line, background=False, clock=line.clock, **given)
 
 
-# ------------------------------------------------------------------ what a position tells
+# ------------------------------------------------------------------ what a position means
 
 
 @pytest.mark.parametrize(
@@ -71,7 +71,7 @@ def client_of(line: VirtualLine, **given: Any) -> Controller:
         (65535, -1, True),
     ],
 )
-def test_a_position_stays_raw_and_tells_what_it_means(
+def test_a_position_stays_raw_and_has_its_meaning_beside_it(
     position: int, signed: int, absent: bool
 ) -> None:
     [read] = ServoPositions([(4, position)]).positions
@@ -80,7 +80,7 @@ def test_a_position_stays_raw_and_tells_what_it_means(
     assert repr(read) == f"ServoPosition(servo_id=4, position={position})"
 
 
-def test_what_follows_from_the_number_cannot_be_set() -> None:
+def test_derived_properties_cannot_be_set() -> None:
     read = ServoPosition(1, 500)
     for name in ("signed_position", "absent"):
         with pytest.raises(AttributeError):
@@ -127,21 +127,21 @@ REFUSED: list[tuple[ServoMove, tuple[int, int], str]] = [
 ]
 
 
-@pytest.mark.parametrize(("move", "limits", "told"), REFUSED, ids=lambda each: str(each)[:40])
+@pytest.mark.parametrize(("move", "limits", "expected"), REFUSED, ids=lambda each: str(each)[:40])
 def test_what_is_outside_the_limits_is_refused_and_never_sent(
-    move: ServoMove, limits: tuple[int, int], told: str
+    move: ServoMove, limits: tuple[int, int], expected: str
 ) -> None:
     line = VirtualLine()
     with client_of(line, limits=limits) as controller:
         for send in (controller.send, controller.send_latest):
             with pytest.raises(LimitError) as refused:
                 send(move)
-            assert str(refused.value) == told
+            assert str(refused.value) == expected
             assert refused.value.limits == limits
     assert line.received == []
 
 
-def test_what_refuses_is_an_encode_error_that_can_be_pickled() -> None:
+def test_a_refusal_is_an_encode_error_that_can_be_pickled() -> None:
     error = LimitError("targets[0].position", 1500, (0, 1000), LIMITS.way_out(1500))
     assert isinstance(error, EncodeError)
     assert isinstance(error, ValueError)
@@ -189,7 +189,7 @@ def test_other_messages_have_no_limits() -> None:
 # ------------------------------------------------------------------ who is there
 
 
-def test_who_is_there_is_found_without_an_error() -> None:
+def test_present_servos_are_found_without_an_error() -> None:
     board, client = virtual(servos=[1, 2, 84, 85, 86, 253])
     with board, client() as controller:
         board.servos[2].off = True
@@ -199,7 +199,7 @@ def test_who_is_there_is_found_without_an_error() -> None:
         assert controller.counters.timeouts == 0
 
 
-def test_all_servos_are_asked_for_in_as_many_requests_as_replies_have_room() -> None:
+def test_all_servos_are_requested_in_as_many_parts_as_replies_need() -> None:
     board, client = virtual(servos=range(1, 254), baud=9600)
     with board, client(settle=0) as controller:
         began = board.clock.now()
@@ -210,14 +210,14 @@ def test_all_servos_are_asked_for_in_as_many_requests_as_replies_have_room() -> 
         assert board.clock.now() - began == pytest.approx(size / 960, abs=0.06)
 
 
-def test_silence_is_no_answer_to_who_is_there() -> None:
+def test_silence_while_looking_for_servos_is_an_error() -> None:
     answered = ServoPositions([(1, 500)])
     line = VirtualLine(lambda _: [] if line.received[1:] else [(0.0, answered)])
     with client_of(line) as controller, pytest.raises(NoReplyError):
         controller.present_servos(range(1, 100))
 
 
-def test_who_can_be_asked_for_is_checked_first() -> None:
+def test_servo_ids_are_checked_before_anything_is_sent() -> None:
     line = VirtualLine()
     with client_of(line) as controller:
         for wrong in ([300], ["1"], 5, []):
@@ -245,8 +245,8 @@ def answering(positions: list[tuple[int, int]]) -> Callable[[Any], list[tuple[fl
     """Return a board that answers every question about positions alike."""
 
     def answer(message: Any) -> list[tuple[float, Any]]:
-        asked = isinstance(message, ServoPositionsRead)
-        return [(0.0, ServoPositions(positions))] if asked else []
+        requested = isinstance(message, ServoPositionsRead)
+        return [(0.0, ServoPositions(positions))] if requested else []
 
     return answer
 
@@ -259,8 +259,8 @@ def test_nothing_is_sent_where_one_of_those_to_hold_is_not_there() -> None:
     assert refused.value.missing == (2, 3)
     assert refused.value.arrived == ((1, 500), (4, 600))
     assert isinstance(refused.value, IncompleteReplyError)
-    told = "nothing was sent, since these are off or missing: servo_ids 2, 3; "
-    assert str(refused.value) == told + "what did arrive (2) is kept in `arrived`"
+    problem = "nothing was sent, since these are off or missing: servo_ids 2, 3; "
+    assert str(refused.value) == problem + "what did arrive (2) is kept in `arrived`"
 
 
 def test_more_than_one_frame_moves_are_held_by_none() -> None:
@@ -294,7 +294,7 @@ def test_what_is_at_its_stop_is_held_and_replayed_inside_the_limits(
 
 
 @pytest.mark.parametrize(
-    ("limits", "position", "told"),
+    ("limits", "position", "expected"),
     [
         ((0, 1000), 1051, "limits=(500, 2500) is for PWM servo boards, limits=None for any"),
         (
@@ -307,7 +307,7 @@ def test_what_is_at_its_stop_is_held_and_replayed_inside_the_limits(
     ],
 )
 def test_what_is_far_outside_the_limits_is_not_sent_somewhere_else(
-    limits: tuple[int, int], position: int, told: str
+    limits: tuple[int, int], position: int, expected: str
 ) -> None:
     line = VirtualLine(answering([(1, 500), (2, position)]))
     with client_of(line, limits=limits) as controller:
@@ -316,7 +316,7 @@ def test_what_is_far_outside_the_limits_is_not_sent_somewhere_else(
         with pytest.raises(LimitError):
             controller.targets_of(ServoPositions([(1, 500), (2, position)]).positions)
     assert str(refused.value).startswith("positions[1].position: ")
-    assert told in str(refused.value)
+    assert expected in str(refused.value)
     assert moves(line) == []
 
 

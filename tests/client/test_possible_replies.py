@@ -169,7 +169,7 @@ def test_a_line_is_fast_after_three_questions_with_one_impossible_reply_each() -
 
 
 @pytest.mark.parametrize(("between", "more"), [("in time", 2), ("not at all", 2), ("twice", 1)])
-def test_three_in_a_row_are_three_in_a_row(between: str, more: int) -> None:
+def test_only_three_impossible_replies_in_a_row_make_a_line_fast(between: str, more: int) -> None:
     line = session()
     answered(line, 0.0, 1, 0.001)
     answered(line, 1.0, 2, 0.001)
@@ -295,7 +295,7 @@ def test_a_foreign_reply_in_the_time_of_the_right_one_makes_one_read_stale_and_n
     request = ask(line, now)
     right_at = now + TRIP + latency
     say(line, now + TRIP + 0.002, BatteryVoltage(1))
-    assert request.reply == BatteryVoltage(1)  # nobody can tell
+    assert request.reply == BatteryVoltage(1)  # indistinguishable
     request = line.submit(BatteryVoltageRead())
     assert line.outgoing(now + TRIP + 0.002) == []
     say(line, right_at, BatteryVoltage(9))
@@ -353,7 +353,7 @@ def test_a_first_question_waits_until_replies_to_others_have_come() -> None:
     line = session(now=10.0)
     request = line.submit(BatteryVoltageRead())
     assert line.outgoing(10.0) == []
-    say(line, 10.01, BatteryVoltage(5000))  # asked for by a program that was killed
+    say(line, 10.01, BatteryVoltage(5000))  # requested by a program that was killed
     at = line.send_at(10.01)
     assert at == pytest.approx(10 + TRIP + REPLY_TIMEOUT)
     assert at is not None
@@ -377,7 +377,7 @@ def test_a_question_behind_a_command_does_not_wait_on_a_quiet_line() -> None:
     assert len(line.outgoing(10.02)) == 1
 
 
-def test_a_question_behind_a_command_waits_where_something_was_heard() -> None:
+def test_a_question_behind_a_command_waits_where_something_was_received() -> None:
     line = session(now=10.0)
     say(line, 10.0, BatteryVoltage(5000))
     line.submit(ServoMove(100, [(1, 500)]))
@@ -388,7 +388,7 @@ def test_a_question_behind_a_command_waits_where_something_was_heard() -> None:
 
 
 @pytest.mark.parametrize(("given", "waits"), [(0.0, 0.0), (1.5, 1.5)])
-def test_how_long_a_line_settles_can_be_said(given: float, waits: float) -> None:
+def test_the_settling_time_can_be_set(given: float, waits: float) -> None:
     line = session(now=10.0, settle=given)
     line.submit(BatteryVoltageRead())
     if waits:
@@ -406,7 +406,7 @@ def test_a_line_that_was_opened_again_settles_again() -> None:
 
 
 @pytest.mark.parametrize("settle", [-1, math.nan])
-def test_a_line_cannot_settle_for_less_than_no_time(settle: float) -> None:
+def test_a_negative_settling_time_is_refused(settle: float) -> None:
     with pytest.raises(ValueError, match="settle is"):
         session(settle=settle)
 
@@ -425,7 +425,7 @@ def test_what_is_dropped_and_why_is_logged(caplog: pytest.LogCaptureFixture) -> 
 
 
 @pytest.mark.parametrize(
-    ("came", "told"),
+    ("came", "expected"),
     [
         (b"", "nothing came at all: is the device switched on"),
         (b"\xf0" * 336, "336 bytes came that are no frame: wrong baud rate?"),
@@ -435,13 +435,13 @@ def test_what_is_dropped_and_why_is_logged(caplog: pytest.LogCaptureFixture) -> 
         (b"\x55\x55\x09\x15", "4 bytes came that are no frame"),
     ],
 )
-def test_a_missing_reply_says_what_came_instead(came: bytes, told: str) -> None:
+def test_a_missing_reply_says_what_came_instead(came: bytes, expected: str) -> None:
     line = session()
     say(line, 0.0, ActionGroupCompleted(1, 1))  # before the question, and none of its business
     request = ask(line, 0.0)
     line.receive(came, 0.2)
     settle(line)
     assert isinstance(request.error, NoReplyError)
-    assert told in str(request.error)
+    assert expected in str(request.error)
     if came:
         assert "nothing came" not in str(request.error)

@@ -45,7 +45,9 @@ def test_a_recording_is_never_overwritten(record: Callable[[Path], None], tmp_pa
     assert path.read_text() == RECORDED
 
 
-def test_the_way_out_is_told(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_an_existing_recording_is_refused_with_advice(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
     path = tmp_path / "line.hex"
     path.write_text(RECORDED)
     problem = (
@@ -59,7 +61,7 @@ def test_the_way_out_is_told(tmp_path: Path, capsys: pytest.CaptureFixture[str])
     assert capsys.readouterr().err == f"busservo: error: {path} cannot be written: {problem}\n"
 
 
-def test_an_empty_file_will_do(tmp_path: Path) -> None:
+def test_an_empty_file_is_accepted(tmp_path: Path) -> None:
     path = tmp_path / "line.hex"
     path.touch()
     file = RecordingFile(path)
@@ -69,7 +71,7 @@ def test_an_empty_file_will_do(tmp_path: Path) -> None:
 
 
 @pytest.mark.skipif(os.name != "posix", reason="only POSIX has these")
-def test_what_is_no_file_will_do(tmp_path: Path) -> None:
+def test_a_device_or_a_fifo_is_accepted(tmp_path: Path) -> None:
     for _ in range(2):
         with Recorder(Path(os.devnull)) as recorder:
             recorder.begin("COM7", 0.0)

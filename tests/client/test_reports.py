@@ -55,7 +55,7 @@ def test_a_run_is_the_cause_of_its_reports() -> None:
         # The group ends by itself, or by a button.
         ([RUN_8, STARTED_8, COMPLETED_8], {"group": 8}, COMPLETED_8),
         ([RUN_8, STARTED_8, STOPPED], {"group": 8}, STOPPED),
-        # What was stopped before it began tells nothing of it.
+        # What was stopped before it began reports nothing of it.
         ([STOP, STOPPED, RUN_8], {"group": 8}, None),
         ([STOP, STOPPED, RUN_8], {}, None),
         # It had ended before it was stopped, and there was nothing to stop.

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 IN_TIME, TOO_SOON = 10 / 960, 0.001
 
 
-def asked(line: Session, now: float, retries: int = 0) -> Request:
+def requested(line: Session, now: float, retries: int = 0) -> Request:
     request = line.submit(BatteryVoltageRead(), retries=retries)
     line.outgoing(now)
     line.written(request, now)
@@ -30,11 +30,11 @@ def answer(line: Session, now: float, voltage: int = 7500) -> None:
 
 
 def sent(line: Session) -> Request:
-    return asked(line, 0.0)
+    return requested(line, 0.0)
 
 
 def held(line: Session) -> Request:
-    request = asked(line, 0.0)
+    request = requested(line, 0.0)
     answer(line, TOO_SOON)
     return request
 
@@ -48,16 +48,16 @@ def held_twice(line: Session) -> Request:
 def dropped(line: Session) -> Request:
     """Of a line that has kept its rate, one reply that is impossible is meant for another."""
     for number in range(8):
-        asked(line, number)
+        requested(line, number)
         answer(line, number + IN_TIME)
-    request = asked(line, 9.0)
+    request = requested(line, 9.0)
     answer(line, 9.0 + TOO_SOON)
     line.tick(9.0 + IN_TIME + 0.25)
     return request
 
 
 def tried_again(line: Session) -> Request:
-    request = asked(line, 0.0, retries=1)
+    request = requested(line, 0.0, retries=1)
     line.tick(1.0)
     return request
 
@@ -71,13 +71,13 @@ def replaced(line: Session) -> Request:
 
 
 def answered(line: Session) -> Request:
-    request = asked(line, 0.0)
+    request = requested(line, 0.0)
     answer(line, IN_TIME)
     return request
 
 
 def given_up(line: Session) -> Request:
-    request = asked(line, 0.0)
+    request = requested(line, 0.0)
     line.tick(1.0)
     return request
 
@@ -101,7 +101,7 @@ STORIES = [
 ]
 
 
-def test_there_is_a_story_for_each_step_of_the_table() -> None:
+def test_each_step_of_the_table_has_an_example() -> None:
     table = {(state, step) for state, steps in STATES.items() for step in steps}
     assert {last for _, last, _ in STORIES} == table
 
@@ -127,7 +127,7 @@ def test_each_step_of_the_table_happens(
     assert STATES[last[0]][last[1]] is then
 
 
-def test_what_is_over_stays_so() -> None:
+def test_a_finished_request_stays_finished() -> None:
     line = Session(baud=9600, reply_timeout=0.5, report_limit=16)
     request = answered(line)
     for step in Step:
@@ -144,7 +144,7 @@ def test_the_drawing_of_the_session_has_every_state_and_every_step() -> None:
     assert {word for word in drawing if word != "STATES"} == named
 
 
-def test_what_is_taken_back_between_two_attempts_may_be_answered_yet() -> None:
+def test_a_request_cancelled_between_attempts_may_still_be_answered() -> None:
     line = Session(baud=9600, reply_timeout=0.5, report_limit=16)
     request = tried_again(line)
     line.cancel(request)

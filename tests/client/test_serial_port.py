@@ -55,7 +55,7 @@ class Board:
     def __init__(self, read: Callable[[], bytes], write: Callable[[bytes], object]) -> None:
         self.write = write
         self.mute = False
-        self.heard = threading.Event()
+        self.received = threading.Event()
         # No client may ever make this count: see tests/conftest.py.
         self.rejects = Rejects()
         self._read = read
@@ -72,7 +72,7 @@ class Board:
             if not data:
                 return
             for event in decoder.feed(data):
-                self.heard.set()
+                self.received.set()
                 if isinstance(event, Noise):
                     self.rejects.add(event)
                     continue
@@ -209,7 +209,7 @@ def test_a_port_of_pyserial_that_answers_itself() -> None:
         controller.read_battery_voltage()
 
 
-def test_exclusive_unless_told_otherwise(board: PtyBoard) -> None:
+def test_a_port_is_exclusive_by_default(board: PtyBoard) -> None:
     with open_controller(board.port, **LIVE) as first:
         with pytest.raises(PortBusyError, match="it is in use; close the other program"):
             open_controller(board.port)
@@ -264,7 +264,7 @@ REFUSED_NAMES = {
         ("bad\0name", PortAddressError, "name a port"),
         (None, PortAddressError, "name a port"),
         (7, PortAddressError, "name a port"),
-        *((name, PortAddressError, told) for name, told in REFUSED_NAMES.items()),
+        *((name, PortAddressError, expected) for name, expected in REFUSED_NAMES.items()),
     ],
 )
 def test_what_is_no_port_is_refused_with_advice(
@@ -277,7 +277,7 @@ def test_what_is_no_port_is_refused_with_advice(
 
 
 @pytest.mark.parametrize(
-    ("port", "platform", "told"),
+    ("port", "platform", "expected"),
     [
         ("COM5", "linux", "that is how Windows names ports, and this is Linux"),
         ("com12", "darwin", "that is how Windows names ports, and this is macOS"),
@@ -290,10 +290,12 @@ def test_what_is_no_port_is_refused_with_advice(
         ("COMMUNE", "linux", "there is no such port"),
     ],
 )
-def test_a_name_of_another_system_is_told_as_such(port: str, platform: str, told: str) -> None:
+def test_a_port_name_of_another_system_is_recognized(
+    port: str, platform: str, expected: str
+) -> None:
     absent = serial.SerialException(2, f"could not open port {port}")
     error = not_opened(port, absent, lambda: "no serial port is plugged in", platform=platform)
-    assert str(error) == f"{port}: {told}; no serial port is plugged in"
+    assert str(error) == f"{port}: {expected}; no serial port is plugged in"
 
 
 @pytest.mark.parametrize("baud", [0, -9600, float("nan"), 2**31])
@@ -303,7 +305,7 @@ def test_a_rate_that_no_port_has_is_refused(baud: float) -> None:
 
 
 @pytest.mark.parametrize(
-    ("error", "told"),
+    ("error", "expected"),
     [
         (ValueError("Failed to set custom baud rate (77): [Errno 22] no"), "set to that rate (no)"),
         (serial.SerialException(36, "could not open port x: [Errno 36]"), os.strerror(36)),
@@ -315,11 +317,11 @@ def test_a_rate_that_no_port_has_is_refused(baud: float) -> None:
         (serial.SerialException("it is too late"), "it cannot be opened (it is too late)"),
     ],
 )
-def test_what_the_system_says_is_told_and_not_what_pyserial_puts_around_it(
-    error: Exception, told: str
+def test_an_error_has_the_words_of_the_system_and_not_those_of_pyserial(
+    error: Exception, expected: str
 ) -> None:
     refused = str(not_opened("x", error, lambda: "these exist: y"))
-    assert told in refused
+    assert expected in refused
     assert not any(word in refused for word in ("could not", "Could not", "Errno", "Failed"))
 
 
@@ -350,7 +352,7 @@ def test_unplugged_in_the_middle_of_a_reply(board: PtyBoard) -> None:
     with open_controller(board.port, **LIVE) as controller:
 
         def half() -> None:
-            board.heard.wait(GENEROUS)
+            board.received.wait(GENEROUS)
             board.write(BatteryVoltage(7500).encode()[:4])
             board.unplug()
 
@@ -384,7 +386,7 @@ def test_nothing_of_the_last_frame_is_cut_off(board: PtyBoard) -> None:
     board.mute = True
     with open_controller(board.port) as controller:
         controller.unload_servos(range(1, 253))
-    assert board.heard.wait(GENEROUS)
+    assert board.received.wait(GENEROUS)
 
 
 def test_a_transport_on_its_own(board: PtyBoard) -> None:
@@ -407,7 +409,7 @@ def test_a_transport_on_its_own(board: PtyBoard) -> None:
 
 @pytest.mark.parametrize("port", ["a pseudo-terminal", "loop://"])
 @pytest.mark.parametrize("timeout", [0.0, 0.01, 0.12])
-def test_a_read_waits_as_long_as_it_is_told(board: PtyBoard, port: str, timeout: float) -> None:
+def test_a_read_waits_for_its_timeout(board: PtyBoard, port: str, timeout: float) -> None:
     transport = open_transport(port if "://" in port else board.port)
     first = time.monotonic()
     taken = GENEROUS
@@ -495,7 +497,7 @@ def driven_by(driver: Driver) -> SerialPort:
     return SerialPort("COM7", driver, never)
 
 
-def test_an_adapter_that_takes_no_more_bytes_is_told_with_what_helps() -> None:
+def test_an_adapter_that_takes_no_more_bytes_is_reported_with_advice() -> None:
     port = driven_by(Driver(serial.SerialTimeoutException("Write timeout")))
     with pytest.raises(WriteStuckError, match="has taken no bytes for 1 s; unplug and replug"):
         port.write(b"UU")
@@ -566,7 +568,7 @@ def test_an_adapter_that_is_gone_is_lost_in_whatever_it_was_at(error: Exception)
         port.drain(1)
 
 
-def test_draining_waits_until_the_driver_has_sent_all_and_no_longer_than_told() -> None:
+def test_draining_waits_until_the_driver_has_sent_all_and_no_longer_than_its_timeout() -> None:
     driver = Driver()
     port = driven_by(driver)
     driver.left = 5
@@ -678,7 +680,7 @@ def test_closing_a_port_while_closing_it_does_not_wait_for_itself(
     assert driver.closed
 
 
-def test_a_port_that_fails_to_open_in_a_way_of_its_own_is_told_in_its_words(
+def test_an_unknown_error_at_opening_is_reported_in_its_own_words(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     def fail(*_: object, **__: object) -> None:

@@ -31,7 +31,7 @@ def session(**changed: float) -> Session:
     return Session(baud=changed.get("baud", 9600), reply_timeout=0.25, report_limit=16)
 
 
-def asked(at: Session, message: Message, now: float = 0.0, retries: int = 0) -> Request:
+def requested(at: Session, message: Message, now: float = 0.0, retries: int = 0) -> Request:
     request = at.submit(message, retries=retries)
     assert at.outgoing(now) == [message.encode()]
     at.written(request, now)
@@ -40,7 +40,7 @@ def asked(at: Session, message: Message, now: float = 0.0, retries: int = 0) -> 
 
 def test_a_reply_ends_its_request() -> None:
     line = session()
-    request = asked(line, BatteryVoltageRead())
+    request = requested(line, BatteryVoltageRead())
     line.receive(BatteryVoltage(7500).encode(), 0.02)
     assert request.done
     assert request.reply == BatteryVoltage(7500)
@@ -56,7 +56,7 @@ def test_a_reply_ends_its_request() -> None:
 )
 def test_nothing_else_becomes_a_battery_voltage(other: Message) -> None:
     line = session()
-    request = asked(line, BatteryVoltageRead())
+    request = requested(line, BatteryVoltageRead())
     line.receive(other.encode(), 0.02)
     assert not request.done
     line.receive(BatteryVoltage(7500).encode(), 0.03)
@@ -76,19 +76,19 @@ def test_nothing_else_becomes_a_battery_voltage(other: Message) -> None:
         ([(1, 5), (2, 6), (2, 6)], False),
     ],
 )
-def test_a_reply_tells_of_nothing_that_was_not_asked(
+def test_a_reply_about_anything_not_requested_is_unsolicited(
     positions: list[tuple[int, int]], accepted: bool
 ) -> None:
     line = session()
-    request = asked(line, ServoPositionsRead([1, 2]))
+    request = requested(line, ServoPositionsRead([1, 2]))
     line.receive(ServoPositions(positions).encode(), 0.02)
     assert request.done is accepted
     assert line.counters.unsolicited == (not accepted)
 
 
-def test_no_reply_is_an_error_that_says_what_was_asked() -> None:
+def test_a_missing_reply_is_an_error_that_names_the_request() -> None:
     line = session()
-    request = asked(line, BatteryVoltageRead())
+    request = requested(line, BatteryVoltageRead())
     deadline = line.tick_at
     assert deadline is not None
     assert deadline == pytest.approx((4 + 6) / 960 + 0.25)
@@ -116,7 +116,7 @@ def test_the_time_for_an_answer_begins_when_the_port_has_the_question() -> None:
     line.tick(5 + (4 + 6) / 960 + 0.25)
     assert isinstance(request.error, NoReplyError)
     assert request.error.waited == pytest.approx(1 + 10 / 960 + 0.25)
-    # And so does the time that its late reply has: nothing of its kind is asked meanwhile.
+    # And so does the time that its late reply has: nothing of its kind is sent meanwhile.
     line.submit(BatteryVoltageRead())
     assert line.outgoing(5.5) == []
 
@@ -133,7 +133,7 @@ def test_a_question_that_the_port_never_takes_ends_all_the_same() -> None:
 
 def test_the_next_question_of_a_kind_waits_for_the_late_reply() -> None:
     line = session()
-    first = asked(line, BatteryVoltageRead())
+    first = requested(line, BatteryVoltageRead())
     line.tick(0.3)
     assert first.done
     second = line.submit(BatteryVoltageRead())
@@ -146,9 +146,9 @@ def test_the_next_question_of_a_kind_waits_for_the_late_reply() -> None:
     assert line.counters.unsolicited == 1
 
 
-def test_the_next_question_of_a_kind_waits_no_longer_than_as_long_again() -> None:
+def test_the_next_question_of_a_kind_waits_no_longer_than_twice_the_reply_time() -> None:
     line = session()
-    asked(line, BatteryVoltageRead())
+    requested(line, BatteryVoltageRead())
     deadline = line.tick_at
     assert deadline is not None
     line.tick(deadline)
@@ -162,7 +162,7 @@ def test_the_next_question_of_a_kind_waits_no_longer_than_as_long_again() -> Non
 
 def test_a_machine_that_pauses_takes_no_late_reply_for_the_next_one() -> None:
     line = session()
-    asked(line, BatteryVoltageRead())
+    requested(line, BatteryVoltageRead())
     # For two seconds nothing ran here, the other end of a socket on this machine included.
     line.tick(2.0)
     second = line.submit(BatteryVoltageRead())
@@ -175,16 +175,16 @@ def test_a_machine_that_pauses_takes_no_late_reply_for_the_next_one() -> None:
 
 def test_a_question_of_another_kind_does_not_wait_for_a_late_reply() -> None:
     line = session()
-    asked(line, BatteryVoltageRead())
+    requested(line, BatteryVoltageRead())
     line.tick(0.3)
-    request = asked(line, ServoPositionsRead([1]), 0.3)
+    request = requested(line, ServoPositionsRead([1]), 0.3)
     line.receive(BatteryVoltage(1).encode() + ServoPositions([(1, 5)]).encode(), 0.32)
     assert request.reply == ServoPositions([(1, 5)])
 
 
 def test_a_cancelled_question_is_as_one_that_timed_out() -> None:
     line = session()
-    first = asked(line, BatteryVoltageRead())
+    first = requested(line, BatteryVoltageRead())
     line.cancel(first)
     second = line.submit(BatteryVoltageRead())
     assert line.outgoing(0.01) == []
@@ -194,11 +194,11 @@ def test_a_cancelled_question_is_as_one_that_timed_out() -> None:
     assert second.reply == BatteryVoltage(2)
 
 
-def test_what_is_cancelled_before_it_left_never_leaves() -> None:
+def test_a_request_cancelled_before_it_was_sent_is_never_sent() -> None:
     line = session()
-    asked(line, BatteryVoltageRead())
-    waiting = line.submit(BatteryVoltageRead())
-    line.cancel(waiting)
+    requested(line, BatteryVoltageRead())
+    pending = line.submit(BatteryVoltageRead())
+    line.cancel(pending)
     line.receive(BatteryVoltage(1).encode(), 0.02)
     assert line.outgoing(0.03) == []
     assert line.idle
@@ -206,7 +206,7 @@ def test_what_is_cancelled_before_it_left_never_leaves() -> None:
 
 def test_a_retry_takes_the_late_reply_of_the_attempt_before() -> None:
     line = session()
-    request = asked(line, BatteryVoltageRead(), retries=1)
+    request = requested(line, BatteryVoltageRead(), retries=1)
     line.tick(0.3)
     assert not request.done
     assert line.outgoing(0.3) == [BatteryVoltageRead().encode()]
@@ -221,14 +221,14 @@ def test_a_retry_takes_the_late_reply_of_the_attempt_before() -> None:
 
 def test_a_command_does_not_wait_for_a_reply() -> None:
     line = session()
-    asked(line, BatteryVoltageRead())
+    requested(line, BatteryVoltageRead())
     stop = line.submit(ActionGroupStop())
     assert line.outgoing(0.01) == [ActionGroupStop().encode()]
     assert stop.done
     assert stop.sent is not None
 
 
-def test_questions_are_asked_one_at_a_time_in_order() -> None:
+def test_questions_are_sent_one_at_a_time_in_order() -> None:
     line = session(baud=math.inf)
     for servo in (1, 2, 3):
         line.submit(ServoPositionsRead([servo]))
@@ -298,11 +298,11 @@ def test_bytes_of_half_a_frame_are_told_where_no_reply_came() -> None:
 
 def test_half_a_frame_does_not_grow_together_with_the_next_reply() -> None:
     line = session()
-    asked(line, BatteryVoltageRead())
+    requested(line, BatteryVoltageRead())
     line.receive(BatteryVoltage(7500).encode()[:-1], 0.02)
     line.tick(0.3)
     line.tick(0.6)
-    request = asked(line, BatteryVoltageRead(), 0.6)
+    request = requested(line, BatteryVoltageRead(), 0.6)
     line.receive(BatteryVoltage(7400).encode(), 0.63)
     line.tick(0.9)
     assert request.reply == BatteryVoltage(7400)
@@ -310,7 +310,7 @@ def test_half_a_frame_does_not_grow_together_with_the_next_reply() -> None:
 
 def test_half_a_report_is_not_lost_because_a_request_times_out_meanwhile() -> None:
     line = session()
-    request = asked(line, BatteryVoltageRead())
+    request = requested(line, BatteryVoltageRead())
     report = ActionGroupCompleted(8, 1)
     assert line.tick_at is not None
     expires = line.tick_at
@@ -330,7 +330,7 @@ def test_half_a_report_is_not_lost_because_a_request_times_out_meanwhile() -> No
 
 def test_a_reply_behind_a_false_header_is_found_before_the_time_is_up() -> None:
     line = session()
-    request = asked(line, BatteryVoltageRead())
+    request = requested(line, BatteryVoltageRead())
     line.receive(bytes.fromhex("55 55 21 15 0A") + BatteryVoltage(7500).encode(), 0.25)
     assert not request.done
     assert line.tick_at is not None
@@ -339,7 +339,7 @@ def test_a_reply_behind_a_false_header_is_found_before_the_time_is_up() -> None:
     assert line.counters.noise == 5
 
 
-def test_more_than_a_reply_can_tell_is_refused() -> None:
+def test_more_than_a_reply_has_room_for_is_refused() -> None:
     line = session()
     line.submit(ServoPositionsRead(range(84)))
     with pytest.raises(
@@ -348,23 +348,23 @@ def test_more_than_a_reply_can_tell_is_refused() -> None:
         line.submit(ServoPositionsRead(range(85)))
 
 
-def test_what_a_controller_says_is_nothing_to_send() -> None:
+def test_a_message_of_the_controller_cannot_be_sent() -> None:
     with pytest.raises(TypeError, match="nothing that this end sends"):
         session().submit(BatteryVoltage(7500))
 
 
 def test_a_lost_line_ends_everything() -> None:
     line = session()
-    requests = [asked(line, BatteryVoltageRead()), line.submit(ServoPositionsRead([1]))]
+    requests = [requested(line, BatteryVoltageRead()), line.submit(ServoPositionsRead([1]))]
     error = TransportError("port", "gone", "look for it")
     line.fail(error)
     assert [request.error for request in requests] == [error, error]
     assert line.idle
 
 
-def test_a_board_may_answer_on_the_next_line_what_it_was_asked_on_the_one_before() -> None:
+def test_a_late_reply_after_reconnecting_is_not_taken_for_the_next_one() -> None:
     line = session()
-    asked(line, BatteryVoltageRead())
+    requested(line, BatteryVoltageRead())
     line.fail(TransportError("port", "gone", "look for it"))
     line.restart(0.0)
     request = line.submit(BatteryVoltageRead())
@@ -380,7 +380,7 @@ def test_a_board_may_answer_on_the_next_line_what_it_was_asked_on_the_one_before
     "wrong",
     [{"baud": 0}, {"baud": -1}, {"baud": math.nan}, {"reply_timeout": 0}, {"report_limit": 0}],
 )
-def test_settings_of_no_sense_are_refused(wrong: dict[str, float]) -> None:
+def test_invalid_settings_are_refused(wrong: dict[str, float]) -> None:
     good: dict[str, float] = {"baud": 9600, "reply_timeout": 0.25, "report_limit": 16}
     with pytest.raises(ValueError, match="must be"):
         Session(**(good | wrong))  # type: ignore[arg-type]
@@ -390,7 +390,7 @@ def test_settings_of_no_sense_are_refused(wrong: dict[str, float]) -> None:
 
 
 def test_the_time_for_a_reply_is_that_of_the_largest_that_can_answer() -> None:
-    """Of a reply whose list is as long as what was asked, it is that one, and else the largest."""
+    """Of a reply whose list is as long as the request, it is that one, and else the largest."""
     echoed = (("servo_ids", "positions.servo_id"),)
     question = ServoPositionsRead([1, 2])
     largest = 2 + 255

@@ -26,10 +26,10 @@ def test_whatever_goes_wrong_no_position_is_wrong(seed: int) -> None:
     with VirtualController(via="memory", servos=range(1, 7), clock=clock, faults=faults) as board:
         controller = Controller(board.transport, background=False, clock=clock.now, baud=math.inf)
         for turn in range(12):
-            asked = [1 + turn % 3, 4, 6]
+            requested = [1 + turn % 3, 4, 6]
             began = clock.now()
             try:
-                positions: tuple[object, ...] = controller.read_servo_positions(asked)
+                positions: tuple[object, ...] = controller.read_servo_positions(requested)
                 assert len(positions) == 3
             except IncompleteReplyError as error:
                 positions = error.arrived
@@ -38,7 +38,7 @@ def test_whatever_goes_wrong_no_position_is_wrong(seed: int) -> None:
                 positions = ()
             for each in positions:
                 assert isinstance(each, ServoPosition)
-                assert each.servo_id in asked
+                assert each.servo_id in requested
                 assert each.position == 500
             assert clock.now() - began < 2
         controller.close()

@@ -50,27 +50,27 @@ REFUSED = (EncodeError, NoReplyError, IncompleteReplyError)
 
 
 @given(calls)
-def test_any_arguments_make_whole_frames_or_are_refused(asked: list[tuple[Any, Any]]) -> None:
+def test_any_arguments_make_whole_frames_or_are_refused(requests: list[tuple[Any, Any]]) -> None:
     clock = VirtualClock(follow_reads=True)
     with (
         VirtualController(clock=clock) as board,
         Controller(board.transport, background=False, clock=clock.now, baud=math.inf) as controller,
     ):
-        for exchange, arguments in asked:
-            heard = board.accepted
+        for exchange, arguments in requests:
+            before = board.accepted
             try:
                 getattr(controller, exchange.method)(*arguments)
             except EncodeError:
-                assert board.accepted == heard, "what was refused has been sent all the same"
+                assert board.accepted == before, "what was refused has been sent all the same"
             except REFUSED:
                 pass
             else:
-                assert board.accepted > heard
+                assert board.accepted > before
         assert board.rejects.total == 0
 
 
 @given(st.lists(messages(), max_size=20))
-def test_any_message_is_sent_whole_or_refused(asked: list[Message]) -> None:
+def test_any_message_is_sent_whole_or_refused(requests: list[Message]) -> None:
     clock = VirtualClock(follow_reads=True)
     with (
         VirtualController(clock=clock) as board,
@@ -79,7 +79,7 @@ def test_any_message_is_sent_whole_or_refused(asked: list[Message]) -> None:
         ) as controller,
     ):
         sent = 0
-        for message in asked:
+        for message in requests:
             for way in (controller.send, controller.request, controller.send_latest):
                 try:
                     way(message)

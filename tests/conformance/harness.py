@@ -17,7 +17,7 @@ NO_BOUND = 1 << 20
 
 
 @dataclass(frozen=True)
-class Asked:
+class Case:
     """A question, and the right answer to it; noise is joined."""
 
     title: str
@@ -32,28 +32,28 @@ class Asked:
         return "\n".join([f"{self.title}: {self.question}", *self.answer, "but:", *shown])
 
 
-def asked(document: dict[str, Any]) -> Iterator[Asked]:
+def cases_of(document: dict[str, Any]) -> Iterator[Case]:
     """Yield every question that a file of vectors holds."""
     for vector in document["valid"]:
         name, way, frame = vector["message"], vector["direction"], _hex(vector["hex"])
-        yield Asked(vector["title"], f"decode {way} {frame}", [_message(vector)])
+        yield Case(vector["title"], f"decode {way} {frame}", [_message(vector)])
         fields = "".join(f" {field}" for field in _fields(vector["fields"]))
-        yield Asked(vector["title"], f"encode {name}{fields}", [f"frame {frame}"])
+        yield Case(vector["title"], f"encode {name}{fields}", [f"frame {frame}"])
     for vector in document["unencodable"]:
         fields = "".join(f" {field}" for field in _fields(vector["fields"]))
-        yield Asked(vector["title"], f"encode {vector['message']}{fields}", ["refused"])
+        yield Case(vector["title"], f"encode {vector['message']}{fields}", ["refused"])
     for vector in document["invalid"]:
         answer = f"refused {_dashed(vector['reason'])} {vector['offset']}"
         question = f"decode {vector['direction']} {_hex(vector['hex'])}".rstrip()
-        yield Asked(vector["title"], question, [answer])
+        yield Case(vector["title"], question, [answer])
     for vector in document["streams"]:
         parts = [part if part == "quiet" else _hex(part) for part in vector["parts"]]
         largest = NO_BOUND if vector["max_frame"] is None else vector["max_frame"]
         question = " ".join(["stream", vector["direction"], str(largest), *parts])
-        yield Asked(vector["title"], question, [*map(_event, vector["events"])])
+        yield Case(vector["title"], question, [*map(_event, vector["events"])])
 
 
-def differences(questions: Sequence[Asked], answers: Sequence[Sequence[str]]) -> list[str]:
+def differences(questions: Sequence[Case], answers: Sequence[Sequence[str]]) -> list[str]:
     """Return what is wrong with the answers to all questions, one text for each wrong one."""
     found = (each.differs(answer) for each, answer in zip(questions, answers, strict=True))
     return [each for each in found if each]

@@ -20,8 +20,8 @@ def lines_of(model: Model, way: Direction) -> st.SearchStrategy[bytes]:
     header = sender.header
     large = [frame for frame in sender.frames_around(LONGEST) if frame is not None]
     # A header of equal bytes begins with its first byte in two places.
-    strays = [header[:1] + frame for frame in large]
-    frames = st.sampled_from([*sender.small_frames.values(), *large, *strays])
+    false_starts = [header[:1] + frame for frame in large]
+    frames = st.sampled_from([*sender.small_frames.values(), *large, *false_starts])
     near = [*header, *header, *model.sent(way), *range(8), 99, 255]
     alike = st.lists(st.sampled_from([each & 0xFF for each in near]), max_size=12).map(bytes)
     heads = alike.map(lambda rest: header + rest)

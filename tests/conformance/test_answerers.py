@@ -9,7 +9,7 @@ from framegen.compile import Compiled, compile_spec
 from framegen.language.load import read_source
 
 from tests.conformance.answerers import ANSWERERS
-from tests.conformance.harness import asked, differences, joined, run
+from tests.conformance.harness import cases_of, differences, joined, run
 from tests.docs.reference import NODE
 from tests.factories import BUSSERVO, DEMO, vectors_of
 
@@ -36,15 +36,15 @@ def published(spec: Path) -> dict[str, Any]:
 def test_a_codec_says_what_the_vectors_say(language: str, spec: Path, tmp_path: Path) -> None:
     if language == "page" and NODE is None:
         pytest.skip("node is not installed")
-    questions = [*asked(published(spec))]
+    questions = [*cases_of(published(spec))]
     command = ANSWERERS[language](compiled(spec), tmp_path)
     answers = run(command, [each.question for each in questions])
     assert differences(questions, answers) == []
 
 
-def test_every_vector_is_asked() -> None:
+def test_every_vector_becomes_a_question() -> None:
     document = published(BUSSERVO)
-    questions = [each.question.split()[0] for each in asked(document)]
+    questions = [each.question.split()[0] for each in cases_of(document)]
     assert questions.count("encode") == len(document["valid"]) + len(document["unencodable"])
     assert questions.count("decode") == len(document["valid"]) + len(document["invalid"])
     assert questions.count("stream") == len(document["streams"])
@@ -52,7 +52,7 @@ def test_every_vector_is_asked() -> None:
 
 @pytest.mark.parametrize("spoilt", ["", "refused once", "frame 55", "message Nothing 55"])
 def test_a_wrong_answer_to_any_question_is_seen(spoilt: str) -> None:
-    questions = [*asked(published(DEMO))]
+    questions = [*cases_of(published(DEMO))]
     right = [each.answer for each in questions]
     assert differences(questions, right) == []
     wrong = [[*answer[:-1], spoilt] for answer in right]

@@ -24,7 +24,7 @@ pytestmark = needs_compiler
 
 
 @cache
-def asked(more: int) -> list[tuple[str, Question]]:
+def titled_questions(more: int) -> list[tuple[str, Question]]:
     """Return all published questions, and some more."""
     return [*questions(MODEL), *islice(further(MODEL, seed=1), more)]
 
@@ -49,7 +49,7 @@ def held(program: str, more: int = FURTHER) -> Trial:
     """Hold a codec to all questions, and return the result."""
     codec = Program([program], timeout=10)
     try:
-        return hold(MODEL, codec, asked(more))
+        return hold(MODEL, codec, titled_questions(more))
     finally:
         codec.close()
 

@@ -40,7 +40,7 @@ for line in sys.stdin:
 """
 
 
-def told(capsys: pytest.CaptureFixture[str], *words: str) -> tuple[int, str, str]:
+def conform(capsys: pytest.CaptureFixture[str], *words: str) -> tuple[int, str, str]:
     """Run the command, and return status, output and errors."""
     status = main(["conform", *words])
     printed = capsys.readouterr()
@@ -81,18 +81,18 @@ def test_our_own_library_conforms() -> None:
 def test_the_reference_itself_answers_by_hand(
     spec: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    status, questions, _ = told(capsys, str(spec), "--questions", "--more", "20", "--seed", "1")
+    status, questions, _ = conform(capsys, str(spec), "--questions", "--more", "20", "--seed", "1")
     assert status == 0
     monkeypatch.setattr(sys, "stdin", io.TextIOWrapper(io.BytesIO(questions.encode())))
-    status, answers, errors = told(capsys, str(spec), "--answers")
+    status, answers, errors = conform(capsys, str(spec), "--answers")
     assert (status, errors) == (0, "")
     assert answers.splitlines().count("end") == questions.count("\n") > 100
     assert not re.search("^error", answers, flags=re.MULTILINE)
 
 
-def test_what_is_no_question_is_answered_so_and_the_next_one_is_read() -> None:
-    asked = "decode host_to_controller 55\n\n  \nwhat?\ndecode host_to_controller 31\n"
-    status, answers, errors = process(["busservo", "--answers"], asked)
+def test_a_malformed_question_is_answered_by_an_error_and_the_next_one_is_read() -> None:
+    questions = "decode host_to_controller 55\n\n  \nwhat?\ndecode host_to_controller 31\n"
+    status, answers, errors = process(["busservo", "--answers"], questions)
     assert (status, errors) == (2, "")
     assert answers == (
         "refused too-short 1\nend\n"
@@ -102,7 +102,7 @@ def test_what_is_no_question_is_answered_so_and_the_next_one_is_read() -> None:
 
 
 def test_without_a_seed_every_run_asks_something_else(capsys: pytest.CaptureFixture[str]) -> None:
-    first, second = (told(capsys, SPEC, "--questions", "--more", "20")[1] for _ in range(2))
+    first, second = (conform(capsys, SPEC, "--questions", "--more", "20")[1] for _ in range(2))
     assert first != second
 
 
@@ -110,7 +110,7 @@ def test_without_a_seed_every_run_asks_something_else(capsys: pytest.CaptureFixt
 
 
 def test_a_difference_is_shown_byte_by_byte(capsys: pytest.CaptureFixture[str]) -> None:
-    status, out, err = told(capsys, SPEC, *python(STUBBORN))
+    status, out, err = conform(capsys, SPEC, *python(STUBBORN))
     assert (status, err) == (1, "")
     head, strip, answers, rows, kinds, verdict = out.split("\n\n")
     assert re.fullmatch(
@@ -147,7 +147,7 @@ def test_it_is_in_colour_on_a_terminal_alone(
 
     monkeypatch.delenv("NO_COLOR", raising=False)
     monkeypatch.setenv("TERM", "xterm")
-    plain = told(capsys, SPEC, *python(STUBBORN))[1]
+    plain = conform(capsys, SPEC, *python(STUBBORN))[1]
     terminal = Terminal()
     with monkeypatch.context() as patched:
         patched.setattr(sys, "stdout", terminal)
@@ -163,51 +163,53 @@ def test_what_a_program_prints_does_not_command_the_terminal(
     capsys: pytest.CaptureFixture[str],
 ) -> None:
     rude = "import sys\nfor line in sys.stdin: print('\\x1b[2J', 'end', sep='\\n', flush=True)"
-    status, out, _ = told(capsys, SPEC, *python(rude))
+    status, out, _ = conform(capsys, SPEC, *python(rude))
     assert status == 1
     assert "\x1b" not in out
     assert "  program          \\x1b[2J\n" in out
     assert "  `\\x1b[2J` is no line of an answer\n" in out
 
 
-def test_json_tells_everything(capsys: pytest.CaptureFixture[str]) -> None:
+def test_json_holds_everything(capsys: pytest.CaptureFixture[str]) -> None:
     words = ["--format", "json", "--more", "5", "--seed", "7"]
-    status, out, _ = told(capsys, SPEC, *words, *python(STUBBORN))
-    told_as: dict[str, Any] = json.loads(out)
+    status, out, _ = conform(capsys, SPEC, *words, *python(STUBBORN))
+    report: dict[str, Any] = json.loads(out)
     assert status == 1
-    assert {**told_as, "smallest": None, "differences": []} == {
+    assert {**report, "smallest": None, "differences": []} == {
         "protocol": "busservo",
         "version": "1.0.0",
         "program": python(STUBBORN)[1:],
         "conforms": False,
-        "asked": told_as["agreed"] + told_as["differed"],
-        "agreed": told_as["agreed"],
-        "differed": len(told_as["differences"]),
+        "asked": report["agreed"] + report["differed"],
+        "agreed": report["agreed"],
+        "differed": len(report["differences"]),
         "unsupported": {"decode": 0, "encode": 0, "stream": 0},
         "seed": 7,
         "stopped": "",
         "smallest": None,
         "differences": [],
     }
-    assert told_as["smallest"] == {
-        "title": told_as["differences"][0]["title"],
+    assert report["smallest"] == {
+        "title": report["differences"][0]["title"],
         "verb": "decode",
         "about": "message ActionGroupStop",
         "question": "decode host_to_controller 55550207",
         "expected": ["message ActionGroupStop 55550207"],
         "answered": ["refused too-short 3"],
         "failure": "",
-        "tries": told_as["smallest"]["tries"],
+        "tries": report["smallest"]["tries"],
         "alone": True,
         "behind": "",
         "stderr": "",
     }
-    assert {found["verb"] for found in told_as["differences"]} == {"decode", "encode", "stream"}
-    assert told_as["agreed"] > 0
+    assert {found["verb"] for found in report["differences"]} == {"decode", "encode", "stream"}
+    assert report["agreed"] > 0
 
 
-def test_what_is_unsupported_is_told_and_does_no_harm(capsys: pytest.CaptureFixture[str]) -> None:
-    status, out, _ = told(capsys, SPEC, *python(LIMITED))
+def test_what_is_unsupported_is_reported_and_no_difference(
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    status, out, _ = conform(capsys, SPEC, *python(LIMITED))
     assert status == 0
     assert re.search(r"\n  not supported, and not counted as wrong: \d+ stream\n$", out)
 
@@ -230,7 +232,7 @@ SVG = "{http://www.w3.org/2000/svg}"
 def test_a_badge_says_it_in_a_word(
     source: str, status: int, text: str, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    code, out, _ = told(capsys, SPEC, "--format", "badge", *python(source))
+    code, out, _ = conform(capsys, SPEC, "--format", "badge", *python(source))
     assert code == status
     picture = ET.fromstring(out)  # noqa: S314 - our own
     label, said = [element.text or "" for element in picture.iter(f"{SVG}text")]
@@ -249,7 +251,7 @@ UNUSABLE = {
     "no program": ([SPEC], "no program is named"),
     "nothing behind the dashes": ([SPEC, "--"], "no program is named"),
     "no such program": ([SPEC, "--", "no-such-codec"], "`no-such-codec` cannot be started: "),
-    "a program that is asked nothing": (
+    "a program that gets no question": (
         [SPEC, "--answers", "--", "codec"],
         "no program is tested with --answers",
     ),
@@ -264,21 +266,21 @@ UNUSABLE = {
 
 
 @pytest.mark.parametrize(("words", "error"), UNUSABLE.values(), ids=list(UNUSABLE))
-def test_what_is_of_no_use_is_refused_with_a_way_out(
+def test_unusable_arguments_are_refused_with_advice(
     words: list[str], error: str, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    status, out, err = told(capsys, *words)
+    status, out, err = conform(capsys, *words)
     assert (status, out) == (2, "")
     assert err.startswith("framegen: error: ")
     assert error in err.splitlines()[0]
     assert err.splitlines()[1].startswith("  hint: ")
 
 
-def test_what_stands_behind_the_dashes_is_the_programs_own(
+def test_words_behind_the_dashes_belong_to_the_program(
     capsys: pytest.CaptureFixture[str],
 ) -> None:
     source = "import sys; print(sys.argv[1:], file=sys.stderr)"
-    _, out, _ = told(capsys, SPEC, *python(source), "--help", "--more", "1", "--", "x")
+    _, out, _ = conform(capsys, SPEC, *python(source), "--help", "--more", "1", "--", "x")
     assert "    ['--help', '--more', '1', '--', 'x']\n" in out
 
 
@@ -301,7 +303,7 @@ def test_the_guide_shows_what_a_wrong_codec_gets(
     program = compile_codec(tmp_path, wrong.old, wrong.new)
     known = tmp_path / "busservo.yaml"
     known.write_text(json.dumps(first_edition()), encoding="utf-8")
-    status, out, _ = told(capsys, str(known), "--", program)
+    status, out, _ = conform(capsys, str(known), "--", program)
     assert status == 1
     pieces = shown("framegen conform busservo -- ./codec")
     assert re.fullmatch(r"(?:.*\n)*".join(map(re.escape, pieces)), out), out
@@ -309,15 +311,15 @@ def test_the_guide_shows_what_a_wrong_codec_gets(
 
 def test_the_guide_shows_what_the_reference_answers() -> None:
     (block,) = shown("framegen conform busservo --answers")
-    asked = re.findall(r"^(?:decode|encode|stream) .*\n", block, flags=re.MULTILINE)
-    status, answers, _ = process(["busservo", "--answers"], "".join(asked))
-    session = zip(asked, re.findall(r"(?:.*\n)*?end\n", answers), strict=True)
+    questions = re.findall(r"^(?:decode|encode|stream) .*\n", block, flags=re.MULTILINE)
+    status, answers, _ = process(["busservo", "--answers"], "".join(questions))
+    session = zip(questions, re.findall(r"(?:.*\n)*?end\n", answers), strict=True)
     assert "".join(question + answer for question, answer in session) == block
     assert status == 0
 
 
 def test_the_guide_names_every_key_of_the_report(capsys: pytest.CaptureFixture[str]) -> None:
-    _, out, _ = told(capsys, SPEC, "--format", "json", *python(STUBBORN))
+    _, out, _ = conform(capsys, SPEC, "--format", "json", *python(STUBBORN))
     report: dict[str, Any] = json.loads(out)
     keys = {*report, *report["smallest"], *report["differences"][0]}
     assert sorted(key for key in keys if f"`{key}`" not in GUIDE) == []

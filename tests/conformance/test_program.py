@@ -27,7 +27,7 @@ def python(source: str, timeout: float = GENEROUS) -> Program:
     return Program([sys.executable, "-c", textwrap.dedent(source)], timeout)
 
 
-def asked(source: str, *questions: str, timeout: float = GENEROUS) -> list[Reply]:
+def replies_to(source: str, *questions: str, timeout: float = GENEROUS) -> list[Reply]:
     with closing(python(source, timeout)) as program:
         return [program.ask(question) for question in questions]
 
@@ -39,13 +39,13 @@ ECHO = """
 """
 
 
-def test_it_is_started_once_and_asked_line_by_line() -> None:
+def test_a_program_is_started_once_and_questioned_line_by_line() -> None:
     source = """
         import os, sys
         for line in sys.stdin:
             print(os.getpid(), line.strip(), "end", sep="\\n", flush=True)
     """
-    one, other = asked(source, "decode a 55", "decode b 66")
+    one, other = replies_to(source, "decode a 55", "decode b 66")
     assert [one.lines[1], other.lines[1]] == ["decode a 55", "decode b 66"]
     assert one.lines[0] == other.lines[0]
 
@@ -56,16 +56,16 @@ def test_lines_may_end_as_on_windows() -> None:
         for line in sys.stdin:
             sys.stdout.buffer.write(b"frame 55\r\nend\r\n"); sys.stdout.flush()
     """
-    assert asked(source, "encode A") == [Reply(("frame 55",))]
+    assert replies_to(source, "encode A") == [Reply(("frame 55",))]
 
 
-def test_what_is_no_text_is_shown() -> None:
+def test_bytes_that_are_no_text_are_shown_escaped() -> None:
     source = r"""
         import sys
         for line in sys.stdin:
             sys.stdout.buffer.write(b"\xff\x00end\nend\n"); sys.stdout.flush()
     """
-    assert asked(source, "encode A") == [Reply(("\\xff\x00end",))]
+    assert replies_to(source, "encode A") == [Reply(("\\xff\x00end",))]
 
 
 @pytest.mark.parametrize(
@@ -77,14 +77,16 @@ def test_what_is_no_text_is_shown() -> None:
     ],
     ids=["at once", "with a status", "in an answer"],
 )
-def test_a_program_that_ends_is_told(source: str, failure: str) -> None:
-    (reply,) = asked(source, "decode a 55")
+def test_a_program_that_ends_is_reported(source: str, failure: str) -> None:
+    (reply,) = replies_to(source, "decode a 55")
     assert (reply.failure, reply.hangs) == (failure, False)
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="there are no signals")
-def test_a_program_that_a_signal_ends_is_told() -> None:
-    (reply,) = asked("import os, signal; input(); os.kill(os.getpid(), signal.SIGSEGV)", "decode a")
+def test_a_program_that_a_signal_ends_is_reported() -> None:
+    (reply,) = replies_to(
+        "import os, signal; input(); os.kill(os.getpid(), signal.SIGSEGV)", "decode a"
+    )
     assert reply.failure == "it was ended by SIGSEGV before it printed a line"
 
 
@@ -106,7 +108,7 @@ def test_a_program_that_a_signal_ends_is_told() -> None:
     ],
     ids=["silent", "after a line", "a line that goes on"],
 )
-def test_a_program_that_hangs_is_told(hangs: str, failure: str) -> None:
+def test_a_program_that_hangs_is_reported(hangs: str, failure: str) -> None:
     source = f"""
         import time
         input(); print("end", flush=True)
@@ -119,25 +121,27 @@ def test_a_program_that_hangs_is_told(hangs: str, failure: str) -> None:
 
 
 @pytest.mark.parametrize("prints", ["unknown 55\\n", "55"], ids=["lines", "one line"])
-def test_a_program_that_prints_on_and_on_is_told(prints: str) -> None:
+def test_a_program_that_prints_without_end_is_reported(prints: str) -> None:
     source = f"import sys\nwhile True: sys.stdout.write('{prints}' * 1000)"
-    (reply,) = asked(source, "decode a 55")
+    (reply,) = replies_to(source, "decode a 55")
     assert reply.failure == "it prints on and on: 100660 bytes without an `end`"
     assert sum(map(len, reply.lines)) < 200_000
 
 
-def test_a_program_that_floods_its_error_stream_is_still_asked() -> None:
+def test_a_program_that_floods_its_error_stream_still_gets_questions() -> None:
     source = """
         import sys
         for line in sys.stdin:
             sys.stderr.write("debug " * 100_000)
             print("refused", "end", sep="\\n", flush=True)
     """
-    assert asked(source, "encode A", "encode B") == [Reply(("refused",))] * 2
+    assert replies_to(source, "encode A", "encode B") == [Reply(("refused",))] * 2
 
 
 def test_a_program_that_reads_nothing_holds_up_nobody() -> None:
-    (reply,) = asked("import time; time.sleep(600)", "decode a " + "55" * 500_000, timeout=SOON)
+    (reply,) = replies_to(
+        "import time; time.sleep(600)", "decode a " + "55" * 500_000, timeout=SOON
+    )
     assert reply.hangs
 
 
@@ -149,19 +153,19 @@ def test_a_long_question_and_a_long_answer_pass_each_other() -> None:
                 print("noise bad-header 00")
             print("end", flush=True)
     """
-    (reply,) = asked(source, "decode a " + "00" * 100_000)
+    (reply,) = replies_to(source, "decode a " + "00" * 100_000)
     assert (len(reply.lines), reply.failure) == (100_000, "")
 
 
-def test_what_failed_is_started_anew() -> None:
+def test_a_program_that_failed_is_started_anew() -> None:
     source = "print(input(), 'end', sep='\\n', flush=True); input()"
-    one, other, third = asked(source, "encode A", "encode B", "encode C")
+    one, other, third = replies_to(source, "encode A", "encode B", "encode C")
     assert one == Reply(("encode A",))
     assert other.failure == "it ended with status 0 before it printed a line"
     assert third == Reply(("encode C",))
 
 
-def test_its_last_words_are_kept() -> None:
+def test_the_end_of_the_error_stream_is_kept() -> None:
     with closing(python("import sys; sys.exit('no such ' + 'x' * 5000 + ' table')")) as program:
         program.ask("encode A")
         assert program.last_words.endswith("xxx table")
@@ -169,7 +173,7 @@ def test_its_last_words_are_kept() -> None:
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="asks by signal whether a process is there")
-def test_what_it_started_ends_with_it() -> None:
+def test_the_children_of_a_program_end_with_it() -> None:
     source = """
         import subprocess, sys, time
         input()
@@ -205,11 +209,11 @@ def test_it_may_end_by_itself_when_no_question_comes_any_more(tmp_path: Path) ->
             print("end", flush=True)
         open({str(note)!r}, "w").write("done")
     """
-    assert asked(source, "encode A") == [Reply(())]
+    assert replies_to(source, "encode A") == [Reply(())]
     assert note.read_text() == "done"
 
 
-def test_a_program_that_does_not_want_to_end_is_ended() -> None:
+def test_a_program_that_does_not_end_is_killed() -> None:
     source = """
         import sys, time
         for line in sys.stdin:
@@ -217,12 +221,12 @@ def test_a_program_that_does_not_want_to_end_is_ended() -> None:
         time.sleep(600)
     """
     before = time.monotonic()
-    assert asked(source, "encode A") == [Reply(())]
+    assert replies_to(source, "encode A") == [Reply(())]
     assert time.monotonic() - before < GENEROUS
 
 
 @pytest.mark.parametrize("command", ["no-such-program", "", "a\0b", "."])
-def test_what_cannot_be_started_is_of_no_use(command: str) -> None:
+def test_a_program_that_cannot_be_started_is_a_usage_error(command: str) -> None:
     with pytest.raises(Unusable, match=f"`{command or ''}` cannot be started") as caught:
         Program([command], timeout=1).ask("encode A")
     assert caught.value.hint == "name a program that is on the path, or give its path, like ./codec"

@@ -1,5 +1,5 @@
 """The reference stream decoder: held to the oracle, which shares nothing with it; and the library,
-asked through the line language, to the reference."""
+questioned through the line language, to the reference."""
 
 from collections.abc import Callable, Iterator
 from contextlib import ExitStack
@@ -55,12 +55,14 @@ def test_the_reference_finds_what_the_oracle_finds(
 
 
 @given(lines, directions)
-def test_the_reference_has_told_what_the_oracle_has_before_the_line_goes_quiet(
+def test_the_reference_reports_as_early_as_the_oracle(
     data: bytes, direction: Direction | None
 ) -> None:
-    told = [event for event in scanned(line(direction).decode_so_far(data)) if type(event) is tuple]
+    reported = [
+        event for event in scanned(line(direction).decode_so_far(data)) if type(event) is tuple
+    ]
     early = oracle.scan(data, oracles(direction), quiet=False)
-    assert told == [event for event in early if not isinstance(event, bytes)]
+    assert reported == [event for event in early if not isinstance(event, bytes)]
 
 
 # --- The libraries and the reference -------------------------------------------------------------
@@ -101,7 +103,7 @@ def test_a_library_answers_as_the_reference_does(
     max_frame = data.draw(st.just(largest) | st.just(64) | st.integers(least, largest))
     question = Stream(way, max_frame, (*parts, None))
     assert joined(answers[name](question.line)) == joined(answer(model, question))
-    # Noise may be told later, and no message.
+    # Noise may be reported later, and no message.
     question = Stream(way, max_frame, tuple(parts))
     early = [line for line in answers[name](question.line) if line.startswith("message")]
     assert early == [line for line in answer(model, question) if line.startswith("message")]

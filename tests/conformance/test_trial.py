@@ -26,7 +26,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable
     from pathlib import Path
 
-    # What a program makes of a question that the reference answers so, having been asked as often.
+    # What a program makes of a question that the reference answers so, after that many questions.
     Change: TypeAlias = Callable[[Question, list[str], int], list[str] | Reply]
 
 SPECS = [BUSSERVO, *sorted((ROOT / "tests" / "specs").glob("*.yaml"))]
@@ -40,25 +40,25 @@ class Fake(Program):
     def __init__(self, change: Change) -> None:
         super().__init__(["fake"], timeout=10)
         self.change = change
-        self.asked = 0
+        self.count = 0
         self.timeouts: list[float | None] = []
 
     def ask(self, question: str, timeout: float | None = None) -> Reply:
-        self.asked += 1
+        self.count += 1
         self.timeouts.append(timeout)
         read = read_question(MODEL, question)
-        said = self.change(read, answer(MODEL, read), self.asked)
+        said = self.change(read, answer(MODEL, read), self.count)
         if isinstance(said, Reply):
             self.close()
             return said
         return Reply(tuple(said))
 
     def close(self) -> None:
-        self.asked = 0
+        self.count = 0
 
 
-def held(change: Change, *asked: Question) -> Trial:
-    return hold(MODEL, Fake(change), [(f"case {at}", each) for at, each in enumerate(asked, 1)])
+def held(change: Change, *requests: Question) -> Trial:
+    return hold(MODEL, Fake(change), [(f"case {at}", each) for at, each in enumerate(requests, 1)])
 
 
 def read(line: str) -> Question:
@@ -75,11 +75,11 @@ ENCODE = read("encode ServoMove time_ms=700 targets=1:500,2:600,3:700")
 
 
 @pytest.mark.parametrize("spec", SPECS, ids=lambda spec: spec.stem)
-def test_the_reference_conforms_when_it_is_asked_in_lines(spec: Path) -> None:
+def test_the_reference_conforms_over_the_line_language(spec: Path) -> None:
     model = layout_of(data_of(spec))
-    asked = [*questions(model), *islice(further(model, seed=5), 200)]
-    assert len(asked) > 200
-    for title, question in asked:
+    cases = [*questions(model), *islice(further(model, seed=5), 200)]
+    assert len(cases) > 200
+    for title, question in cases:
         again = read_question(model, question.line)
         assert again.line == question.line
         assert compare(model, title, question, Reply(tuple(answer(model, again)))) is None
@@ -103,7 +103,7 @@ SAID = {
 
 
 @pytest.mark.parametrize(("question", "said"), SAID.values(), ids=list(SAID))
-def test_an_answer_may_be_put_otherwise(question: str, said: list[str]) -> None:
+def test_equivalent_spellings_of_an_answer_agree(question: str, said: list[str]) -> None:
     assert compare(MODEL, "", read(question), Reply(tuple(said))) is None
 
 
@@ -132,7 +132,7 @@ DIFFER = {
         ["quiet", "noise bad-header 0001", "quiet"],
         0,
     ),
-    "a quiet that is not told": (
+    "a quiet that is not reported": (
         "stream host_to_controller 257 00 quiet",
         ["noise bad-header 00"],
         1,
@@ -166,13 +166,13 @@ def test_a_difference_is_found_where_it_is(question: str, said: list[str], at: i
 
 
 def test_a_program_that_answers_rightly_conforms() -> None:
-    trial = held(lambda _question, right, _asked: right, STOP, CUT, LINE, ENCODE)
+    trial = held(lambda _question, right, _count: right, STOP, CUT, LINE, ENCODE)
     assert trial.conforms
     assert (trial.questions, trial.agreed, trial.differences, trial.smallest) == (4, 4, [], None)
 
 
 def test_what_is_unsupported_is_counted_and_no_difference() -> None:
-    def change(question: Question, right: list[str], _asked: int) -> list[str]:
+    def change(question: Question, right: list[str], _count: int) -> list[str]:
         return ["unsupported"] if isinstance(question, Stream) else right
 
     trial = held(change, STOP, LINE, LINE)
@@ -203,15 +203,15 @@ def test_every_difference_is_kept_with_what_the_reference_says_there() -> None:
 
 
 def test_what_is_no_line_of_the_language_is_named() -> None:
-    trial = held(lambda _question, right, _asked: ["ready.", *right], STOP)
+    trial = held(lambda _question, right, _count: ["ready.", *right], STOP)
     assert trial.differences[0].rubbish == "ready."
 
 
 # -- What fails ----------------------------------------------------------------------------------
 
 
-def test_a_program_that_ends_now_and_then_is_asked_on() -> None:
-    def change(question: Question, right: list[str], _asked: int) -> list[str] | Reply:
+def test_a_program_that_ends_now_and_then_gets_the_remaining_questions() -> None:
+    def change(question: Question, right: list[str], _count: int) -> list[str] | Reply:
         return Reply((), "it ended") if question == CUT else right
 
     trial = held(change, STOP, CUT, STOP, CUT, LINE)
@@ -220,26 +220,24 @@ def test_a_program_that_ends_now_and_then_is_asked_on() -> None:
 
 
 @pytest.mark.parametrize(
-    ("hangs", "asked", "why"),
+    ("hangs", "count", "why"),
     [(False, 32, "it ended 30 times"), (True, 5, "it did not answer in time 3 times")],
 )
-def test_a_program_that_always_fails_is_not_asked_for_ever(
-    hangs: bool, asked: int, why: str
-) -> None:
-    def change(question: Question, right: list[str], _asked: int) -> list[str] | Reply:
+def test_a_program_that_always_fails_ends_the_trial(hangs: bool, count: int, why: str) -> None:
+    def change(question: Question, right: list[str], _count: int) -> list[str] | Reply:
         return right if question == STOP else Reply((), "it fails", hangs)
 
     trial = held(change, STOP, STOP, *[LINE] * 100)
-    assert (trial.questions, trial.stopped) == (asked, why)
+    assert (trial.questions, trial.stopped) == (count, why)
 
 
-def test_a_program_that_never_answered_is_asked_no_more() -> None:
+def test_a_program_that_never_answered_ends_the_trial_at_once() -> None:
     trial = held(lambda *_: Reply((), "it ended with status 1 before it printed a line"), STOP, CUT)
     assert (trial.questions, trial.stopped, trial.conforms) == (1, "it never answered", False)
 
 
 def test_what_hangs_is_given_less_time_while_it_is_shrunk() -> None:
-    def change(question: Question, right: list[str], _asked: int) -> list[str] | Reply:
+    def change(question: Question, right: list[str], _count: int) -> list[str] | Reply:
         return Reply((), "it hangs", hangs=True) if "31" in question.line else right
 
     program = Fake(change)
@@ -260,7 +258,7 @@ def smallest_of(trial: Trial) -> str:
 
 
 def test_a_line_is_shrunk_to_what_is_answered_wrongly() -> None:
-    def change(question: Question, right: list[str], _asked: int) -> list[str]:
+    def change(question: Question, right: list[str], _count: int) -> list[str]:
         return [*right, "quiet"] if "31" in question.line else right
 
     line = "stream host_to_controller 64 00 5555 0207 quiet 013177 55550207 quiet quiet"
@@ -268,7 +266,7 @@ def test_a_line_is_shrunk_to_what_is_answered_wrongly() -> None:
 
 
 def test_a_cut_that_matters_is_kept() -> None:
-    def change(question: Question, right: list[str], _asked: int) -> list[str]:
+    def change(question: Question, right: list[str], _count: int) -> list[str]:
         assert isinstance(question, Stream)
         loses = any(part and part.endswith(b"\x55") for part in question.parts[:-1])
         return [line for line in right if not (loses and line.startswith("message"))]
@@ -278,15 +276,15 @@ def test_a_cut_that_matters_is_kept() -> None:
 
 
 def test_a_small_buffer_that_matters_is_kept() -> None:
-    def change(question: Question, right: list[str], _asked: int) -> list[str]:
+    def change(question: Question, right: list[str], _count: int) -> list[str]:
         assert isinstance(question, Stream)
         return right if question.max_frame > 64 else [*right, "quiet"]
 
     assert smallest_of(held(change, LINE)) == "stream host_to_controller 64"
 
 
-def test_a_frame_gives_way_to_the_least_one() -> None:
-    def change(_question: Question, right: list[str], _asked: int) -> list[str]:
+def test_a_frame_is_replaced_by_the_smallest_one() -> None:
+    def change(_question: Question, right: list[str], _count: int) -> list[str]:
         return [line for line in right if not line.startswith("message")]
 
     line = "stream host_to_controller 257 5555080301e803012003 quiet"
@@ -294,7 +292,7 @@ def test_a_frame_gives_way_to_the_least_one() -> None:
 
 
 def test_a_length_is_lowered_with_what_it_counts() -> None:
-    def change(question: Question, right: list[str], _asked: int) -> list[str]:
+    def change(question: Question, right: list[str], _count: int) -> list[str]:
         assert isinstance(question, Decode)
         whole = len(question.data) > 4 and len(question.data) == question.data[2] + 2
         return ["message"] if whole and right == ["refused count-mismatch 4"] else right
@@ -305,12 +303,12 @@ def test_a_length_is_lowered_with_what_it_counts() -> None:
 
 
 def test_values_are_shrunk_one_by_one() -> None:
-    def change(_question: Question, _right: list[str], _asked: int) -> list[str]:
+    def change(_question: Question, _right: list[str], _count: int) -> list[str]:
         return ["refused"]
 
     assert smallest_of(held(change, ENCODE)) == "encode ServoMove time_ms=0 targets=0:0"
 
-    def too_high(question: Question, right: list[str], _asked: int) -> list[str]:
+    def too_high(question: Question, right: list[str], _count: int) -> list[str]:
         assert isinstance(question, Encode)
         high = any(target["position"] > 550 for target in question.values["targets"])
         return ["refused"] if high else right
@@ -321,7 +319,7 @@ def test_values_are_shrunk_one_by_one() -> None:
 def test_what_is_shrunk_stays_a_difference_of_its_kind() -> None:
     """A codec that also words its refusals otherwise is shown the message that it does not know."""
 
-    def change(question: Question, right: list[str], _asked: int) -> list[str]:
+    def change(question: Question, right: list[str], _count: int) -> list[str]:
         assert isinstance(question, Decode)
         return ["refused bad-header 0"]
 
@@ -330,8 +328,8 @@ def test_what_is_shrunk_stays_a_difference_of_its_kind() -> None:
 
 
 def test_a_program_that_remembers_is_shown_as_it_was_found() -> None:
-    def change(_question: Question, right: list[str], asked: int) -> list[str]:
-        return right if asked < 3 else ["refused"]
+    def change(_question: Question, right: list[str], count: int) -> list[str]:
+        return right if count < 3 else ["refused"]
 
     trial = held(change, STOP, CUT, LINE, STOP)
     assert trial.smallest is not None
@@ -341,16 +339,16 @@ def test_a_program_that_remembers_is_shown_as_it_was_found() -> None:
     assert trial.smallest.behind == CUT.line
 
 
-def test_a_small_case_that_only_a_tired_program_gets_wrong_is_not_shown() -> None:
-    def change(question: Question, right: list[str], asked: int) -> list[str]:
-        return right if asked < 3 and question != LINE else ["refused"]
+def test_a_smaller_case_that_a_fresh_program_gets_right_is_not_shown() -> None:
+    def change(question: Question, right: list[str], count: int) -> list[str]:
+        return right if count < 3 and question != LINE else ["refused"]
 
     trial = held(change, LINE)
     assert trial.smallest is not None
     assert trial.smallest.difference.question == LINE
 
 
-# -- What is asked besides -----------------------------------------------------------------------
+# -- Further questions ---------------------------------------------------------------------------
 
 
 def test_a_seed_always_asks_the_same_and_another_does_not() -> None:
@@ -367,12 +365,12 @@ def test_a_seed_always_asks_the_same_and_another_does_not() -> None:
 
 
 def test_further_questions_reach_every_answer_there_is() -> None:
-    told = set()
+    printed = set()
     for _, question in islice(further(MODEL, seed=3), 2_000):
         for line in answer(MODEL, question):
-            told.add(" ".join(line.split()[: 2 if line.startswith(("noise", "refused")) else 1]))
+            printed.add(" ".join(line.split()[: 2 if line.startswith(("noise", "refused")) else 1]))
     reasons = ["too-short", "bad-header", "length-mismatch", "count-mismatch", "unknown-command"]
-    assert told == {
+    assert printed == {
         *("message", "frame", "unknown", "quiet", "refused", "refused trailing-bytes"),
         *(f"noise {reason}" for reason in reasons),
         *(f"refused {reason}" for reason in reasons),
@@ -400,13 +398,13 @@ NO_QUESTIONS = {
 
 
 @pytest.mark.parametrize(("line", "error"), NO_QUESTIONS.items(), ids=repr)
-def test_what_is_no_question_is_told(line: str, error: str) -> None:
+def test_a_malformed_question_is_refused_with_the_reason(line: str, error: str) -> None:
     with pytest.raises(NotAQuestion) as caught:
         read(line)
     assert str(caught.value) == error
 
 
-# -- What is told --------------------------------------------------------------------------------
+# -- The report ----------------------------------------------------------------------------------
 
 WORDS = [
     "message",
@@ -426,7 +424,7 @@ LINES_SAID = st.lists(
 
 
 @given(said=LINES_SAID, question=st.sampled_from([STOP, CUT, LINE, ENCODE]))
-def test_whatever_a_program_says_can_be_told(said: list[str], question: Question) -> None:
+def test_any_answer_of_a_program_can_be_reported(said: list[str], question: Question) -> None:
     trial = held(lambda *_: said, question)
     text = list(report.as_text(MODEL, trial, ["./codec"]))
     assert text[-1].startswith("./codec: ")
@@ -465,7 +463,7 @@ def test_what_is_refused_within_a_line_is_shown_in_its_place() -> None:
     assert lines[-1] == "  length mismatch at byte 6: the length of a frame is 2..255, not 1"
 
 
-def test_of_a_long_answer_is_shown_where_it_differs() -> None:
+def test_a_long_answer_is_shown_where_it_differs() -> None:
     question = read("stream host_to_controller 257 " + "55550207" * 300 + " quiet")
     right = answer(MODEL, question)
     wrong = [*right[:200], "quiet", *right[200:]]
@@ -477,6 +475,6 @@ def test_of_a_long_answer_is_shown_where_it_differs() -> None:
     assert "  ... and more" in lines
 
 
-def test_of_endless_rubbish_a_little_is_shown() -> None:
+def test_the_report_of_a_long_wrong_answer_is_short() -> None:
     trial = held(lambda *_: ["what?"] * 10_000, STOP)
     assert len(list(report.as_text(MODEL, trial, ["./codec"]))) < 80

@@ -61,8 +61,8 @@ def converse(made: ModuleType, model: Model) -> None:
     spent = made._frame.protocol.BITS_PER_BYTE / made._frame.protocol.BAUD
     line = Line(device, spent)
     # However slow the line is, and whatever is sent in front of a reply: it will come.
-    patience = {"reply_timeout": 9e9, "clock": line.clock, "background": False}
-    with made.Controller(line, limits=None, **patience) as client:
+    settings = {"reply_timeout": 9e9, "clock": line.clock, "background": False}
+    with made.Controller(line, limits=None, **settings) as client:
         for exchange in model.exchanges:
             for example in exchange.request.message.examples[:4]:
                 _ask(made, client, device, exchange, example.values)
@@ -85,7 +85,7 @@ def _ask(
     arguments = [_argument(exchange.request, values[name]) for name in exchange.method.arguments]
     result = getattr(client, exchange.method.name)(*arguments)
     sent = _made(made, exchange.request, values)
-    assert device.heard[-1] == sent
+    assert device.requests[-1] == sent
     if exchange.reply is not None:
         reply = device.said[-1]
         assert result == (
@@ -95,13 +95,13 @@ def _ask(
 
 def _device(made: ModuleType, model: Model) -> Any:
     """Return a device that answers as the spec says."""
-    heard: list[Any] = []
+    requests: list[Any] = []
     said: list[Any] = []
     noise: list[Any] = []
 
     def handler(exchange: Exchange) -> Any:
         def handle(device: Any, message: Any) -> Any:
-            heard.append(message)
+            requests.append(message)
             for name in exchange.reports:
                 device.send(_report(made, model.messages[name], message))
             if exchange.reply is None:
@@ -116,7 +116,7 @@ def _device(made: ModuleType, model: Model) -> Any:
     for name in handlers:
         assert hasattr(made.Device, name), name
     device = kind()
-    device.heard, device.said, device.noise = heard, said, noise
+    device.requests, device.said, device.noise = requests, said, noise
     device.rejected = noise.append
     return device
 
@@ -132,18 +132,18 @@ def _report(made: ModuleType, layout: MessageLayout, request: Any) -> Any:
     values = dict(layout.message.examples[0].values)
     for slot in layout.arguments:
         if isinstance(slot, Number):
-            asked = getattr(request, slot.name, values[slot.name])
-            if isinstance(asked, int) and slot.low <= asked <= slot.high:
-                values[slot.name] = asked
+            requested = getattr(request, slot.name, values[slot.name])
+            if isinstance(requested, int) and slot.low <= requested <= slot.high:
+                values[slot.name] = requested
     return _made(made, layout, values)
 
 
 def _reply(made: ModuleType, exchange: Exchange, layout: MessageLayout, request: Any) -> Any:
     """Return the reply of an example, with the values that it must repeat."""
     values = dict(layout.message.examples[0].values)
-    for asked, told in exchange.echoed:
-        outer, _, inner = told.partition(".")
-        value = _at(request, asked)
+    for source, target in exchange.echoed:
+        outer, _, inner = target.partition(".")
+        value = _at(request, source)
         if not inner and not isinstance(value, tuple):
             values[outer] = value
         elif not inner:
@@ -151,10 +151,10 @@ def _reply(made: ModuleType, exchange: Exchange, layout: MessageLayout, request:
         elif layout.items is not None:
             blank = {field.name: field.low for field in layout.items.fields}
             items = values[outer] if isinstance(values[outer], list) else []
-            asked_for = value if isinstance(value, tuple) else (value,)
+            elements = value if isinstance(value, tuple) else (value,)
             values[outer] = [
                 {**(items[at] if at < len(items) else blank), inner: each}
-                for at, each in enumerate(asked_for)
+                for at, each in enumerate(elements)
             ]
     return _made(made, layout, values)
 

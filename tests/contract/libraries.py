@@ -129,12 +129,12 @@ def _run(command: list[str], folder: Path) -> subprocess.CompletedProcess[str]:
 
 
 def _by_library(found: Iterable[tuple[str, str]], folder: Path) -> dict[str, list[str]]:
-    told: dict[str, list[str]] = {}
+    by_library: dict[str, list[str]] = {}
     for file, what in found:
         path = Path(file)
         inside = path.relative_to(folder.resolve()) if path.is_absolute() else path
-        told.setdefault(inside.parts[0], []).append(f"{inside.as_posix()}: {what}")
-    return told
+        by_library.setdefault(inside.parts[0], []).append(f"{inside.as_posix()}: {what}")
+    return by_library
 
 
 def linted(folder: Path) -> dict[str, list[str]]:

@@ -61,8 +61,8 @@ def specs() -> dict[str, Data]:
 @cache
 def _places(spec: str) -> tuple[Data, tuple[Steps, ...]]:
     """Return a spec with harmless text wherever any may stand, and where that is."""
-    told = with_prose(specs()[spec], HARMLESS)
-    return told, tuple(path for path, text in leaves(told) if HARMLESS in text)
+    data = with_prose(specs()[spec], HARMLESS)
+    return data, tuple(path for path, text in leaves(data) if HARMLESS in text)
 
 
 def rotations() -> int:
@@ -70,15 +70,15 @@ def rotations() -> int:
     return len(TEXTS)
 
 
-def told(spec: str, rotation: int) -> Mutant:
+def with_odd_text(spec: str, rotation: int) -> Mutant:
     """Return a spec with an odd text in every place, a different one in each."""
     labels = list(TEXTS)
     _, places = _places(spec)
     given = {place: labels[(at + rotation) % len(labels)] for at, place in enumerate(places)}
-    return telling(spec, given)
+    return with_texts(spec, given)
 
 
-def telling(spec: str, given: dict[Steps, str]) -> Mutant:
+def with_texts(spec: str, given: dict[Steps, str]) -> Mutant:
     """Return a spec with the texts of these labels in these places."""
 
     def make() -> Data:
@@ -96,7 +96,7 @@ def singly(mutant: Mutant) -> list[Mutant]:
     """Return one mutant for each of the texts of this one."""
     _, places = _places(mutant.spec)
     by_path = {_dotted(path): path for path in places}
-    return [telling(mutant.spec, {by_path[each.path]: each.new}) for each in mutant.changes]
+    return [with_texts(mutant.spec, {by_path[each.path]: each.new}) for each in mutant.changes]
 
 
 # ------------------------------------------------------------------ everything else

@@ -34,8 +34,8 @@ def joined(events: Iterable[Event]) -> list[Event]:
     found: list[Event] = []
     for (kind, said), same in groupby(events, lambda event: (event[0], event[2])):
         pieces = [event[1] for event in same]
-        told = ["".join(pieces)] if kind == "noise" else pieces
-        found += [[kind, piece, said] for piece in told]
+        reported = ["".join(pieces)] if kind == "noise" else pieces
+        found += [[kind, piece, said] for piece in reported]
     return found
 
 

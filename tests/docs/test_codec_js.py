@@ -46,8 +46,8 @@ class Page:
         self.command = page_command(compiled, folder)
 
     def answers(self, questions: list[Question]) -> list[list[str]]:
-        told = run(self.command, [question.line for question in questions])
-        return [joined(lines) for lines in told]
+        replies = run(self.command, [question.line for question in questions])
+        return [joined(lines) for lines in replies]
 
 
 @pytest.fixture(params=SPECS, ids=lambda file: file.stem, scope="module")
@@ -57,8 +57,8 @@ def page(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactor
 
 def test_lines_are_decoded_as_the_reference_decodes_them(page: Page) -> None:
     questions = list(streams(page.model, 17, 600))
-    for question, told in zip(questions, page.answers(questions), strict=True):
-        assert told == joined(answer(page.model, question)), question.line
+    for question, reply in zip(questions, page.answers(questions), strict=True):
+        assert reply == joined(answer(page.model, question)), question.line
 
 
 def streams(model: Model, seed: int, number: int) -> Iterator[Question]:
@@ -88,8 +88,8 @@ def test_single_frames_are_judged_as_the_reference_judges_them(page: Page) -> No
         for way in page.model.directions
         for end in (len(line), len(line) // 2, 10)
     ]
-    for question, told in zip(questions, page.answers(questions), strict=True):
-        assert told == joined(answer(page.model, question)), question.line
+    for question, reply in zip(questions, page.answers(questions), strict=True):
+        assert reply == joined(answer(page.model, question)), question.line
 
 
 # What a line says, by the parts in which it comes.
@@ -129,7 +129,7 @@ LINES = {
 
 
 @pytest.mark.parametrize("title", LINES)
-def test_a_line_says(busservo: Page, title: str) -> None:
+def test_a_line_is_decoded_into_these_events(busservo: Page, title: str) -> None:
     parts, expected = LINES[title]
     way = busservo.model.directions[0]
     chunks = tuple(None if part == "quiet" else bytes.fromhex(part) for part in parts.split())
@@ -154,7 +154,7 @@ def test_a_recorded_line_is_decoded_as_the_reference_decodes_it(busservo: Page) 
 
 # ---------------------------------------------------------------------------- beyond the language
 
-# Asks the scripts of the page, as they are published, what no other codec is asked.
+# Asks the scripts of the page, as they are published, the questions that no other codec gets.
 HARNESS = """
 const { protocol, questions } = JSON.parse(require("fs").readFileSync(0, "utf8"));
 const codec = makeCodec(protocol);
@@ -226,8 +226,8 @@ def wrapped(request: pytest.FixtureRequest) -> Model:
 
 def test_any_envelope_is_decoded_as_the_reference_decodes_it_both_ways(wrapped: Model) -> None:
     lines = noisy_lines(wrapped, 5, 400)
-    told = ask(wrapped, [{"ask": "line", "text": line.hex()} for line in lines])
-    for line, events in zip(lines, told, strict=True):
+    replies = ask(wrapped, [{"ask": "line", "text": line.hex()} for line in lines])
+    for line, events in zip(lines, replies, strict=True):
         said = [
             [event["type"], bytes(event["bytes"]).hex(), event.get("message", event.get("reason"))]
             for event in events
@@ -266,7 +266,7 @@ PIECES = {
 
 
 @pytest.mark.parametrize("title", PIECES)
-def test_noise_is_told_in_pieces_with_the_byte_that_was_refused(title: str) -> None:
+def test_noise_is_reported_in_pieces_with_the_refused_byte(title: str) -> None:
     text, expected = PIECES[title]
     questions = [{"ask": "line", "text": text}, {"ask": "bytes", "text": text}]
     whole, cut = ask(reference("busservo").model, questions)
@@ -290,8 +290,8 @@ def bytewise(events: list[dict[str, Any]]) -> list[tuple[int, int, int]]:
 def test_single_frames_of_either_way_are_judged_as_the_reference_judges_them(name: str) -> None:
     model = reference(name).model
     lines = [line[:end] for line in noisy_lines(model, 6, 300) for end in (len(line), 10)]
-    told = ask(model, [{"ask": "frame", "text": line.hex()} for line in lines])
-    for line, found in zip(lines, told, strict=True):
+    replies = ask(model, [{"ask": "frame", "text": line.hex()} for line in lines])
+    for line, found in zip(lines, replies, strict=True):
         said = found.get("message") or [found["reason"], found["offset"]]
         assert said == verdict(model, None, line), line.hex(" ")
 
@@ -318,10 +318,10 @@ def verdict(model: Model, way: Direction | None, data: bytes) -> Any:
     ],
 )
 def test_values_that_no_frame_can_carry_are_refused(fields: dict[str, Any], error: str) -> None:
-    (told,) = ask(
+    (reply,) = ask(
         reference("busservo").model, [{"ask": "encode", "name": "ServoMove", "fields": fields}]
     )
-    assert told["refused"].startswith(error)
+    assert reply["refused"].startswith(error)
 
 
 def test_hex_is_read_as_the_library_reads_it() -> None:
@@ -332,5 +332,5 @@ def test_hex_is_read_as_the_library_reads_it() -> None:
             expected.append(list(read_hex(text)))
         except HexError:
             expected.append(None)
-    told = ask(reference("busservo").model, [{"ask": "hex", "text": text} for text in texts])
-    assert [each if isinstance(each, list) else None for each in told] == expected
+    replies = ask(reference("busservo").model, [{"ask": "hex", "text": text} for text in texts])
+    assert [each if isinstance(each, list) else None for each in replies] == expected

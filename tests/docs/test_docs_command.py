@@ -40,7 +40,7 @@ def test_it_opens_the_index(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> 
     assert opened == [(tmp_path / "a b" / "busservo" / "index.html").as_uri()]
 
 
-def test_it_says_so_where_there_is_no_browser(
+def test_a_missing_browser_is_reported(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     monkeypatch.setattr(webbrowser, "open", lambda _url: False)
@@ -48,7 +48,7 @@ def test_it_says_so_where_there_is_no_browser(
     assert "no browser was found" in capsys.readouterr().err
 
 
-def test_left_alone_it_writes_into_a_folder_of_its_own(
+def test_without_a_target_the_pages_go_into_a_folder_of_their_own(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     monkeypatch.setattr("tempfile.tempdir", str(tmp_path))

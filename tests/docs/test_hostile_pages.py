@@ -100,7 +100,7 @@ def test_the_data_of_the_decoder_is_data(site: Reference) -> None:
     assert json.loads(data)["messages"][0]["name"] == "ServoMove"
 
 
-def test_links_lead_where_they_led(site: Reference, harmless: Reference) -> None:
+def test_links_are_those_of_a_harmless_spec(site: Reference, harmless: Reference) -> None:
     for path, page in site.pages.items():
         if path != "spec.html":
             paths = [link.partition("#")[0] for link in page.links]

@@ -40,7 +40,7 @@ def test_tables_have_as_many_cells_in_every_row(name: str, path: str) -> None:
 
 
 @pytest.mark.parametrize("name", SPECS)
-def test_every_page_of_a_message_has_a_twin(name: str) -> None:
+def test_every_page_of_a_message_has_a_markdown_version(name: str) -> None:
     site = reference(name)
     for message in site.model.messages.values():
         text = site.files[f"messages/{message.name}.md"]
@@ -67,11 +67,11 @@ def test_every_page_of_a_message_has_a_twin(name: str) -> None:
         ("{{ x }}", "&#123;&#123; x &#125;&#125;"),
     ],
 )
-def test_text_is_text(text: str, escaped: str) -> None:
+def test_text_is_escaped_in_markdown(text: str, escaped: str) -> None:
     assert markdown(text) == escaped
 
 
-def test_code_cannot_be_left() -> None:
+def test_text_in_code_cannot_end_it() -> None:
     assert code("a`b|c") == r"`a'b\|c`"
     assert code("") == ""
     assert "```" not in verbatim("x\n```\ny")

@@ -279,14 +279,14 @@ def test_the_python_of_a_message_runs(message: str) -> None:
 # ---------------------------------------------------------------------------- the rest
 
 
-def test_the_index_lists_every_message_by_code(site: Reference) -> None:
+def test_the_index_lists_every_message_by_id(site: Reference) -> None:
     rows = [given for tag, given in site.pages["index.html"].tags if tag == "tr" and given]
     found = [(row["data-ids"].split()[0], row["data-words"].split()[0]) for row in rows]
     messages = sorted(site.model.messages.values(), key=lambda message: message.id)
     assert found == [(str(message.id), message.name.lower()) for message in messages]
 
 
-def test_errata_look_alikes_and_history_are_told(site: Reference) -> None:
+def test_errata_look_alikes_and_history_are_shown(site: Reference) -> None:
     spec = site.model.spec
     errata = " ".join(site.pages["errata.html"].words.split())
     for erratum in spec.errata:
@@ -324,7 +324,7 @@ def test_anchors_hold_whatever_the_spec_calls_things() -> None:
 
 def test_wire_times_are_those_of_the_line() -> None:
     words = " ".join(reference("busservo").pages["sequences.html"].words.split())
-    # Six servos: 11 bytes asked, 23 answered, at 960 bytes a second.
+    # Six servos: 11 bytes sent, 23 received, at 960 bytes a second.
     assert "6 items in servo_ids 34 35.4 ms" in words
     # A move of six servos is not documented; one of two has 13 bytes.
     assert "2 items in targets 13 13.5 ms" in words

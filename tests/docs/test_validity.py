@@ -51,7 +51,7 @@ def test_every_page_of_a_hostile_spec_is_valid(tmp_path: Path) -> None:
     assert complaints(tmp_path, pages) == []
 
 
-def test_the_validator_would_tell(tmp_path: Path) -> None:
+def test_the_validator_refuses_an_invalid_page(tmp_path: Path) -> None:
     page = reference("busservo").pages["index.html"].text
     broken = page.replace("</table>", "", 1).replace('<html lang="en">', "<html>")
     assert complaints(tmp_path, {"index.html": broken})

@@ -74,7 +74,7 @@ def test_a_stray_byte_costs_one_byte() -> None:
     ]
 
 
-def test_where_every_code_has_a_meaning_no_lesson_is_about_one_that_has_none() -> None:
+def test_where_every_id_is_a_message_no_example_has_an_unknown_one() -> None:
     data = data_of(DEMO)
     plain = data["messages"]["StationRead"]
     sent = [each for each in data["messages"].values() if each["direction"] == plain["direction"]]
@@ -87,9 +87,9 @@ def test_where_every_code_has_a_meaning_no_lesson_is_about_one_that_has_none() -
     assert "unknown" not in [example.id for example in stream_examples(layout)]
     message = layout.messages["StationRead"]
     frame = message.message.examples[0].hex
-    told = [said for said, _ in spoilt(layout, message, frame)]
-    assert "a byte too many" in told
-    assert "an unknown command" not in told
+    titles = [said for said, _ in spoilt(layout, message, frame)]
+    assert "a byte too many" in titles
+    assert "an unknown command" not in titles
 
 
 def test_a_report_comes_between_a_request_and_its_reply_only_from_the_same_end() -> None:
@@ -108,7 +108,7 @@ def test_a_report_comes_between_a_request_and_its_reply_only_from_the_same_end()
     assert interruption(derive(spec)) is None
 
 
-def test_a_list_whose_example_is_empty_takes_no_lesson_away() -> None:
+def test_an_empty_list_in_an_example_removes_no_stream_example() -> None:
     data = data_of(DEMO)
     message = data["messages"]["VentsOpen"]
     message["fields"]["vents"]["count"] = "0..8"
@@ -118,11 +118,11 @@ def test_a_list_whose_example_is_empty_takes_no_lesson_away() -> None:
     }
     spec = compiled_of(data).read
     assert spec is not None
-    told = stream_examples(derive(spec))
-    assert [each.id for each in told] == [
+    examples = stream_examples(derive(spec))
+    assert [each.id for each in examples] == [
         each.id for each in stream_examples(layout_of(data_of(DEMO)))
     ]
-    assert told[0].walkthrough.data.hex() == "c35aa5100003000000"
+    assert examples[0].walkthrough.data.hex() == "c35aa5100003000000"
 
 
 def test_a_report_of_another_end_comes_between_no_request_and_its_reply() -> None:

@@ -41,7 +41,7 @@ def test_each_check_is_a_line_with_its_bytes_below_it(capsys: pytest.CaptureFixt
     assert " passed, 0 failed, " in errors
 
 
-def test_what_failed_comes_with_what_to_do_next(capsys: pytest.CaptureFixture[str]) -> None:
+def test_a_failed_check_comes_with_advice(capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["doctor", "--port", "no-such-port"]) == 1
     output = capsys.readouterr().out
     assert "failed   opening      no-such-port: there is no such port\n" in output
@@ -71,7 +71,7 @@ def test_a_line_that_is_lost_has_a_status_of_its_own(capsys: pytest.CaptureFixtu
 
 
 @pytest.mark.parametrize(
-    ("words", "told"),
+    ("words", "expected"),
     [
         (["--move", "254", "--yes"], "--move 254: servos have numbers from 1 to 253"),
         (["--move", "x"], "argument --move: 'x' is no whole number"),
@@ -81,17 +81,17 @@ def test_a_line_that_is_lost_has_a_status_of_its_own(capsys: pytest.CaptureFixtu
         (["--report", "/no/such/folder/x"], "/no/such/folder/x cannot be written: No such file"),
     ],
 )
-def test_what_is_of_no_use_is_said_before_anything_is_looked_at(
+def test_unusable_arguments_are_refused_before_any_check(
     capsys: pytest.CaptureFixture[str],
     monkeypatch: pytest.MonkeyPatch,
     words: list[str],
-    told: str,
+    expected: str,
 ) -> None:
     monkeypatch.setattr("sys.stdin", io.StringIO("y\n"))
     assert main(["doctor", "--port", "no-such-port", *words]) == 2
     output, errors = capsys.readouterr()
     assert output == ""
-    assert told in errors
+    assert expected in errors
 
 
 # ------------------------------------------------------------------ reports
@@ -109,8 +109,8 @@ def test_a_report_is_a_recording_that_says_what_was_found(
 ) -> None:
     path = tmp_path / "report.hex"
     with board_with(Faults(noise=0.5, unasked=0.3, seed=1), local_echo=True) as board:
-        told = report_of(diagnosis_of(board), path)
-    lines = told.splitlines()
+        report = report_of(diagnosis_of(board), path)
+    lines = report.splitlines()
     assert lines[0].startswith("# doctor of busservo ")
     assert "# device: LSC-32" in lines
     assert "# adapter: 1A86:7523 USB Serial" in lines
@@ -126,15 +126,15 @@ def test_a_report_is_a_recording_that_says_what_was_found(
         assert each in decoded
 
 
-def test_a_report_says_at_which_rate_each_question_was_asked(tmp_path: Path) -> None:
+def test_a_report_says_at_which_rate_each_question_was_sent(tmp_path: Path) -> None:
     with board_with(Faults(dropped=1.0)) as board:
-        told = report_of(diagnosis_of(board), tmp_path / "report.hex")
-    opened = [line for line in told.splitlines() if line.startswith("# opened, at ")]
+        report = report_of(diagnosis_of(board), tmp_path / "report.hex")
+    opened = [line for line in report.splitlines() if line.startswith("# opened, at ")]
     rates = (9600, 115200, 57600, 38400, 19200, 4800, 9600)
     assert opened == [f"# opened, at {rate} baud" for rate in rates]
 
 
-def test_a_report_tells_nothing_of_its_sender(
+def test_a_report_does_not_identify_its_sender(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """No serial number, no name of a port, which may hold one, and no path of a home."""
@@ -144,18 +144,18 @@ def test_a_report_tells_nothing_of_its_sender(
     for port in (f"{home}/board", secret.name, None):
         with board_with() as board:
             diagnosis = diagnosis_of(board, port=port, ports=lambda: [secret])
-            told = report_of(diagnosis, tmp_path / f"{port}.hex".replace("/", "-"))
+            report = report_of(diagnosis, tmp_path / f"{port}.hex".replace("/", "-"))
         for each in ("lovelace", "A50285BI", "usbserial", PORT):
-            assert each not in told
-    assert "FT232R SERIAL" in told
+            assert each not in report
+    assert "FT232R SERIAL" in report
 
 
 def test_a_report_of_no_port_at_all_is_one_too(tmp_path: Path) -> None:
     with board_with() as board:
         diagnosis = diagnosis_of(board, port=None, ports=list)
-        told = report_of(diagnosis, tmp_path / "report.hex", "")
-    assert "# device: not stated\n# adapter: not known\n" in told
-    assert "# line: no port, 9600 baud\n# failed port: no serial port is plugged in\n" in told
+        report = report_of(diagnosis, tmp_path / "report.hex", "")
+    assert "# device: not stated\n# adapter: not known\n" in report
+    assert "# line: no port, 9600 baud\n# failed port: no serial port is plugged in\n" in report
 
 
 def test_a_report_of_a_board_by_usb_hid_names_it(tmp_path: Path) -> None:
@@ -164,9 +164,9 @@ def test_a_report_of_a_board_by_usb_hid_names_it(tmp_path: Path) -> None:
     found = [HidDevice(0x0483, 0x5750, "/dev/hidraw0", "LOBOT")]
     with board_with() as board:
         diagnosis = diagnosis_of(board, port="hid://", hid_devices=lambda: found)
-        told = report_of(diagnosis, tmp_path / "report.hex")
-    assert "# adapter: 0483:5750 LOBOT\n" in told
-    assert "# line: hid://, 9600 baud\n" in told
+        report = report_of(diagnosis, tmp_path / "report.hex")
+    assert "# adapter: 0483:5750 LOBOT\n" in report
+    assert "# line: hid://, 9600 baud\n" in report
 
 
 def test_a_report_is_never_overwritten(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
@@ -206,8 +206,8 @@ def test_whatever_ends_it_the_port_is_given_back() -> None:
 
 def test_help_and_errors_need_no_pyserial() -> None:
     words = ["doctor", "--port", "COM7", "--baud", "x"]
-    told = "print('serial' in sys.modules)"
-    program = f"import sys; from busservo._cli import main; main({words!r}); {told}"
+    probe = "print('serial' in sys.modules)"
+    program = f"import sys; from busservo._cli import main; main({words!r}); {probe}"
     done = subprocess.run(
         [sys.executable, "-c", program], capture_output=True, text=True, check=True
     )

@@ -30,7 +30,7 @@ class Case:
     board: dict[str, Any] = field(default_factory=dict)
     given: dict[str, Any] = field(default_factory=dict)
     before: Callable[[VirtualController], object] = lambda _board: None
-    told: dict[str, tuple[str, str, str]] = field(default_factory=dict)
+    expected: dict[str, tuple[str, str, str]] = field(default_factory=dict)
     garbage: bool = False
 
 
@@ -49,15 +49,15 @@ CASES = {
     "nothing": Case(),
     "noise": Case(
         Faults(noise=1.0),
-        told={"reply": (FAILED, "of 11 questions 11 answered with noise around it", "grounds")},
+        expected={"reply": (FAILED, "of 11 questions 11 answered with noise around it", "grounds")},
     ),
     "some bits": Case(
         Faults(bit_flips=0.03, seed=3),
-        told={"reply": (FAILED, "answered by bytes that are no reply", "loose plugs")},
+        expected={"reply": (FAILED, "answered by bytes that are no reply", "loose plugs")},
     ),
     "lost bytes": Case(
         Faults(lost_bytes=0.02, seed=1),
-        told={
+        expected={
             "reply": (FAILED, "answered by bytes that are no reply", "loose plugs"),
         },
     ),
@@ -66,58 +66,60 @@ CASES = {
     "a little late": Case(Faults(late=1.0, late_by=0.2)),
     "late": Case(
         Faults(late=1.0, late_by=0.6),
-        told={"reply": (FAILED, "of 11 questions 11 answered too late", "--timeout 2")},
+        expected={"reply": (FAILED, "of 11 questions 11 answered too late", "--timeout 2")},
     ),
     "far too late": Case(
         Faults(late=1.0, late_by=100.0),
-        told=NOTHING | {"rate": (FAILED, "nothing came at all", "TX goes to RX")},
+        expected=NOTHING | {"rate": (FAILED, "nothing came at all", "TX goes to RX")},
     ),
     "twice": Case(
         Faults(duplicated=1.0),
-        told={"reply": (FAILED, "of 11 questions 11 answered more than once", "no other program")},
+        expected={
+            "reply": (FAILED, "of 11 questions 11 answered more than once", "no other program")
+        },
     ),
     "never": Case(
         Faults(dropped=1.0),
-        told=NOTHING | {"rate": (FAILED, "nothing came at all", "TX goes to RX")},
+        expected=NOTHING | {"rate": (FAILED, "nothing came at all", "TX goes to RX")},
     ),
     "sometimes": Case(
         Faults(dropped=0.3, seed=6),
-        told={"reply": (FAILED, "not answered", "retries=2 asks again")},
+        expected={"reply": (FAILED, "not answered", "retries=2 asks again")},
     ),
     "reports": Case(Faults(unasked=1.0)),
     "hung up": Case(
-        Faults(hang_up=1.0), told=LOST | {"rate": (FAILED, "virtual board: ", "run this again")}
+        Faults(hang_up=1.0), expected=LOST | {"rate": (FAILED, "virtual board: ", "run this again")}
     ),
     "noise to the board": Case(Faults(noise_to_board=1.0), garbage=True),
     "pieces to the board": Case(Faults(splits_to_board=1.0)),
     "no servo": Case(
         board={"servos": []},
-        told={"present": (FAILED, "servos that are there: none", "supply of the servos")},
+        expected={"present": (FAILED, "servos that are there: none", "supply of the servos")},
     ),
     "all servos off": Case(
         Faults(absent=1.0),
-        told={"present": (FAILED, "none; reported absent: 6", "supply of the servos")},
+        expected={"present": (FAILED, "none; reported absent: 6", "supply of the servos")},
     ),
     "some servos missing": Case(Faults(fewer=0.5, seed=1)),
     "wrong counts": Case(
         Faults(wrong_count=1.0),
-        told={
+        expected={
             "present": (FAILED, "servos 1 to 84 was not answered", "does not know this question")
         },
     ),
     "echo": Case(
         board={"local_echo": True},
-        told={"echo": (FAILED, "came back 1 of 1 times: a local echo", "say --local-echo")},
+        expected={"echo": (FAILED, "came back 1 of 1 times: a local echo", "say --local-echo")},
     ),
     "echo that is known": Case(board={"local_echo": True}, given={"local_echo": True}),
     "no echo, against expectation": Case(
         given={"local_echo": True},
-        told={"echo": (FAILED, "came back 0 of 1 times", "leave out --local-echo")},
+        expected={"echo": (FAILED, "came back 0 of 1 times", "leave out --local-echo")},
     ),
     "echo alone": Case(
         Faults(dropped=1.0),
         board={"local_echo": True},
-        told=NOTHING
+        expected=NOTHING
         | {
             "rate": (FAILED, "which are the question itself", "TX goes to RX"),
             "echo": (FAILED, "came back 2 of 2 times", "say --local-echo"),
@@ -125,17 +127,17 @@ CASES = {
     ),
     "as fast as can be": Case(
         board={"baud": None},
-        told={"round-trip": (UNKNOWN, "this is no line of that rate", "baud=math.inf")},
+        expected={"round-trip": (UNKNOWN, "this is no line of that rate", "baud=math.inf")},
     ),
     "as fast as can be, but for a pause": Case(
         Faults(delays=0.5, longest_delay=0.1),
         board={"baud": None},
-        told={"round-trip": (UNKNOWN, "this is no line of that rate", "baud=math.inf")},
+        expected={"round-trip": (UNKNOWN, "this is no line of that rate", "baud=math.inf")},
     ),
     "as fast as can be, and late": Case(
         Faults(late=0.3, late_by=1.5, seed=3),
         board={"baud": None},
-        told={
+        expected={
             "reply": (FAILED, "1 answered more than once, 1 answered too late", "--timeout 2"),
             "round-trip": (FAILED, "before the line could have carried", "an earlier question"),
         },
@@ -143,14 +145,14 @@ CASES = {
     "as fast as can be, and said to be": Case(board={"baud": None}, given={"baud": math.inf}),
     "spurious output": Case(
         before=lambda board: board.spurious_output(b"\x00\xf8", 20, ignore_input=False),
-        told={
+        expected={
             "silence": (FAILED, "bytes that are no frame came unsolicited", "see that the rate"),
             "reply": (FAILED, "answered with noise around it", "grounds"),
         },
     ),
     "spurious output and nothing else": Case(
         before=lambda board: board.spurious_output(b"\x00\xf8", 20),
-        told=NO_REPLY
+        expected=NO_REPLY
         | {
             "silence": (FAILED, "bytes that are no frame came unsolicited", "see that the rate"),
             "rate": (FAILED, "that are no reply", "at which rate the device is set"),
@@ -159,21 +161,21 @@ CASES = {
     "a report": Case(before=lambda board: board.report(ActionGroupStarted(3, 1))),
     "the servos' own protocol": Case(
         before=lambda board: board.send_bytes(bytes.fromhex("55 55 01 07 01 20 03 E8 03 E8")),
-        told={
+        expected={
             "silence": (FAILED, "10 bytes that are no frame", "see that the rate"),
             "look-alike": (FAILED, "another protocol came: LX-16A", "look-alikes"),
         },
     ),
     "another edition": Case(
         before=lambda board: board.send_bytes(bytes.fromhex("55 55 03 63 01")),
-        told={
+        expected={
             "silence": (FAILED, "5 bytes that are no frame", "see that the rate"),
             "look-alike": (FAILED, "a frame of command 99 came", "send a report in"),
         },
     ),
     "another length": Case(
         before=lambda board: board.send_bytes(bytes.fromhex("55 55 06 0F 4C 1D 00 00")),
-        told={
+        expected={
             "silence": (FAILED, "8 bytes that are no frame", "see that the rate"),
             "look-alike": (FAILED, "BatteryVoltage came with a length of 6", "send a report in"),
         },
@@ -182,13 +184,13 @@ CASES = {
 
 
 @pytest.mark.parametrize("name", [name for name in CASES if not CASES[name].garbage])
-def test_each_fault_is_told_by_the_checks_that_see_it(name: str) -> None:
+def test_each_fault_is_reported_by_the_checks_that_detect_it(name: str) -> None:
     check_case(CASES[name])
 
 
 @pytest.mark.garbage
 @pytest.mark.parametrize("name", [name for name in CASES if CASES[name].garbage])
-def test_what_the_board_refuses_is_no_fault_of_the_line_back(name: str) -> None:
+def test_requests_refused_by_the_board_are_no_fault_of_the_return_line(name: str) -> None:
     check_case(CASES[name])
 
 
@@ -200,9 +202,9 @@ def check_case(case: Case) -> None:
     assert [*found] == [check.id for check in CHECKS]
     states = {name: result.state for name, result in found.items()}
     assert states == {
-        name: case.told[name][0] if name in case.told else PASSED for name in states
+        name: case.expected[name][0] if name in case.expected else PASSED for name in states
     }, found
-    for name, (_, seen, advice) in case.told.items():
+    for name, (_, seen, advice) in case.expected.items():
         assert seen in found[name].seen
         assert advice in found[name].advice
         assert found[name].advice or found[name].state == UNKNOWN

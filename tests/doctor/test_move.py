@@ -38,8 +38,8 @@ def test_a_servo_goes_a_little_and_back(began: int, reached: int) -> None:
         found = moved(board)
         assert board.servos[1].position == began
         assert not any(servo.travelling for servo in board.servos.values())
-    told = f"servo 1 was at {began}, was sent to {reached}, and was then at {reached}"
-    assert found == (PASSED, f"{told}; sent back, it is at {began}", (), "")
+    report = f"servo 1 was at {began}, was sent to {reached}, and was then at {reached}"
+    assert found == (PASSED, f"{report}; sent back, it is at {began}", (), "")
 
 
 def test_it_moves_even_where_replies_are_lost() -> None:
@@ -47,7 +47,7 @@ def test_it_moves_even_where_replies_are_lost() -> None:
         assert moved(board).state == PASSED
 
 
-def test_what_is_not_there_is_not_moved() -> None:
+def test_a_missing_servo_is_not_moved() -> None:
     with board_with() as board:
         found = moved(board, 9)
         assert board.accepted == 1
@@ -66,7 +66,7 @@ def test_what_is_outside_the_limits_is_not_moved(monkeypatch: pytest.MonkeyPatch
     assert found.seen == "servo 1 is at 500, outside 0..400, so it was not moved"
 
 
-def test_a_servo_that_does_not_move_is_told(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_servo_that_does_not_move_is_reported(monkeypatch: pytest.MonkeyPatch) -> None:
     with board_with() as board:
         monkeypatch.setattr(board.servos[1], "move", lambda *_: None)
         found = moved(board)

@@ -100,7 +100,7 @@ def test_a_board_without_a_serial_port_is_seen(
         (PortNotFoundError("COM7", "there is no such port", "look"), "opening", "no such", "look"),
     ],
 )
-def test_a_port_that_cannot_be_opened_is_told_by_one_check(
+def test_a_port_that_cannot_be_opened_is_reported_by_one_check(
     error: TransportError, check: str, seen: str, advice: str
 ) -> None:
     def opener(_port: str, _baud: float) -> Any:
@@ -115,7 +115,7 @@ def test_a_port_that_cannot_be_opened_is_told_by_one_check(
     assert found["rate"].state == UNKNOWN
 
 
-def test_a_line_that_is_lost_while_it_is_looked_at_is_told_as_lost() -> None:
+def test_a_line_lost_during_the_checks_is_reported_as_lost() -> None:
     with board_with() as board:
         transport = board.open()
         board.unplug()
@@ -171,7 +171,7 @@ def test_a_connection_has_no_rate() -> None:
 
 
 @pytest.fixture
-def deaf_to_rates() -> Iterator[str]:
+def port_without_rates() -> Iterator[str]:
     """Return a pseudo terminal that leads to a board elsewhere: it answers at whatever rate."""
     pty = pytest.importorskip("pty", reason="there are pseudo-terminals only where there is a tty")
     import tty  # noqa: PLC0415 - as pty
@@ -202,7 +202,7 @@ def deaf_to_rates() -> Iterator[str]:
 
 
 @pytest.mark.usefixtures("quick")
-def test_a_pseudo_terminal_may_have_no_rate_either(deaf_to_rates: str) -> None:
-    found = rate_of(deaf_to_rates, reply_timeout=GENEROUS / 100)
+def test_a_pseudo_terminal_may_have_no_rate_either(port_without_rates: str) -> None:
+    found = rate_of(port_without_rates, reply_timeout=GENEROUS / 100)
     assert found.state == UNKNOWN
     assert "it answers at 9600 baud and at 115200 baud alike" in found.seen
