@@ -91,7 +91,7 @@ def made(rule: str, case: Case) -> BadSpec:
     see = _numbered(said)
     if (len(places), len(others)) != (len(said), sum(map(len, see))):
         raise EditError(
-            f"{len(said)} findings and {sum(map(len, see))} places to see are told,"
+            f"{len(said)} findings and {sum(map(len, see))} places to see are reported,"
             f" and {len(places)} and {len(others)} are marked"
         )
     findings = [

@@ -1,4 +1,4 @@
-"""What holds for tests that start boards: no board refuses anything that it hears.
+"""What holds for tests that start boards: no board refuses anything that it receives.
 
 A conftest.py of a folder with such tests imports both names.
 """
@@ -34,7 +34,7 @@ def pytest_runtest_makereport(
 def no_board_refuses_anything(
     request: pytest.FixtureRequest, monkeypatch: pytest.MonkeyPatch
 ) -> Iterator[None]:
-    """Fail a test in which a board refuses what it hears.
+    """Fail a test in which a board refuses what it receives.
 
     A test marked `garbage` sends what is no frame on purpose, and fails if no board refuses it.
     """

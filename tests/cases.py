@@ -362,7 +362,7 @@ BAD_VALUES = (
         [(1, 1)] * 85,
         "85 items is outside 0..84",
     ),
-    # The first wrong value is the one that is told, in the order of the arguments.
+    # The first wrong value is the one that is reported, in the order of the arguments.
     BadValue(*_run(256, 65536), "group", 256, "256 is outside 0..255"),
     BadValue(*_move((256, 65536), time_ms=-1), "time_ms", -1, "-1 is outside 0..65535"),
 )

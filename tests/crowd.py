@@ -25,8 +25,8 @@ def taken_names() -> Data:
     """Return every taken word but those of elements, as a name of the kind it is taken for."""
     crowd = Crowd("json", "any", "noise")
     for at, words in enumerate(_in_parts(taken("field"))):
-        crowd.command(f"Told{at}", words)
-        crowd.report(f"Heard{at}", words)
+        crowd.command(f"Sent{at}", words)
+        crowd.report(f"Received{at}", words)
     for at, words in enumerate(_in_parts(taken("field of an element"))):
         crowd.command(f"Listed{at}", [], listed=f"list{at}", element=f"Listed{at}Each", of=words)
     for at, word in enumerate(["class", "latest", "reply", "replies", "self", "kind", "each"]):
@@ -56,7 +56,7 @@ def taken_elements() -> Data:
     crowd = Crowd("serial", "host", "either")
     for at, name in enumerate(taken("element")):
         if not _shouted(name):
-            crowd.report(f"Heard{at}", [], listed="items", element=name, of=["id"])
+            crowd.report(f"Received{at}", [], listed="items", element=name, of=["id"])
     return crowd.data
 
 

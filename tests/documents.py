@@ -50,8 +50,8 @@ _GUIDES = sorted({*(ROOT / "docs").glob("*.md")} - {_GUIDE})
 PAGES = [ROOT / "README.md", ROOT / "CONTRIBUTING.md", *_GUIDES]
 
 # A page need not say that the machine on which it is tried may be busy.
-PATIENT = {"reply_timeout": GENEROUS, "settle": 0}
-PATIENT_WORDS = {
+TIMEOUTS = {"reply_timeout": GENEROUS, "settle": 0}
+TIMEOUT_OPTIONS = {
     verb: ["--timeout", str(GENEROUS)] for verb in ("bench-line", "conform", "doctor", "send")
 }
 
@@ -101,7 +101,7 @@ class _Player:
             case "pycon":
                 return self._session(block)
             case "output":
-                return _told(block, self._printed)
+                return _agreed(block, self._printed)
             case "python":
                 self._printed = self._program(block)
             case _:
@@ -115,10 +115,10 @@ class _Player:
             opening = mock.patch.multiple(
                 busservo,
                 open_controller=lambda _port, **given: open_controller(
-                    board.port, **PATIENT | given
+                    board.port, **TIMEOUTS | given
                 ),
                 open_async_controller=lambda _port, **given: open_async_controller(
-                    board.port, **PATIENT | given
+                    board.port, **TIMEOUTS | given
                 ),
                 Controller=partial(busservo.Controller, reply_timeout=GENEROUS),
             )
@@ -131,7 +131,7 @@ class _Player:
         assert not before, f"a console block begins with a command, not with {before!r}"
         shown = ""
         for command, expected in zip(parts[::2], parts[1::2], strict=True):
-            shown += f"$ {command}\n" + _told(expected, self._run(command))
+            shown += f"$ {command}\n" + _agreed(expected, self._run(command))
         return shown
 
     def _run(self, line: str) -> str:
@@ -141,8 +141,8 @@ class _Player:
             name, *arguments = shlex.split(command)
             assert name in _COMMANDS, f"{name} is not run here: put it into a block of `sh`"
             run = self._start if self._changed & _MADE_OF[name] else self._call
-            with _connected(arguments) as (words, told_as):
-                output = told_as(run(name, words, output))
+            with _connected(arguments) as (words, shown_as):
+                output = shown_as(run(name, words, output))
         return output
 
     def _start(self, name: str, words: list[str], given: str) -> str:
@@ -185,7 +185,7 @@ class _Player:
             else:
                 first, *more = part.source.splitlines()
                 shown += "".join([f">>> {first}\n", *(f"... {line}\n" for line in more)])
-                shown += _told(part.want, self._evaluate(part.source))
+                shown += _agreed(part.want, self._evaluate(part.source))
         return shown
 
     def _evaluate(self, source: str) -> str:
@@ -202,7 +202,7 @@ class _Player:
 
 @contextlib.contextmanager
 def _at(folder: Path) -> Iterator[None]:
-    """Change the working directory: contextlib.chdir, which Python 3.10 lacks."""
+    """Change the working directory: contextlib.chdir, missing in Python 3.10."""
     before = Path.cwd()
     os.chdir(folder)
     try:
@@ -220,12 +220,12 @@ def _connected(words: list[str]) -> Iterator[tuple[list[str], Callable[[str], st
     at = words.index("--port") + 1
     with VirtualController(via="tcp", groups=GROUPS) as board:
         yield (
-            [*words[:at], board.port, *words[at + 1 :], *PATIENT_WORDS.get(words[0], [])],
+            [*words[:at], board.port, *words[at + 1 :], *TIMEOUT_OPTIONS.get(words[0], [])],
             lambda text: text.replace(board.port, words[at]),
         )
 
 
-def _told(expected: str, actual: str) -> str:
+def _agreed(expected: str, actual: str) -> str:
     """Return the expected text if it agrees with the real one, omissions aside; else the latter."""
     pieces = re.split(r"^\.\.\.\n", expected, flags=re.MULTILINE)
     pattern = r"(?:.*\n)*".join(map(re.escape, pieces))

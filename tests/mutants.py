@@ -3,7 +3,7 @@
 mutmut runs those tests that entered the changed function while they ran, one by one. What a file
 of tests works out while it is imported belongs to none of them, so a survivor may be one in name
 only. And where the import fails under a mutant, which is as good a failure as any, pytest cannot
-find the tests that it was asked for, and mutmut calls it a time-out. Here each of these mutants
+find the requested tests, and mutmut calls it a time-out. Here each of these mutants
 meets the files whole, properties included, until something fails.
 
 Run where mutmut has laid out its copy: `cd mutants/mutants && python -m tests.mutants [PATTERN]`.

@@ -5,7 +5,7 @@
 In virtual time; by eight threads over TCP; and by a hundred tasks of asyncio over TCP. Then the
 independent board, as often: see tests/independent/long_run.py. Every value that comes back must be
 the right one, or a declared error, in bounded time; every report must come, in order; and in the
-end no more memory, threads and waiting messages may be there than after the first fifth.
+end no more memory, threads and pending messages may be there than after the first fifth.
 It is no part of `make test`, which only tries that it runs.
 """
 
@@ -68,10 +68,10 @@ class Watch:
         self._threads: list[int] = []
         self._began = time.monotonic()
 
-    def round(self, done: int, heard: Sequence[Message]) -> None:
+    def round(self, done: int, received: Sequence[Message]) -> None:
         """End a round: so many requests in all, and these reports since the round before."""
         ledger, session = self._ledger, self._client._session
-        assert list(heard) == ledger.reported, "a report was lost"
+        assert list(received) == ledger.reported, "a report was lost"
         ledger.reported.clear()
         assert session.idle
         # Another thread may have a report in hand, for callbacks.
@@ -95,7 +95,7 @@ class Watch:
         print(
             f"{self._name}: {requests} requests in {taken:.0f} s; {self._ledger.right} answered "
             f"rightly, {self._ledger.refused} ended in a declared error, {counters.reports} "
-            f"reports heard and {counters.lost_reports} lost; {counters.unsolicited} unsolicited, "
+            f"reports received, {counters.lost_reports} lost; {counters.unsolicited} unsolicited, "
             f"{counters.noise} bytes of noise; memory grew by {grown} blocks, threads from "
             f"{self._threads[0]} to {self._threads[-1]}",
             flush=True,
@@ -173,12 +173,12 @@ def main(words: Sequence[str] | None = None) -> None:
     parser.add_argument("--rounds", type=int, default=50, help="after each, all is looked at")
     parser.add_argument("--seed", type=int, default=1, help="of the faults (default: 1)")
     arguments = parser.parse_args(words)
-    asked = arguments.requests, arguments.rounds, arguments.seed
-    in_virtual_time(*asked)
-    with_threads(*asked)
-    asyncio.run(with_tasks(*asked))
-    long_run.at_a_paced_line(*asked)
-    long_run.with_threads(*asked)
+    run = arguments.requests, arguments.rounds, arguments.seed
+    in_virtual_time(*run)
+    with_threads(*run)
+    asyncio.run(with_tasks(*run))
+    long_run.at_a_paced_line(*run)
+    long_run.with_threads(*run)
 
 
 if __name__ == "__main__":

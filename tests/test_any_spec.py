@@ -113,7 +113,7 @@ def keys_of_the_language(value: Any) -> Iterator[Steps]:
 
 
 @pytest.mark.parametrize("value", ODD, ids=repr)
-def test_whatever_stands_in_place_of_a_value_is_told_in_our_words(value: object) -> None:
+def test_anything_in_place_of_a_value_is_reported_in_our_words(value: object) -> None:
     """And never in those of the library that reads it."""
     for path in keys_of_the_language(KILN):
         data = copied(KILN)

@@ -89,7 +89,7 @@ def test_all_bad_specs_are_listed(capsys: pytest.CaptureFixture[str]) -> None:
     assert capsys.readouterr().out.split() == bad_specs.names()
 
 
-def test_a_bad_spec_that_is_not_there_is_guessed(capsys: pytest.CaptureFixture[str]) -> None:
+def test_an_unknown_bad_spec_gets_a_suggestion(capsys: pytest.CaptureFixture[str]) -> None:
     with pytest.raises(SystemExit):
         bad_specs.main(["emty-element"])
     assert "no bad spec `emty-element`: did you mean `empty-element`?" in capsys.readouterr().err
@@ -161,7 +161,7 @@ def test_the_outermost_of_lines_that_begin_alike_is_meant() -> None:
         ({"replace": "level: 1"}, "no edit has `replace` alone"),
     ],
 )
-def test_an_edit_that_no_longer_applies_is_told(edit: dict[str, Any], why: str) -> None:
+def test_an_edit_that_no_longer_applies_is_reported(edit: dict[str, Any], why: str) -> None:
     with pytest.raises(EditError) as refused:
         edited(LINES, edit)
     assert str(refused.value) == why
@@ -173,16 +173,16 @@ def test_an_edit_that_no_longer_applies_is_told(edit: dict[str, Any], why: str) 
         ({"edits": [{"mark": "«id»: 7"}], "massage": "is wrong"}, "a case has no `massage`"),
         (
             {"edits": [{"mark": "id: 7"}], "message": "is wrong"},
-            "1 findings and 0 places to see are told, and 0 and 0 are marked",
+            "1 findings and 0 places to see are reported, and 0 and 0 are marked",
         ),
         (
             {"edits": [{"mark": "«id»: 7"}], "message": "is wrong", "see": ["here"]},
-            "1 findings and 1 places to see are told, and 1 and 0 are marked",
+            "1 findings and 1 places to see are reported, and 1 and 0 are marked",
         ),
     ],
     ids=["misspelt", "unmarked", "unseen"],
 )
-def test_a_case_that_says_too_little_is_told(case: dict[str, Any], why: str) -> None:
+def test_an_incomplete_case_is_reported(case: dict[str, Any], why: str) -> None:
     with pytest.raises(EditError) as refused:
         bad_specs.made("some-rule", {"name": "some-rule", **case})
     assert str(refused.value) == why

@@ -1,4 +1,4 @@
-"""A frame whose last bytes may begin another is doubted, and no other."""
+"""A frame whose last bytes may begin another is doubtful, and no other."""
 
 from __future__ import annotations
 
@@ -58,7 +58,7 @@ def bytes_of(events: Iterable[Message | Noise]) -> bytes:
 
 @pytest.mark.parametrize("lost", range(1, 3))
 @pytest.mark.parametrize("cut", range(8))
-def test_a_battery_with_a_hole_is_no_battery(lost: int, cut: int) -> None:
+def test_a_battery_reply_with_a_hole_is_no_message(lost: int, cut: int) -> None:
     """55 55 04 0F, two bytes lost, and a report: 21845 mV, if it were taken for whole."""
     torn = BatteryVoltage(0x1D4C).encode()[: -lost or None]
     line = torn + REPORT.encode()
@@ -87,7 +87,7 @@ def test_frames_that_fill_a_hole_to_the_byte_are_found(follows: list[Message], p
 
 
 @pytest.mark.parametrize("message", MESSAGES, ids=repr)
-def test_a_message_alone_is_told_at_once_or_when_the_line_is_quiet(message: Message) -> None:
+def test_a_message_alone_is_reported_at_once_or_when_the_line_is_quiet(message: Message) -> None:
     assert careful(message.encode(), flushed=True) == [message]
     doubtful = message.encode()[-1] == 0x55 or message == BatteryVoltage(0x5504)
     if message.encode().find(b"\x55", 2) < 0:
@@ -98,11 +98,11 @@ def test_a_message_alone_is_told_at_once_or_when_the_line_is_quiet(message: Mess
 
 @pytest.mark.parametrize("first", MESSAGES, ids=repr)
 @pytest.mark.parametrize("second", MESSAGES, ids=repr)
-def test_whole_messages_are_told_whatever_they_end_in(first: Message, second: Message) -> None:
+def test_whole_messages_are_reported_whatever_they_end_in(first: Message, second: Message) -> None:
     assert careful(first.encode() + second.encode(), flushed=True) == [first, second]
 
 
-def test_what_follows_refutes_a_doubt_as_soon_as_it_can() -> None:
+def test_a_doubtful_message_is_reported_as_soon_as_possible() -> None:
     decoder = CarefulDecoder(RECEIVED)
     doubtful = BatteryVoltage(0x5555)
     assert decoder.feed(doubtful.encode()) == []
@@ -138,8 +138,8 @@ def test_how_much_is_held_and_how_much_is_missing() -> None:
     assert (decoder.pending, decoder.missing) == (7, 1)
 
 
-def test_a_doubt_that_stays_is_no_message() -> None:
-    """A second hole: whether the reply was whole cannot be told any more."""
+def test_a_message_that_stays_doubtful_is_noise() -> None:
+    """A second hole: whether the reply was whole cannot be known any more."""
     decoder = CarefulDecoder(RECEIVED)
     assert decoder.feed(bytes.fromhex("55 55 04 0F 55 55 05 08")) == []
     events = decoder.flush()
@@ -175,12 +175,12 @@ def test_how_the_line_is_cut_makes_no_difference(line: list[bytes], data: st.Dat
 
 
 @given(st.lists(st.sampled_from(MESSAGES), max_size=8))
-def test_a_line_of_whole_frames_is_told_as_it_is(line: list[Message]) -> None:
+def test_a_line_of_whole_frames_is_reported_as_it_is(line: list[Message]) -> None:
     assert careful(*(each.encode() for each in line), flushed=True) == line
 
 
 @given(pieces)
-def test_where_nothing_is_doubted_it_tells_what_the_stream_decoder_does(line: list[bytes]) -> None:
+def test_without_doubtful_messages_it_agrees_with_the_stream_decoder(line: list[bytes]) -> None:
     plain, doubting = StreamDecoder(RECEIVED), CarefulDecoder(RECEIVED)
     whole = b"".join(line).replace(b"\x55\x55\x55", b"\x55\x55\x04")
     expected = [*plain.feed(whole), *plain.flush()]

@@ -158,7 +158,7 @@ def test_help_says_what_is_written_where(words: list[str], capsys: Capture) -> N
     assert "folder that holds spec/, or for a spec that lies elsewhere below its own\n" in table
 
 
-def test_a_mistyped_verb_is_guessed(capsys: Capture) -> None:
+def test_a_mistyped_verb_gets_a_suggestion(capsys: Capture) -> None:
     assert main(["expalin", STOP]) == 2
     assert capsys.readouterr().err == (
         "framegen: error: there is no verb `expalin`\n  hint: did you mean `explain`?\n"
@@ -291,7 +291,7 @@ def test_every_rule_can_be_looked_up(rule: AnyRule, capsys: Capture) -> None:
     assert rule.good.splitlines()[0] in shown
 
 
-def test_an_unknown_rule_is_guessed(capsys: Capture) -> None:
+def test_an_unknown_rule_gets_a_suggestion(capsys: Capture) -> None:
     assert main(["rules", "unknown-tpye"]) == 2
     assert capsys.readouterr().err == (
         "framegen: error: there is no rule 'unknown-tpye'\n  hint: did you mean `unknown-type`?\n"
@@ -418,7 +418,7 @@ def test_a_reader_that_has_seen_enough_is_no_error() -> None:
 
 
 @pytest.mark.skipif(not Path("/dev/full").exists(), reason="needs a device that is always full")
-def test_a_full_disk_is_told() -> None:
+def test_a_full_disk_is_reported() -> None:
     with Path("/dev/full").open("wb") as full:
         result = subprocess.run(
             [sys.executable, "-m", "framegen", "schema"],
@@ -433,7 +433,7 @@ def test_a_full_disk_is_told() -> None:
     )
 
 
-def test_characters_that_the_terminal_lacks_are_escaped() -> None:
+def test_characters_missing_in_the_terminal_are_escaped() -> None:
     script = "import sys; from framegen.cli import main; sys.exit(main(['expl\\u00e4in']))"
     result = subprocess.run(
         [sys.executable, "-c", script],
@@ -538,7 +538,7 @@ def test_a_python_without_docstrings_is_refused_before_it_drops_descriptions(
     assert "start it without -OO" in result.stderr
 
 
-def test_a_module_of_its_own_that_is_missing_is_not_taken_for_a_package(
+def test_a_missing_module_of_its_own_is_not_taken_for_a_package(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     monkeypatch.setitem(sys.modules, "framegen.commands.check", None)

@@ -1,4 +1,4 @@
-"""What a client does with each request, typed in by hand; and every fact behind it is guarded.
+"""What a client does with each request, typed in by hand; and every fact behind it is tested.
 
 Each key of the spec that faces a client (`method`, `echoed`, `reply`, `reports`, `acknowledged`,
 `lasts`) is changed in each way that there is. Then `framegen check` must speak up, or this table.
@@ -120,7 +120,7 @@ def test_the_library_does_what_the_table_says() -> None:
     } == RESULTS
 
 
-def test_what_a_reply_has_room_for() -> None:
+def test_the_number_of_servos_in_a_reply_is_bounded() -> None:
     rooms = {each.request.name: each.most for each in layout_of(TREE).exchanges if each.most}
     assert rooms == {"ServoPositionsRead": 84}
 
@@ -202,7 +202,7 @@ CHANGES = [*methods(), *echoes(), *answers(), *results()]
 @pytest.mark.parametrize(
     ("name", "key", "value"), [pytest.param(*each, id=str(each)[:90]) for each in CHANGES]
 )
-def test_a_changed_fact_is_seen(name: str, key: str, value: Any) -> None:
+def test_a_changed_fact_contradicts_the_contract(name: str, key: str, value: Any) -> None:
     data = json.loads(json.dumps(TREE))
     message = data["messages"][name]
     assert message.get(key) != value, "a mutation changes something"

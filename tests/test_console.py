@@ -42,7 +42,7 @@ class Command(NamedTuple):
     """A command line that prints something, and its error stream when all is well."""
 
     words: list[str]
-    told: str = ""
+    errors: str = ""
     stdin: str = ""
 
     @property
@@ -58,7 +58,7 @@ COMMANDS = [
     Command(["-m", "framegen", "--help"]),
     Command(["-m", "busservo_simulator", "--help"]),
 ]
-# It ends by itself only where nobody can be told the name of its port.
+# It ends by itself only where nobody can be given the name of its port.
 SIMULATOR = Command(["-m", "busservo_simulator", "--tcp"])
 # One of each program, and of each way to read and write; the others go the same ways.
 TYPICAL = [1, 3, 4]
@@ -115,8 +115,8 @@ def shown(command: Command) -> str:
 
 
 @pytest.mark.parametrize("command", [*EACH, EXAMPLE], ids=shown)
-def test_all_is_well(command: Command) -> None:
-    assert run(command) == (0, command.told)
+def test_each_command_succeeds_with_open_streams(command: Command) -> None:
+    assert run(command) == (0, command.errors)
 
 
 @not_windows
@@ -139,15 +139,15 @@ def test_the_disk_is_full(command: Command) -> None:
     finally:
         os.close(full)
     assert status == 2
-    told = "the output cannot be written: No space left on device"
-    assert errors == f"{command.program}: error: {told}\n"
+    problem = "the output cannot be written: No space left on device"
+    assert errors == f"{command.program}: error: {problem}\n"
 
 
 @not_windows
 @pytest.mark.parametrize("command", [*EACH, SIMULATOR], ids=shown)
 def test_the_output_is_closed(command: Command) -> None:
-    told = f"{command.program}: error: the output cannot be written: it is closed\n"
-    assert run(command, closed=(1,)) == (2, told)
+    errors = f"{command.program}: error: the output cannot be written: it is closed\n"
+    assert run(command, closed=(1,)) == (2, errors)
 
 
 @not_windows
@@ -162,7 +162,7 @@ def test_the_input_is_closed(command: Command) -> None:
     if command.stdin:
         expected = (2, "busservo: error: standard input cannot be read: it is closed\n")
     else:
-        expected = (0, command.told)
+        expected = (0, command.errors)
     assert run(command._replace(stdin=""), closed=(0,)) == expected
 
 
@@ -184,7 +184,7 @@ def test_no_port_gets_the_number_of_a_stream_that_is_closed() -> None:
 
 # -- Text of strangers -----------------------------------------------------------------------------
 
-# It clears the screen, colours what follows, turns the writing round, and tells a lie in a line of
+# It clears the screen, colours what follows, turns the writing round, and forges a line of
 # its own; at its end are a byte that is no text and a bell.
 HOSTILE = "\x1b[2J\x9b31m\u202eevil\nbusservo: all is well\udcff\x07"
 ADDRESS = f"socket://{HOSTILE}:1"
@@ -357,7 +357,7 @@ def test_a_screen_of_few_characters_shows_the_others_as_escapes() -> None:
     assert behind.buffer.getvalue() == rb"25 \xb0C \u2192 298 K" + os.linesep.encode()
 
 
-def test_what_fails_once_fails_ever_after() -> None:
+def test_an_output_that_failed_once_keeps_failing() -> None:
     class Full(io.StringIO):
         def write(self, _text: str, /) -> int:
             raise OSError(28, "it is full")
@@ -370,7 +370,7 @@ def test_what_fails_once_fails_ever_after() -> None:
     assert Screen(Full(), vital=False).write("text") == 4
 
 
-def test_a_colour_of_our_own_is_one() -> None:
+def test_a_colour_of_our_own_passes() -> None:
     behind = io.StringIO()
     console.write_as_it_is(Screen(behind), "\x1b[31mred\x1b[0m")
     console.write_as_it_is(behind, "\r")

@@ -82,7 +82,7 @@ def test_a_message_does_not_change_with_the_buffer_that_it_was_read_from() -> No
     assert message == busservo.BatteryVoltage(voltage_mv=7881)
 
 
-def test_a_view_may_have_gaps() -> None:
+def test_a_memoryview_may_have_gaps() -> None:
     frame = bytes.fromhex("55 00 55 00 02 00 07 00")
 
     assert busservo.decode(memoryview(frame)[::2], HOST) == busservo.ActionGroupStop()
@@ -96,7 +96,7 @@ def test_what_is_no_bytes_is_no_frame(frame: Any) -> None:
         busservo.ActionGroupStop.decode(frame)
 
 
-def test_text_is_told_how_to_become_bytes() -> None:
+def test_text_is_refused_with_a_hint_how_to_make_bytes_of_it() -> None:
     text: Any = "55 55 02 07"
 
     with pytest.raises(TypeError, match=re.escape("bytes.fromhex()")):

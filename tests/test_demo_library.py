@@ -135,7 +135,7 @@ def test_it_encodes_as_the_reference_codec_does(
     assert said_by(kind.decode(frame)) == arguments(values)
 
 
-def outcome_here(data: bytes, direction: Any) -> tuple[Any, ...]:
+def result_here(data: bytes, direction: Any) -> tuple[Any, ...]:
     try:
         message = lib().decode(data, direction)
     except lib().DecodeError as error:
@@ -143,7 +143,7 @@ def outcome_here(data: bytes, direction: Any) -> tuple[Any, ...]:
     return type(message).__name__, said_by(message)
 
 
-def outcome_there(data: bytes, direction: str, model: Model = LAYOUT) -> tuple[Any, ...]:
+def result_there(data: bytes, direction: str, model: Model = LAYOUT) -> tuple[Any, ...]:
     [way] = [way for way in model.directions if way.key == direction]
     try:
         decoded = codec.decode(model, way, data)
@@ -177,13 +177,13 @@ def damaged(draw: st.DrawFn) -> bytes:
 def test_it_refuses_what_the_reference_codec_refuses_and_says_the_same(
     data: bytes, direction: str
 ) -> None:
-    assert outcome_here(data, lib().Direction(direction)) == outcome_there(data, direction)
+    assert result_here(data, lib().Direction(direction)) == result_there(data, direction)
 
 
 @given(st.binary(max_size=30), st.sampled_from([way.key for way in LAYOUT.directions]))
-def test_of_any_bytes_both_say_the_same(data: bytes, direction: str) -> None:
+def test_on_any_bytes_both_agree(data: bytes, direction: str) -> None:
     for bytes_ in (data, LAYOUT.frame.header + data):
-        assert outcome_here(bytes_, lib().Direction(direction)) == outcome_there(bytes_, direction)
+        assert result_here(bytes_, lib().Direction(direction)) == result_there(bytes_, direction)
 
 
 @given(frames())
@@ -194,21 +194,21 @@ def test_every_byte_of_a_frame_matters(case: tuple[MessageLayout, dict[str, Any]
     direction = direction_of(message)
     for at in range(min(len(frame), 24)):
         for data in (frame[:at], frame[:at] + bytes([frame[at] ^ 0x81]) + frame[at + 1 :]):
-            assert outcome_here(data, direction) == outcome_there(data, message.direction.key)
+            assert result_here(data, direction) == result_there(data, message.direction.key)
 
 
-def test_it_says_no_to_every_bad_vector_for_the_reason_given() -> None:
+def test_it_refuses_every_bad_vector_for_the_reason_given() -> None:
     vectors = vectors_of(compiled_of(SPEC))
     assert len(vectors["valid"]) >= 13
     for vector in vectors["valid"]:
         frame = bytes.fromhex(vector["hex"])
         expected = vector["message"], arguments(vector["fields"])
-        assert outcome_here(frame, lib().Direction(vector["direction"])) == expected
+        assert result_here(frame, lib().Direction(vector["direction"])) == expected
     reasons = set()
     for vector in vectors["invalid"]:
         frame = bytes.fromhex(vector["hex"])
         expected = vector["reason"], vector["offset"]
-        assert outcome_here(frame, lib().Direction(vector["direction"])) == expected, vector
+        assert result_here(frame, lib().Direction(vector["direction"])) == expected, vector
         reasons.add(vector["reason"])
     assert reasons == {reason.value for reason in lib().Reason}
 
@@ -254,7 +254,7 @@ def test_frames_worked_out_on_paper(
     assert said_by(message) == fields
 
 
-def test_what_each_class_says_of_itself(greenhouse: Any) -> None:
+def test_each_class_has_its_metadata(greenhouse: Any) -> None:
     facts = {
         kind.__name__: (kind.COMMAND, kind.LENGTHS, kind.__match_args__)
         for kind in greenhouse.MESSAGES
@@ -273,7 +273,7 @@ def test_what_each_class_says_of_itself(greenhouse: Any) -> None:
     assert "Answered by StationState." in greenhouse.StationRead.__doc__
 
 
-def test_a_field_is_told_in_one_place(greenhouse: Any) -> None:
+def test_a_field_is_documented_in_one_place(greenhouse: Any) -> None:
     angle = greenhouse.Vent.angle
     assert (angle.at, angle.low, angle.high, angle.unit) == (1, -900, 900, "0.1 degree")
     assert angle.__doc__ == "Where to turn it, downwards below zero."
@@ -414,13 +414,13 @@ def test_a_stream_gives_every_frame_whatever_is_between_and_however_it_is_cut(
     events += decoder.flush()
     messages = [event for event in events if isinstance(event, lib().Message)]
     assert [(type(each).__name__, said_by(each)) for each in messages] == sent
-    told = b"".join(e.encode() if isinstance(e, lib().Message) else e.data for e in events)
-    assert told == bytes_
+    read = b"".join(e.encode() if isinstance(e, lib().Message) else e.data for e in events)
+    assert read == bytes_
     assert decoder.pending == 0
 
 
 @given(st.lists(damaged(), max_size=4).map(b"".join))
-def test_of_a_stream_nothing_is_lost_and_nothing_is_made_up(data: bytes) -> None:
+def test_a_stream_loses_and_invents_nothing(data: bytes) -> None:
     for direction in (None, *lib().Direction):
         decoder = lib().StreamDecoder(direction)
         events = decoder.feed(data) + decoder.flush()
@@ -431,7 +431,7 @@ def test_of_a_stream_nothing_is_lost_and_nothing_is_made_up(data: bytes) -> None
             if isinstance(event, lib().Message):
                 key = event.DIRECTION.value
                 expected = type(event).__name__, said_by(event)
-                assert outcome_there(event.encode(), key) == expected
+                assert result_there(event.encode(), key) == expected
 
 
 def test_a_frame_out_of_range_is_noise_and_costs_nothing_behind_it(greenhouse: Any) -> None:
@@ -450,7 +450,7 @@ def test_its_strategies_make_what_the_reference_codec_reads(greenhouse: Any) -> 
     @given(strategies.messages())
     def agrees(message: Any) -> None:
         expected = type(message).__name__, said_by(message)
-        assert outcome_there(message.encode(), message.DIRECTION.value) == expected
+        assert result_there(message.encode(), message.DIRECTION.value) == expected
 
     agrees()
 
@@ -517,7 +517,7 @@ def holds(data: Data, folder: Path) -> None:
                         )
                     except library_.DecodeError as error:
                         here = error.reason.value, error.offset
-                    assert here == outcome_there(data_, direction, layout)
+                    assert here == result_there(data_, direction, layout)
         doctest_ = doctest.testmod(
             importlib.import_module("made_up.messages"), extraglobs=vars(made)
         )
@@ -701,7 +701,7 @@ def test_a_message_of_any_shape_works(shape: str, tmp_path: Path) -> None:
     holds(spec_with("Made", message, length, **FRAME), tmp_path)
 
 
-def test_what_follows_from_a_number_is_told_of_messages_and_elements(tmp_path: Path) -> None:
+def test_derived_values_are_there_on_messages_and_elements(tmp_path: Path) -> None:
     message, length = SHAPES["numbers read as signed, and absent ones"]
     with library(files_of(spec_with("Made", message, length, **FRAME)), tmp_path) as made:
         kind: Any = made.Made
@@ -721,8 +721,8 @@ def test_limits_hold_for_a_number_and_for_numbers_in_a_list(tmp_path: Path) -> N
         for level, numbers, place in [(10, [1], "level: 10"), (1, [1, 0], "numbers[1]: 0")]:
             with pytest.raises(made.LimitError) as refused:
                 limits.check(made.Made(level, numbers), limits.usual)
-            told = f"{place} is outside the limits 1..9; limits=None sends anything"
-            assert str(refused.value) == told
+            problem = f"{place} is outside the limits 1..9; limits=None sends anything"
+            assert str(refused.value) == problem
 
 
 @pytest.mark.parametrize("order", ["little", "big"])

@@ -1,4 +1,4 @@
-"""What a specification deprecates warns whoever makes it, at their own line, and not who reads."""
+"""Deprecated messages warn at the line that makes them, and not where they are read."""
 
 import copy
 import inspect
@@ -57,7 +57,7 @@ MAKING: dict[str, Callable[[ModuleType], object]] = {
 
 
 @pytest.mark.parametrize("how", MAKING)
-def test_what_makes_it_warns_at_its_own_line(old: ModuleType, how: str) -> None:
+def test_making_a_deprecated_message_warns_at_the_callers_line(old: ModuleType, how: str) -> None:
     with pytest.warns(DeprecationWarning, match=TEXT) as caught:
         MAKING[how](old)
     (warning,) = caught
@@ -67,7 +67,7 @@ def test_what_makes_it_warns_at_its_own_line(old: ModuleType, how: str) -> None:
     assert first <= warning.lineno < first + len(lines)
 
 
-def test_a_line_warns_once_unless_told_otherwise(old: ModuleType) -> None:
+def test_a_line_warns_once_by_default(old: ModuleType) -> None:
     with warnings.catch_warnings(record=True) as caught:
         warnings.simplefilter("default")
         for _ in range(3):
@@ -75,7 +75,7 @@ def test_a_line_warns_once_unless_told_otherwise(old: ModuleType) -> None:
     assert [str(each.message) for each in caught] == [SAID]
 
 
-def test_to_read_it_does_not_warn(old: ModuleType) -> None:
+def test_reading_a_deprecated_message_does_not_warn(old: ModuleType) -> None:
     with pytest.warns(DeprecationWarning, match=TEXT):
         message = old.VentsOpen(1, [(1, 0)])
     frame = message.encode()
@@ -101,7 +101,7 @@ def test_what_is_not_deprecated_does_not_warn(old: ModuleType) -> None:
 
 @settings(suppress_health_check=[HealthCheck.function_scoped_fixture], max_examples=5)
 @given(data=st.data())
-def test_strategies_make_it_without_a_word(old: ModuleType, data: Any) -> None:
+def test_strategies_make_a_deprecated_message_without_a_warning(old: ModuleType, data: Any) -> None:
     strategies = import_module(f"{old.__name__}.strategies")
     with warnings.catch_warnings():
         warnings.simplefilter("error")

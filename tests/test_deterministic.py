@@ -31,7 +31,7 @@ def test_rendering_twice_gives_the_same_and_touches_no_disk(
 
 
 @pytest.mark.parametrize("name", SPECS)
-def test_no_file_tells_where_when_or_by_whom_it_was_made(name: str) -> None:
+def test_no_file_holds_where_when_or_by_whom_it_was_made(name: str) -> None:
     compiled = compile_spec(read_source(SPECS[name]))
     forbidden = [str(ROOT), str(Path.home()) + os.sep, sys.prefix, os.sep + "home" + os.sep]
     for path, text in render(compiled).files.items():

@@ -46,7 +46,7 @@ def with_(data: Data, *path_and_value: Any) -> Data:
     return changed
 
 
-def told(old: Data, new: Data) -> list[str]:
+def breaks(old: Data, new: Data) -> list[str]:
     """Return each difference as the command prints it."""
     found = differences(derived(old), derived(new))
     return [f"{each.breaks} {each.path}: {each.kind}: {each}" for each in found]
@@ -59,7 +59,7 @@ ANGLE = (*VENTS, "fields", "vents", "fields", "angle")
 POSITION = (*MOVE, "fields", "targets", "fields", "position")
 PLACE = ("messages", "ServoPositions", "fields", "positions", "fields", "position")
 TARGET = ".".join(POSITION)
-TOLD = ".".join(PLACE[:-1])
+ELEMENT = ".".join(PLACE[:-1])
 
 
 def reordered(data: Data, path: Steps, order: list[str]) -> Data:
@@ -79,7 +79,7 @@ BEEP: Data = {
     "examples": [],
 }
 
-# Two editions, and what there is to be told.
+# Two editions, and the differences between them.
 CASES: list[tuple[Data, Data, list[str]]] = [
     # ------------------------------------------------------------------ the line
     (
@@ -506,22 +506,22 @@ CASES: list[tuple[Data, Data, list[str]]] = [
     (
         SERVO,
         with_(SERVO, *PLACE, "signed_as", GONE),
-        [f"programs {TOLD}.signed_position: property-removed: i16 is gone"],
+        [f"programs {ELEMENT}.signed_position: property-removed: i16 is gone"],
     ),
     (
         with_(SERVO, *PLACE, "signed_as", GONE),
         SERVO,
-        [f"nothing {TOLD}.signed_position: property-added: i16 is new"],
+        [f"nothing {ELEMENT}.signed_position: property-added: i16 is new"],
     ),
     (
         SERVO,
         with_(SERVO, *PLACE, "values", "absent", "absent", GONE),
-        [f"programs {TOLD}.absent: property-removed: 65535 is gone"],
+        [f"programs {ELEMENT}.absent: property-removed: 65535 is gone"],
     ),
     (
         with_(SERVO, *PLACE, "signed_as", "i32"),
         SERVO,
-        [f"programs {TOLD}.signed_position: property-changed: i32 became i16"],
+        [f"programs {ELEMENT}.signed_position: property-changed: i32 became i16"],
     ),
     (
         SERVO,
@@ -550,10 +550,10 @@ def _named(case: object) -> str:
 
 
 @pytest.mark.parametrize(("old", "new", "expected"), CASES, ids=_named)
-def test_a_difference_is_told_with_what_it_breaks(
+def test_a_difference_is_reported_with_what_it_breaks(
     old: Data, new: Data, expected: list[str]
 ) -> None:
-    assert told(old, new) == expected
+    assert breaks(old, new) == expected
 
 
 def test_every_kind_of_difference_is_shown_above() -> None:
@@ -570,7 +570,7 @@ def test_what_is_new_one_way_is_gone_the_other_way(old: Data, new: Data) -> None
 
 @pytest.mark.parametrize("name", SPECS)
 def test_nothing_differs_from_itself(name: str) -> None:
-    assert told(SPECS[name], copy.deepcopy(SPECS[name])) == []
+    assert breaks(SPECS[name], copy.deepcopy(SPECS[name])) == []
 
 
 def _leaves(value: Any, path: Steps = ()) -> Iterator[tuple[Steps, Any]]:
@@ -595,7 +595,7 @@ def follows(path: Steps) -> bool:
     return path[-1] in {"length", "covers", "counted_by"} or {"examples", "values"} <= {*path}
 
 
-def test_no_fact_changes_unseen() -> None:
+def test_every_changed_fact_is_a_difference() -> None:
     """One text or number at a time, wherever the spec can be read with another in its place."""
     before = derived(HOUSE)
     seen = 0
@@ -645,7 +645,7 @@ def written(folder: Path, name: str, data: Data) -> str:
         (("protocol", "name", "greenhouse"), 0, "", "nothing changed that a spec says\n"),
     ],
 )
-def test_the_exit_code_tells_whether_anything_breaks(
+def test_the_exit_code_says_whether_anything_breaks(
     tmp_path: Path,
     capsys: pytest.CaptureFixture[str],
     change: tuple[Any, ...],

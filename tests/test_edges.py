@@ -1,4 +1,4 @@
-"""Edges that mutation of the code has shown to be unguarded; see docs/testing.md."""
+"""Edges that mutation of the code has shown to be untested; see docs/testing.md."""
 
 import busservo
 import pytest
@@ -115,7 +115,7 @@ def test_a_length_above_127_is_no_negative_number() -> None:
         ("C3 5A A5 10 00 06 00 00 01 01 03 85", "vents[0].angle is 901, outside -900..900"),
     ],
 )
-def test_what_is_no_frame_is_told_in_full(text: str, expected: str) -> None:
+def test_a_refused_frame_is_described_in_full(text: str, expected: str) -> None:
     layout = layout_of(data_of(DEMO))
     with pytest.raises(NotAFrame) as refused:
         decode(layout, Direction("gateway", "station"), bytes.fromhex(text))
@@ -204,7 +204,7 @@ def test_a_truth_value_that_is_a_number_is_refused() -> None:
         ("55 55 02 07 00", "ActionGroupStop with this length has 4 bytes, not 5"),
     ],
 )
-def test_a_frame_that_is_none_is_told_in_full(frame: str, said: str) -> None:
+def test_the_problem_of_a_refused_frame_is_complete(frame: str, said: str) -> None:
     with pytest.raises(DecodeError) as refused:
         busservo.decode(bytes.fromhex(frame), None)
     assert refused.value.problem == said
@@ -225,7 +225,7 @@ def test_bytes_of_a_class_of_ones_own_are_bytes() -> None:
     assert StreamDecoder(None).feed(Own(frame)) == [ServoMove(1000, [(1, 800)])]
 
 
-def test_what_is_imported_only_when_asked_for_is_listed_all_the_same() -> None:
+def test_lazily_imported_names_are_listed() -> None:
     assert {*busservo.__all__} <= {*dir(busservo)}
     slip = "Contoller"
     with pytest.raises(AttributeError, match=f"has no attribute '{slip}'"):

@@ -62,7 +62,7 @@ def test_only_a_higher_number_is_a_newer_edition(text: str, newer: bool) -> None
     assert is_newer(tree.data["framegen"]) == newer
 
 
-def test_of_a_newer_edition_nothing_else_is_said() -> None:
+def test_a_newer_edition_is_the_only_finding() -> None:
     text = "framegen: 3\nendpoints: *who\nprotocol: [no]\nmessages: 010\n"
     [finding] = compile_spec(Source("spec.yaml", text)).findings
     assert finding.rule == "edition"

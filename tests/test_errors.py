@@ -122,8 +122,8 @@ def test_an_error_can_be_copied_and_pickled(error: Any, copied: Any) -> None:
     assert vars(twin) == vars(error)
     if isinstance(error, OSError):
         assert isinstance(twin, OSError)
-        told = twin.errno, twin.strerror, twin.filename
-        assert told == (error.errno, error.strerror, error.filename)
+        copied = twin.errno, twin.strerror, twin.filename
+        assert copied == (error.errno, error.strerror, error.filename)
 
 
 @pytest.mark.parametrize("number", [None, errno.EBUSY])
@@ -136,7 +136,7 @@ def test_an_error_of_the_line_is_an_error_of_the_system(kind: Any, number: int |
 
 
 @pytest.mark.parametrize("error", [each for each in ERRORS if isinstance(each, TimeoutError)])
-def test_what_did_not_come_has_no_number_and_no_file(error: OSError) -> None:
+def test_an_error_for_what_did_not_come_has_no_number_and_no_file(error: OSError) -> None:
     assert (error.errno, error.strerror, error.filename) == (None, None, None)
 
 

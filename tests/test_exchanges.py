@@ -27,7 +27,7 @@ def long_question(*, echoed: bool) -> Data:
 
 
 @pytest.mark.parametrize(("echoed", "most", "split"), [(True, 84, True), (False, 0, False)])
-def test_only_a_question_whose_reply_repeats_its_list_is_asked_in_parts(
+def test_only_a_query_whose_reply_repeats_its_list_is_split(
     echoed: bool, most: int, split: bool
 ) -> None:
     model = layout_of(long_question(echoed=echoed))
@@ -37,9 +37,7 @@ def test_only_a_question_whose_reply_repeats_its_list_is_asked_in_parts(
 
 
 @pytest.mark.parametrize("echoed", [True, False])
-def test_a_client_is_answered_whether_or_not_a_reply_repeats_the_question(
-    echoed: bool, tmp_path: Path
-) -> None:
+def test_a_reply_need_not_repeat_the_request(echoed: bool, tmp_path: Path) -> None:
     with library(files_of(long_question(echoed=echoed)), tmp_path) as kiln_library:
         made: Any = kiln_library
 

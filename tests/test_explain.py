@@ -171,13 +171,15 @@ PAGES = [
 
 
 @pytest.mark.parametrize(("hex_text", "code", "page"), PAGES)
-def test_page(hex_text: str, code: int, page: str, capsys: pytest.CaptureFixture[str]) -> None:
+def test_a_page_explains_a_frame(
+    hex_text: str, code: int, page: str, capsys: pytest.CaptureFixture[str]
+) -> None:
     assert main(["explain", str(BUSSERVO), *hex_text.split()]) == code
     assert capsys.readouterr() == (page, "")
 
 
 @pytest.mark.parametrize(("hex_text", "code", "page"), PAGES)
-def test_page_as_json(
+def test_json_holds_the_same_as_the_page(
     hex_text: str, code: int, page: str, capsys: pytest.CaptureFixture[str]
 ) -> None:
     assert main(["explain", str(BUSSERVO), "--json", hex_text]) == code
@@ -307,7 +309,9 @@ REFUSALS = [
 
 
 @pytest.mark.parametrize(("hex_text", "direction", "reason", "offset", "right"), REFUSALS)
-def test_refusal(hex_text: str, direction: Direction, reason: str, offset: int, right: int) -> None:
+def test_a_refusal_has_its_reason_and_offset(
+    hex_text: str, direction: Direction, reason: str, offset: int, right: int
+) -> None:
     data = bytes.fromhex(hex_text)
     (refusal,) = explain(LAYOUT, data, [direction]).refusals
     assert (refusal.reason, refusal.offset, len(refusal.rows)) == (reason, offset, right)
@@ -321,7 +325,7 @@ def test_a_value_out_of_range_is_where_the_frame_ends() -> None:
     assert refusal.rows[-1].path == "vents[0].vent_id"
 
 
-def test_the_direction_that_came_closest_is_told_first() -> None:
+def test_the_direction_that_came_closest_is_shown_first() -> None:
     refused = explained("55 55 09 15 06 01 02 03 04 05").refusals
     assert [(refusal.direction, len(refusal.rows)) for refusal in refused] == [
         (str(HOST), 9),
@@ -352,7 +356,7 @@ HINTS = [
             f"a frame begins at byte 4: {STOP_OR_STOPPED}",
         ],
     ),
-    # A frame inside a frame's bytes is told once, and what follows it is looked at again.
+    # A frame inside a frame's bytes is shown once, and what follows it is looked at again.
     (
         "55 55 55 02 0F 55 02",
         ["a frame begins at byte 1: BatteryVoltageRead (host -> controller)"],
@@ -361,20 +365,20 @@ HINTS = [
 
 
 @pytest.mark.parametrize(("hex_text", "expected"), HINTS)
-def test_hints(hex_text: str, expected: list[str]) -> None:
+def test_a_refused_frame_gets_hints(hex_text: str, expected: list[str]) -> None:
     assert hints(explained(hex_text)) == expected
 
 
-def test_many_frames_are_told_in_part() -> None:
-    told = hints(explained("55 55 02 0F " * 10))
-    assert len(told) == 9
-    assert told[-2:] == [
+def test_hints_list_the_first_of_many_frames() -> None:
+    lines = hints(explained("55 55 02 0F " * 10))
+    assert len(lines) == 9
+    assert lines[-2:] == [
         "a frame begins at byte 28: BatteryVoltageRead (host -> controller)",
         "more frames follow, from byte 32 on",
     ]
 
 
-def test_a_frame_of_the_other_end_is_told() -> None:
+def test_a_frame_of_the_other_end_is_recognised() -> None:
     explanation = explain(LAYOUT, bytes.fromhex(BATTERY), [HOST])
     assert explanation.readings == ()
     assert hints(explanation) == [
@@ -382,13 +386,13 @@ def test_a_frame_of_the_other_end_is_told() -> None:
     ]
 
 
-def test_a_reserved_code_is_told() -> None:
+def test_a_reserved_command_is_recognised() -> None:
     assert hints(explained("C3 5A A5 13 00 00", GREENHOUSE)) == [
         "19 is reserved: It was VentsOpen with angles of zero until 1.0.0."
     ]
 
 
-def test_a_length_is_mended_whatever_it_counts() -> None:
+def test_a_corrected_length_is_proposed_whatever_it_counts() -> None:
     (hint,) = explained("C3 5A A5 11 00 08 00 01 51 80 02 FF 6A 00 C8", GREENHOUSE).hints
     assert hint.text == (
         "15 bytes have a size of 9; with that they are StationState (station -> gateway)"
@@ -397,13 +401,13 @@ def test_a_length_is_mended_whatever_it_counts() -> None:
 
 
 def test_every_example_of_a_lookalike_is_hinted_at() -> None:
-    told = [
+    texts = [
         explain(layout, example.hex, layout.directions).hints[0].text
         for layout in (LAYOUT, GREENHOUSE)
         for lookalike in layout.spec.lookalikes.values()
         for example in lookalike.examples
     ]
-    assert [text.partition(".")[0] for text in told] == [
+    assert [text.partition(".")[0] for text in texts] == [
         "this looks like a frame of the LX-16A bus servo protocol",
         "in the dialect of LeArm and uHand boards, 1 asks for the version",
         "this looks like a frame of the Orchard bus",
@@ -431,7 +435,7 @@ def test_direction_is_chosen_by_sender(
     assert [reading["message"] for reading in readings] == expected
 
 
-def test_a_sender_that_there_is_not_is_guessed(capsys: pytest.CaptureFixture[str]) -> None:
+def test_an_unknown_sender_gets_a_suggestion(capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["explain", str(BUSSERVO), "--direction", "hots", "55"]) == 2
     assert capsys.readouterr().err == (
         "framegen: error: no endpoint 'hots' sends anything\n  hint: did you mean `host`?\n"
@@ -461,7 +465,7 @@ def test_hex_longer_than_a_path_can_be_is_hex(
 
 
 @pytest.mark.parametrize(
-    ("text", "told", "hint"),
+    ("text", "problem", "hint"),
     [
         ("", "there are no bytes to explain", "give them in hex, like 55 55 02 07"),
         (" , ", "there are no bytes to explain", "give them in hex, like 55 55 02 07"),
@@ -495,10 +499,10 @@ def test_hex_longer_than_a_path_can_be_is_hex(
     ],
 )
 def test_what_is_no_hex_is_shown_at_its_place(
-    text: str, told: str, hint: str, capsys: pytest.CaptureFixture[str]
+    text: str, problem: str, hint: str, capsys: pytest.CaptureFixture[str]
 ) -> None:
     assert main(["explain", str(BUSSERVO), text]) == 2
-    assert capsys.readouterr().err == f"framegen: error: {told}\n  hint: {hint}\n"
+    assert capsys.readouterr().err == f"framegen: error: {problem}\n  hint: {hint}\n"
 
 
 # ---------------------------------------------------------------------------- any bytes
@@ -531,9 +535,9 @@ def damaged(draw: st.DrawFn) -> bytes:
 def test_any_bytes_are_explained(model: Model, data: bytes) -> None:
     explanation = explain(model, data, model.directions)
     page, values = as_text(explanation), as_json(explanation)
-    outcomes: list[Reading | Refusal] = [*explanation.readings, *explanation.refusals]
-    assert {outcome.direction for outcome in outcomes} == set(map(str, model.directions))
-    assert all(rows_cover(outcome.rows, data) for outcome in outcomes)
+    results: list[Reading | Refusal] = [*explanation.readings, *explanation.refusals]
+    assert {result.direction for result in results} == set(map(str, model.directions))
+    assert all(rows_cover(result.rows, data) for result in results)
     assert all(
         row.end <= refusal.offset for refusal in explanation.refusals for row in refusal.rows
     )

@@ -1,4 +1,4 @@
-"""Findings: their text, their number, and their guesses."""
+"""Findings: their text, their number, and their suggestions."""
 
 from __future__ import annotations
 
@@ -79,7 +79,7 @@ def test_a_finding_repeats_no_more_of_a_key_than_can_be_read(key: str) -> None:
     assert max(map(len, shown)) < 5000
 
 
-def test_no_more_findings_are_told_than_can_be_mended_and_how_many_more_there_are() -> None:
+def test_findings_are_limited_and_the_rest_is_counted() -> None:
     known = data_of(DEMO)
     findings = compiled_of({**known, **{f"key_{each}": 1 for each in range(20_000)}}).findings
     assert [finding.rule for finding in findings] == [
@@ -182,13 +182,13 @@ def test_a_caret_stands_under_its_place(
         ("size", [], "", ""),
     ],
 )
-def test_a_misspelt_word_is_guessed_or_the_choices_are_named(
+def test_a_misspelt_word_gets_a_suggestion_or_the_choices(
     word: str, known: list[str], otherwise: str, hint: str
 ) -> None:
     assert did_you_mean(word, known, otherwise=otherwise) == hint
 
 
-def test_where_nothing_is_known_nothing_is_guessed() -> None:
+def test_without_choices_there_is_no_suggestion() -> None:
     assert did_you_mean("size", []) == ""
 
 

@@ -64,13 +64,13 @@ def test_a_rule_is_read(text: str, formula: Formula) -> None:
         ("__import__('os')", "`(` has no meaning"),
     ],
 )
-def test_what_is_no_rule_is_told(text: str, said: str) -> None:
+def test_a_malformed_rule_is_reported(text: str, said: str) -> None:
     with pytest.raises(ValueError, match=r"^`|depends") as refused:
         parse_formula(text)
     assert said in str(refused.value)
 
 
-def test_what_is_no_term_is_told_with_the_rule_that_it_stands_in() -> None:
+def test_a_malformed_term_is_reported_with_its_rule() -> None:
     with pytest.raises(ValueError, match="no term") as refused:
         parse_formula("3 * n + 2 *")
     assert str(refused.value) == (
@@ -104,7 +104,7 @@ def test_a_rule_is_shown_as_people_write_it(formula: Formula, text: str) -> None
         (Formula(5, 3, "n"), 2, None),  # as if there were -1 of them
     ],
 )
-def test_a_length_tells_the_count(formula: Formula, length: int, count: int | None) -> None:
+def test_a_length_gives_the_count(formula: Formula, length: int, count: int | None) -> None:
     assert formula.count_at(length) == count
 
 

@@ -47,7 +47,7 @@ def test_the_commands_refuse_it_as_well(text: str, capsys: pytest.CaptureFixture
 
 
 @pytest.mark.parametrize(
-    ("text", "told"),
+    ("text", "problem"),
     [
         ("5", "no hex: '5' is half a byte; did you mean 05?"),
         ("55 5G", "no hex: 'G' in '5G' is no hex digit; write two digits a byte, like 0A 1B FF"),
@@ -59,10 +59,10 @@ def test_the_commands_refuse_it_as_well(text: str, capsys: pytest.CaptureFixture
         ("z" * 99, f"no hex: 'z' in '{37 * 'z'}...' is no hex digit; write two digits a byte, "),
     ],
 )
-def test_what_is_wrong_is_told(text: str, told: str) -> None:
+def test_malformed_hex_is_reported(text: str, problem: str) -> None:
     with pytest.raises(HexError) as caught:
         read_hex(text)
-    assert str(caught.value).startswith(told)
+    assert str(caught.value).startswith(problem)
 
 
 texts = st.sampled_from([text for text, _ in HEX] + NO_HEX + random_texts(100)) | st.text(

@@ -164,16 +164,16 @@ def with_prose(data: Data, text: str) -> Data:
             return f"{old.partition(',')[0]}, {text}"
         return text if is_prose(path) else old
 
-    told: Data = changed(data, change)
+    hostile: Data = changed(data, change)
     # Fields that the specs leave without them would hide a place from these tests.
-    for message in told["messages"].values():
+    for message in hostile["messages"].values():
         message["vendor_name"] = message["deprecated"] = message["description"] = text
         # A field that it names has a unit of time, and no other text.
         message.pop("lasts", None)
         for field in _numbers(message.get("fields", {})):
             field["unit"] = text
-            field.setdefault("notes", []).append({"text": text, "cite": _cite(told, text)})
-    return told
+            field.setdefault("notes", []).append({"text": text, "cite": _cite(hostile, text)})
+    return hostile
 
 
 def _cite(data: Data, text: str) -> str:
@@ -376,17 +376,17 @@ def test_what_is_no_prose_is_a_finding_or_inert() -> None:
     data = SPECS["greenhouse"]
     places = [path for path, _ in leaves(data) if not is_prose(path)]
     assert len(places) > 90
-    outcomes: Counter[str] = Counter()
+    results: Counter[str] = Counter()
     plain = python_of(files_of(data))
     for number, place in enumerate(places):
         for text in (INERT[number % len(INERT)], '"""\nimport os\n'):
             hostile = _with(data, place, text)
             broken = rules_broken(hostile)
-            outcomes["finding" if broken else "inert"] += 1
+            results["finding" if broken else "inert"] += 1
             if not broken:
                 for path, module in python_of(files_of(hostile)).items():
                     assert imports(module) == imports(plain[path])
-    assert outcomes["finding"] > outcomes["inert"] > 0
+    assert results["finding"] > results["inert"] > 0
 
 
 @pytest.mark.parametrize(
@@ -677,8 +677,8 @@ def test_a_literal_in_several_lines_says_its_text(text: str) -> None:
     for said in (assigned(text * 9, "x", 4), f"x = f({Text(text * 9, 'y=').fitted(8)})"):
         [statement] = ast.parse(said).body
         assert isinstance(statement, ast.Assign)
-        told = next(node for node in ast.walk(statement.value) if isinstance(node, ast.Constant))
-        assert told.value == text * 9 or told.value == text[:1]
+        literal = next(node for node in ast.walk(statement.value) if isinstance(node, ast.Constant))
+        assert literal.value == text * 9 or literal.value == text[:1]
         assert max(map(columns, said.split("\n"))) <= 100
 
 

@@ -1,4 +1,4 @@
-"""The house is in order: what is said twice agrees, and nothing lies about that nobody wrote."""
+"""The repository is in order: repeated facts agree, and no file is there that nobody wrote."""
 
 import os
 import re
@@ -85,7 +85,7 @@ def places(pattern: re.Pattern[str]) -> list[str]:
 
 
 @pytest.mark.parametrize("what", MACHINE)
-def test_no_file_knows_a_machine(what: str) -> None:
+def test_no_file_names_a_machine(what: str) -> None:
     assert places(MACHINE[what]) == []
 
 
@@ -168,21 +168,21 @@ def test_a_declared_python_is_a_tested_one() -> None:
 
 @pytest.mark.skipif(os.name == "nt" or BASH is None, reason="there is no bash here")
 def test_a_whole_run_depends_on_no_variable_and_no_folder_of_a_machine(tmp_path: Path) -> None:
-    stray = tmp_path / "bin"
-    told = subprocess.run(
+    elsewhere = tmp_path / "bin"
+    done = subprocess.run(
         [str(BASH), str(ROOT / ".ci/bare"), "env"],
         env={
             **os.environ,
             "BARE_HOME": str(tmp_path / "home"),
-            "PATH": f"{stray}{os.pathsep}{os.environ['PATH']}",
-            "PYTHONPATH": str(stray),
+            "PATH": f"{elsewhere}{os.pathsep}{os.environ['PATH']}",
+            "PYTHONPATH": str(elsewhere),
             "PIP_CERT": "kept",
         },
         capture_output=True,
         encoding="utf-8",
         check=True,
     )
-    kept = dict(line.partition("=")[::2] for line in told.stdout.splitlines())
+    kept = dict(line.partition("=")[::2] for line in done.stdout.splitlines())
     ways = re.compile(
         r"PIP_|SSL_|REQUESTS_|NODE_EXTRA_|HTTPS?_PROXY|NO_PROXY|npm_config_|PYTHON_3_\d+$",
         re.IGNORECASE,
@@ -191,7 +191,7 @@ def test_a_whole_run_depends_on_no_variable_and_no_folder_of_a_machine(tmp_path:
     assert names == {"HOME", "PATH", "LANG", "CI", "VERSIONS"}
     assert kept["PIP_CERT"] == "kept"
     assert kept["HOME"] == str(tmp_path / "home")
-    assert str(stray) not in kept["PATH"].split(os.pathsep)
+    assert str(elsewhere) not in kept["PATH"].split(os.pathsep)
 
 
 @pytest.mark.parametrize("workflow", WORKFLOWS)

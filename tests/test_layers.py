@@ -8,8 +8,8 @@ import pytest
 
 GENERATOR = Path(__file__).parent.parent / "codegen" / "framegen"
 
-# From the ground up. What shares a line knows nothing of each other.
-STOREYS = [
+# From the bottom up. The parts of one layer do not import each other.
+LAYERS = [
     {
         "__version__",
         "colour",
@@ -36,9 +36,9 @@ STOREYS = [
     {"cli"},
     {"__main__"},
 ]
-STOREY = {room: height for height, storey in enumerate(STOREYS) for room in storey}
+LAYER = {part: height for height, layer in enumerate(LAYERS) for part in layer}
 
-# Who alone may ask for what: everything else is handed what came of it.
+# The only parts that may import a name: all others are given the result.
 ALONE = {
     "yaml": {"reading"},
     "framegen.language.load.load": {"compile"},
@@ -51,14 +51,14 @@ ALONE = {
 
 
 def modules() -> Iterator[tuple[str, Path]]:
-    """Yield every module of the generator with its room, except those copied into libraries."""
+    """Yield every module of the generator with its part, except those copied into libraries."""
     for file in sorted(GENERATOR.rglob("*.py")):
         parts = file.relative_to(GENERATOR).with_suffix("").parts
         if "runtime" not in parts and parts not in (("__init__",), ("targets", "__init__")):
-            yield _room(parts), file
+            yield _part(parts), file
 
 
-def _room(parts: tuple[str, ...]) -> str:
+def _part(parts: tuple[str, ...]) -> str:
     return ".".join(parts[:2]) if parts[0] == "targets" else parts[0]
 
 
@@ -74,28 +74,28 @@ def imported(file: Path) -> Iterator[str]:
 MODULES = list(modules())
 
 
-def test_every_room_has_its_storey() -> None:
-    assert {room for room, _ in MODULES} <= set(STOREY)
+def test_every_part_of_framegen_has_its_layer() -> None:
+    assert {part for part, _ in MODULES} <= set(LAYER)
 
 
-@pytest.mark.parametrize(("room", "file"), MODULES, ids=lambda each: Path(str(each)).stem)
-def test_imports_point_downwards(room: str, file: Path) -> None:
+@pytest.mark.parametrize(("part", "file"), MODULES, ids=lambda each: Path(str(each)).stem)
+def test_imports_point_downwards(part: str, file: Path) -> None:
     known = [name.split(".")[1:] for name in imported(file) if name.startswith("framegen.")]
-    others = {_room(tuple(parts)) for parts in known} - {room}
-    assert {other for other in others if STOREY[other] >= STOREY[room]} == set()
+    others = {_part(tuple(parts)) for parts in known} - {part}
+    assert {other for other in others if LAYER[other] >= LAYER[part]} == set()
 
 
 @pytest.mark.parametrize("name", ALONE)
-def test_what_is_answered_in_one_place_is_asked_there(name: str) -> None:
-    asking = {room for room, file in MODULES if name in set(imported(file))}
-    assert asking == ALONE[name]
+def test_a_module_with_one_user_is_imported_there_alone(name: str) -> None:
+    importing = {part for part, file in MODULES if name in set(imported(file))}
+    assert importing == ALONE[name]
 
 
 # ------------------------------------------------------------------ a library
 
 LIBRARY = Path(__file__).parent.parent / "generated" / "busservo"
-# From the ground up. A module that is private and stands alone has nobody above it to belong to.
-FLOORS = [
+# From the bottom up.
+LIBRARY_LAYERS = [
     {"_log"},
     {"_frame"},
     {"messages", "_version", "_explanation"},
@@ -108,7 +108,9 @@ FLOORS = [
     {"__main__"},
     {"__init__"},
 ]
-FLOOR = {package: height for height, floor in enumerate(FLOORS) for package in floor}
+LIBRARY_LAYER = {
+    package: height for height, layer in enumerate(LIBRARY_LAYERS) for package in layer
+}
 PARTS = sorted(file.relative_to(LIBRARY) for file in LIBRARY.rglob("*.py"))
 
 
@@ -120,22 +122,22 @@ def needed(path: Path) -> Iterator[str]:
             yield from (name.partition(".")[0] for name in names)
 
 
-def test_every_part_of_a_library_has_its_floor() -> None:
-    assert {path.with_suffix("").parts[0] for path in PARTS} == set(FLOOR)
+def test_every_part_of_a_library_has_its_layer() -> None:
+    assert {path.with_suffix("").parts[0] for path in PARTS} == set(LIBRARY_LAYER)
 
 
 @pytest.mark.parametrize("path", PARTS, ids=Path.as_posix)
 def test_imports_of_a_library_point_downwards(path: Path) -> None:
-    here = FLOOR[path.with_suffix("").parts[0]]
-    assert [name for name in needed(path) if FLOOR[name] > here] == []
+    here = LIBRARY_LAYER[path.with_suffix("").parts[0]]
+    assert [name for name in needed(path) if LIBRARY_LAYER[name] > here] == []
 
 
-def test_what_stands_on_one_floor_of_a_library_does_without_the_others() -> None:
+def test_parts_of_one_layer_do_not_import_each_other() -> None:
     beside = [
         (path.as_posix(), name)
         for path in PARTS
         for name in needed(path)
         if name != path.with_suffix("").parts[0]
-        if FLOOR[name] == FLOOR[path.with_suffix("").parts[0]]
+        if LIBRARY_LAYER[name] == LIBRARY_LAYER[path.with_suffix("").parts[0]]
     ]
     assert beside == []

@@ -323,7 +323,7 @@ def test_directions_come_in_the_order_in_which_they_first_appear() -> None:
     assert SERVO.sent(Direction("host", "host")) == {}
 
 
-def test_kinds_are_told_by_who_asks_and_who_answers() -> None:
+def test_a_kind_follows_from_who_requests_and_who_replies() -> None:
     assert {name: HOUSE.kind(name) for name in HOUSE.messages} == {
         "VentsOpen": "command",
         "StationRead": "query",
@@ -494,7 +494,7 @@ def test_a_parameter_is_named_by_its_number(message: str, parameter: int, name: 
     ("message", "parameter", "most"),
     [("ActionGroupRun", 4, 3), ("ServoUnload", 254, 253), ("ActionGroupStop", 1, 0)],
 )
-def test_a_parameter_that_there_is_not_is_told_with_how_many_there_are(
+def test_an_unknown_parameter_is_reported_with_their_number(
     message: str, parameter: int, most: int
 ) -> None:
     with pytest.raises(NoSuchFact, match=f"no parameter byte {parameter}: it has {most} at most"):

@@ -163,7 +163,7 @@ def lines_per_byte(pattern: bytes, size: int) -> float:
 
 
 # A port hands over some bytes at a time, a file many: traffic is then so cheap that noise, of which
-# each piece is told with its reason, is many times as dear.
+# each piece is reported with its reason, is many times as dear.
 @nobody_traces
 @pytest.mark.parametrize(("size", "times"), [(2048, 55), (64, 25), (1, 12)])
 @pytest.mark.parametrize("pattern", DEAR)

@@ -28,8 +28,8 @@ def test_a_lookalike_is_recognised(
     hex_: str, name: str | None, command: int | None, meaning: str | None
 ) -> None:
     found = recognise(layout_of(data_of(DEMO)).plain, bytes.fromhex(hex_))
-    told = (None, None, None) if found is None else (found.name, found.command, found.meaning)
-    assert told == (name, command, meaning)
+    row = (None, None, None) if found is None else (found.name, found.command, found.meaning)
+    assert row == (name, command, meaning)
 
 
 @pytest.mark.parametrize(("order", "size"), [("big", "00 01"), ("little", "01 00")])

@@ -410,7 +410,7 @@ def test_noise_can_be_copied_and_pickled() -> None:
         (ServoPositions([(3, 65535), (4, 1)]), "at 3, 4"),
     ],
 )
-def test_messages_are_told_apart_by_matching(message: Message, words: str) -> None:
+def test_match_statements_distinguish_messages(message: Message, words: str) -> None:
     assert in_words(message) == words
 
 
@@ -485,7 +485,7 @@ def test_an_element_is_a_named_tuple_like_others(kind: Callable[..., Any]) -> No
         element._replace(colour=1)
 
 
-def test_the_class_of_all_messages_is_none_itself() -> None:
+def test_the_base_class_is_no_message_itself() -> None:
     with pytest.raises(TypeError, match="make one of its subclasses"):
         Message()
     with pytest.raises(TypeError, match="with the function `decode`"):
@@ -583,10 +583,10 @@ _odd = st.one_of(
 @given(st.lists(st.tuples(_numbers, _numbers) | _odd, max_size=3) | _odd)
 def test_targets_mean_the_same_beside_any_kind_of_number(targets: Any) -> None:
     # Good numbers are packed at once, and others are looked at one by one; both judge alike.
-    assert outcome(ServoMove, 8, targets) == outcome(ServoMove, Indexed(), targets)
+    assert result_of(ServoMove, 8, targets) == result_of(ServoMove, Indexed(), targets)
 
 
-def outcome(make: Callable[..., Message], *values: Any) -> Message | str:
+def result_of(make: Callable[..., Message], *values: Any) -> Message | str:
     """Return the message of these values, or the error about them."""
     try:
         return make(*values)

@@ -61,7 +61,7 @@ LONG = "abcdefghij" * 4
         ),
     ],
 )
-def test_what_does_not_fit_the_language_is_told_in_its_words(
+def test_a_misfit_is_reported_in_the_words_of_the_language(
     path: Steps, value: object, said: str, hint: str
 ) -> None:
     data = data_of(DEMO)
@@ -75,7 +75,7 @@ def test_what_does_not_fit_the_language_is_told_in_its_words(
     assert f".{finding.path}".startswith("".join(steps))
 
 
-def test_a_key_that_is_no_number_is_told_once_however_its_value_looks() -> None:
+def test_a_key_that_is_no_number_is_reported_once_whatever_its_value() -> None:
     data = data_of(DEMO)
     data["lookalikes"]["old_stations"]["commands"] = {"lit": {"what": "It shines."}}
     found = [(f.path, f.message) for f in compiled_of(data).findings]

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
 Capture: TypeAlias = "pytest.CaptureFixture[str]"
 # Kind, file and subject.
-Lack: TypeAlias = "tuple[str, str, str]"
+Missing: TypeAlias = "tuple[str, str, str]"
 
 CASES, ORACLE = "tests/cases.py", "tests/oracle.py"
 CONTRACT = "tests/test_client_contract.py"
@@ -54,11 +54,11 @@ BLOWN = """\
   HornBlown:
     id: 202
     direction: controller -> host
-    summary: The horn was heard.
+    summary: The horn has sounded.
     cite: vendor, section 2.2
     length: 2
     examples:
-      - {title: It was heard, hex: 55 55 02 CA, values: {}, cite: vendor}
+      - {title: It has sounded, hex: 55 55 02 CA, values: {}, cite: vendor}
 
 """
 BLOWN_CASE = """\
@@ -94,7 +94,7 @@ def edit(file: Path, *edits: tuple[str, str]) -> None:
     file.write_text(text, encoding="utf-8")
 
 
-def missing(project: Path, capsys: Capture) -> list[Lack]:
+def missing(project: Path, capsys: Capture) -> list[Missing]:
     """Return the findings of the command in a project."""
     status = main(["missing", "--json", str(project / "spec" / "busservo.yaml")])
     found = [json.loads(line) for line in capsys.readouterr().out.splitlines()]
@@ -113,7 +113,7 @@ def test_nothing_is_missing(capsys: Capture, monkeypatch: pytest.MonkeyPatch) ->
 # ------------------------------------------------------------------ what a change needs
 
 # The changes of the spec, what is missing after them, and what has to be written.
-CHANGES: dict[str, tuple[list[tuple[str, str]], list[Lack], dict[str, tuple[str, str]]]] = {
+CHANGES: dict[str, tuple[list[tuple[str, str]], list[Missing], dict[str, tuple[str, str]]]] = {
     "a command": (
         [("  ServoUnload:\n", f"{BLOW}  ServoUnload:\n")],
         [
@@ -173,7 +173,7 @@ def test_what_a_change_needs_is_named_until_it_is_there(
     assert needed == []
 
 
-def test_it_is_told_where_to_write_what_and_why(
+def test_the_report_says_where_to_write_what_and_why(
     project: Path, capsys: Capture, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     edit(project / "spec" / "busservo.yaml", *CHANGES["a command"][0])
@@ -235,7 +235,7 @@ def declare(project: Path, of: str, text: str) -> None:
         ("values", "Case({message}...{FIELD}_{VALUE}", "Case(ServoMove, TIME_MS_NEVER_1)", False),
     ],
 )
-def test_what_a_pattern_finds(
+def test_a_pattern_matches_the_name_or_value_it_is_made_of(
     of: str, text: str, written: str, found: bool, project: Path, capsys: Capture
 ) -> None:
     about = "        about: How long the motion takes.\n"
@@ -262,7 +262,7 @@ def refusal(project: Path, capsys: Capture) -> str:
 
 
 @pytest.mark.parametrize("declared", [None, "kiln: {}\n"])
-def test_where_nothing_is_declared_nothing_is_said_to_be_well(
+def test_without_declarations_nothing_is_reported_complete(
     declared: str | None, project: Path, capsys: Capture
 ) -> None:
     file = project / "tests" / "witnesses.yaml"
@@ -303,7 +303,7 @@ def test_a_project_may_have_no_witness(project: Path, capsys: Capture) -> None:
         ("  case:", "  case: &a", "tests/witnesses.yaml is no mapping of protocols to witnesses\n"),
     ],
 )
-def test_a_declaration_that_cannot_be_followed_is_told_with_its_place(
+def test_an_invalid_declaration_is_reported_with_its_place(
     old: str, new: str, said: str, project: Path, capsys: Capture
 ) -> None:
     declare(project, "messages", "Case({message}(")
@@ -317,7 +317,7 @@ def test_a_declaration_that_cannot_be_followed_is_told_with_its_place(
 @pytest.mark.parametrize(
     ("data", "why"), [(None, "No such file or directory"), (b"\xff", "it is not UTF-8 text")]
 )
-def test_a_file_that_cannot_be_read_is_told(
+def test_a_file_that_cannot_be_read_is_reported(
     data: bytes | None, why: str, project: Path, capsys: Capture
 ) -> None:
     declare(project, "messages", "Case({message}(")

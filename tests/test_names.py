@@ -152,7 +152,7 @@ HANDLERS = {name for name in vars(busservo.Device) if name.startswith("on_")}
 
 
 def test_every_word_of_this_python_is_reserved() -> None:
-    """Whichever it is: the lists are of all versions, and asked of none."""
+    """Whichever it is: the lists hold the words of all versions."""
     words = {*keyword.kwlist, *keyword.softkwlist} - {"_", "None", "True", "False"}
     assert words <= reserved.KEYWORDS
     present = {name for name in dir(builtins) if not name.startswith("_")}
@@ -312,8 +312,8 @@ def test_every_method_sends_its_message_and_returns_the_reply(
     model, lib = crowd
     names = names_of(model)
     device = lib.Device()
-    heard: list[Any] = []
-    device.accepted = heard.append
+    received: list[Any] = []
+    device.accepted = received.append
     pairs = [*zip(names.library.exchanges, model.exchanges, strict=True)]
     replies = {
         exchange.request.name: made_of(lib, model, author.reply)
@@ -328,7 +328,7 @@ def test_every_method_sends_its_message_and_returns_the_reply(
             message = made_of(lib, model, author.request)
             given = {name: getattr(message, name) for name in message.__match_args__}
             returned = getattr(controller, exchange.method.name)(**given)
-            assert heard.pop() == message
+            assert received.pop() == message
             if exchange.method.result:
                 reply = replies[exchange.request.name]
                 assert returned == getattr(reply, exchange.method.result)
@@ -534,7 +534,7 @@ def test_targets_lists_what_there_is(framegen: Command) -> None:
     assert "generated/busservo/" in out
 
 
-def test_targets_tells_what_becomes_of_a_word(framegen: Command) -> None:
+def test_targets_prints_what_becomes_of_a_word(framegen: Command) -> None:
     code, out, _ = framegen("targets", "python")
     assert code == 0
     assert "package: NAME becomes NAME_protocol where it is a module of Python's standard" in out
@@ -545,7 +545,7 @@ def test_a_target_without_reserved_words_says_so(framegen: Command) -> None:
     assert framegen("targets", "vectors")[1].endswith("every name stays as it is.\n")
 
 
-def test_a_target_that_is_none_gets_a_hint(framegen: Command) -> None:
+def test_an_unknown_target_gets_a_hint(framegen: Command) -> None:
     code, _, err = framegen("targets", "pyhton")
     assert code == 2
     assert "did you mean `python`?" in err

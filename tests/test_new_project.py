@@ -35,10 +35,10 @@ def workplace(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, str]:
     with pytest.MonkeyPatch.context() as patch, redirect_stdout(io.StringIO()) as printed:
         patch.chdir(folder)
         assert main(["new", "kiln"]) == 0
-        told = printed.getvalue()
-        generate, _, _ = next_commands(told)
+        text = printed.getvalue()
+        generate, _, _ = next_commands(text)
         assert main(generate[1:]) == 0
-    return folder, told
+    return folder, text
 
 
 def python(project: Path, *words: str) -> subprocess.CompletedProcess[str]:

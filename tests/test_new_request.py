@@ -126,8 +126,8 @@ class Board(Device):
         self.send(LampBlinking(message.lamp_id))
 
     def on_lamps_read(self, message):
-        asked = [number for number in message.lamp_ids if number in self.levels]
-        return LampsState([(number, self.levels[number]) for number in asked])
+        known = [number for number in message.lamp_ids if number in self.levels]
+        return LampsState([(number, self.levels[number]) for number in known])
 
 def serve(listener, board):
     while True:

@@ -1,4 +1,4 @@
-"""The library and the oracle, which share no code, say the same of any bytes and of any stream."""
+"""The library and the oracle, which share no code, agree on any bytes and on any stream."""
 
 import pytest
 from busservo import DecodeError, Direction, Message, StreamDecoder, decode, strategies

@@ -36,7 +36,7 @@ def motor(blinds: Any, heights: dict[int, int]) -> Any:
     return Motor()
 
 
-def test_who_is_there_is_found_held_and_let_go_of(blinds: Any) -> None:
+def test_present_actuators_are_found_held_and_released(blinds: Any) -> None:
     heights = {4: 200, 9: 300}
     with client_of(motor(blinds, heights)) as hub:
         assert hub.present() == (4, 9)
@@ -51,7 +51,7 @@ def test_who_is_there_is_found_held_and_let_go_of(blinds: Any) -> None:
             hub.hold([4, 5])
 
 
-def test_what_verbs_say_of_them_is_said_in_their_words(blinds: ModuleType) -> None:
+def test_verbs_name_actuators_in_the_words_of_the_spec(blinds: ModuleType) -> None:
     positions = importlib.import_module(f"{blinds.__name__}._cli.positions")
     pose = positions.the_pose()
     assert positions.listed(pose, [4]) == "blind 4"
@@ -66,10 +66,10 @@ def examined(blinds: ModuleType, device: Any) -> dict[str, Any]:
         for name in ("checks", "diagnosis")
     )
     line = DeviceLine(device)
-    patient = diagnosis.Diagnosis(
+    case = diagnosis.Diagnosis(
         "loop://", opener=lambda _port, _baud: line, clock=line.clock, hid_devices=list
     )
-    return {check.id: result for check, result in checks.examine(patient, checks.CHECKS)}
+    return {check.id: result for check, result in checks.examine(case, checks.CHECKS)}
 
 
 # No question of this protocol suits any device: each names those that it is about.
@@ -80,7 +80,7 @@ def examined(blinds: ModuleType, device: Any) -> dict[str, Any]:
         ({}, "failed", "blinds that are there: none"),
     ],
 )
-def test_the_doctor_finds_who_is_there(
+def test_the_doctor_finds_present_actuators(
     blinds: ModuleType, heights: dict[int, int], state: str, seen: str
 ) -> None:
     found = examined(blinds, motor(blinds, heights))

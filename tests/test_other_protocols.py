@@ -1,4 +1,4 @@
-"""The library of one protocol says nothing of another: no word, no verb, no version."""
+"""The library of one protocol mentions no other: no word, no verb, no version."""
 
 import ast
 import contextlib
@@ -82,7 +82,7 @@ def prose(text: str) -> Iterator[str]:
             yield token.string
 
 
-def told(files: dict[str, str], words: re.Pattern[str]) -> list[str]:
+def mentions(files: dict[str, str], words: re.Pattern[str]) -> list[str]:
     """Return where one of the words stands."""
     return [
         f"{path}: {line.strip()}"
@@ -93,15 +93,15 @@ def told(files: dict[str, str], words: re.Pattern[str]) -> list[str]:
 
 
 @pytest.mark.parametrize("name", OTHERS)
-def test_no_library_speaks_of_another_protocol(name: str) -> None:
+def test_no_library_mentions_another_protocol(name: str) -> None:
     spec = data_of(OTHERS[name])
     vectors = render_target(VECTORS, compiled_of(spec))
-    assert told({**files_of(spec), **vectors}, forbidden(spec)) == []
+    assert mentions({**files_of(spec), **vectors}, forbidden(spec)) == []
 
 
-def test_what_is_looked_for_is_found_where_it_belongs() -> None:
+def test_the_words_of_a_protocol_are_found_in_its_own_library() -> None:
     """Else the test above would hold for want of words, or of eyes."""
-    found = told(files_of(data_of(BUSSERVO)), forbidden(data_of(DEMO)))
+    found = mentions(files_of(data_of(BUSSERVO)), forbidden(data_of(DEMO)))
     for word in ("ServoMove", "servo_ids", "servo", "battery", "CMD_SERVO_MOVE", "controller"):
         assert any(word in line for line in found), word
 
@@ -155,13 +155,13 @@ def test_only_what_can_work_is_offered(folder: Path, name: str, verbs: list[str]
 
 
 LOOKING = ["port", "hid", "permission", "busy", "opening", "silence"]
-ASKING = ["rate", "echo", "reply", "round-trip"]
+REQUESTING = ["rate", "echo", "reply", "round-trip"]
 
 
 @pytest.mark.parametrize(
     ("name", "checks"),
     [
-        ("greenhouse", [*LOOKING, *ASKING, "look-alike"]),
+        ("greenhouse", [*LOOKING, *REQUESTING, "look-alike"]),
         ("blinds", [*LOOKING, "present", "look-alike"]),
         ("weather", [*LOOKING, "look-alike"]),
         ("stage_lamp", [*LOOKING, "look-alike"]),
@@ -269,5 +269,5 @@ def test_a_copy_beside_what_is_installed_has_the_version_of_its_spec(
     assert version_of(folder, tmp_path) == "1.1.0"
 
 
-def test_the_command_tells_both_versions(folder: Path) -> None:
+def test_the_command_prints_both_versions(folder: Path) -> None:
     assert command(folder, "greenhouse", "--version") == (0, "greenhouse 1.1.0, spec 1.1.0\n", "")

@@ -216,7 +216,7 @@ def test_a_strip_is_a_plain_table(event: Message | Noise) -> None:
     assert not re.search(r"color|background|#", event._repr_html_())
 
 
-def test_nobody_imports_what_shows_strips_before_one_is_shown() -> None:
+def test_the_strip_module_is_imported_lazily() -> None:
     code = "from busservo import ActionGroupStop; ActionGroupStop(); print('html' in sys.modules)"
     done = subprocess.run(
         [sys.executable, "-S", "-c", f"import sys; sys.path[:] = {sys.path!r}; {code}"],

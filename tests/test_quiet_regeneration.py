@@ -139,10 +139,10 @@ def test_how_values_are_spelt_changes_no_file(name: str) -> None:
 @pytest.mark.parametrize("name", SPECS)
 def test_no_file_knows_the_digest_of_the_spec_or_who_generated_it_when(name: str) -> None:
     source = Source(PATH, text_of(name))
-    told = [source.digest, f"framegen {framegen.__version__}"]
+    words = [source.digest, f"framegen {framegen.__version__}"]
     pages = render_site([compiled(source.text)], snippets())
     for path, text in (files(source.text) | pages).items():
-        assert [word for word in told if word in text] == [], path
+        assert [word for word in words if word in text] == [], path
 
 
 # ------------------------------------------------------------------ words
@@ -175,7 +175,7 @@ def kinds_of_prose(name: str) -> dict[str, Steps]:
 PLACES = [(name, kind) for name in SPECS for kind in kinds_of_prose(name)]
 
 
-def test_the_places_are_many() -> None:
+def test_prose_stands_in_many_places() -> None:
     kinds = {kind for _, kind in PLACES}
     assert {
         "frame.header.about",
@@ -191,7 +191,7 @@ def test_the_places_are_many() -> None:
 
 
 @pytest.mark.parametrize(("name", "kind"), PLACES)
-def test_a_word_changes_few_files(name: str, kind: str) -> None:
+def test_a_changed_word_changes_few_files(name: str, kind: str) -> None:
     data = data_of(SPECS[name])
     before = files(as_text(data))
     *steps, key = kinds_of_prose(name)[kind]

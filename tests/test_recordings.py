@@ -107,7 +107,7 @@ MOVE = ServoMove(time_ms=100, targets=[(1, 600)])
             "55 55 03 01 2A  # 1 s, noise: unknown command",
             [(1.0, "controller", UnknownFrame(UNKNOWN, Reason.UNKNOWN_COMMAND))],
         ),
-        # Its command was not known when it was heard.
+        # Its command was not known when it was received.
         ("55 55 02 0F  # 1 s, host noise: unknown command", [(1.0, "host", ASK)]),
         # Written by hand.
         (
@@ -126,7 +126,7 @@ def test_a_line_is_what_its_sender_can_have_sent(line: str, expected: list[objec
     assert found[1:-1] == expected
 
 
-def test_the_place_and_the_day_are_told() -> None:
+def test_the_place_and_the_day_are_read() -> None:
     first, second, third = entries(
         "# recorded of 'COM7' from 2026-01-02 09:08:07.250000 +0100 on\n\n"
         "55 55 02 0F  # 0.5 s, host: a\n"
@@ -138,7 +138,7 @@ def test_the_place_and_the_day_are_told() -> None:
 
 
 @pytest.mark.parametrize("day", ["2026-02-31 00:00:00 +0000", "yesterday"])
-def test_a_day_that_makes_no_sense_is_none(day: str) -> None:
+def test_an_invalid_day_is_ignored(day: str) -> None:
     (entry,) = entries(f"# recorded of 'COM7' from {day} on\n55 55 02 0F  # 0.5 s, host: a\n")
     assert entry.began is None
 
@@ -150,7 +150,7 @@ def test_who_sent_what_either_end_may_have_sent_can_be_said() -> None:
 
 
 @pytest.mark.parametrize(
-    ("text", "told"),
+    ("text", "problem"),
     [
         (
             "55 55 02 0F  # 0 s, martian: a\n",
@@ -168,10 +168,10 @@ def test_who_sent_what_either_end_may_have_sent_can_be_said() -> None:
         ),
     ],
 )
-def test_what_makes_no_sense_is_told_with_its_line(text: str, told: str) -> None:
+def test_an_invalid_line_is_reported_with_its_number(text: str, problem: str) -> None:
     with pytest.raises(RecordingError) as caught:
         entries(text)
-    assert str(caught.value).startswith(told)
+    assert str(caught.value).startswith(problem)
 
 
 def test_there_is_no_other_form() -> None:
@@ -256,7 +256,7 @@ def test_quiet_ends_a_frame_in_plain_hex_too() -> None:
         (b"5G\x00 # 0.5 s, host: a", False),
     ],
 )
-def test_hex_is_told_from_raw_bytes_by_the_first_word(content: bytes, *, text: bool) -> None:
+def test_the_first_word_distinguishes_hex_from_raw_bytes(content: bytes, *, text: bool) -> None:
     assert is_text(content, ended=True) == text
     for end in range(len(content)):
         assert is_text(content[:end], ended=False) in (None, text)
@@ -290,7 +290,7 @@ contents = (
 )
 
 
-def outcome(pieces: list[bytes]) -> tuple[str, list[object], list[Message | Noise]]:
+def result_of(pieces: list[bytes]) -> tuple[str, list[object], list[Message | Noise]]:
     found: list[Entry] = []
     problem = ""
     try:
@@ -303,14 +303,14 @@ def outcome(pieces: list[bytes]) -> tuple[str, list[object], list[Message | Nois
 
 @given(contents, st.data())
 @example(b"5555020F" * 3, None)
-def test_what_it_is_does_not_depend_on_how_it_is_cut(
+def test_chunking_does_not_change_what_a_recording_holds(
     content: bytes, data: st.DataObject | None
 ) -> None:
     cuts = [*range(1, len(content))]
     if data is not None:
         cuts = sorted(data.draw(st.lists(st.integers(0, len(content)), max_size=len(content))))
     pieces = [content[start:end] for start, end in pairwise([0, *cuts, len(content)])]
-    whole, cut = outcome([content]), outcome(pieces)
+    whole, cut = result_of([content]), result_of(pieces)
     if whole[0] == cut[0] == "":
         assert cut == whole
     else:

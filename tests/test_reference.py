@@ -159,7 +159,7 @@ def ways(draw: st.DrawFn, model: Model) -> Sequence[Direction]:
 # --- What was found ------------------------------------------------------------------------------
 
 
-def told(events: Sequence[Any], name: str) -> list[Found]:
+def reported(events: Sequence[Any], name: str) -> list[Found]:
     """Return the events of a library, noise joined."""
     library = lib(name)
     found: list[Found] = []
@@ -196,7 +196,7 @@ each_spec = pytest.mark.parametrize("name", SPECS)
 
 @each_spec
 @given(data=st.data())
-def test_a_stream_decoder_tells_what_the_reference_tells(name: str, data: st.DataObject) -> None:
+def test_a_stream_decoder_agrees_with_the_reference(name: str, data: st.DataObject) -> None:
     model = MODELS[name]
     directions = data.draw(ways(model))
     largest = model.largest(directions)
@@ -210,14 +210,14 @@ def test_a_stream_decoder_tells_what_the_reference_tells(name: str, data: st.Dat
         for chunk in chunks:
             events += decoder.feed(chunk)
             assert decoder.pending < min(largest, max_frame or largest)
-        assert messages(told(events, name)) == messages(
+        assert messages(reported(events, name)) == messages(
             [
                 (event.message.name, event.data)
                 for event in line.decode_so_far(stretch)
                 if event.message
             ]
         )
-        assert told(events + decoder.flush(), name) == expected(line, stretch)
+        assert reported(events + decoder.flush(), name) == expected(line, stretch)
 
 
 def messages(found: list[Found]) -> list[Found]:

@@ -61,14 +61,16 @@ LINES: list[tuple[ReferenceDecoder, str, list[tuple[str, str]]]] = [
     (HOUSE, "C35AA577FFFF0000", [("unknown command", "c35aa577ffff0000")]),
     (TIGHT, "C35AA57700020000", [("?", "c35aa57700020000")]),
     (TIGHT, "C35AA5770003000000", [("unknown command", "c35aa5770003000000")]),
-    # With both ends heard, an id is unknown only where neither sends it.
+    # With both ends received, an id is unknown only where neither sends it.
     (BOTH, "55550208" + "55550408", [("length mismatch", "5555020855550408")]),
     (BOTH, "5555040FC91E", [("BatteryVoltage", "5555040fc91e")]),
 ]
 
 
-@pytest.mark.parametrize(("line", "text", "told"), LINES)
-def test_a_line_says(line: ReferenceDecoder, text: str, told: list[tuple[str, str]]) -> None:
+@pytest.mark.parametrize(("line", "text", "expected"), LINES)
+def test_a_stream_gives_its_events(
+    line: ReferenceDecoder, text: str, expected: list[tuple[str, str]]
+) -> None:
     events = line.decode(bytes.fromhex(text))
     assert [
         (
@@ -80,7 +82,7 @@ def test_a_line_says(line: ReferenceDecoder, text: str, told: list[tuple[str, st
             event.data.hex(),
         )
         for event in events
-    ] == told
+    ] == expected
     assert [event.at for event in events] == [
         len(b"".join(each.data for each in events[:number])) for number in range(len(events))
     ]
@@ -105,8 +107,8 @@ def test_a_line_says(line: ReferenceDecoder, text: str, told: list[tuple[str, st
 )
 def test_what_may_become_a_frame_is_held(line: ReferenceDecoder, text: str, held: int) -> None:
     data = bytes.fromhex(text)
-    told = line.decode_so_far(data)
-    assert b"".join(event.data for event in told) == data[: len(data) - held]
+    events = line.decode_so_far(data)
+    assert b"".join(event.data for event in events) == data[: len(data) - held]
 
 
 heads = st.sampled_from(["55", "5555", "555502", "55550263", "55550463", "5555FF63", STOP, "00"])
@@ -114,7 +116,7 @@ texts = st.lists(heads, max_size=10).map("".join).map(bytes.fromhex)
 
 
 @given(st.sampled_from([HOST, SMALL, BOTH]), texts, texts)
-def test_what_is_told_already_stands_whatever_comes(
+def test_reported_events_stand_whatever_follows(
     line: ReferenceDecoder, begun: bytes, rest: bytes
 ) -> None:
     early = line.decode_so_far(begun)

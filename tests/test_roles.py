@@ -26,7 +26,7 @@ def rules(data: Data) -> list[str]:
 
 
 @pytest.mark.parametrize("data", [SERVO, HOUSE], ids=["busservo", "greenhouse"])
-def test_a_report_in_front_of_the_commands_turns_nobody_round(data: Data) -> None:
+def test_a_report_before_the_commands_does_not_swap_the_roles(data: Data) -> None:
     moved = report_first(data)
     assert list(moved["messages"]) != list(data["messages"])
     assert layout_of(moved).roles == layout_of(data).roles
@@ -43,7 +43,7 @@ def _without_banner(text: str) -> list[str]:
     return [line for line in text.split("\n") if not line.startswith("#")]
 
 
-def test_endpoints_that_change_places_are_told_where_a_client_has_methods() -> None:
+def test_swapped_endpoints_are_reported_where_a_client_has_methods() -> None:
     assert set(rules(turned_round(SERVO))) == {"limits", "lasts", "method", "pose"}
 
 
@@ -52,12 +52,14 @@ def test_endpoints_that_change_places_are_told_where_a_client_has_methods() -> N
     [(lambda data: data, []), (report_first, ["endpoints"]), (turned_round, ["endpoints"])],
     ids=["as it was", "a report first", "turned round"],
 )
-def test_where_an_older_edition_meant_another_it_is_told(change: Any, found: list[str]) -> None:
+def test_a_spec_whose_roles_differ_in_an_older_edition_is_reported(
+    change: Any, found: list[str]
+) -> None:
     """Edition 1 took whoever sends first for the library's user."""
     assert rules({**change(HOUSE), "framegen": 1}) == found
 
 
-def test_kinds_are_told_by_who_sends() -> None:
+def test_a_kind_follows_from_the_sender() -> None:
     model = layout_of(report_first(HOUSE))
     assert {name: model.kind(name) for name in sorted(model.messages)} == {
         "StationRead": "query",
@@ -68,7 +70,7 @@ def test_kinds_are_told_by_who_sends() -> None:
     }
 
 
-def test_a_third_end_is_read_and_plays_no_part() -> None:
+def test_a_third_endpoint_is_read_and_ignored() -> None:
     model = layout_of(HOUSE)
     assert (model.roles.client, model.roles.device) == ("gateway", "station")
     assert [way.key for way in model.ways] == [

@@ -51,7 +51,7 @@ def test_an_example_that_would_be_encoded_otherwise_is_found(
 
 
 @pytest.mark.parametrize(
-    ("key", "said", "told"),
+    ("key", "said", "expected"),
     [
         ("targets", None, "the frame has a list, not nothing"),
         ("targets", {}, "the frame has a list, not an element"),
@@ -59,10 +59,12 @@ def test_an_example_that_would_be_encoded_otherwise_is_found(
         ("time_ms", [1000], "the frame has 1000, not a list"),
     ],
 )
-def test_a_value_of_another_kind_is_told_by_its_kind(key: str, said: object, told: str) -> None:
+def test_a_value_of_another_kind_is_reported_by_its_kind(
+    key: str, said: object, expected: str
+) -> None:
     data = data_of(BUSSERVO)
     data["messages"]["ServoMove"]["examples"][0]["values"][key] = said
-    assert [finding.message for finding in compiled_of(data).findings][:1] == [told]
+    assert [finding.message for finding in compiled_of(data).findings][:1] == [expected]
 
 
 def test_the_guide_shows_a_case_as_it_is() -> None:

@@ -56,9 +56,9 @@ def test_the_schema_is_a_schema() -> None:
     assert "$id" not in SCHEMA
 
 
-def test_the_number_types_are_told_in_words_as_well() -> None:
-    told = SCHEMA["$defs"]["NumberField"]["properties"]["type"]["description"]
-    assert told == "The number type: u8, u16, u32, i8, i16, i32."
+def test_the_number_types_are_named_in_a_description() -> None:
+    description = SCHEMA["$defs"]["NumberField"]["properties"]["type"]["description"]
+    assert description == "The number type: u8, u16, u32, i8, i16, i32."
 
 
 def test_the_text_is_json_with_one_line_end_after_it() -> None:

@@ -222,9 +222,9 @@ def test_1_nothing_is_lost(line: bytes, direction: Direction | None, data: st.Da
     for chunk in data.draw(pieces(line)):
         events += decoder.feed(chunk)
         fed += chunk
-        told = bytes_of(events)
-        assert fed.startswith(told)
-        assert len(told) + decoder.pending == len(fed)
+        reported = bytes_of(events)
+        assert fed.startswith(reported)
+        assert len(reported) + decoder.pending == len(fed)
     events += decoder.flush()
 
     assert bytes_of(events) == line
@@ -335,10 +335,10 @@ def test_5_flush_rescans_what_a_false_header_was_holding_back(
     line: bytes, direction: Direction | None, data: st.DataObject
 ) -> None:
     decoder = StreamDecoder(direction)
-    told = bytes_of(event for chunk in data.draw(pieces(line)) for event in decoder.feed(chunk))
+    reported = bytes_of(event for chunk in data.draw(pieces(line)) for event in decoder.feed(chunk))
     last = decoder.flush()
 
-    assert scanned(last) == oracle.scan(line[len(told) :], oracles(direction))
+    assert scanned(last) == oracle.scan(line[len(reported) :], oracles(direction))
     # After silence nothing is remembered: the decoder is as good as new.
     assert (decoder.pending, decoder.flush()) == (0, [])
     assert joined(decoder.feed(line)) == joined(read(direction, [line], quiet=False))
@@ -505,7 +505,7 @@ def test_6_what_is_shown_has_the_exact_shape_of_an_unknown_frame(
         ),
     ],
 )
-def test_a_line_reads_as(
+def test_a_stream_reads_as_expected(
     direction: Direction | None, line: str, events: list[Message | Noise]
 ) -> None:
     data = bytes.fromhex(line)
@@ -562,8 +562,8 @@ def test_what_an_unknown_frame_leaves_that_was_none_has_a_piece_for_each_refused
     line: str, events: list[Message | Noise]
 ) -> None:
     assert read(CONTROLLER, [bytes.fromhex(line)]) == events
-    stray = noise("13", Reason.BAD_HEADER)
-    assert read(CONTROLLER, [b"\x13" + bytes.fromhex(line)]) == [stray, *events]
+    before = noise("13", Reason.BAD_HEADER)
+    assert read(CONTROLLER, [b"\x13" + bytes.fromhex(line)]) == [before, *events]
 
 
 @pytest.mark.parametrize("second", range(30, 45))
@@ -635,7 +635,7 @@ def test_a_count_that_disagrees_is_refused_at_the_fifth_byte(
 
 
 @each_direction
-def test_nothing_fed_is_no_sign_of_silence(direction: Direction | None) -> None:
+def test_an_empty_feed_is_no_sign_of_silence(direction: Direction | None) -> None:
     for head in HEADS:
         decoder = StreamDecoder(direction)
         decoder.feed(head)
@@ -705,18 +705,18 @@ def test_noise_shows_itself() -> None:
     assert eval(repr(unknown)) == unknown  # noqa: S307
 
 
-def test_events_are_told_apart_by_matching() -> None:
-    told = []
+def test_match_statements_distinguish_events() -> None:
+    shown = []
     for event in read(CONTROLLER, [bytes.fromhex("00 55 55 02 63 55 55 05 06 08 01 00")]):
         match event:
             case ActionGroupStarted(group, times):
-                told.append(f"group {group} x {times}")
+                shown.append(f"group {group} x {times}")
             case UnknownFrame(data, _):
-                told.append(f"unknown {data.hex()}")
+                shown.append(f"unknown {data.hex()}")
             case Noise(data, Reason.BAD_HEADER):
-                told.append(f"noise {data.hex()}")
+                shown.append(f"noise {data.hex()}")
 
-    assert told == ["noise 00", "unknown 55550263", "group 8 x 1"]
+    assert shown == ["noise 00", "unknown 55550263", "group 8 x 1"]
 
 
 # --- Counters ------------------------------------------------------------------------------------
@@ -728,10 +728,10 @@ def test_the_counters_add_up(line: bytes, direction: Direction | None, data: st.
     events: list[Message | Noise] = []
     for chunk in [*data.draw(pieces(line)), None]:
         events += decoder.flush() if chunk is None else decoder.feed(chunk)
-        counters, told = decoder.counters, messages_in(events)
-        assert counters.messages == len(told)
+        counters, messages = decoder.counters, messages_in(events)
+        assert counters.messages == len(messages)
         assert counters.unknown_frames == len(unknown_in(events))
-        assert counters.noise == len(bytes_of(events)) - len(bytes_of(told))
+        assert counters.noise == len(bytes_of(events)) - len(bytes_of(messages))
         assert counters.fed == len(bytes_of(events)) + decoder.pending
 
     assert decoder.counters.fed == len(line)
@@ -748,7 +748,7 @@ def test_every_event_is_counted(size: int) -> None:
         assert repr(decoder.counters) == f"Counters({counted})"
 
 
-def test_noise_is_told_while_what_begins_behind_it_is_held() -> None:
+def test_noise_is_reported_while_what_begins_behind_it_is_held() -> None:
     decoder = StreamDecoder(HOST)
     assert decoder.feed(bytes.fromhex("00 13 55 55")) == [Noise(b"\x00\x13", Reason.BAD_HEADER)]
     assert decoder.pending == 2
@@ -762,7 +762,7 @@ def test_what_ends_behind_an_unknown_frame_is_no_part_of_it_as_soon_as_that_is_w
 
 
 @pytest.mark.parametrize(
-    ("line", "told"),
+    ("line", "expected"),
     [
         ("55 55 00 55 55 00", [("55 55 00", "length"), ("55 55 00", "length")]),
         # A run of headers, each a byte after the other, is one piece: if it is for one reason.
@@ -770,13 +770,13 @@ def test_what_ends_behind_an_unknown_frame_is_no_part_of_it_as_soon_as_that_is_w
         ("55 55 55 0B 03 05 00", [("55", "length"), ("55 55 0B 03 05 00", "count")]),
     ],
 )
-def test_a_piece_of_noise_is_told_for_each_refused_header(
-    line: str, told: list[tuple[str, str]]
+def test_each_refused_header_is_a_piece_of_noise(
+    line: str, expected: list[tuple[str, str]]
 ) -> None:
     decoder = StreamDecoder(HOST)
     events = decoder.feed(bytes.fromhex(line)) + decoder.flush()
     reasons = {"length": Reason.LENGTH_MISMATCH, "count": Reason.COUNT_MISMATCH}
-    assert events == [Noise(bytes.fromhex(data), reasons[why]) for data, why in told]
+    assert events == [Noise(bytes.fromhex(data), reasons[why]) for data, why in expected]
 
 
 @pytest.mark.parametrize(

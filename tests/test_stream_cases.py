@@ -35,7 +35,7 @@ def model_of(spec: Path) -> Model:
     return layout_of(data_of(spec))
 
 
-def told(model: Model, case: StreamCase) -> list[Event | None]:
+def events_of(model: Model, case: StreamCase) -> list[Event | None]:
     return [*ReferenceDecoder(model, [case.direction], case.max_frame).follow(case.parts)]
 
 
@@ -59,7 +59,7 @@ def test_each_has_a_title_and_bytes_of_its_own(spec: Path) -> None:
 def test_no_byte_is_lost_and_all_but_a_few_end_with_quiet(spec: Path) -> None:
     model = model_of(spec)
     for case in streams(model):
-        events = told(model, case)
+        events = events_of(model, case)
         sent = b"".join(part for part in case.parts if part)
         said = b"".join(event.data for event in events if event)
         assert sent.startswith(said)
@@ -68,14 +68,14 @@ def test_no_byte_is_lost_and_all_but_a_few_end_with_quiet(spec: Path) -> None:
 
 
 @each_spec
-def test_all_that_can_be_told_is_told_in_each_direction(spec: Path) -> None:
+def test_every_kind_of_event_occurs_in_each_direction(spec: Path) -> None:
     model = model_of(spec)
     for direction in model.directions:
         events = [
             event
             for case in streams(model)
             if case.direction == direction
-            for event in told(model, case)
+            for event in events_of(model, case)
         ]
         assert {event.kind for event in events if event} == {"message", "unknown", "noise"}
         messages = model.sent(direction).values()
@@ -96,7 +96,8 @@ def test_all_that_can_be_told_is_told_in_each_direction(spec: Path) -> None:
 def test_what_a_title_says_of_an_unknown_frame_is_so(spec: Path) -> None:
     model = model_of(spec)
     shown = {
-        case.title: [event.kind for event in told(model, case) if event] for case in streams(model)
+        case.title: [event.kind for event in events_of(model, case) if event]
+        for case in streams(model)
     }
     for title, kinds in shown.items():
         if title.startswith(("an unknown frame between", "an unknown frame byte by byte")):
@@ -113,7 +114,7 @@ def test_frames_are_as_large_as_the_bound_and_larger() -> None:
         len(event.data): event.kind
         for case in streams(model)
         if case.max_frame == 64
-        for event in told(model, case)
+        for event in events_of(model, case)
         if event
     }
     assert sizes[64] != "noise"
@@ -136,6 +137,6 @@ def test_an_id_that_is_free_in_both_directions_is_preferred() -> None:
     assert unknown_id(taken, here) == unknown_id(taken, there) == 254
 
 
-def test_pieces() -> None:
+def test_a_stream_is_cut_into_single_bytes_or_chunks() -> None:
     assert single_bytes(b"abc") == (b"a", b"b", b"c")
     assert chunks(b"abcde", 2) == (b"ab", b"cd", b"e")

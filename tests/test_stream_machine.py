@@ -25,7 +25,7 @@ class Line(RuleBasedStateMachine):
         self.decoder = StreamDecoder(None)
         self.sent = b""
         self.held = b""
-        self.told: list[Message | Noise] = []
+        self.events: list[Message | Noise] = []
 
     @initialize(direction=directions)
     def begin(self, direction: Direction | None) -> None:
@@ -63,7 +63,7 @@ class Line(RuleBasedStateMachine):
         self.agree(self.decoder.flush(), oracle.scan(self.held, oracles(self.direction)))
         self.held = b""
         assert self.decoder.pending == 0
-        assert bytes_of(self.told) == self.sent
+        assert bytes_of(self.events) == self.sent
 
     def arrives(self, data: bytes) -> None:
         """Feed the decoder, and let the oracle read on as far as it can."""
@@ -75,14 +75,14 @@ class Line(RuleBasedStateMachine):
 
     def agree(self, events: Sequence[Message | Noise], expected: list[Any]) -> None:
         """Check that both have found the same messages. The decoder may hold noise longer."""
-        self.told += events
+        self.events += events
         assert [said(message) for message in messages_in(events)] == [
             event for event in expected if not isinstance(event, bytes)
         ]
 
     @invariant()
     def nothing_is_lost(self) -> None:
-        assert bytes_of(self.told) == self.sent[: len(self.sent) - self.decoder.pending]
+        assert bytes_of(self.events) == self.sent[: len(self.sent) - self.decoder.pending]
 
     @invariant()
     def no_more_is_held_than_the_largest_frame(self) -> None:
@@ -92,8 +92,10 @@ class Line(RuleBasedStateMachine):
     def counters_add_up(self) -> None:
         counters = self.decoder.counters
         assert counters.fed == len(self.sent)
-        assert counters.messages == len(messages_in(self.told))
-        assert counters.noise == len(bytes_of(self.told)) - len(bytes_of(messages_in(self.told)))
+        assert counters.messages == len(messages_in(self.events))
+        assert counters.noise == len(bytes_of(self.events)) - len(
+            bytes_of(messages_in(self.events))
+        )
 
 
 def size_of(event: Any) -> int:

@@ -117,7 +117,7 @@ SLIPS: dict[str, tuple[str, str, str, str]] = {
 
 @pytest.mark.parametrize("parser", PARSERS, ids=lambda parser: parser.__name__)
 @pytest.mark.parametrize("slip", SLIPS)
-def test_a_slip_is_told_with_what_to_do(
+def test_a_mistake_is_reported_with_a_hint(
     slip: str, parser: type, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(yamltree, "_Loader", parser)
@@ -126,11 +126,11 @@ def test_a_slip_is_told_with_what_to_do(
         read_tree(Source("spec.yaml", text + "\n"))
     found = refused.value.finding
     assert found is not None
-    told = f"{found.span.line}:{found.span.column}", found.message, found.hint
-    assert told == (place, message, hint)
+    shown = f"{found.span.line}:{found.span.column}", found.message, found.hint
+    assert shown == (place, message, hint)
 
 
-def test_a_backslash_that_is_no_escape_is_told() -> None:
+def test_an_invalid_escape_is_reported() -> None:
     with pytest.raises(Unusable) as refused:
         read_tree(Source("spec.yaml", 'a: "\\d"'))
     found = refused.value.finding
@@ -139,7 +139,7 @@ def test_a_backslash_that_is_no_escape_is_told() -> None:
     assert found.hint == "write two of them, or put the text in single quotes"
 
 
-def test_what_is_not_known_is_told_in_the_words_of_the_parser() -> None:
+def test_an_unknown_error_is_reported_in_the_words_of_the_parser() -> None:
     with pytest.raises(Unusable) as refused:
         read_tree(Source("spec.yaml", "a: ? b"))
     found = refused.value.finding
@@ -148,7 +148,7 @@ def test_what_is_not_known_is_told_in_the_words_of_the_parser() -> None:
 
 
 @given(st.text(alphabet="ab:-|>#{}[]'\"@%*&! \t\n\\", max_size=40))
-def test_whatever_is_no_yaml_is_told_with_a_place_in_it(text: str) -> None:
+def test_invalid_yaml_is_reported_with_a_place_in_it(text: str) -> None:
     source = Source("spec.yaml", text)
     finding = None
     try:

@@ -214,14 +214,14 @@ def test_templates_that_cannot_be_kept_are_rendered_all_the_same(
     assert environment(tmp_path, "plain").get_template("page.jinja").render() == "text"
 
 
-def test_the_library_view_gives_every_name_that_templates_ask_of_it() -> None:
-    asked = {
+def test_the_library_view_has_every_name_that_templates_use() -> None:
+    used = {
         node.attr
         for template in TEMPLATES
         for node in parsed(template).find_all(nodes.Getattr)
         if isinstance(node.node, nodes.Name) and node.node.name == "library"
     }
     view = LibraryView(layout_of(data_of(DEMO)))
-    assert len(asked) > 10
-    for name in asked:
+    assert len(used) > 10
+    for name in used:
         getattr(view, name)

@@ -45,16 +45,16 @@ def test_its_files_are_written_with_a_banner_where_there_are_comments(project: P
     assert (project / FOLDER / "count.dat").read_text(encoding="utf-8") == "5\n"
 
 
-def test_they_are_compared(project: Path, capsys: Capture) -> None:
+def test_its_files_are_compared(project: Path, capsys: Capture) -> None:
     assert main(["generate", "--check"]) == 0
     change(project, "VentJammed", "VentStuck")
     assert main(["generate", "--check", "--target", "toy"]) == 1
-    told = capsys.readouterr()
-    assert f"stale: {MESSAGES}\n" in told.err
-    assert "\n-VentJammed 18\n+VentStuck 18\n" in told.out
+    printed = capsys.readouterr()
+    assert f"stale: {MESSAGES}\n" in printed.err
+    assert "\n-VentJammed 18\n+VentStuck 18\n" in printed.out
 
 
-def test_they_are_written_alone(project: Path, capsys: Capture) -> None:
+def test_its_files_are_written_alone(project: Path, capsys: Capture) -> None:
     change(project, "VentJammed", "VentStuck")
     capsys.readouterr()
     assert main(["generate", "--target", "toy"]) == 0
@@ -80,13 +80,13 @@ def test_an_edit_by_hand_is_not_lost(project: Path, capsys: Capture) -> None:
     assert (project / MESSAGES).read_text(encoding="utf-8") == edited
 
 
-def test_a_name_that_it_has_taken_is_told(project: Path, capsys: Capture) -> None:
+def test_a_name_reserved_by_it_is_reported(project: Path, capsys: Capture) -> None:
     capsys.readouterr()
     assert main(["check"]) == 0
-    told = capsys.readouterr()
-    assert told.out == ""
+    printed = capsys.readouterr()
+    assert printed.out == ""
     place = "spec/demo.yaml:50:3: note: toy writes the message `VentsOpen` as `VentsOpen_`"
-    assert f"{place}: it is a word of the language\n" in told.err
+    assert f"{place}: it is a word of the language\n" in printed.err
 
     assert main(["targets", "toy"]) == 0
     assert "message: NAME becomes NAME_ where it is a word of the language\n  Halt VentsOpen\n" in (
@@ -96,7 +96,7 @@ def test_a_name_that_it_has_taken_is_told(project: Path, capsys: Capture) -> Non
     assert f"all of {FOLDER}/" in capsys.readouterr().out
 
 
-def test_its_snippet_is_handed_to_all(project: Path) -> None:
+def test_its_snippet_is_there_for_every_target(project: Path) -> None:
     compiled = compile_spec(read_source(project / "spec" / "demo.yaml"))
     message = compiled.model.messages["StationRead"]
     show = snippets()["toy"]
@@ -104,7 +104,7 @@ def test_its_snippet_is_handed_to_all(project: Path) -> None:
     assert {"python", "toy"} <= set(snippets())
 
 
-def test_nothing_else_is_any_different(project: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_it_changes_no_other_output(project: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     compiled = compile_spec(read_source(project / "spec" / "demo.yaml"))
     with_it = render(compiled).files
     monkeypatch.setattr(table, "TARGETS", table.TARGETS[:-1])

@@ -1,4 +1,4 @@
-"""What annotations mean can be asked at run time: whoever builds on the library may well do so."""
+"""Annotations can be evaluated at run time: whoever builds on the library may well do so."""
 
 import inspect
 import typing
@@ -46,7 +46,7 @@ def methods(owner: type) -> Iterator[tuple[str, Any]]:
 PUBLIC = dict(public())
 
 
-def test_much_is_public() -> None:
+def test_the_public_names_are_found() -> None:
     assert {"busservo.decode", "busservo.StreamDecoder", "StreamDecoder.feed"} <= PUBLIC.keys()
     assert {"ServoMove.__new__", "Controller.move_servos", "Entry.__init__"} <= PUBLIC.keys()
 

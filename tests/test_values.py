@@ -91,7 +91,7 @@ def test_a_notation_is_read(parse: Callable[[str], Any], text: str, value: objec
         (parse_hex, "\uff15\uff15", "two digits a byte"),
     ],
 )
-def test_what_is_none_is_told_with_what_to_write(
+def test_a_malformed_notation_is_reported_with_what_to_write(
     parse: Callable[[str], Any], text: str, hint: str
 ) -> None:
     with pytest.raises(ValueError, match=r"^`|depends") as refused:

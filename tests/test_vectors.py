@@ -175,7 +175,7 @@ def test_the_oracle_agrees_with_a_stream(vector: dict[str, Any]) -> None:
     *found, begun = scanned_events(vector)
 
     assert [oracle.scan(data, way) for data in stretches] == found
-    # What else has been told already depends on what is waited for.
+    # What else has been reported already depends on what is waited for.
     early = oracle.scan(last, way, quiet=False)
     assert messages_of(early) == messages_of(begun)
 
@@ -203,8 +203,8 @@ def test_the_vectors_cover_every_reason_that_this_protocol_has() -> None:
     reasons = {reason.value for reason in Reason if reason is not Reason.OUT_OF_RANGE}
 
     assert {vector["reason"] for vector in INVALID} == reasons
-    heard = {event.get("reason") for vector in STREAMS for event in vector["events"]}
-    assert heard == {*reasons, None} - {Reason.TRAILING_BYTES.value}
+    seen = {event.get("reason") for vector in STREAMS for event in vector["events"]}
+    assert seen == {*reasons, None} - {Reason.TRAILING_BYTES.value}
 
 
 def test_the_vectors_cover_the_table_of_truth() -> None:

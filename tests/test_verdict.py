@@ -1,4 +1,4 @@
-"""Why bytes are no frame: the first of them that no legal frame can have says so."""
+"""Why bytes are no frame: the reason is the first byte that no legal frame can have."""
 
 import pytest
 from framegen.language.spec import Spec
@@ -91,7 +91,7 @@ def test_a_refusal_says_what_was_due(text: str, due: str) -> None:
     assert refused.value.expected == due
 
 
-def test_bytes_behind_a_frame_are_told_of_a_frame_alone() -> None:
+def test_trailing_bytes_are_an_error_for_a_single_frame_only() -> None:
     data = bytes.fromhex("55 55 02 07 00")
     verdict = weigh(SERVO, [HOST], data)
     assert verdict.message is SERVO.messages["ActionGroupStop"]
@@ -170,5 +170,5 @@ def test_a_part_behind_the_fields_is_a_slot_like_any_other() -> None:
     wrong = weigh(model, [HOST], frame[:-1] + b"\x0b")
     assert (wrong.reason, wrong.offset) == ("bad header", 11)
     assert weigh(model, [HOST], frame[:-1]).undecided
-    told = ReferenceDecoder(model, [HOST]).decode(b"\x55" + frame + frame[:-1])
-    assert [event.kind for event in told] == ["noise", "message", "noise"]
+    events = ReferenceDecoder(model, [HOST]).decode(b"\x55" + frame + frame[:-1])
+    assert [event.kind for event in events] == ["noise", "message", "noise"]

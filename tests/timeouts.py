@@ -18,7 +18,7 @@ GENEROUS = 60.0
 
 
 class Line(TypedDict):
-    """What a client is told of its line."""
+    """Arguments of a client about its line."""
 
     reply_timeout: float
     baud: float
@@ -41,7 +41,7 @@ def await_that(true: Callable[[], object]) -> None:
 def undoubted() -> Iterator[None]:
     """Shorten the waits of clients: nobody else sends requests, and each reply comes once.
 
-    A client otherwise waits before it asks on a line that was opened just now, and before it
+    A client otherwise waits before it sends on a line that was opened just now, and before it
     believes a reply that came sooner than a wire could have carried it.
     """
     with mock.patch.object(session, "_LATENCY", 0.001):

@@ -102,7 +102,7 @@ FIRST_MOVES = Chapter(
 # here they stand between a request and its reply.  RUN and its report, STOP and its report are
 # the same bytes, and without a direction both read as the host's.
 ACTION_GROUPS = Chapter(
-    "Action groups, and reports that nobody asked for",
+    "Action groups, and unsolicited reports",
     (
         Event(
             HOST,
@@ -267,7 +267,7 @@ INTERFERENCE = Chapter(
         Event(LINE, "55 55", "a whole stray header", "noise"),
         Event(HOST, "55 55 02 07", "stop; nothing was running, so no report", "ActionGroupStop"),
         Event(LINE, "55 55 FF", "a false header that claims 254 bytes more", "noise"),
-        Event(HOST, "55 55 02 07", "stop, and it must be heard", "ActionGroupStop"),
+        Event(HOST, "55 55 02 07", "stop, and it must be received", "ActionGroupStop"),
         Event(LINE, "55 55 40", "a false header with the length of an UNLOAD of 61", "noise"),
         Event(HOST, "55 55 02 0F", "how is the battery?", "BatteryVoltageRead"),
         Event(CONTROLLER, "55 55 04 0F EE 1D", "7662 mV", "BatteryVoltage"),
@@ -320,7 +320,7 @@ WRONG_LENGTHS = Chapter(
     ),
 )
 
-# Frames of protocols that look alike.  One of them cannot be told from ours by any reader.
+# Frames of protocols that look alike.  One of them cannot be distinguished from ours by any reader.
 LOOK_ALIKES = Chapter(
     "Other people's protocols",
     (

@@ -287,7 +287,7 @@ def test_the_latest_takes_the_place_of_what_names_the_same_servos_or_fewer() -> 
 
 def test_bytes_of_half_a_frame_are_told_where_no_reply_came() -> None:
     line = session()
-    request = asked(line, BatteryVoltageRead())
+    request = requested(line, BatteryVoltageRead())
     line.receive(BatteryVoltage(7500).encode()[:-1], 0.02)
     while not request.done:
         assert line.tick_at is not None

@@ -10,7 +10,7 @@ from framegen.model.codec import encode, values_of
 from framegen.model.model import Model
 from framegen.model.stream import ReferenceDecoder
 
-# What a device sends once it has heard bytes: after how many seconds, and what.
+# What a device sends once it has received bytes: after how many seconds, and what.
 Answer = Callable[[bytes], list[tuple[float, bytes]]]
 
 
@@ -92,13 +92,13 @@ def _replies(model: Model, event: Any) -> Iterator[bytes]:
     if exchange is None or exchange.reply is None:
         return
     values = dict(exchange.reply.message.examples[0].values)
-    asked = values_of(exchange.request, event.data)
+    requested = values_of(exchange.request, event.data)
     for one, other in exchange.echoed:
         name, _, inner = other.partition(".")
         first = values[name][0] if inner else None
         values[name] = (
-            [{**first, inner: value} for value in column(asked, one)]
+            [{**first, inner: value} for value in column(requested, one)]
             if first is not None
-            else asked[one]
+            else requested[one]
         )
     yield encode(exchange.reply, values)

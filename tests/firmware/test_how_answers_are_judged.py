@@ -30,8 +30,8 @@ MODEL = model_of()
 BATTERY = "BatteryVoltageRead, example 1"
 POSITIONS = "ServoPositionsRead, example 1"
 TOGETHER = "BatteryVoltageRead and ServoPositionsRead at once"
-# Which of the questions a step asks first.
-ASKED = {BATTERY: 1, POSITIONS: 2, "ServoPositionsRead, one element": 3, TOGETHER: 10}
+# Which query a step sends first.
+QUERY = {BATTERY: 1, POSITIONS: 2, "ServoPositionsRead, one element": 3, TOGETHER: 10}
 REPORT = firmware.report(firmware.STARTED, 8, 1)
 UNKNOWN = bytes.fromhex("55 55 03 63 01")
 
@@ -110,7 +110,7 @@ FAULTS: dict[str, tuple[Script, str, str]] = {
 @pytest.mark.parametrize("name", FAULTS)
 def test_a_fault_is_found_where_it_is_and_called_by_its_name(name: str) -> None:
     script, title, kind = FAULTS[name]
-    done = on_a_board(script, ASKED[title])
+    done = on_a_board(script, QUERY[title])
     assert done.code == 1
     assert (title, kind) in done.faults
     assert {found for found, _ in done.faults} == {title}
@@ -176,7 +176,7 @@ NOTES: dict[str, tuple[Script, str]] = {
 
 
 @pytest.mark.parametrize("name", NOTES)
-def test_what_a_device_may_do_is_noted_and_no_fault(name: str) -> None:
+def test_permitted_behaviour_is_noted_and_no_fault(name: str) -> None:
     script, note = NOTES[name]
     done = on_a_board(script)
     assert (done.code, done.faults) == (0, [])
@@ -184,7 +184,7 @@ def test_what_a_device_may_do_is_noted_and_no_fault(name: str) -> None:
     assert any(note in each for each in notes) if note else notes == []
 
 
-def test_what_comes_before_anything_is_asked_is_no_fault() -> None:
+def test_bytes_before_the_first_query_are_no_fault() -> None:
     board = Board(baud=9600)
     board.report(firmware.COMPLETED, 8, 1, at=0.1)
     done = run(MODEL, VirtualPort(board), form="text")
@@ -192,14 +192,14 @@ def test_what_comes_before_anything_is_asked_is_no_fault() -> None:
     assert done.code == 0
 
 
-def test_a_line_that_gives_back_what_is_sent_is_told() -> None:
+def test_a_line_with_echo_is_reported() -> None:
     done = run(MODEL, VirtualPort(Board(baud=9600, echo=True, servos=range(1, 7))))
     assert done.code == 0
     assert done.step(BATTERY)["notes"] == ["the line gives back what is sent"]
     assert done.step(TOGETHER)["not_sent"].startswith("the line gives back what is sent, and so")
 
 
-def test_a_device_that_never_says_anything_is_soon_given_up() -> None:
+def test_a_silent_device_is_given_up_soon() -> None:
     done = on_a_board(None, 1, "--malformed")
     line = VirtualLine()
     silent = run(MODEL, line, "--malformed")
@@ -225,15 +225,15 @@ def test_firmware_that_waits_for_the_rest_of_a_frame_loses_the_query_behind_it()
     assert not done.report["stopped"]
 
 
-def deaf_after(malformed: bytes) -> Answer:
+def silent_after(malformed: bytes) -> Answer:
     """Return a device that hangs after some bytes."""
     board = Board()
-    is_deaf = False
+    is_silent = False
 
     def answer(data: bytes) -> list[tuple[float, bytes]]:
-        nonlocal is_deaf
-        is_deaf = is_deaf or malformed in data
-        if is_deaf:
+        nonlocal is_silent
+        is_silent = is_silent or malformed in data
+        if is_silent:
             return []
         board.write(data, 0.0)
         return [(0.001, board.read(1.0))]
@@ -241,9 +241,9 @@ def deaf_after(malformed: bytes) -> Answer:
     return answer
 
 
-def test_a_device_that_hangs_is_told_from_one_that_recovers() -> None:
+def test_a_device_that_hangs_is_distinguished_from_one_that_recovers() -> None:
     unknown = bytes.fromhex("55 55 02 FF")
-    done = run(MODEL, VirtualLine(deaf_after(unknown)), "--malformed")
+    done = run(MODEL, VirtualLine(silent_after(unknown)), "--malformed")
     assert done.report["stopped"] == (
         "BatteryVoltageRead is not answered any more, 8 times: switch the device off and on"
     )
@@ -262,7 +262,7 @@ def careless(data: bytes) -> list[tuple[float, bytes]]:
     ]
 
 
-def test_a_device_that_answers_what_is_no_frame_is_found() -> None:
+def test_a_device_that_answers_malformed_frames_is_found() -> None:
     done = run(MODEL, VirtualLine(careless), "--malformed")
     found = dict(done.faults)
     assert set(found.values()) == {"unsolicited reply"}
@@ -283,7 +283,7 @@ def test_a_command_that_is_acknowledged_is_noted() -> None:
     assert (done.code, ignored.code) == (0, 0)
 
 
-# What might come: whole replies and pieces of them, reports, what was asked, and noise.
+# What might come: whole replies and pieces of them, reports, the requests, and noise.
 PIECES = st.one_of(
     st.sampled_from(
         [
@@ -301,7 +301,7 @@ PIECES = st.one_of(
 
 
 @given(st.lists(st.tuples(st.floats(0, 1.5), PIECES), max_size=6))
-def test_whatever_comes_is_judged_and_soon(pieces: list[tuple[float, bytes]]) -> None:
+def test_any_input_is_judged_within_its_time(pieces: list[tuple[float, bytes]]) -> None:
     line = VirtualLine(lambda _: pieces)
     permission = permit(MODEL, [])
     with Recording(MODEL, None) as recording:

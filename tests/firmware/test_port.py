@@ -34,9 +34,7 @@ def ask(port: str, *words: str, timeout: float = 0.25) -> int:
 
 
 @pytest.mark.parametrize("via", [pytest.param("pty", marks=unix), "tcp"])
-def test_the_simulator_is_asked_through_a_port(
-    via: Any, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_the_simulator_passes_through_a_port(via: Any, capsys: pytest.CaptureFixture[str]) -> None:
     with VirtualController(via, servos=[1, 2]) as board:
         assert ask(board.port) == 0
     out = capsys.readouterr().out
@@ -46,7 +44,7 @@ def test_the_simulator_is_asked_through_a_port(
 
 @unix
 @pytest.mark.garbage
-def test_a_line_at_another_rate_is_told(capsys: pytest.CaptureFixture[str]) -> None:
+def test_a_line_at_another_rate_is_reported(capsys: pytest.CaptureFixture[str]) -> None:
     with VirtualController("pty", baud=9600) as board:
         assert ask(board.port, "--baud", "19200", timeout=0.05) == 1
     out = capsys.readouterr().out
@@ -54,16 +52,16 @@ def test_a_line_at_another_rate_is_told(capsys: pytest.CaptureFixture[str]) -> N
     assert "FAIL     BatteryVoltageRead, example 1\n" in out
 
 
-def test_the_command_asks_firmware(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
+def test_the_command_tests_firmware(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
     log = str(tmp_path / "run.hex")
     with VirtualController("tcp") as board:
         words = [str(BUSSERVO), "--port", board.port, "--format", "json", "--log", log]
         assert main(["conform", *words]) == 0
         assert json.loads(capsys.readouterr().out)["passed"]
         assert main(["conform", *words]) == 2
-    told = capsys.readouterr().err
-    assert told.startswith("framegen: error: ")
-    assert "a recording is never overwritten\n  hint: give another name, or remove it\n" in told
+    printed = capsys.readouterr().err
+    assert printed.startswith("framegen: error: ")
+    assert "a recording is never overwritten\n  hint: give another name, or remove it\n" in printed
 
 
 # What is said of a command line, and how to mend it.
@@ -78,17 +76,17 @@ SLIPS = [
 
 
 @pytest.mark.parametrize(("words", "problem", "hint"), SLIPS, ids=lambda each: str(each)[:30])
-def test_a_slip_in_the_command_is_told(
+def test_a_mistake_in_the_command_line_is_reported(
     words: list[str], problem: str, hint: str, capsys: pytest.CaptureFixture[str]
 ) -> None:
     assert main(["conform", str(BUSSERVO), *words]) == 2
-    told = capsys.readouterr()
-    assert told.err.startswith(f"framegen: error: {problem}")
-    assert f"\n  hint: {hint}" in told.err
-    assert told.out == ""
+    printed = capsys.readouterr()
+    assert printed.err.startswith(f"framegen: error: {problem}")
+    assert f"\n  hint: {hint}" in printed.err
+    assert printed.out == ""
 
 
-def test_a_device_that_hangs_up_is_told() -> None:
+def test_a_device_that_hangs_up_is_reported() -> None:
     with VirtualController("tcp") as board:
         transport = open_port(board.port, LINK, 9600)
         assert transport.read(0.0) == b""
@@ -135,7 +133,7 @@ ERRORS = [
 
 
 @pytest.mark.parametrize(("error", "problem", "hints"), ERRORS, ids=lambda each: str(each)[:30])
-def test_a_port_that_does_not_open_is_told(
+def test_a_port_that_does_not_open_is_reported(
     error: Exception, problem: str, hints: tuple[str, ...], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(serial, "serial_for_url", raises(error))
@@ -161,7 +159,7 @@ NAMES = [
 
 
 @pytest.mark.parametrize(("name", "problem", "hint"), NAMES)
-def test_a_name_of_no_port_is_told(name: str, problem: str, hint: str) -> None:
+def test_an_invalid_port_name_is_refused(name: str, problem: str, hint: str) -> None:
     with pytest.raises(Unusable) as caught:
         open_port(name, LINK, 9600)
     assert problem in str(caught.value)
@@ -169,7 +167,7 @@ def test_a_name_of_no_port_is_told(name: str, problem: str, hint: str) -> None:
 
 
 @unix
-def test_a_port_that_is_not_there_and_a_file_are_told(tmp_path: Path) -> None:
+def test_a_missing_port_and_a_file_are_reported(tmp_path: Path) -> None:
     with pytest.raises(Unusable, match="there is no port /dev/nowhere"):
         open_port("/dev/nowhere", LINK, 9600)
     file = tmp_path / "file"
@@ -179,7 +177,7 @@ def test_a_port_that_is_not_there_and_a_file_are_told(tmp_path: Path) -> None:
 
 
 @unix
-def test_a_port_that_another_program_has_is_told() -> None:
+def test_a_port_in_use_is_reported() -> None:
     with VirtualController("pty") as board:
         held = open_port(board.port, LINK, 9600)
         with pytest.raises(Unusable, match="is in use"):
@@ -187,7 +185,7 @@ def test_a_port_that_another_program_has_is_told() -> None:
         held.close()
 
 
-def test_without_pyserial_it_is_said_what_to_install(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_without_pyserial_the_error_says_what_to_install(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setitem(sys.modules, "serial", None)
     with pytest.raises(Unusable, match="a port needs `pyserial`") as caught:
         open_port("/dev/it", LINK, 9600)
@@ -210,7 +208,7 @@ def test_the_parameters_of_the_line_are_the_specs(monkeypatch: pytest.MonkeyPatc
 
 
 @pytest.mark.parametrize("text", ["0", "fast", "-1", "²", "1e4", "9" * 40])
-def test_a_rate_that_is_none_is_told(text: str, capsys: pytest.CaptureFixture[str]) -> None:
+def test_an_invalid_rate_is_refused(text: str, capsys: pytest.CaptureFixture[str]) -> None:
     with pytest.raises(SystemExit):
         ask("/dev/it", "--baud", text)
     assert "is no rate: a whole number of baud, from 1 up" in capsys.readouterr().err

@@ -54,7 +54,7 @@ def test_it_says_what_is_tried_and_where_the_line_fell_silent_within_a_frame(
     ]
 
 
-def test_what_was_recorded_before_is_kept_and_nothing_is_sent(tmp_path: Path) -> None:
+def test_an_existing_recording_is_kept_and_nothing_is_sent(tmp_path: Path) -> None:
     log = tmp_path / "run.hex"
     log.write_text("55 55 02 0F\n", encoding="ascii")
     line = VirtualLine(by_the_reference(MODEL))
@@ -64,14 +64,14 @@ def test_what_was_recorded_before_is_kept_and_nothing_is_sent(tmp_path: Path) ->
     assert (log.read_text(encoding="ascii"), line.written) == ("55 55 02 0F\n", [])
 
 
-def test_a_recording_that_cannot_be_made_is_told(tmp_path: Path) -> None:
+def test_a_recording_that_cannot_be_made_is_reported(tmp_path: Path) -> None:
     line = VirtualLine(by_the_reference(MODEL))
     with pytest.raises(Unusable, match="cannot be written: "):
         run(MODEL, line, "--log", str(tmp_path / "no folder" / "run.hex"))
     assert line.written == []
 
 
-def test_what_went_over_a_line_that_was_lost_is_kept(tmp_path: Path) -> None:
+def test_the_recording_of_a_lost_line_is_kept(tmp_path: Path) -> None:
     log = tmp_path / "run.hex"
     line = VirtualLine(by_the_reference(MODEL))
     line.lasts = 2

@@ -18,7 +18,7 @@ from tests.independent.board import Board
 from tests.independent.ports import VirtualPort
 
 MODEL = model_of()
-TOLD = """\
+REPORT = """\
 Hiwonder bus servo controller: controller at a line, 9600 8N1
 will send: BatteryVoltageRead, ServoPositionsRead
 will not send: ServoMove, ActionGroupRun, ActionGroupStop, ActionGroupSpeed, ServoUnload \
@@ -48,13 +48,13 @@ a length of 6 makes servo_count 1, not 2
 """
 
 
-def test_a_run_is_told_step_by_step() -> None:
+def test_a_run_is_reported_step_by_step() -> None:
     wrong = {3: faults.miscounted(1)}
     board = Board(baud=9600, thinks=0.002, faults=wrong.get, servos=range(1, 7))
-    assert run(MODEL, VirtualPort(board), form="text").out == TOLD
+    assert run(MODEL, VirtualPort(board), form="text").out == REPORT
 
 
-def test_json_tells_all_of_a_run() -> None:
+def test_json_holds_all_of_a_run() -> None:
     wrong = {2: faults.dropped}
     board = Board(baud=9600, thinks=0.002, faults=wrong.get, servos=range(1, 7))
     report = run(MODEL, VirtualPort(board)).report
@@ -103,7 +103,7 @@ def test_json_tells_all_of_a_run() -> None:
     assert steps[1]["faults"] == [{"kind": "silence", "text": "no ServoPositions within 0.285 s"}]
 
 
-def test_a_run_that_the_line_ends_is_told_as_json_all_the_same(
+def test_a_run_that_ends_with_the_line_is_still_reported_as_json(
     capsys: pytest.CaptureFixture[str],
 ) -> None:
     line = VirtualLine(by_the_reference(MODEL))
@@ -120,7 +120,7 @@ def test_a_run_that_the_line_ends_is_told_as_json_all_the_same(
     assert not report["passed"]
 
 
-def test_a_form_that_there_is_none_of_is_told() -> None:
+def test_an_unknown_form_is_refused() -> None:
     with pytest.raises(Unusable, match="there is no badge for firmware"):
         run(MODEL, VirtualLine(), form="badge")
 

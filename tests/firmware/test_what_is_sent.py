@@ -49,7 +49,7 @@ def allowed_by(options: list[str]) -> set[str]:
     return QUERIES | {name for name in options if not name.startswith("-")}
 
 
-def heard(pieces: list[bytes], *, quiet: bool) -> set[str]:
+def received(pieces: list[bytes], *, quiet: bool) -> set[str]:
     """Return the messages that the library's decoder finds in the written bytes."""
     decoder = StreamDecoder(Direction.HOST_TO_CONTROLLER)
     events = []
@@ -73,7 +73,7 @@ def obeyed(data: bytes) -> set[int]:
 def test_nothing_is_sent_but_what_is_allowed(options: list[str], device: str) -> None:
     allowed = allowed_by(options)
     done = run(MODEL, VirtualLine(DEVICES[device]()), *options)
-    assert heard(done.written, quiet=True) | heard(done.written, quiet=False) <= allowed
+    assert received(done.written, quiet=True) | received(done.written, quiet=False) <= allowed
     codes = {MODEL.messages[name].id for name in {*COMMANDS} - allowed}
     assert not begun(b"".join(done.written)) & codes
     assert set(done.report["will_send"]) == allowed
@@ -83,11 +83,11 @@ def test_nothing_is_sent_but_what_is_allowed(options: list[str], device: str) ->
 @pytest.mark.parametrize("options", OPTIONS, ids="_".join)
 def test_all_that_is_allowed_is_sent(options: list[str]) -> None:
     done = run(MODEL, VirtualLine(by_the_reference(MODEL)), *options)
-    assert heard(done.written, quiet=True) == allowed_by(options)
+    assert received(done.written, quiet=True) == allowed_by(options)
     assert all(step["not_sent"] is None for step in done.report["steps"])
 
 
-def test_of_what_is_allowed_the_examples_are_sent_and_nothing_is_made_up() -> None:
+def test_only_examples_of_allowed_messages_are_sent() -> None:
     done = run(MODEL, VirtualLine(by_the_reference(MODEL)), "--allow", "ServoMove")
     examples = [each.hex for each in MODEL.messages["ServoMove"].message.examples]
     moves = [data for data in done.written if data[3] == 3]
@@ -101,7 +101,7 @@ def test_nothing_else_is_obeyed_even_if_a_byte_is_lost(device: str) -> None:
         for lost in range(len(data)):
             left = data[:lost] + data[lost + 1 :]
             pieces = [*written[:at], left, *written[at + 1 :]]
-            assert heard([*pieces[max(0, at - 1) : at + 3]], quiet=False) <= QUERIES
+            assert received([*pieces[max(0, at - 1) : at + 3]], quiet=False) <= QUERIES
             assert obeyed(b"".join(pieces)) <= {15, 21}
 
 
@@ -156,7 +156,7 @@ def test_bytes_that_could_be_taken_for_a_command_are_refused(data: str, why: str
     assert objection == why
 
 
-def test_what_is_named_is_no_danger() -> None:
+def test_an_allowed_command_is_not_refused() -> None:
     stop = bytes.fromhex("55 55 02 07")
     assert permit(MODEL, ["ActionGroupStop"]).objection(stop) == ""
 
@@ -166,7 +166,7 @@ def test_what_is_not_refused_holds_no_command_for_the_librarys_decoder(ids: list
     data = bytes([0x55, 0x55, len(ids) + 3, 21, len(ids), *ids])
     if not permit(MODEL, []).objection(data):
         losses = [data[:lost] + data[lost + 1 :] for lost in range(len(data))]
-        assert set(chain(*(heard([each], quiet=False) for each in [data, *losses]))) <= QUERIES
+        assert set(chain(*(received([each], quiet=False) for each in [data, *losses]))) <= QUERIES
 
 
 def with_example(ids: list[int], at: int) -> Model:
@@ -222,7 +222,7 @@ NAMES = [
 
 
 @pytest.mark.parametrize(("name", "problem", "hint"), NAMES)
-def test_a_name_that_cannot_be_allowed_is_told_with_those_that_can(
+def test_a_name_that_cannot_be_allowed_is_reported_with_those_that_can(
     name: str, problem: str, hint: str
 ) -> None:
     line = VirtualLine()
@@ -271,13 +271,13 @@ def test_a_device_of_another_frame_passes(name: str) -> None:
 
 
 @pytest.mark.parametrize(("name", "allow"), [("weather", ""), ("lamp", "name what may be sent")])
-def test_a_protocol_without_queries_is_not_asked(name: str, allow: str) -> None:
+def test_a_protocol_without_queries_is_refused(name: str, allow: str) -> None:
     with pytest.raises(Unusable, match="has no query") as caught:
         run(model_of(SPECS / f"{name}.yaml"), VirtualLine())
     assert caught.value.hint.startswith(allow)
 
 
-def test_what_obeys_alone_can_be_sent_what_is_allowed() -> None:
+def test_a_device_without_replies_is_sent_allowed_commands() -> None:
     model = model_of(SPECS / "lamp.yaml")
     (name, *_) = [each.request.name for each in model.exchanges]
     done = run(model, VirtualLine(), "--allow", name)

@@ -4,7 +4,7 @@ It is written from the document alone and shares no code with what it tests. It 
 thread and no port: its driver gives it the time, in seconds.
 
 Every question gets the next number, and its reply holds nothing else: as the voltage in mV, or as
-the position of every servo. So a value tells which question it answers.
+the position of every servo. So a value shows which question it answers.
 """
 
 from __future__ import annotations
@@ -38,15 +38,15 @@ if TYPE_CHECKING:
     from tests.independent.faults import Script
 
 BITS_PER_BYTE = 10
-# Numbers go round below those that no board has to tell. From 0x5500 on, a frame might begin in
+# Numbers go round below those that no board has to send. From 0x5500 on, a frame might begin in
 # the last byte of a reply: tests that want that say from which number they begin.
 NUMBERS = 20_000
 # So many of each are remembered.
 KEPT = 10_000
 
 
-class Heard(NamedTuple):
-    """A frame that the board has received, and the number of the question that it was, or 0."""
+class Received(NamedTuple):
+    """A frame that the board has received, and the number of the question in it, or 0."""
 
     at: float
     frame: bytes
@@ -86,8 +86,8 @@ class Board:
         first: int = 1,
     ) -> None:
         self.faults = faults
-        self.asked = first - 1
-        self.heard: deque[Heard] = deque(maxlen=KEPT)
+        self.questions = first - 1
+        self.received: deque[Received] = deque(maxlen=KEPT)
         self.said: deque[Said] = deque(maxlen=KEPT)
         self.reported: list[bytes] = []
         self.refused: list[bytes] = []
@@ -142,7 +142,7 @@ class Board:
         )
 
     @property
-    def unheard(self) -> int:
+    def in_transit(self) -> int:
         """How many bytes of the host are still on their way."""
         return len(self._arriving)
 
@@ -187,7 +187,7 @@ class Board:
                 at, _, action = heapq.heappop(self._due)
                 action(at)
             else:
-                self._hear(*self._arriving.popleft())
+                self._receive(*self._arriving.popleft())
 
     def _put(self, piece: Piece, at: float, *, in_trouble: bool = False) -> None:
         """Put bytes on the wire, behind those that it carries."""
@@ -220,37 +220,37 @@ class Board:
         heapq.heappush(self._leaving, (at, self._count, data))
         return at
 
-    def _hear(self, at: float, byte: int) -> None:
+    def _receive(self, at: float, byte: int) -> None:
         if self._echo:
             self._leave(at, bytes([byte]))
-        heard = self._reader.take(byte)
-        if heard is None:
+        frame = self._reader.take(byte)
+        if frame is None:
             return
-        if not well_formed(heard):
-            self.refused.append(heard)
+        if not well_formed(frame):
+            self.refused.append(frame)
             return
         self.accepted += 1
-        command = heard[3]
+        command = frame[3]
         if command in QUESTIONS:
-            self.asked += 1
-        self.heard.append(Heard(at, heard, self.asked if command in QUESTIONS else 0))
+            self.questions += 1
+        self.received.append(Received(at, frame, self.questions if command in QUESTIONS else 0))
         if command == BATTERY:
             self._reply(battery_reply(self._number), at)
         elif command == POSITIONS:
-            there = [servo for servo in heard[5:] if servo in self._servos]
+            there = [servo for servo in frame[5:] if servo in self._servos]
             self._reply(positions_reply([(servo, self._number) for servo in there]), at)
-        elif command == RUN and heard[4] not in self._unknown_groups:
-            self._run(heard[4], int.from_bytes(heard[5:7], "little"), at)
+        elif command == RUN and frame[4] not in self._unknown_groups:
+            self._run(frame[4], int.from_bytes(frame[5:7], "little"), at)
         elif command == STOP and self._running is not None:
             self._running = None
             self.report(STOPPED, at=at + self._thinks)
 
     @property
     def _number(self) -> int:
-        return (self.asked - self._first) % NUMBERS + self._first
+        return (self.questions - self._first) % NUMBERS + self._first
 
     def _reply(self, reply: bytes, at: float) -> None:
-        script = self.faults(self.asked) if self.faults else None
+        script = self.faults(self.questions) if self.faults else None
         due = at + self._thinks
         if script is not None:
             self.faulty.append(due)

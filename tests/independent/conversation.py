@@ -26,7 +26,7 @@ if TYPE_CHECKING:
     from busservo import AsyncController, Controller
 
     # The battery, or these servos.
-    Asked = Sequence[int] | None
+    Requested = Sequence[int] | None
 
 SIX = (1, 2, 3, 4, 5, 6)
 # A line may run this much faster than it should, and no host can know.
@@ -36,7 +36,7 @@ FAST = 0.95
 class NumberingBoard(Protocol):
     """A board that answers each question with the number of it."""
 
-    asked: int
+    questions: int
 
     def arrivals(self, data: bytes) -> list[float]:
         """Return when these bytes reached the host."""
@@ -58,7 +58,7 @@ class Call(NamedTuple):
     ended: float
     before: int
     number: int | None
-    asked: Asked
+    requested: Requested
 
 
 class Conversation:
@@ -69,31 +69,31 @@ class Conversation:
         self.calls: list[Call] = []
         self._now = now
 
-    def ask(self, controller: Controller, asked: Asked) -> None:
+    def ask(self, controller: Controller, requested: Requested) -> None:
         """Read once. A declared error is recorded, any other is raised."""
-        began, before = self._now(), self.board.asked
+        began, before = self._now(), self.board.questions
         number: int | None = None
         try:
-            if asked is None:
+            if requested is None:
                 number = controller.read_battery_voltage()
             else:
-                number = only(controller.read_servo_positions(asked), asked)
+                number = only(controller.read_servo_positions(requested), requested)
         except (NoReplyError, IncompleteReplyError):
             pass
-        self.calls.append(Call(began, self._now(), before, number, asked))
+        self.calls.append(Call(began, self._now(), before, number, requested))
 
-    async def ask_async(self, controller: AsyncController, asked: Asked) -> None:
+    async def ask_async(self, controller: AsyncController, requested: Requested) -> None:
         """Read once, for asyncio."""
-        began, before = self._now(), self.board.asked
+        began, before = self._now(), self.board.questions
         number: int | None = None
         try:
-            if asked is None:
+            if requested is None:
                 number = await controller.read_battery_voltage()
             else:
-                number = only(await controller.read_servo_positions(asked), asked)
+                number = only(await controller.read_servo_positions(requested), requested)
         except (NoReplyError, IncompleteReplyError):
             pass
-        self.calls.append(Call(began, self._now(), before, number, asked))
+        self.calls.append(Call(began, self._now(), before, number, requested))
 
     @property
     def stale(self) -> list[Call]:
@@ -109,52 +109,54 @@ class Conversation:
         """Raise AssertionError if a call took too long, or is wrong without an excuse."""
         since, before_was_stale = float("-inf"), False
         for place, call in enumerate(self.calls):
-            told = f"call {place} of {len(self.calls)}: {call}"
-            assert call.ended - call.began <= bound, f"it took too long: {told}"
+            described = f"call {place} of {len(self.calls)}: {call}"
+            assert call.ended - call.began <= bound, f"it took too long: {described}"
             stale = call.number is not None and not self._fresh(call)
             if call.number is None or stale:
-                assert self.board.troubled(since, call.ended), f"nothing excuses it: {told}"
+                assert self.board.troubled(since, call.ended), f"nothing excuses it: {described}"
             if stale:
                 another = self.board.faulted(since, call.ended)
-                assert another or not before_was_stale, f"two in a row are stale: {told}"
-                possible_at = call.began + FAST * wire_time(call.asked, baud)
+                assert another or not before_was_stale, f"two in a row are stale: {described}"
+                possible_at = call.began + FAST * wire_time(call.requested, baud)
                 arrived = self._arrived(call)
-                assert any(at >= possible_at for at in arrived), f"impossible: {told}, {arrived}"
+                assert any(at >= possible_at for at in arrived), (
+                    f"impossible: {described}, {arrived}"
+                )
             since, before_was_stale = call.began, stale
 
     def _fresh(self, call: Call) -> bool:
-        number = self.board.asked - (self.board.asked - (call.number or 0)) % NUMBERS
+        number = self.board.questions - (self.board.questions - (call.number or 0)) % NUMBERS
         return call.before < number
 
     def _arrived(self, call: Call) -> list[float]:
         """Return when replies with this number were complete, until the call ended."""
-        reply = reply_to(call.asked, call.number or 0)
+        reply = reply_to(call.requested, call.number or 0)
         return [at for at in self.board.arrivals(reply) if at <= call.ended]
 
 
-def only(positions: Sequence[tuple[int, int]], asked: Sequence[int]) -> int:
+def only(positions: Sequence[tuple[int, int]], requested: Sequence[int]) -> int:
     """Return the one number that all servos of a reply have."""
-    assert [servo_id for servo_id, _ in positions] == list(asked)
+    assert [servo_id for servo_id, _ in positions] == list(requested)
     numbers = {position for _, position in positions}
     assert len(numbers) == 1, f"of one reply, all positions are the same: {positions}"
     return numbers.pop()
 
 
-def question_of(asked: Asked) -> bytes:
+def question_of(requested: Requested) -> bytes:
     """Return the frame of the question."""
-    return battery_question() if asked is None else positions_question(list(asked))
+    return battery_question() if requested is None else positions_question(list(requested))
 
 
-def reply_to(asked: Asked, number: int) -> bytes:
+def reply_to(requested: Requested, number: int) -> bytes:
     """Return the frame of its reply."""
-    if asked is None:
+    if requested is None:
         return battery_reply(number)
-    return positions_reply([(servo_id, number) for servo_id in asked])
+    return positions_reply([(servo_id, number) for servo_id in requested])
 
 
-def wire_time(asked: Asked, baud: float) -> float:
+def wire_time(requested: Requested, baud: float) -> float:
     """Return how long question and reply take on the wire, at the least."""
-    return (len(question_of(asked)) + len(reply_to(asked, 0))) * BITS_PER_BYTE / baud
+    return (len(question_of(requested)) + len(reply_to(requested, 0))) * BITS_PER_BYTE / baud
 
 
 def repeated(talks: Sequence[Conversation]) -> int:

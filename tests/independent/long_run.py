@@ -25,7 +25,7 @@ from tests.timeouts import GENEROUS, await_that
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
 
-    from tests.independent.conversation import Asked
+    from tests.independent.conversation import Requested
     from tests.independent.faults import Script
 
 BAUD = 9600
@@ -33,7 +33,7 @@ REPLY_TIMEOUT = 0.25
 # The other end is a thread of the same busy machine.
 LIVE_REPLY_TIMEOUT = 5.0
 THREADS = 8
-KINDS: list[Asked] = [None, None, SIX, (1, 2)]
+KINDS: list[Requested] = [None, None, SIX, (1, 2)]
 # What a run may leave behind: caches that grow by a little, and never by a message each.
 SPARE_BLOCKS = 2000
 # Fewer do not even fill what is kept on purpose: what the board remembers, the latest reports.
@@ -92,8 +92,8 @@ class Rounds:
             self._stale += len(talk.stale)
             self._right += len(talk.calls) - len(talk.failed) - len(talk.stale)
             talk.calls.clear()
-        heard = [each.encode() for each in controller.reports(timeout=quiet)]
-        assert heard == board.reported, "a report was lost, or invented"
+        received = [each.encode() for each in controller.reports(timeout=quiet)]
+        assert received == board.reported, "a report was lost, or invented"
         assert controller.counters.lost_reports == 0
         assert board.refused == []
         for kept in (board.reported, board.faulty, board.troubles):
@@ -101,21 +101,23 @@ class Rounds:
         gc.collect()
         self._blocks.append(sys.getallocatedblocks())
 
-    def tell(self) -> None:
+    def print_result(self) -> None:
         """Print the result. Raises AssertionError if something has grown."""
         fifth = len(self._blocks) // 5
         grown = min(self._blocks[-3:]) - min(self._blocks[fifth : fifth + 3])
         counters = self._controller.counters
         print(
-            f"{self._name}: {self._board.asked} questions in "
+            f"{self._name}: {self._board.questions} questions in "
             f"{time.monotonic() - self._began:.0f} s; {self._right} answered rightly, "
             f"{self._stale} stale where no time can tell, {self._refused} ended in a declared "
-            f"error, {counters.reports} reports heard and {counters.lost_reports} lost; "
+            f"error, {counters.reports} reports received, {counters.lost_reports} lost; "
             f"{counters.unsolicited} unsolicited replies, {counters.impossible} impossible ones; "
             f"memory grew by {grown} blocks",
             flush=True,
         )
-        assert self._board.asked < ENOUGH or grown < SPARE_BLOCKS, f"memory grows: {self._blocks}"
+        assert self._board.questions < ENOUGH or grown < SPARE_BLOCKS, (
+            f"memory grows: {self._blocks}"
+        )
 
 
 def scheduled(random: Random, fault: Callable[[Random], Script]) -> Callable[[int], Script | None]:
@@ -137,7 +139,7 @@ def at_a_paced_line(requests: int, rounds: int, seed: int) -> None:
             for _ in range(requests // rounds):
                 talk.ask(controller, random.choice(KINDS))
             watch.end([talk], BAUD, 3 * (REPLY_TIMEOUT + wire_time(SIX, BAUD)), quiet=2)
-        watch.tell()
+        watch.print_result()
 
 
 def with_threads(requests: int, rounds: int, seed: int) -> None:
@@ -163,4 +165,4 @@ def with_threads(requests: int, rounds: int, seed: int) -> None:
             wrong = [each for talk in talks for each in talk.failed + talk.stale]
             assert wrong == [], f"{wrong}, {controller.counters}"
             watch.end(talks, math.inf, GENEROUS, quiet=0.02)
-        watch.tell()
+        watch.print_result()

@@ -59,7 +59,7 @@ class VirtualPort:
     def drain(self, timeout: float) -> None:
         """Let time pass until the board has received all."""
         until = self.now + timeout
-        while self.board.unheard and self.board.next_event <= until:
+        while self.board.in_transit and self.board.next_event <= until:
             self.now = max(self.now, self.board.next_event)
             self.board.write(b"", self.now)
 
@@ -103,7 +103,7 @@ class Port:
         self._woken.close()
         self._wakes.close()
 
-    def hear(self, data: bytes) -> None:
+    def receive(self, data: bytes) -> None:
         """Let the board receive bytes that no host at this port has sent."""
         with self._lock:
             self.board.write(data, time.monotonic())

@@ -88,7 +88,10 @@ def test_a_frame_that_was_cut_off_eats_the_beginning_of_the_next() -> None:
     board = Board()
     board.write(bytes.fromhex("55 55 08 03 01 E8") + 2 * firmware.battery_question(), 0)
     swallowed = bytes.fromhex("55 55 08 03 01 E8 55 55 02 0F")
-    assert [heard.frame for heard in board.heard] == [swallowed, firmware.battery_question()]
+    assert [received.frame for received in board.received] == [
+        swallowed,
+        firmware.battery_question(),
+    ]
     assert board.read(0) == firmware.battery_reply(1)
 
 
@@ -104,7 +107,7 @@ def test_each_answer_has_a_number_of_its_own() -> None:
             firmware.positions_reply([(2, 4)]),
         ]
     )
-    assert [heard.number for heard in board.heard] == [1, 2, 3, 4]
+    assert [received.number for received in board.received] == [1, 2, 3, 4]
 
 
 def test_bytes_take_their_time_both_ways() -> None:

@@ -70,9 +70,9 @@ def test_a_fast_line_that_gives_a_reply_twice_at_once_is_right(baud: float) -> N
 
 
 @pytest.mark.parametrize("baud", [BAUD, math.inf])
-def test_where_no_time_tells_a_slip_ends_with_the_first_pause(baud: float) -> None:
+def test_stale_replies_on_a_fast_line_end_with_the_first_pause(baud: float) -> None:
     """A line that is fast, be that learnt or said, and a reply that comes again while the board
-    thinks about the next question: asked without a pause, each read gets the answer to the one
+    thinks about the next question: without a pause, each read gets the answer to the one
     before, and nobody can know.
     """
     board = Board(thinks=0.002, faults={6: faults.duplicated(0.001)}.get)
@@ -202,7 +202,7 @@ def test_an_echo_that_is_damaged_ends_one_call_alone() -> None:
         assert [controller.read_battery_voltage() for _ in range(3)] == [4, 5, 6]
 
 
-def test_an_echo_that_nobody_spoke_of_harms_no_value_and_is_said_once(
+def test_an_undeclared_echo_harms_no_value_and_is_logged_once(
     caplog: pytest.LogCaptureFixture,
 ) -> None:
     board = Board(baud=BAUD, echo=True, thinks=0.001)
@@ -217,21 +217,21 @@ def test_an_echo_that_nobody_spoke_of_harms_no_value_and_is_said_once(
 
 
 @pytest.mark.parametrize("after", [0.0, 0.001, 0.004, 0.010, 0.015])
-@pytest.mark.parametrize("asked", [None, SIX])
+@pytest.mark.parametrize("requested", [None, SIX])
 def test_a_reply_meant_for_a_program_that_was_killed_is_not_taken_for_ours(
-    after: float, asked: tuple[int, ...] | None
+    after: float, requested: tuple[int, ...] | None
 ) -> None:
     """Its question was still on the wire, or its reply, when we opened the port."""
     board = Board(baud=BAUD)
     port = VirtualPort(board)
-    question = firmware.positions_question(list(SIX)) if asked else firmware.battery_question()
+    question = firmware.positions_question(list(SIX)) if requested else firmware.battery_question()
     board.write(question, -(len(question) * BITS_PER_BYTE / BAUD) + after)
     talk = Conversation(board, port.clock)
     with Controller(
         port, background=False, clock=port.clock, reply_timeout=REPLY_TIMEOUT
     ) as controller:
         for _ in range(3):
-            talk.ask(controller, asked)
+            talk.ask(controller, requested)
     assert (talk.stale, talk.failed) == ([], [])
 
 

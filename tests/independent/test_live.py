@@ -23,7 +23,7 @@ from tests.independent.ports import Port, PtyPort, TcpPort
 from tests.timeouts import GENEROUS, await_that
 
 if TYPE_CHECKING:
-    from tests.independent.conversation import Asked
+    from tests.independent.conversation import Requested
     from tests.independent.faults import Script
 
 PORTS = [TcpPort] if sys.platform == "win32" else [PtyPort, TcpPort]
@@ -68,41 +68,42 @@ def check(
     """
     calls = [call for talk in talks for call in talk.calls]
     assert max(call.ended - call.began for call in calls) < GENEROUS
-    assert {call.number for call in calls if call.number} <= set(range(1, board.asked + 1))
+    assert {call.number for call in calls if call.number} <= set(range(1, board.questions + 1))
     wrong = sum(len(talk.stale) + len(talk.failed) for talk in talks) + repeated(talks)
     assert wrong <= 2 * controller.counters.unsolicited
     assert board.refused == []
 
 
-def turns(seed: int, count: int) -> list[Asked]:
+def turns(seed: int, count: int) -> list[Requested]:
     """Return the calls; each twice in a row, so that their replies could be confused."""
     random = Random(seed)  # noqa: S311 - to be repeated
-    kinds: list[Asked] = [None, None, (3,), (1, 2), SIX]
-    return [asked for _ in range((count + 1) // 2) for asked in [random.choice(kinds)] * 2][:count]
+    kinds: list[Requested] = [None, None, (3,), (1, 2), SIX]
+    pairs = ([random.choice(kinds)] * 2 for _ in range((count + 1) // 2))
+    return [requested for pair in pairs for requested in pair][:count]
 
 
 def ask_all(talk: Conversation, controller: Controller, seed: int, count: int) -> None:
-    for asked in turns(seed, count):
-        talk.ask(controller, asked)
+    for requested in turns(seed, count):
+        talk.ask(controller, requested)
 
 
 async def ask_all_async(
     talk: Conversation, controller: AsyncController, seed: int, count: int
 ) -> None:
-    for asked in turns(seed, count):
-        await talk.ask_async(controller, asked)
+    for requested in turns(seed, count):
+        await talk.ask_async(controller, requested)
 
 
 def reports_of(controller: Controller, board: Board) -> list[bytes]:
     """Return the reports, once all have come."""
-    heard: list[bytes] = []
+    received: list[bytes] = []
     await_that(lambda: controller.counters.reports >= len(board.reported))
-    heard.extend(each.encode() for each in controller.reports(timeout=0.05))
-    return heard
+    received.extend(each.encode() for each in controller.reports(timeout=0.05))
+    return received
 
 
 @pytest.mark.parametrize("port", PORTS)
-def test_one_thread(port: type[Port]) -> None:
+def test_one_thread_gets_right_answers(port: type[Port]) -> None:
     with (
         port(scripts(1)) as end,
         open_controller(end.name, reply_timeout=REPLY_TIMEOUT, settle=0) as controller,
@@ -111,12 +112,12 @@ def test_one_thread(port: type[Port]) -> None:
         ask_all(talk, controller, 1, 20)
         await_that(lambda: settle(end.board, controller))
         check(end.board, controller, [talk])
-        assert controller.read_battery_voltage() == end.board.asked
+        assert controller.read_battery_voltage() == end.board.questions
         assert reports_of(controller, end.board) == end.board.reported
 
 
 @pytest.mark.parametrize("port", PORTS)
-def test_eight_threads(port: type[Port]) -> None:
+def test_eight_threads_get_right_answers(port: type[Port]) -> None:
     with (
         port(scripts(2)) as end,
         open_controller(end.name, reply_timeout=REPLY_TIMEOUT, settle=0) as controller,
@@ -127,12 +128,12 @@ def test_eight_threads(port: type[Port]) -> None:
             list(pool.map(lambda item: ask_all(item[1], controller, item[0], 4), each))
         await_that(lambda: settle(end.board, controller))
         check(end.board, controller, talks)
-        assert controller.read_battery_voltage() == end.board.asked
+        assert controller.read_battery_voltage() == end.board.questions
         assert reports_of(controller, end.board) == end.board.reported
 
 
 @pytest.mark.parametrize("port", PORTS)
-def test_one_task_and_twenty_more(port: type[Port]) -> None:
+def test_one_task_and_twenty_more_get_right_answers(port: type[Port]) -> None:
     with port(scripts(3)) as end:
 
         async def work() -> None:
@@ -146,17 +147,17 @@ def test_one_task_and_twenty_more(port: type[Port]) -> None:
                 while not settle(end.board, controller):
                     await asyncio.sleep(0.001)
                 check(end.board, controller, talks)
-                assert await controller.read_battery_voltage() == end.board.asked
+                assert await controller.read_battery_voltage() == end.board.questions
                 while controller.counters.reports < len(end.board.reported):
                     await asyncio.sleep(0.001)
-                heard = [each.encode() async for each in controller.reports(timeout=0.05)]
-                assert heard == end.board.reported
+                received = [each.encode() async for each in controller.reports(timeout=0.05)]
+                assert received == end.board.reported
 
         asyncio.run(asyncio.wait_for(work(), GENEROUS))
 
 
 @pytest.mark.parametrize("port", PORTS)
-def test_what_is_cancelled_leaves_no_reply_to_the_next(port: type[Port]) -> None:
+def test_a_cancelled_request_leaves_no_reply_to_the_next(port: type[Port]) -> None:
     """A read is given up while its question is on the wire, or its reply."""
     with port(Board(baud=BAUD, gathers=True, thinks=0.002)) as end:
 
@@ -177,10 +178,10 @@ def test_what_is_cancelled_leaves_no_reply_to_the_next(port: type[Port]) -> None
 
 
 @pytest.mark.parametrize("port", PORTS)
-def test_a_reply_meant_for_a_program_that_was_killed(port: type[Port]) -> None:
+def test_a_reply_meant_for_a_killed_program_is_dropped(port: type[Port]) -> None:
     """5000 mV for 7401: the answer to its question came 10 ms after we opened the port."""
     with port(Board(baud=BAUD, gathers=True, faults={1: faults.late(0.004)}.get)) as end:
-        end.hear(firmware.battery_question())
-        await_that(lambda: end.board.asked)
+        end.receive(firmware.battery_question())
+        await_that(lambda: end.board.questions)
         with open_controller(end.name, reply_timeout=REPLY_TIMEOUT) as controller:
             assert controller.read_battery_voltage() == 2

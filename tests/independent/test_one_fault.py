@@ -17,7 +17,7 @@ from tests.independent.faults import Piece
 from tests.independent.ports import VirtualPort
 
 if TYPE_CHECKING:
-    from tests.independent.conversation import Asked
+    from tests.independent.conversation import Requested
     from tests.independent.faults import Script
 
 BAUD = 9600
@@ -80,7 +80,7 @@ FAULTS: dict[str, Script] = {
 }
 # These leave a frame of the right shape, with other numbers in it, where it is the battery's.
 OF_POSITIONS = {"wrong count": faults.miscounted(-1), "count too high": faults.miscounted(1)}
-# All that was asked is told, and in time.
+# All requests are answered, and in time.
 HARMLESS = (
     "noise before",
     "half a header before",
@@ -96,7 +96,7 @@ class Run:
 
     def __init__(
         self,
-        asked: Asked,
+        requested: Requested,
         script: Script | None,
         bench: Bench,
         reads: int = 12,
@@ -115,13 +115,13 @@ class Run:
             port, background=False, clock=port.clock, reply_timeout=REPLY_TIMEOUT, settle=0
         ) as controller:
             for _ in range(reads):
-                self.talk.ask(controller, asked)
+                self.talk.ask(controller, requested)
             self.reports = [each.encode() for each in controller.reports(timeout=2)]
             self.counters = controller.counters
 
-    def check(self, asked: Asked) -> None:
+    def check(self, requested: Requested) -> None:
         # A read may wait for the late reply of the one before it, and then for its own.
-        self.talk.check(BAUD, bound=3 * (REPLY_TIMEOUT + wire_time(asked, BAUD)))
+        self.talk.check(BAUD, bound=3 * (REPLY_TIMEOUT + wire_time(requested, BAUD)))
         assert self.reports == self.board.reported
         assert self.board.refused == []
 
@@ -149,27 +149,29 @@ HEADERS = {"every high byte": 0x5500, "some a header": 0x5550}
 
 @pytest.mark.parametrize("numbers", HEADERS)
 @pytest.mark.parametrize(("read", "name"), all_faults())
-def test_after_any_fault_in_replies_that_end_in_headers(read: str, name: str, numbers: str) -> None:
+def test_after_any_fault_in_replies_that_end_in_headers_reads_recover(
+    read: str, name: str, numbers: str
+) -> None:
     script = (FAULTS | OF_POSITIONS)[name]
     for bench in BENCHES[1::2]:
         Run(READS[read], script, bench, first=HEADERS[numbers]).check(READS[read])
 
 
-def test_nothing_is_asked_or_counted_twice_where_nothing_goes_wrong() -> None:
-    for asked in READS.values():
+def test_without_faults_each_request_is_sent_and_counted_once() -> None:
+    for requested in READS.values():
         for bench in BENCHES:
-            run = Run(asked, None, bench)
+            run = Run(requested, None, bench)
             assert (run.talk.failed, run.talk.stale) == ([], [])
             assert (run.counters.sent, run.counters.replies) == (12, 12)
             assert (run.counters.unsolicited, run.counters.impossible) == (0, 0)
 
 
 def test_a_healthy_read_takes_what_the_wire_takes() -> None:
-    for asked in READS.values():
+    for requested in READS.values():
         for thinks in (0.0, 0.002):
-            for call in Run(asked, None, Bench(thinks)).talk.calls:
+            for call in Run(requested, None, Bench(thinks)).talk.calls:
                 taken = call.ended - call.began
-                assert taken == pytest.approx(wire_time(asked, BAUD) + thinks, abs=1e-4)
+                assert taken == pytest.approx(wire_time(requested, BAUD) + thinks, abs=1e-4)
 
 
 @pytest.mark.parametrize("read", READS)
@@ -212,7 +214,7 @@ WINDOW = {
 
 
 @pytest.mark.parametrize("name", WINDOW)
-def test_one_read_at_most_is_stale_where_time_cannot_tell(name: str) -> None:
+def test_one_read_at_most_is_stale_where_time_cannot_distinguish_replies(name: str) -> None:
     after, stale = WINDOW[name]
     run = Run(None, faults.duplicated(after * BYTE), Bench(thinks=0.008))
     run.check(None)

@@ -19,7 +19,7 @@ from tests.independent.faults import Piece
 from tests.independent.ports import VirtualPort
 
 if TYPE_CHECKING:
-    from tests.independent.conversation import Asked
+    from tests.independent.conversation import Requested
     from tests.independent.faults import Script
 
 BAUD = 9600
@@ -33,7 +33,7 @@ BOUND = 3 * (REPLY_TIMEOUT + wire_time(SIX, BAUD))
 class Read(NamedTuple):
     """One kind of read, behind so many moves, and the pause after it."""
 
-    asked: Asked
+    requested: Requested
     moves: int
     pause: float
 
@@ -70,7 +70,7 @@ scripts: st.SearchStrategy[Script] = st.one_of(
     st.builds(faults.preceded, noise),
     st.builds(faults.halted, st.integers(1, 22), st.sampled_from([0.01, 0.02, 0.04])),
 )
-# Two reads are in order before anything else happens: the property tells of what one fault does.
+# Two reads are in order before anything else happens: the property is about what one fault does.
 reads = st.lists(
     st.builds(
         Read,
@@ -89,30 +89,32 @@ steps = st.lists(st.builds(Step, scripts, reads, st.booleans()), min_size=1, max
     st.sampled_from([0.0, 0.001, 0.004]),
     st.sampled_from([0.0, 0.001, 0.016]),
 )
-def test_whatever_happens_to_the_replies(steps: list[Step], thinks: float, latency: float) -> None:
+def test_every_read_is_right_or_excused_by_a_fault(
+    steps: list[Step], thinks: float, latency: float
+) -> None:
     script_of: dict[int, Script] = {}
     board = Board(baud=BAUD, thinks=thinks, latency=latency, faults=script_of.get)
     port = VirtualPort(board)
     talk = Conversation(board, port.clock)
-    heard: list[bytes] = []
+    received: list[bytes] = []
     with Controller(
         port, background=False, clock=port.clock, reply_timeout=REPLY_TIMEOUT, settle=0
     ) as controller:
         for _ in range(HEALTHY):
             talk.ask(controller, None)
         for step in steps:
-            script_of[board.asked + 1] = step.script
+            script_of[board.questions + 1] = step.script
             if step.runs:
                 controller.run_action_group(8, times=2)
             for read in step.reads:
                 for _ in range(read.moves):
                     controller.move_servos([(servo, 500) for servo in SIX], time_ms=1000)
-                talk.ask(controller, read.asked)
+                talk.ask(controller, read.requested)
                 if read.pause:
-                    heard += [each.encode() for each in controller.reports(timeout=read.pause)]
+                    received += [each.encode() for each in controller.reports(timeout=read.pause)]
         for _ in range(3):
             talk.ask(controller, SIX)
-        heard += [each.encode() for each in controller.reports(timeout=2)]
+        received += [each.encode() for each in controller.reports(timeout=2)]
         talk.check(BAUD, BOUND)
-        assert heard == board.reported
+        assert received == board.reported
         assert board.refused == []

@@ -37,7 +37,7 @@ class Simulated:
     """A simulated board that numbers its replies, with a record of the values and times."""
 
     def __init__(self, board: VirtualController, clock: VirtualClock) -> None:
-        self.asked = 0
+        self.questions = 0
         self.reported: list[bytes] = []
         self.calm_at = float("inf")
         self._clock = clock
@@ -55,20 +55,20 @@ class Simulated:
         reports = injector.reports
 
         def noted(report: Report) -> Iterator[Report]:
-            for told in reports(report):
-                if not isinstance(told, REPLIES):
-                    self.reported.append(told.encode())
-                yield told
+            for event in reports(report):
+                if not isinstance(event, REPLIES):
+                    self.reported.append(event.encode())
+                yield event
 
         injector.reports = noted  # type: ignore[method-assign]
 
     def _voltage(self, _message: BatteryVoltageRead) -> BatteryVoltage:
-        self.asked += 1
-        return BatteryVoltage(self.asked)
+        self.questions += 1
+        return BatteryVoltage(self.questions)
 
     def _positions(self, message: ServoPositionsRead) -> ServoPositions:
-        self.asked += 1
-        return ServoPositions([(servo, self.asked) for servo in message.servo_ids])
+        self.questions += 1
+        return ServoPositions([(servo, self.questions) for servo in message.servo_ids])
 
     # ---------------------------------------------------------------- a transport
 
@@ -134,7 +134,9 @@ holed = st.builds(
 
 
 @given(st.one_of(whole, holed), st.lists(st.sampled_from([None, SIX, (1, 2)]), max_size=8))
-def test_whatever_the_simulator_does(faults: Faults, asked: list[tuple[int, ...] | None]) -> None:
+def test_every_read_from_the_faulty_simulator_is_right_or_excused(
+    faults: Faults, requested: list[tuple[int, ...] | None]
+) -> None:
     clock = VirtualClock(follow_reads=True)
     with VirtualController(clock=clock, baud=BAUD) as board:
         simulated = Simulated(board, clock)
@@ -146,15 +148,15 @@ def test_whatever_the_simulator_does(faults: Faults, asked: list[tuple[int, ...]
                 talk.ask(controller, None)
             board.faults = faults
             simulated.note_reports(board)
-            for each in asked:
+            for each in requested:
                 talk.ask(controller, each)
             board.faults = Faults()
-            heard = [each.encode() for each in controller.reports(timeout=QUIET)]
+            received = [each.encode() for each in controller.reports(timeout=QUIET)]
             simulated.calm_at = clock.now()
             for _ in range(3):
                 talk.ask(controller, None)
             talk.check(BAUD, BOUND)
-            assert heard == simulated.reported
+            assert received == simulated.reported
 
 
 def test_reads_come_no_faster_than_the_line_allows() -> None:

@@ -26,12 +26,12 @@ class Host:
         self,
         transport: Transport,
         now: Callable[[], float] = time.monotonic,
-        patience: float = GENEROUS,
+        timeout: float = GENEROUS,
     ) -> None:
         self.transport = transport
-        self.patience = patience
+        self.timeout = timeout
         self.bytes = b""
-        self.heard: list[Message | Noise] = []
+        self.received: list[Message | Noise] = []
         self._now = now
         self._decoder = StreamDecoder(Direction.CONTROLLER_TO_HOST)
 
@@ -43,15 +43,15 @@ class Host:
     def ask(self, message: Message) -> Message | None:
         """Write a message, and return the next that comes."""
         self.say(message)
-        return self.hear()
+        return self.receive()
 
-    def hear(self, patience: float | None = None) -> Message | None:
+    def receive(self, timeout: float | None = None) -> Message | None:
         """Return the next message; None if none comes in time."""
-        end = self._now() + (self.patience if patience is None else patience)
+        end = self._now() + (self.timeout if timeout is None else timeout)
         while True:
-            for event in self.heard:
+            for event in self.received:
                 if isinstance(event, Message):
-                    self.heard.remove(event)
+                    self.received.remove(event)
                     return event
             left = end - self._now()
             if left <= 0:
@@ -60,16 +60,16 @@ class Host:
 
     def collect(self, count: int) -> bytes:
         """Return the next `count` bytes, or as many as come in time."""
-        end = self._now() + self.patience
+        end = self._now() + self.timeout
         data = b""
         while len(data) < count and (left := end - self._now()) > 0:
             data += self.transport.read(left)
         return data
 
-    def _listen(self, patience: float) -> None:
-        data = self.transport.read(patience)
+    def _listen(self, timeout: float) -> None:
+        data = self.transport.read(timeout)
         self.bytes += data
-        self.heard += self._decoder.feed(data)
+        self.received += self._decoder.feed(data)
 
     def hang_up(self) -> None:
         """Close the port. pyserial sleeps after it has closed a socket, so that is done here."""
@@ -82,7 +82,7 @@ class Host:
 
     def noise(self) -> list[bytes]:
         """Return the noise so far."""
-        return [event.data for event in self.heard if isinstance(event, Noise)]
+        return [event.data for event in self.received if isinstance(event, Noise)]
 
 
 def host_of(board: VirtualController) -> Host:

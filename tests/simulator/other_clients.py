@@ -73,9 +73,9 @@ class Xarm(OtherClient):
         self._line = self._arm._device
         self._line.timeout = SILENCE
         self._receive = self._arm._recv
-        self._arm._recv = self._patient
+        self._arm._recv = self._wait_for_reply
 
-    def _patient(self, command: int) -> object:
+    def _wait_for_reply(self, command: int) -> object:
         await_that(lambda: self._line.in_waiting >= self.answer)
         return self._receive(command)
 
@@ -160,8 +160,8 @@ class NextFrame(OtherClient):
     def positions(self, servo_ids: Sequence[int]) -> object:
         self._send(21, bytes([len(servo_ids), *servo_ids]))
         data = self._receive()
-        told = dict(struct.unpack_from("<BH", data, 1 + 3 * at) for at in range(data[0]))
-        return [told[servo_id] for servo_id in servo_ids]
+        positions = dict(struct.unpack_from("<BH", data, 1 + 3 * at) for at in range(data[0]))
+        return [positions[servo_id] for servo_id in servo_ids]
 
     def unload(self, servo_ids: Sequence[int]) -> None:
         self._send(20, bytes([len(servo_ids), *servo_ids]))

@@ -70,11 +70,11 @@ def test_no_servo_is_faster_than_it_can(board: VirtualController, host: Host) ->
     assert board.servos[1].position == 1000
 
 
-@pytest.mark.parametrize(("asked", "reached"), [(65535, 1000), (1001, 1000), (0, 0)])
+@pytest.mark.parametrize(("requested", "reached"), [(65535, 1000), (1001, 1000), (0, 0)])
 def test_a_servo_goes_no_further_than_it_can(
-    board: VirtualController, host: Host, asked: int, reached: int
+    board: VirtualController, host: Host, requested: int, reached: int
 ) -> None:
-    host.say(ServoMove(500, [(1, asked)]))
+    host.say(ServoMove(500, [(1, requested)]))
     board.advance(1)
     assert board.servos[1].position == reached
 
@@ -110,7 +110,7 @@ def test_a_servo_that_is_missing_is_left_out(board: VirtualController, host: Hos
     assert positions(host, 2) == []
 
 
-def test_a_servo_that_is_off_is_told_as_65535_and_does_not_move(
+def test_a_servo_that_is_off_is_reported_as_65535_and_does_not_move(
     board: VirtualController, host: Host
 ) -> None:
     board.servos[2].off = True
@@ -152,7 +152,7 @@ def test_a_group_starts_runs_and_ends_with_a_report_each(nodding: VirtualControl
         assert board.servos[1].position == 550
         board.advance(0.25)
         assert board.servos[1].position == 500
-        assert host.hear() == ActionGroupCompleted(5, 2)
+        assert host.receive() == ActionGroupCompleted(5, 2)
         assert board.clock.now() == pytest.approx(1.0)
         assert board.servos[1].position == 400
 
@@ -161,7 +161,7 @@ def test_a_group_without_end_runs_until_it_is_stopped(nodding: VirtualController
     with nodding as board:
         host = host_of(board)
         assert host.ask(ActionGroupRun(5, 0)) == ActionGroupStarted(5, 0)
-        assert host.hear(patience=100) is None
+        assert host.receive(timeout=100) is None
         assert host.ask(ActionGroupStop()) == ActionGroupStopped()
         assert host.ask(ActionGroupStop()) is None
 
@@ -171,8 +171,8 @@ def test_the_speed_changes_how_long_a_group_takes(nodding: VirtualController, gr
     with nodding as board:
         host = host_of(board)
         host.say(ActionGroupSpeed(group, 200), ActionGroupRun(5, 1))
-        assert host.hear() == ActionGroupStarted(5, 1)
-        assert host.hear() == ActionGroupCompleted(5, 1)
+        assert host.receive() == ActionGroupStarted(5, 1)
+        assert host.receive() == ActionGroupCompleted(5, 1)
         assert board.clock.now() == pytest.approx(0.25)
 
 
@@ -181,7 +181,7 @@ def test_a_speed_set_meanwhile_holds_from_the_next_step(nodding: VirtualControll
         host = host_of(board)
         host.ask(ActionGroupRun(5, 1))
         host.say(ActionGroupSpeed(5, 50))
-        assert host.hear() == ActionGroupCompleted(5, 1)
+        assert host.receive() == ActionGroupCompleted(5, 1)
         assert board.clock.now() == pytest.approx(0.3 + 0.4)
 
 
@@ -189,8 +189,8 @@ def test_a_speed_of_nothing_is_ignored(nodding: VirtualController) -> None:
     with nodding as board:
         host = host_of(board)
         host.say(ActionGroupSpeed(5, 0), ActionGroupRun(5, 1))
-        host.hear()
-        assert host.hear() == ActionGroupCompleted(5, 1)
+        host.receive()
+        assert host.receive() == ActionGroupCompleted(5, 1)
         assert board.clock.now() == pytest.approx(0.5)
 
 
@@ -212,26 +212,26 @@ def test_a_group_replaces_the_one_that_runs(nodding: VirtualController) -> None:
         host = host_of(board)
         assert host.ask(ActionGroupRun(5, 0)) == ActionGroupStarted(5, 0)
         assert host.ask(ActionGroupRun(5, 1)) == ActionGroupStarted(5, 1)
-        assert host.hear() == ActionGroupCompleted(5, 1)
-        assert host.hear() is None
+        assert host.receive() == ActionGroupCompleted(5, 1)
+        assert host.receive() is None
 
 
 def test_the_button_on_the_board_is_reported_too(nodding: VirtualController) -> None:
     with nodding as board:
         host = host_of(board)
         board.press_button(5)
-        assert host.hear() == ActionGroupStarted(5, 1)
+        assert host.receive() == ActionGroupStarted(5, 1)
         board.press_button(None)
-        assert host.hear() == ActionGroupStopped()
+        assert host.receive() == ActionGroupStopped()
 
 
 def test_groups_come_with_the_board(board: VirtualController, host: Host) -> None:
     for group in board.board.groups:
         assert host.ask(ActionGroupRun(group, 1)) == ActionGroupStarted(group, 1)
-        assert host.hear() == ActionGroupCompleted(group, 1)
+        assert host.receive() == ActionGroupCompleted(group, 1)
 
 
-def test_an_action_group_has_a_step() -> None:
+def test_an_action_group_without_steps_is_refused() -> None:
     with pytest.raises(ValueError, match="needs a step"):
         ActionGroup([])
 
@@ -285,11 +285,11 @@ def test_right_frames_blink_and_wrong_ones_beep(board: VirtualController, host: 
 @pytest.mark.garbage
 def test_a_wrong_frame_is_met_with_silence(board: VirtualController, host: Host) -> None:
     host.transport.write(bytes.fromhex("55 55 04 0F 4C 1D"))
-    assert host.hear() is None
+    assert host.receive() is None
     assert voltage(host) == 7500
 
 
-def test_a_board_that_restarts_hears_nothing_and_forgets_speeds_and_groups(
+def test_a_board_that_restarts_receives_nothing_and_forgets_speeds_and_groups(
     nodding: VirtualController,
 ) -> None:
     with nodding as board:
@@ -303,6 +303,6 @@ def test_a_board_that_restarts_hears_nothing_and_forgets_speeds_and_groups(
         assert voltage(host) == 7500
         begun = board.clock.now()
         assert host.ask(ActionGroupRun(5, 1)) == ActionGroupStarted(5, 1)
-        assert host.hear() == ActionGroupCompleted(5, 1)
+        assert host.receive() == ActionGroupCompleted(5, 1)
         assert board.clock.now() - begun == pytest.approx(0.5)
         assert board.rejects.total == 0

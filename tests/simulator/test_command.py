@@ -55,7 +55,7 @@ def start() -> Iterator[Callable[..., tuple[subprocess.Popen[str], str]]]:
 
 @not_windows
 @pytest.mark.parametrize("kind", [signal.SIGINT, signal.SIGTERM])
-def test_it_answers_tells_what_happens_and_ends_cleanly(
+def test_it_answers_prints_what_happens_and_ends_cleanly(
     start: Callable[..., tuple[subprocess.Popen[str], str]], tmp_path: Path, kind: signal.Signals
 ) -> None:
     link = tmp_path / "COM7"
@@ -118,7 +118,7 @@ REPLY = BatteryVoltage(7500).encode()
 
 
 @pytest.mark.parametrize(
-    ("words", "heard"),
+    ("words", "expected"),
     [
         ("--local-echo --baud 96000", ASK + REPLY),
         ("--fault duplicated=1", REPLY + REPLY),
@@ -128,17 +128,17 @@ REPLY = BatteryVoltage(7500).encode()
         ("--servos 1-2 --fault wrong_count=1 --seed 1", bytes.fromhex("55 55 09 15 01")),
     ],
 )
-def test_its_options_are_heard_on_the_wire(words: str, heard: bytes) -> None:
+def test_its_options_change_what_is_on_the_wire(words: str, expected: bytes) -> None:
     arguments = parser_of(PROGRAM).parse_args(["--tcp", *words.split()])
     with _board(arguments) as board:
         host = Host(open_transport(board.port))
         host.transport.write(ServoPositionsRead([1, 2]).encode() if "count" in words else ASK)
-        assert host.collect(len(heard))[: len(heard)] == heard
+        assert host.collect(len(expected))[: len(expected)] == expected
         host.hang_up()
 
 
 @not_windows
-def test_it_tells_of_a_host_at_another_rate(
+def test_it_reports_a_host_at_another_rate(
     start: Callable[..., tuple[subprocess.Popen[str], str]],
 ) -> None:
     process, port = start()
@@ -169,7 +169,7 @@ def test_it_tells_of_a_host_at_another_rate(
         (["--baud", "fast"], "--baud: 'fast' is no rate"),
     ],
 )
-def test_what_it_cannot_do_it_says(
+def test_what_it_cannot_do_is_an_error(
     capsys: pytest.CaptureFixture[str], arguments: list[str], words: str
 ) -> None:
     assert main(arguments) == 2

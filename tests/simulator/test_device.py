@@ -35,7 +35,7 @@ class Meter(Device):
         return BatteryVoltage(7500)
 
 
-def test_a_handler_answers_what_it_is_asked() -> None:
+def test_a_handler_answers_its_request() -> None:
     assert Meter().receive(BatteryVoltageRead().encode()) == BatteryVoltage(7500).encode()
 
 
@@ -117,17 +117,17 @@ def test_a_restart_forgets_half_a_frame_and_what_was_not_sent() -> None:
 def test_legal_traffic_is_never_refused_however_it_is_cut(
     messages: list[busservo.Message], size: int
 ) -> None:
-    heard: list[busservo.Message] = []
+    received: list[busservo.Message] = []
 
     class Listener(Device):
         def accepted(self, message: busservo.Message) -> None:
-            heard.append(message)
+            received.append(message)
 
     device = Listener()
     data = b"".join(message.encode() for message in messages)
     for at in range(0, len(data), size):
         device.accept(data[at : at + size])
-    assert heard == messages
+    assert received == messages
     assert device.rejects.total == 0
 
 

@@ -34,7 +34,7 @@ def faulty(**faults: float) -> VirtualController:
     return VirtualController(clock=clock, faults=Faults(seed=7, **faults))
 
 
-def test_nothing_goes_wrong_unless_asked_for() -> None:
+def test_there_are_no_faults_by_default() -> None:
     with faulty() as board:
         host = host_of(board)
         assert [host.ask(ASK) for _ in range(50)] == [VOLTAGE] * 50
@@ -68,7 +68,7 @@ def test_bits_are_turned_over() -> None:
         host = host_of(board)
         for _ in range(50):
             host.say(ASK)
-            host.hear(0.01)
+            host.receive(0.01)
         clean = VOLTAGE.encode() * 50
         assert len(host.bytes) == len(clean)
         turned = sum((a ^ b).bit_count() for a, b in zip(host.bytes, clean, strict=True))
@@ -101,20 +101,20 @@ def test_frames_come_late_and_in_order() -> None:
         host = host_of(board)
         board.press_button(8)
         assert host.ask(ASK) == ActionGroupStarted(8, 1)
-        assert isinstance(host.hear(), BatteryVoltage)
+        assert isinstance(host.receive(), BatteryVoltage)
         assert 0 < board.clock.now() <= 0.4
 
 
-def test_a_reply_comes_later_than_any_time_out_and_what_is_sent_meanwhile_passes_it() -> None:
+def test_a_late_reply_is_overtaken_by_what_is_sent_meanwhile() -> None:
     with faulty(late=1, late_by=1000) as board:
         host = host_of(board)
         host.say(ASK)
-        assert host.hear(999) is None
+        assert host.receive(999) is None
         board.faults = Faults()
         board.report(ActionGroupStopped())
         assert host.ask(ServoPositionsRead([1])) == ActionGroupStopped()
-        assert host.hear() == ServoPositions([(1, 500)])
-        assert host.hear() == VOLTAGE
+        assert host.receive() == ServoPositions([(1, 500)])
+        assert host.receive() == VOLTAGE
         assert board.clock.now() == pytest.approx(1000)
 
 
@@ -124,8 +124,8 @@ def test_late_replies_come_in_order_and_whole() -> None:
         host = host_of(board)
         for servo_id in range(1, 7):
             host.say(ServoPositionsRead([servo_id]))
-        heard = [host.hear() for _ in range(6)]
-        assert heard == [ServoPositions([(servo_id, 500)]) for servo_id in range(1, 7)]
+        received = [host.receive() for _ in range(6)]
+        assert received == [ServoPositions([(servo_id, 500)]) for servo_id in range(1, 7)]
         assert host.noise() == []
 
 
@@ -136,12 +136,12 @@ def test_a_late_reply_finds_the_host_that_is_there_by_then() -> None:
         board.unplug()
         board.advance(0.5)
         board.plug_in()
-        assert Host(board.open(), board.clock.now, 2).hear() == VOLTAGE
+        assert Host(board.open(), board.clock.now, 2).receive() == VOLTAGE
         host.say(ASK)
         board.unplug()
         board.advance(1.5)
         board.plug_in()
-        assert Host(board.open(), board.clock.now, 2).hear() is None
+        assert Host(board.open(), board.clock.now, 2).receive() is None
 
 
 def test_a_board_that_restarts_forgets_its_late_replies() -> None:
@@ -149,18 +149,18 @@ def test_a_board_that_restarts_forgets_its_late_replies() -> None:
         host = host_of(board)
         host.say(ASK)
         board.reboot(0.1)
-        assert host.hear() is None
+        assert host.receive() is None
 
 
 def test_a_reply_comes_twice_and_a_report_once() -> None:
     with faulty(duplicated=1) as board:
         host = host_of(board)
         assert host.ask(ASK) == VOLTAGE
-        assert host.hear() == VOLTAGE
+        assert host.receive() == VOLTAGE
         board.press_button(8)
-        assert host.hear() == ActionGroupStarted(8, 1)
-        assert host.hear() == ActionGroupCompleted(8, 1)
-        assert host.hear() is None
+        assert host.receive() == ActionGroupStarted(8, 1)
+        assert host.receive() == ActionGroupCompleted(8, 1)
+        assert host.receive() is None
 
 
 def test_bytes_are_lost() -> None:
@@ -194,11 +194,11 @@ def test_replies_are_dropped_and_reports_are_not() -> None:
         host = host_of(board)
         board.press_button(8)
         assert host.ask(ASK) == ActionGroupStarted(8, 1)
-        assert host.hear() == ActionGroupCompleted(8, 1)
+        assert host.receive() == ActionGroupCompleted(8, 1)
         assert board.accepted == 1
 
 
-def test_servos_are_left_out_or_told_to_be_off() -> None:
+def test_servos_are_left_out_or_reported_to_be_off() -> None:
     with faulty(fewer=0.3, absent=0.3) as board:
         host = host_of(board)
         counts, values = set(), set()
@@ -211,13 +211,13 @@ def test_servos_are_left_out_or_told_to_be_off() -> None:
         assert values == {500, 65535}
 
 
-def test_reports_come_that_nobody_asked_for() -> None:
+def test_unsolicited_reports_are_sent() -> None:
     with faulty(unasked=1) as board:
         host = host_of(board)
         kinds = set()
         for _ in range(30):
             kinds.add(type(host.ask(ASK)))
-            assert host.hear() == VOLTAGE
+            assert host.receive() == VOLTAGE
         assert kinds == {ActionGroupStarted, ActionGroupStopped, ActionGroupCompleted}
 
 
@@ -259,7 +259,7 @@ def test_bits_are_turned_over_on_the_way_to_the_board() -> None:
     with faulty(bit_flips_to_board=1) as board:
         host = host_of(board)
         host.say(ASK)
-        assert host.hear(1) is None
+        assert host.receive(1) is None
         assert (board.accepted, board.rejects.total) == (0, 1)
 
 
@@ -272,7 +272,7 @@ def test_what_the_host_writes_arrives_in_two_pieces() -> None:
         board.transport.write(b"")
         board.transport.write(ASK.encode()[:1])
         board.transport.write(ASK.encode()[1:])
-        assert [host.hear() for _ in range(3)] == [VOLTAGE] * 3
+        assert [host.receive() for _ in range(3)] == [VOLTAGE] * 3
         assert (board.accepted, board.rejects.total) == (23, 0)
 
 
@@ -296,8 +296,8 @@ def test_a_seed_repeats_a_fault_and_another_does_not(name: str) -> None:
             host = host_of(board)
             for servo_id in range(1, 7):
                 host.say(ServoPositionsRead([servo_id]))
-                host.hear(0.01)
-            host.hear(5)
+                host.receive(0.01)
+            host.receive(5)
             return host.bytes
 
     assert run(1) == run(1)
@@ -320,8 +320,8 @@ def test_a_fault_that_loses_nothing_loses_nothing_on_any_port(
     board, host = connect(faults=faults)
     for _ in range(8):
         host.say(ServoPositionsRead(range(1, 7)))
-        while not isinstance(heard := host.hear(), ServoPositions):
-            assert heard is not None
+        while not isinstance(received := host.receive(), ServoPositions):
+            assert received is not None
     await_that(lambda: board.accepted == 8)
     assert bool(board.rejects.total) == (name == "noise_to_board")
 
@@ -330,7 +330,7 @@ def test_a_dropped_reply_is_silence_on_any_port(connect: Callable[..., tuple[Any
     board, host = connect(faults=Faults(dropped=1))
     host.say(ASK)
     await_that(lambda: board.accepted == 1)
-    assert host.hear(0.05) is None
+    assert host.receive(0.05) is None
     board.faults = Faults()
     assert host.ask(ASK) == VOLTAGE
 
@@ -346,4 +346,4 @@ def test_a_hang_up_is_an_error_on_any_port(connect: Callable[..., tuple[Any, Hos
     _, host = connect(faults=Faults(hang_up=1))
     host.say(ASK)
     with pytest.raises(TransportError):
-        host.hear()
+        host.receive()

@@ -20,7 +20,7 @@ def test_memory(virtual_controller):
     virtual_controller.transport.write(busservo.BatteryVoltageRead().encode())
     assert virtual_controller.transport.read(5) == busservo.BatteryVoltage(7500).encode()
 
-def test_patience(patient_controller):
+def test_time_by_hand(patient_controller):
     patient_controller.transport.write(busservo.ServoMove(1000, [(1, 900)]).encode())
     patient_controller.advance(0.5)
     assert patient_controller.servos[1].position == 700

@@ -47,19 +47,19 @@ def test_a_command_puts_a_board_behind_a_port(words: str) -> None:
         assert board.port
 
 
-def test_the_guide_tells_of_every_fault_as_the_help_does() -> None:
-    told = dict(FAULTS)
+def test_the_guide_describes_every_fault_as_the_help_does() -> None:
+    faults = dict(FAULTS)
     for name, what in CHANCES.items():
         if name in TO_BOARD:
-            assert name in "".join(told)
+            assert name in "".join(faults)
         else:
-            assert told[name].replace("`", "").replace(" seconds", "") == what
+            assert faults[name].replace("`", "").replace(" seconds", "") == what
 
 
 @pytest.mark.parametrize("block", SHOWN)
 def test_an_example_does_what_it_says(block: str, monkeypatch: pytest.MonkeyPatch) -> None:
     # A guide need not say that a machine may be busy.
-    patient = partial(busservo.open_controller, reply_timeout=GENEROUS)
-    monkeypatch.setattr(busservo, "open_controller", patient)
+    with_timeout = partial(busservo.open_controller, reply_timeout=GENEROUS)
+    monkeypatch.setattr(busservo, "open_controller", with_timeout)
     names: dict[str, object] = {"__name__": "guide"}
     exec(compile(block, str(GUIDE.name), "exec"), names)  # noqa: S102 - the guide is ours

@@ -78,7 +78,7 @@ def test_time_stands_still_until_it_is_moved_on() -> None:
     with VirtualController(clock=VirtualClock()) as board:
         host = Host(board.transport)
         host.say(ServoMove(1000, [(1, 900)]))
-        assert host.hear(0.01) is None
+        assert host.receive(0.01) is None
         assert board.servos[1].position == 500
         board.advance(0.25)
         assert board.servos[1].position == 600
@@ -94,15 +94,15 @@ def test_real_time_cannot_be_moved() -> None:
         board.advance(1)
 
 
-def test_a_read_in_another_thread_hears_a_report_at_once() -> None:
+def test_a_read_in_another_thread_gets_a_report_at_once() -> None:
     with VirtualController() as board:
-        heard: list[Message | None] = []
+        received: list[Message | None] = []
         host = Host(board.transport)
-        reader = threading.Thread(target=lambda: heard.append(host.hear()))
+        reader = threading.Thread(target=lambda: received.append(host.receive()))
         reader.start()
         board.report(ActionGroupStopped())
         reader.join(GENEROUS)
-        assert heard == [ActionGroupStopped()]
+        assert received == [ActionGroupStopped()]
 
 
 def test_a_read_without_bytes_ends_in_time() -> None:
@@ -131,7 +131,7 @@ def test_closing_ends_a_read_in_another_thread() -> None:
         with pytest.raises(ClosedError):
             board.transport.write(b"")
         board.open().write(BatteryVoltageRead().encode())
-        assert Host(board.transport).hear() == BatteryVoltage(7500)
+        assert Host(board.transport).receive() == BatteryVoltage(7500)
 
 
 def test_an_unplugged_board_is_an_error_until_it_is_plugged_in(
@@ -164,7 +164,7 @@ def test_there_are_three_ways_to_a_board() -> None:
 def test_a_board_with_spurious_output_takes_no_input(board: VirtualController, host: Host) -> None:
     board.spurious_output(b"\x55", per_second=100)
     host.say(BatteryVoltageRead())
-    assert host.hear(1.0) is None
+    assert host.receive(1.0) is None
     assert set(host.bytes) == {0x55}
     assert len(host.bytes) == pytest.approx(100, abs=2)
     board.spurious_output(None)
@@ -175,15 +175,15 @@ def test_a_board_with_spurious_output_takes_no_input(board: VirtualController, h
 def test_a_board_that_floods_reports_still_answers(board: VirtualController, host: Host) -> None:
     board.spurious_output(ActionGroupStarted(8, 1).encode(), per_second=1000, ignore_input=False)
     host.say(BatteryVoltageRead())
-    heard = [host.hear() for _ in range(50)]
-    assert heard.count(BatteryVoltage(7500)) == 1
-    assert heard.count(ActionGroupStarted(8, 1)) == 49
+    received = [host.receive() for _ in range(50)]
+    assert received.count(BatteryVoltage(7500)) == 1
+    assert received.count(ActionGroupStarted(8, 1)) == 49
 
 
 def test_raw_bytes_can_be_sent(board: VirtualController, host: Host) -> None:
     board.send_bytes(b"\x55\x55\x04")
     board.send_bytes(b"\x0f\x4c\x1d")
-    assert host.hear() == BatteryVoltage(7500)
+    assert host.receive() == BatteryVoltage(7500)
 
 
 CHANCE = st.floats(0, 0.5)
@@ -232,12 +232,12 @@ def test_the_same_seed_and_the_same_traffic_give_the_same_bytes(
     def run() -> list[bytes]:
         line, moment = Line(Board(), faults=faults), 0.0
         line.host_baud = host_baud
-        heard: list[bytes] = []
+        received: list[bytes] = []
         for data, pause in chunks:
             line.write(data, moment)
             moment += pause
-            heard += line.read(moment)
-        return heard + line.read(moment + 10)
+            received += line.read(moment)
+        return received + line.read(moment + 10)
 
     assert run() == run()
 
@@ -280,7 +280,7 @@ def test_how_often_one_looks_makes_no_difference(
     assert once == often
 
 
-def test_what_is_said_to_nobody_is_lost(board: VirtualController, host: Host) -> None:
+def test_bytes_sent_to_an_unplugged_host_are_lost(board: VirtualController, host: Host) -> None:
     line = Line(Board())
     line.cut()
     line.send(b"UU", 0.0)
@@ -295,7 +295,7 @@ def test_what_is_said_to_nobody_is_lost(board: VirtualController, host: Host) ->
     assert len(board.board.event_log) == len([*board.board.event_log]) > 0
 
 
-def test_no_bytes_take_no_time() -> None:
+def test_an_empty_write_takes_no_time() -> None:
     wire = Channel(10 / 9600)
     wire.put(b"", 1.0)
     assert (wire.next_event, wire.held) == (None, 0)

@@ -64,7 +64,7 @@ def test_it_is_the_adapter_that_echoes_whatever_the_board_does() -> None:
         assert board.open().read(0.1) == b""
 
 
-def test_none_comes_back_unless_asked_for(connect: Callable[..., tuple[Any, Host]]) -> None:
+def test_there_is_no_echo_by_default(connect: Callable[..., tuple[Any, Host]]) -> None:
     _, host = connect()
     host.transport.write(MOVE)
     host.transport.write(ASK)

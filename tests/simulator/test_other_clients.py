@@ -41,7 +41,7 @@ def await_answer(line: serial.Serial, size: int) -> None:
     await_that(lambda: line.in_waiting >= size)
 
 
-def test_one_writes_the_head_and_the_parameters_apart_and_reads_two_bytes_too_many(
+def test_a_client_that_writes_in_two_parts_and_reads_two_bytes_too_many_is_served(
     board: VirtualController, line: serial.Serial
 ) -> None:
     for _ in range(3):
@@ -55,7 +55,7 @@ def test_one_writes_the_head_and_the_parameters_apart_and_reads_two_bytes_too_ma
     assert (board.accepted, board.rejects.total) == (3, 0)
 
 
-def test_one_clears_its_input_and_looks_for_an_answer_of_the_right_shape(
+def test_a_client_that_clears_its_input_first_is_served(
     board: VirtualController, line: serial.Serial
 ) -> None:
     board.faults = Faults(seed=1, noise=0.5, splits=0.5, unasked=0.5)
@@ -74,7 +74,7 @@ def test_one_clears_its_input_and_looks_for_an_answer_of_the_right_shape(
     assert board.rejects.total == 0
 
 
-def test_one_sends_and_closes_and_never_listens(tmp_path: Path) -> None:
+def test_a_client_that_sends_and_closes_is_served(tmp_path: Path) -> None:
     with VirtualController("pty", link=tmp_path / "COM7") as board:
         for _ in range(3):
             with serial.Serial(board.port, 9600) as line:
@@ -96,12 +96,12 @@ def test_xarm_is_served(board: VirtualController, monkeypatch: pytest.MonkeyPatc
     arm._device.timeout = 0.05
     send, sizes = arm._send, iter([6, 23, 8])
 
-    def patient(command: int, *data: object) -> None:
+    def paced(command: int, *data: object) -> None:
         send(command, *data)
         if command in (arm.CMD_GET_BATTERY_VOLTAGE, arm.CMD_GET_SERVO_POSITION):
             await_answer(arm._device, next(sizes))
 
-    monkeypatch.setattr(arm, "_send", patient)
+    monkeypatch.setattr(arm, "_send", paced)
     arm.setPosition([[1, 700], [2, 300]], duration=0)
     await_that(lambda: (board.servos[1].position, board.servos[2].position) == (700, 300))
     assert arm.getBatteryVoltage() == pytest.approx(7.5, abs=0.1)

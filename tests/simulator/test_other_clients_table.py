@@ -25,7 +25,7 @@ MILLIVOLTS = 7500
 BATTERY, TWO_POSITIONS, ONE_POSITION = 6, 11, 8
 
 
-def outcome(call: Callable[[], object], right: object) -> str:
+def result_of(call: Callable[[], object], right: object) -> str:
     """Return how a call of one of them ends."""
     try:
         value = call()
@@ -36,59 +36,59 @@ def outcome(call: Callable[[], object], right: object) -> str:
     return "yes" if value == right else "`None`" if value is None else f"wrong: {value}"
 
 
-def told(board: VirtualController) -> bool:
+def has_received(board: VirtualController) -> bool:
     """Return whether the board has received bytes, understood or not."""
     return bool(board.accepted or board.rejects.total)
 
 
 def move(client: OtherClient, board: VirtualController) -> str:
     client.move([(1, 800), (2, 300)])
-    await_that(lambda: told(board))
+    await_that(lambda: has_received(board))
     targets = [board.servos[servo_id].target for servo_id in (1, 2)]
     return "yes" if targets == [800, 300] else "no"
 
 
 def battery(client: OtherClient, _board: VirtualController) -> str:
     client.answer = BATTERY
-    return outcome(client.battery, MILLIVOLTS)
+    return result_of(client.battery, MILLIVOLTS)
 
 
 def positions(client: OtherClient, _board: VirtualController) -> str:
     client.answer = TWO_POSITIONS
-    return outcome(lambda: client.positions([1, 2]), [500, 500])
+    return result_of(lambda: client.positions([1, 2]), [500, 500])
 
 
 def unload(client: OtherClient, board: VirtualController) -> str:
     client.unload([1, 2])
-    await_that(lambda: told(board))
+    await_that(lambda: has_received(board))
     return "no" if board.servos[1].loaded or board.servos[2].loaded else "yes"
 
 
 def group(client: OtherClient, _board: VirtualController) -> str:
-    return outcome(lambda: client.run_group(1), None)
+    return result_of(lambda: client.run_group(1), None)
 
 
 def noise(client: OtherClient, board: VirtualController) -> str:
     board.send_bytes(b"\x00\x13")
     client.answer = BATTERY + 2
-    return outcome(client.battery, MILLIVOLTS)
+    return result_of(client.battery, MILLIVOLTS)
 
 
 def report(client: OtherClient, board: VirtualController) -> str:
     board.report(ActionGroupCompleted(8, 1))
     client.answer = BATTERY + 7
-    return outcome(client.battery, MILLIVOLTS)
+    return result_of(client.battery, MILLIVOLTS)
 
 
 def missing(client: OtherClient, board: VirtualController) -> str:
     board.servos[1].missing = True
     client.answer = ONE_POSITION
-    return outcome(lambda: client.positions([1, 2]), [None, 500])
+    return result_of(lambda: client.positions([1, 2]), [None, 500])
 
 
 def silence(client: OtherClient, board: VirtualController) -> str:
     board.faults = Faults(dropped=1)
-    return outcome(client.battery, MILLIVOLTS)
+    return result_of(client.battery, MILLIVOLTS)
 
 
 ROWS: dict[str, Callable[[OtherClient, VirtualController], str]] = {

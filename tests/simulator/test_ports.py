@@ -61,18 +61,18 @@ def test_writes_may_be_cut_anywhere(connect: Connect) -> None:
     for cut in range(1, len(request)):
         host.transport.write(request[:cut])
         host.transport.write(request[cut:])
-        assert isinstance(host.hear(), ServoPositions)
+        assert isinstance(host.receive(), ServoPositions)
     assert board.rejects.total == 0
 
 
-@pytest.mark.parametrize("stray", ["00", "55", "FF 55", "55 55 FF"])
+@pytest.mark.parametrize("extra", ["00", "55", "FF 55", "55 55 FF"])
 @pytest.mark.garbage
-def test_a_stray_byte_costs_no_frame(connect: Connect, stray: str) -> None:
+def test_a_stray_byte_costs_no_frame(connect: Connect, extra: str) -> None:
     board, host = connect()
-    host.transport.write(bytes.fromhex(stray))
+    host.transport.write(bytes.fromhex(extra))
     host.say(ASK, ASK)
-    assert host.hear() == VOLTAGE
-    assert host.hear() == VOLTAGE
+    assert host.receive() == VOLTAGE
+    assert host.receive() == VOLTAGE
     assert board.rejects.total >= 1
 
 
@@ -88,7 +88,7 @@ def test_reports_come_in_the_order_of_what_happened(connect: Connect) -> None:
     assert host.ask(ActionGroupRun(1, 1)) == ActionGroupStarted(1, 1)
     board.advance(10)
     assert host.ask(ASK) == ActionGroupCompleted(1, 1)
-    assert host.hear() == VOLTAGE
+    assert host.receive() == VOLTAGE
 
 
 def test_the_clock_can_be_moved_by_hand_on_any_port(connect: Connect) -> None:
@@ -121,7 +121,7 @@ def test_a_cable_can_be_pulled_and_put_back(connect: Connect) -> None:
     assert host.ask(ASK) == VOLTAGE
     board.unplug()
     with pytest.raises(TransportError):
-        host.hear()
+        host.receive()
     board.plug_in()
     again = Host(board.open() if board.port == "virtual board" else open_transport(board.port))
     assert again.ask(ASK) == VOLTAGE
@@ -208,12 +208,12 @@ def test_tcp_serves_one_host_at_a_time_and_then_the_next() -> None:
         assert data == VOLTAGE.encode()
 
 
-def test_over_tcp_whoever_has_called_hears_all_that_is_said_then() -> None:
+def test_over_tcp_a_connected_host_receives_all_that_is_sent() -> None:
     with VirtualController("tcp") as board:
         for _ in range(20):
             host = Host(open_transport(board.port))
             board.report(ActionGroupStopped())
-            assert host.hear() == ActionGroupStopped()
+            assert host.receive() == ActionGroupStopped()
             host.hang_up()
             await_that(lambda: board._end._guest is None)  # type: ignore[attr-defined]
 
@@ -254,7 +254,7 @@ def test_a_host_that_crashes_makes_room_for_the_next() -> None:
         again.hang_up()
 
 
-def test_what_is_said_to_a_host_that_has_crashed_is_lost() -> None:
+def test_bytes_sent_to_a_crashed_host_are_lost() -> None:
     end = TcpEnd()
     end.plug_in()
     try:
@@ -279,18 +279,18 @@ def crash(host: socket.socket) -> None:
     host.close()
 
 
-def test_an_unplugged_board_speaks_to_nobody(connect: Connect) -> None:
+def test_an_unplugged_board_sends_nothing(connect: Connect) -> None:
     board, _ = connect()
     board.unplug()
     board.send_bytes(STOPPED.encode())
     board.plug_in()
     host = Host(board.open() if board.port == "virtual board" else open_transport(board.port))
     assert host.ask(ASK) == VOLTAGE
-    assert host.heard == []
+    assert host.received == []
     host.hang_up()
 
 
-def test_a_waker_that_is_not_open_wakes_nobody() -> None:
+def test_a_closed_waker_wakes_nobody() -> None:
     waker = Waker()
     waker.wake()
     waker.clear()

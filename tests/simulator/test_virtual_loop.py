@@ -56,7 +56,7 @@ def test_time_stands_still_while_a_thread_works() -> None:
     assert clock.now() == 1
 
 
-def test_who_waits_for_nothing_is_told_so() -> None:
+def test_a_wait_that_nothing_can_end_is_an_error() -> None:
     ended: list[str] = []
 
     async def main() -> None:

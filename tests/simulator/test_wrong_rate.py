@@ -76,7 +76,9 @@ def test_a_reader_that_is_a_little_off_reads_what_was_sent(
 
 
 @given(st.binary(max_size=60), st.sampled_from(OTHERS), st.integers())
-def test_there_is_about_as_much_to_read_as_fits(data: bytes, rate: int, seed: int) -> None:
+def test_a_read_at_another_rate_is_no_longer_than_can_fit(
+    data: bytes, rate: int, seed: int
+) -> None:
     # A byte needs a falling edge and, until the next, ten bits of the reader's; one sent has five
     # such edges at most.
     read = sampled(data, rate, 9600, seeded(seed))
@@ -145,22 +147,22 @@ def right(board: VirtualController) -> float:
 @needs_pty
 @pytest.mark.parametrize("baud", [1200, 19200, 115200, pytest.param(12345, marks=on_linux)])
 @pytest.mark.garbage
-def test_a_host_at_another_rate_hears_garbage_and_is_heard_as_garbage(
+def test_a_host_at_another_rate_receives_garbage_and_sends_garbage(
     board: VirtualController, baud: int
 ) -> None:
     host = at(board, baud)
     host.say(ASK, ASK)
     board.report(SIX)
-    heard = host.collect(1)
-    assert heard
-    assert host.hear(0.05) is None
-    assert SIX.encode() not in heard + host.bytes
+    received = host.collect(1)
+    assert received
+    assert host.receive(0.05) is None
+    assert SIX.encode() not in received + host.bytes
     await_that(lambda: not select.select([board._end._board_end], [], [], 0)[0])  # type: ignore[attr-defined]
     host.hang_up()
     host = at(board, right(board))
     assert board.accepted == 0
     host.say(ASK, ASK)  # the first may be taken for the end of what was garbage
-    assert host.hear() == VOLTAGE
+    assert host.receive() == VOLTAGE
     host.hang_up()
     assert f"the host is at {baud} baud, the board at {right(board)}" in str(board.log)
 
@@ -196,7 +198,7 @@ def test_a_cable_that_is_put_back_is_at_the_right_rate(tmp_path: Path) -> None:
 
 
 @on_linux
-def test_a_rate_that_the_system_does_not_tell_is_taken_for_the_right_one(
+def test_an_unknown_rate_is_taken_for_the_right_one(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     def refuse(*_: object) -> None:
@@ -211,7 +213,7 @@ def test_a_rate_that_the_system_does_not_tell_is_taken_for_the_right_one(
 
 
 @needs_pty
-def test_a_system_that_keeps_any_rate_as_a_number_tells_it(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_rate_kept_as_a_number_is_read(monkeypatch: pytest.MonkeyPatch) -> None:
     kept: list[Any] = [0, 0, 0, 0, 12345, 12345, []]
     monkeypatch.setattr("busservo_simulator.pty_rate.sys.platform", "darwin")
     monkeypatch.setattr("busservo_simulator.pty_rate.termios.tcgetattr", lambda _end: kept)
@@ -231,7 +233,7 @@ def test_there_is_no_rate_without_a_pty(via: Any) -> None:
         host.hang_up()
 
 
-def test_of_a_board_without_a_rate_it_is_that_of_the_protocol() -> None:
+def test_a_board_without_a_rate_has_that_of_the_protocol() -> None:
     assert [Line(Board(), baud=baud).baud for baud in (None, float("inf"), 4800.0)] == [
         9600,
         9600,

@@ -169,9 +169,7 @@ def test_there_and_back_is_as_if_nothing_had_been(project: Path, other: str) -> 
     assert snapshot(project) == before
 
 
-def test_of_the_library_under_its_former_name_nothing_is_left(
-    project: Path, capsys: Capture
-) -> None:
+def test_a_renamed_library_leaves_nothing_behind(project: Path, capsys: Capture) -> None:
     put(project, "spec/demo.yaml", GLASSHOUSE)
     assert main(["generate", "--check"]) == 1
     assert f"orphaned: {CODEC}\n" in capsys.readouterr().err
@@ -208,7 +206,7 @@ def _binary(file: Path) -> None:
 @pytest.mark.parametrize(
     ("spoil", "why"), [(_gone, "missing"), (_edited, "edited by hand"), (_binary, "edited by hand")]
 )
-def test_what_differs_is_told_and_mended(
+def test_differences_are_reported_and_repaired(
     project: Path, capsys: Capture, path: str, spoil: Callable[[Path], None], why: str
 ) -> None:
     before = snapshot(project)
@@ -243,7 +241,7 @@ def test_what_differs_is_told_and_mended(
     assert main(["generate", "--check"]) == 0
 
 
-def test_a_file_of_somebody_else_is_told_and_left_alone(project: Path, capsys: Capture) -> None:
+def test_a_foreign_file_is_reported_and_left_alone(project: Path, capsys: Capture) -> None:
     for name in ("a.md", "b.md", "c.md", "d.md", "e.md"):
         put(project, f"{LIBRARY}/{name}", "mine\n")
     before = snapshot(project)
@@ -289,7 +287,7 @@ def test_a_spec_with_findings_changes_nothing(
 
 
 @pytest.mark.parametrize("words", [["--check", "--diff"], ["--check", "--force"]])
-def test_what_contradicts_itself_is_refused(
+def test_contradictory_options_are_refused(
     project: Path, capsys: Capture, words: list[str]
 ) -> None:
     assert main(["generate", *words]) == 2
@@ -317,7 +315,7 @@ def test_one_target_is_written_and_the_others_are_left(project: Path, name: str)
     assert main(["generate", "--check"]) == 0
 
 
-def test_a_target_that_is_none_is_told(project: Path, capsys: Capture) -> None:
+def test_an_unknown_target_is_reported(project: Path, capsys: Capture) -> None:
     assert main(["generate", "--target", "pyhton"]) == 2
     assert capsys.readouterr().err == (
         "framegen: error: there is no target 'pyhton'\n  hint: did you mean `python`?\n"
@@ -436,7 +434,7 @@ def test_a_spec_behind_a_link_gives_the_same_bytes(project: Path) -> None:
 
 
 @pytest.mark.parametrize("obstacle", ["generated", LIBRARY])
-def test_a_file_where_a_folder_should_be_is_told(
+def test_a_file_where_a_folder_should_be_is_reported(
     tmp_path: Path, capsys: Capture, obstacle: str
 ) -> None:
     put(tmp_path, obstacle, "mine\n")
@@ -453,7 +451,7 @@ def test_a_file_where_a_folder_should_be_is_told(
 # ------------------------------------------------------------------ the reference as pages
 
 
-def test_the_pages_replace_no_file_of_somebody_else(project: Path, capsys: Capture) -> None:
+def test_the_pages_replace_no_foreign_file(project: Path, capsys: Capture) -> None:
     (project / "README.md").write_text("mine\n", encoding="utf-8")
     assert main(["docs", "--out", "."]) == 0
     assert (project / "README.md").read_text(encoding="utf-8") == "mine\n"
@@ -469,7 +467,7 @@ def test_the_pages_replace_no_file_of_somebody_else(project: Path, capsys: Captu
     assert index.with_name("index.html.mine").read_text(encoding="utf-8") == "mine\n"
 
 
-def test_pages_that_are_wanted_no_more_go(project: Path) -> None:
+def test_obsolete_pages_are_removed(project: Path) -> None:
     assert main(["docs", "--out", "site"]) == 0
     before = snapshot(project / "site")
     put(project, "spec/demo.yaml", RENAMED)
@@ -489,7 +487,7 @@ def test_a_diff_says_what_would_change_line_by_line() -> None:
     )
 
 
-def test_a_diff_tells_a_new_file_and_a_removed_one() -> None:
+def test_a_diff_shows_a_new_file_and_a_removed_one() -> None:
     assert Change("a", "missing", None, "x\n").diff() == (
         "--- /dev/null\n+++ b/a\n@@ -0,0 +1 @@\n+x\n"
     )
@@ -498,7 +496,7 @@ def test_a_diff_tells_a_new_file_and_a_removed_one() -> None:
     )
 
 
-def test_a_diff_tells_a_last_line_without_an_end() -> None:
+def test_a_diff_shows_a_last_line_without_an_end() -> None:
     assert Change("a", "stale", "x", "x\n").diff() == (
         "--- a/a\n+++ b/a\n@@ -1 +1 @@\n-x\n\\ No newline at end of file\n+x\n"
     )
@@ -511,7 +509,7 @@ def test_a_diff_ends_its_lines_where_the_file_does() -> None:
     )
 
 
-def test_a_diff_tells_an_empty_file_too() -> None:
+def test_a_diff_shows_an_empty_file_too() -> None:
     assert Change("py.typed", "missing", None, "").diff() == "--- /dev/null\n+++ b/py.typed\n"
     assert Change("py.typed", "orphaned", "", None).diff() == "--- a/py.typed\n+++ /dev/null\n"
 

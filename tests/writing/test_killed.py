@@ -115,7 +115,7 @@ def test_a_disk_that_fails_at_any_step_loses_nothing(
     shutil.copytree(tree, copy)
     after = finished(copy, EDITIONS[edition], force=force)
     shutil.rmtree(copy)
-    told = set()
+    hints = set()
     for number, when in moments(taken):
         shutil.copytree(tree, copy)
         with patched(number, when, fail):
@@ -123,13 +123,13 @@ def test_a_disk_that_fails_at_any_step_loses_nothing(
         found = snapshot(copy)
         if isinstance(error, Unusable):
             assert str(error) == "disk cannot be written: No space left on device"
-            told.add(error.hint.lstrip("0123456789").partition(" of ")[0])
+            hints.add(error.hint.lstrip("0123456789").partition(" of ")[0])
         if getattr(error, "hint", "") == "nothing was changed":
             assert without_workshop(found) == before
         assert wholly(without_workshop(found), before, after)
         assert finished(copy, EDITIONS[edition], force=force) == after
         shutil.rmtree(copy)
-    assert fail is _interrupted or told == {"nothing was changed", ""}
+    assert fail is _interrupted or hints == {"nothing was changed", ""}
 
 
 def failure(root: Path, edition: list[Output], *, force: bool) -> BaseException | None:
@@ -171,7 +171,7 @@ def test_what_a_killed_run_left_is_ignored_by_git_and_swept(tmp_path: Path) -> N
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="has no limit on the size of files")
-def test_a_file_that_may_not_grow_is_told_in_plain_words(tmp_path: Path) -> None:
+def test_a_file_size_limit_is_reported_in_plain_words(tmp_path: Path) -> None:
     (tmp_path / "spec").mkdir()
     shutil.copyfile(ROOT / "tests" / "specs" / "demo.yaml", tmp_path / "spec" / "demo.yaml")
     before = snapshot(tmp_path)

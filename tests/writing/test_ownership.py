@@ -63,7 +63,7 @@ def test_a_second_time_nothing_is_touched(root: Path) -> None:
     assert times(root) == before
 
 
-def test_what_changes_is_told_with_why(root: Path) -> None:
+def test_changes_are_reported_with_their_reasons(root: Path) -> None:
     expected = {
         f"{LIBRARY}/changed.py": "stale",
         f"{LIBRARY}/new.py": "missing",
@@ -140,7 +140,7 @@ def test_orphans_of_any_kind_are_known(root: Path) -> None:
 
 
 def test_a_name_that_changes_its_capitals_alone_keeps_its_file(root: Path) -> None:
-    """Also where capitals tell no names apart, and the orphan is the very file that is wanted."""
+    """Also where capitals do not distinguish names: the orphan is then the wanted file itself."""
     other = output(same="x = 1\n", Heat="old")
     page = f"{PAGES}/messages/Heat.md"
     renamed = replace(
@@ -148,7 +148,7 @@ def test_a_name_that_changes_its_capitals_alone_keeps_its_file(root: Path) -> No
     )
     write(root, [other])
     twin = root / page.replace("Heat", "HEAT")
-    if not twin.exists():  # where capitals do tell names apart
+    if not twin.exists():  # where names that differ in capitals are two files
         shutil.copyfile(root / page, twin)
     done = write(root, [renamed]).changes
     assert whys(done) == {page: "orphaned", page.replace("Heat", "HEAT"): "stale"}
@@ -196,21 +196,21 @@ OTHERS = {
 
 
 @pytest.mark.parametrize("name", OTHERS)
-def test_what_is_not_our_own_is_never_replaced_or_removed(root: Path, name: str) -> None:
+def test_foreign_files_are_never_replaced_or_removed(root: Path, name: str) -> None:
     spoil, why = OTHERS[name]
     path, _ = spoil(root)
     before = snapshot(root)
     assert whys(changes(root, [AFTER]))[path] == why
-    with pytest.raises(Unusable) as told:
+    with pytest.raises(Unusable) as caught:
         write(root, [AFTER])
-    assert f"  {why}: {path}" in str(told.value)
-    assert str(told.value).startswith("somebody's work would be lost, so nothing was written")
-    assert "--force" in told.value.hint
+    assert f"  {why}: {path}" in str(caught.value)
+    assert str(caught.value).startswith("somebody's work would be lost, so nothing was written")
+    assert "--force" in caught.value.hint
     assert snapshot(root) == before
 
 
 @pytest.mark.parametrize("name", OTHERS)
-def test_with_force_it_is_kept_beside(root: Path, tmp_path: Path, name: str) -> None:
+def test_with_force_a_foreign_file_is_kept_beside(root: Path, tmp_path: Path, name: str) -> None:
     path, data = OTHERS[name][0](root)
     put(root, f"{path}.mine", "kept before\n")
     done = write(root, [AFTER], force=True)
@@ -224,14 +224,14 @@ def test_with_force_it_is_kept_beside(root: Path, tmp_path: Path, name: str) -> 
     assert (found_now.changes, found_now.strangers) == ([], [])
 
 
-def test_an_edit_is_told_although_the_spec_is_what_it_was(root: Path) -> None:
+def test_an_edit_is_reported_even_with_an_unchanged_spec(root: Path) -> None:
     path, _ = _edited(root)
     assert whys(changes(root, [BEFORE])) == {path: "edited by hand"}
     with pytest.raises(Unusable):
         write(root, [BEFORE])
 
 
-def test_an_edit_that_the_next_edition_makes_too_is_none(root: Path) -> None:
+def test_an_edit_equal_to_the_new_output_is_no_edit(root: Path) -> None:
     """Whoever has anticipated the output has nothing to lose."""
     put(root, f"{LIBRARY}/changed.py", AFTER.files[f"{LIBRARY}/changed.py"])
     put(root, f"{LIBRARY}/new.py", AFTER.files[f"{LIBRARY}/new.py"])
@@ -239,18 +239,18 @@ def test_an_edit_that_the_next_edition_makes_too_is_none(root: Path) -> None:
     assert changes(root, [AFTER]) == []
 
 
-def test_of_many_files_in_the_way_some_are_named(root: Path) -> None:
+def test_the_first_of_many_files_in_the_way_are_named(root: Path) -> None:
     wide = output(**{f"m{n}": "x = 1\n" for n in range(30)})
     for path in wide.files:
         put(root, path, "mine\n")
-    with pytest.raises(Unusable) as told:
+    with pytest.raises(Unusable) as caught:
         write(root, [wide])
-    assert str(told.value).count("foreign: ") == 20
-    assert str(told.value).endswith("  and 10 more files")
+    assert str(caught.value).count("foreign: ") == 20
+    assert str(caught.value).endswith("  and 10 more files")
 
 
 @pytest.mark.parametrize("name", ["notes.md", "mine.py", "sub/deep.py", "data.bin"])
-def test_a_file_in_nobodys_way_is_left_alone_and_told(root: Path, name: str) -> None:
+def test_a_foreign_file_in_nobodys_way_is_reported_and_left_alone(root: Path, name: str) -> None:
     put(root, f"{LIBRARY}/{name}", "mine\n")
     assert changes(root, [BEFORE]) == []
     done = write(root, [AFTER])
@@ -268,14 +268,14 @@ def test_a_file_in_nobodys_way_is_left_alone_and_told(root: Path, name: str) -> 
         "same.py.mine-12",
     ],
 )
-def test_litter_and_what_was_kept_are_no_strangers(root: Path, name: str) -> None:
+def test_litter_and_kept_files_are_not_foreign(root: Path, name: str) -> None:
     put(root, f"{LIBRARY}/{name}", "\0")
     assert survey(root, [BEFORE]).strangers == []
     write(root, [AFTER])
     assert (root / LIBRARY / name).exists()
 
 
-def test_what_lies_beside_the_output_is_nobodys_business(root: Path) -> None:
+def test_files_beside_the_output_are_ignored(root: Path) -> None:
     for path in ("generated/other/mine.py", "generated/notes.md", "docs/a.md", "mine.py"):
         put(root, path, "mine\n")
     found = survey(root, [BEFORE])
@@ -340,7 +340,7 @@ def test_without_a_manifest_a_file_of_somebody_else_is_not_adopted(root: Path) -
         write(root, [AFTER])
 
 
-def test_files_in_which_git_left_a_conflict_are_nobodys_work(root: Path) -> None:
+def test_files_with_merge_conflicts_are_no_edits(root: Path) -> None:
     conflict = f"{BANNER}<<<<<<< ours\nx = 1\n=======\nx = 2\n>>>>>>> theirs\n"
     put(root, f"{LIBRARY}/changed.py", conflict)
     put(root, f"{LIBRARY}/new.py", conflict)
@@ -387,7 +387,7 @@ def test_two_manifests_that_git_has_joined_know_the_files_of_both(root: Path) ->
 @pytest.mark.parametrize(
     "path", ["/etc/x", "../x", "a/../../x", "a\\..\\x", "C:/x", "./x", "a//x", "a/", ".", ".."]
 )
-def test_a_line_that_leads_astray_is_damage(root: Path, path: str) -> None:
+def test_a_manifest_line_that_leads_out_is_damage(root: Path, path: str) -> None:
     file = root / MANIFEST
     file.write_text(file.read_text(encoding="utf-8") + f"{'0' * 64}  {path}\n", encoding="utf-8")
     assert survey(root, [BEFORE]).notices != []
@@ -415,7 +415,7 @@ def test_several_specs_lie_side_by_side(tmp_path: Path) -> None:
     assert changes(tmp_path, [AFTER, OTHER, THIRD, schema()]) == []
 
 
-def test_what_came_of_a_spec_that_is_gone_goes_when_all_are_written(tmp_path: Path) -> None:
+def test_output_of_a_removed_spec_goes_when_all_are_written(tmp_path: Path) -> None:
     write(tmp_path, [BEFORE, OTHER, THIRD, schema()], all_of="spec")
     assert changes(tmp_path, [BEFORE, THIRD, schema()]) == []
     write(tmp_path, [BEFORE, THIRD, schema()], all_of="spec")
@@ -424,7 +424,7 @@ def test_what_came_of_a_spec_that_is_gone_goes_when_all_are_written(tmp_path: Pa
 
 
 @pytest.mark.parametrize("all_of", ["spec", None])
-def test_what_a_spec_made_under_its_former_name_goes(tmp_path: Path, all_of: str | None) -> None:
+def test_output_under_a_former_name_goes(tmp_path: Path, all_of: str | None) -> None:
     """The library renamed: nothing of the old package is left, and --check says so before."""
     write(tmp_path, [OTHER, BEFORE])
     renamed = output("furnace", SPEC, same="x = 1\n", Heat="heat")
@@ -435,7 +435,7 @@ def test_what_a_spec_made_under_its_former_name_goes(tmp_path: Path, all_of: str
     assert found_now == fresh(tmp_path / "elsewhere", OTHER, renamed)
 
 
-def test_what_came_of_a_spec_elsewhere_stays(tmp_path: Path) -> None:
+def test_output_of_a_spec_elsewhere_stays(tmp_path: Path) -> None:
     lone = output("oven", "drafts/oven.yaml", bake="x = 1\n")
     write(tmp_path, [BEFORE])
     write(tmp_path, [lone])
@@ -465,9 +465,9 @@ def test_a_file_that_moves_to_another_spec_is_no_loss(tmp_path: Path) -> None:
 @pytest.mark.parametrize("name", ["kiln", "Kiln"])
 def test_two_specs_of_one_name_are_refused(tmp_path: Path, name: str) -> None:
     twin = output(name, "spec/other.yaml", same="x = 1\n")
-    with pytest.raises(Unusable, match=r"spec/kiln\.yaml and spec/other\.yaml both make") as told:
+    with pytest.raises(Unusable, match=r"spec/kiln\.yaml and spec/other\.yaml both make") as caught:
         write(tmp_path, [BEFORE, twin])
-    assert "`name`" in told.value.hint
+    assert "`name`" in caught.value.hint
     assert snapshot(tmp_path) == {}
 
 
@@ -538,7 +538,7 @@ def test_a_part_first_and_the_whole_later(tmp_path: Path) -> None:
     assert snapshot(tmp_path) == fresh(tmp_path / "elsewhere", AFTER)
 
 
-def test_a_part_without_a_manifest_tells_what_the_rest_is(root: Path, tmp_path: Path) -> None:
+def test_a_part_without_a_manifest_reports_the_rest(root: Path, tmp_path: Path) -> None:
     (root / MANIFEST).unlink()
     write(root, [part(BEFORE, LIBRARY)])
     write(root, [AFTER])

@@ -46,10 +46,10 @@ def test_a_link_that_leads_out_is_refused_and_named(root: Path, tmp_path: Path, 
     _link(root / name, away, folder=True)
     before = snapshot(tmp_path)
     for force in (False, True):
-        with pytest.raises(Unusable) as told:
+        with pytest.raises(Unusable) as caught:
             write(root, [AFTER], force=force)
-        assert str(told.value) == f"{name} is a link that leads to {away}, out of {root}"
-        assert "--out FOLDER" in told.value.hint
+        assert str(caught.value) == f"{name} is a link that leads to {away}, out of {root}"
+        assert "--out FOLDER" in caught.value.hint
         with pytest.raises(Unusable):
             changes(root, [AFTER])
     assert snapshot(tmp_path) == before
@@ -137,7 +137,7 @@ def test_what_is_no_file_is_left_alone(root: Path, path: str, make: Callable[[Pa
     assert changes(root, [BEFORE]) == []
 
 
-def test_an_orphan_that_is_no_file_any_more_is_in_nobodys_way(root: Path) -> None:
+def test_an_orphan_that_is_no_file_any_more_is_left(root: Path) -> None:
     (root / LIBRARY / "gone.py").unlink()
     (root / LIBRARY / "gone.py").mkdir()
     write(root, [AFTER])
@@ -146,7 +146,7 @@ def test_an_orphan_that_is_no_file_any_more_is_in_nobodys_way(root: Path) -> Non
 
 
 @pytest.mark.parametrize("name", ["generated", LIBRARY])
-def test_a_file_where_a_folder_should_be_is_told(tmp_path: Path, name: str) -> None:
+def test_a_file_where_a_folder_should_be_is_reported(tmp_path: Path, name: str) -> None:
     put(tmp_path, name, "mine\n")
     before = snapshot(tmp_path)
     with pytest.raises(Unusable, match=f"{name} is no folder, but output goes there"):
@@ -180,11 +180,11 @@ def read_only(root: Path) -> Iterator[Path]:
 
 
 @pytest.mark.skipif(os.name == "nt", reason="folders are not read-only on Windows")
-def test_a_read_only_folder_is_told_and_left_alone(read_only: Path) -> None:
+def test_a_read_only_folder_is_reported_and_left_alone(read_only: Path) -> None:
     before = snapshot(read_only / LIBRARY)
-    with pytest.raises(Unusable, match="cannot be written: Permission denied") as told:
+    with pytest.raises(Unusable, match="cannot be written: Permission denied") as caught:
         write(read_only, [AFTER])
-    assert "run this again to finish" in told.value.hint
+    assert "run this again to finish" in caught.value.hint
     assert snapshot(read_only / LIBRARY) == before
 
 
@@ -199,15 +199,15 @@ def test_nothing_is_written_where_nothing_differs(read_only: Path) -> None:
 
 def test_a_second_run_waits_and_says_who_is_at_work(root: Path) -> None:
     before = snapshot(root)
-    with workshop(root, 0), pytest.raises(Unusable) as told:
+    with workshop(root, 0), pytest.raises(Unusable) as caught:
         write(root, [AFTER], timeout=0.2)
     message = f"another run of framegen (process {os.getpid()}) is writing in {root}"
-    assert str(told.value) == message
-    assert told.value.hint == "wait until it has ended, and run this again; nothing was changed"
+    assert str(caught.value) == message
+    assert caught.value.hint == "wait until it has ended, and run this again; nothing was changed"
     assert snapshot(root) == before
 
 
-def test_to_look_waits_for_nobody(root: Path) -> None:
+def test_a_survey_does_not_wait_for_the_lock(root: Path) -> None:
     with workshop(root, 0):
         before = snapshot(root)
         assert survey(root, [AFTER]).changes != []
@@ -245,7 +245,7 @@ def test_runs_at_once_take_turns(root: Path) -> None:
     assert [changes(root, state) for state in states].count([]) == 1
 
 
-def test_a_lock_that_nobody_holds_keeps_nobody_out(root: Path) -> None:
+def test_a_stale_lock_keeps_nobody_out(root: Path) -> None:
     """Of a run that was killed, or on a system that has lost its power."""
     put(root, f"{NAME}/lock", "1\n")
     write(root, [AFTER], timeout=0)
