@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from ._codec.decoder import Event, StreamDecoder
+from ._codec.decoder import StreamDecoder
 from ._codec.noise import Noise
 from ._codec.rejects import Rejects
 from ._frame.direction import Direction
@@ -25,6 +25,8 @@ from .messages import (
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
+    from collections.abc import Iterable
+
     import typing_extensions as typing
 else:
     from ._frame.typing_later import typing
@@ -55,11 +57,11 @@ class Device:
 
     def accept(self, data: bytes | bytearray | memoryview) -> None:
         """Take in bytes; the messages to send wait for `take`. Never raises on input."""
-        self._hear(self._decoder.feed(data))
+        self._receive(self._decoder.feed(data))
 
     def quiet(self) -> None:
         """End the frame in progress: the line has been quiet for too long to wait for its rest."""
-        self._hear(self._decoder.flush())
+        self._receive(self._decoder.flush())
 
     def restart(self) -> None:
         """Discard half a frame and all messages to be sent: the device was switched off."""
@@ -116,7 +118,7 @@ class Device:
         Return the ServoPositions as the reply, or None to stay silent.
         """
 
-    def _hear(self, events: list[Event]) -> None:
+    def _receive(self, events: Iterable[Message | Noise]) -> None:
         for event in events:
             if isinstance(event, Noise):
                 if self.rejects.add(event):

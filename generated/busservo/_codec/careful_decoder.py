@@ -21,11 +21,10 @@ GAP = 0.05
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Iterator, Sequence
 
     from .._frame.direction import Direction
-    from ..messages import Decoded
-    from .decoder import Event
+    from .._frame.message import Message
 
 
 class CarefulDecoder:
@@ -48,15 +47,15 @@ class CarefulDecoder:
         self._direction = direction
         self._decoder = StreamDecoder(direction)
         # The message that is held, and the bytes that have come since.
-        self._doubted: Decoded | None = None
+        self._doubted: Message | None = None
         self._later = b""
         # The decoder of what may begin inside it, where that begins, and its events so far.
         self._rival = self._decoder
         self._rival_at = 0
-        self._rival_events: list[Event] = []
+        self._rival_events: list[Message | Noise] = []
 
     @property
-    def doubted(self) -> Decoded | None:
+    def doubted(self) -> Message | None:
         """The message that is held back, if there is one."""
         return self._doubted
 
@@ -72,7 +71,7 @@ class CarefulDecoder:
         """How many bytes must come, at the least, before the next event."""
         return 1 if self._doubted is not None else self._decoder.missing
 
-    def feed(self, data: bytes) -> list[Event]:
+    def feed(self, data: bytes) -> Sequence[Message | Noise]:
         """Take in bytes, and return the events that are certain now."""
         doubted = self._doubted
         if doubted is None:
@@ -86,7 +85,7 @@ class CarefulDecoder:
         self._believe()
         return [doubted, *self.feed(later)]
 
-    def flush(self) -> list[Event]:
+    def flush(self) -> Sequence[Message | Noise]:
         """Decode the bytes held back, as the line is quiet: they are no frame, but may hide one.
 
         A message that is in doubt is one if no byte has come behind it. Otherwise it cannot be
@@ -113,7 +112,7 @@ class CarefulDecoder:
         other._later, other._rival_events = self._later, [*self._rival_events]
         return other
 
-    def _sifted(self, events: list[Event]) -> list[Event]:
+    def _sifted(self, events: Sequence[Message | Noise]) -> Sequence[Message | Noise]:
         """Return the events up to a message that is in doubt; what follows is decoded again."""
         for number, event in enumerate(events):
             if isinstance(event, Noise) or not (self._is_torn(event) or self._doubt(event)):
@@ -127,14 +126,14 @@ class CarefulDecoder:
             return [*events[:number], *found, *(self.feed(rest) if rest else ())]
         return events
 
-    def _is_torn(self, message: Decoded) -> bool:
+    def _is_torn(self, message: Message) -> bool:
         """Return whether a message ends in whole frames, which have filled its gap."""
         return any(
             self._rival_events and not any(isinstance(event, Noise) for event in self._rival_events)
             for _ in self._rivals(message)
         )
 
-    def _doubt(self, message: Decoded) -> bool:
+    def _doubt(self, message: Message) -> bool:
         """Hold a message back if a frame may begin in its last bytes."""
         size = len(message.encode())
         if not any(
@@ -145,12 +144,12 @@ class CarefulDecoder:
         self._doubted, self._later = message, b""
         return True
 
-    def _rivals(self, message: Decoded) -> Iterator[int]:
+    def _rivals(self, message: Message) -> Iterator[int]:
         """Decode anew from each place in a message where another may begin, one after the other."""
         frame = message.encode()
         for at in _beginnings(frame):
             self._rival, self._rival_at = StreamDecoder(self._direction), at
-            self._rival_events = self._rival.feed(frame[at:])
+            self._rival_events = [*self._rival.feed(frame[at:])]
             yield at
 
     def _rival_found_a_message(self) -> bool:
@@ -168,7 +167,7 @@ class CarefulDecoder:
             at += len(event.data)
         return at + self._rival.scanned
 
-    def _refuted(self, doubted: Decoded) -> list[Event]:
+    def _refuted(self, doubted: Message) -> Sequence[Message | Noise]:
         """Treat a doubted message as the start of one frame, and then another."""
         self._doubted, self._later = None, b""
         self._decoder = self._rival
