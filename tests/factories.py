@@ -31,6 +31,25 @@ FIRST = frozenset(
     ]
 )
 
+# A command that busservo does not have, as its spec would declare it.
+NEW_MESSAGE = """\
+  HornBlow:
+    id: 201
+    direction: host -> controller
+    summary: Blow the horn on the board.
+    cite: vendor, section 1.8
+    length: 5
+    fields:
+      times: {type: u8, about: How many times.}
+      pause_ms: {type: u16, unit: ms, about: How long the pause between two of them is.}
+    examples:
+      - title: Blow twice, 300 ms apart
+        hex: 55 55 05 C9 02 2C 01
+        values: {times: 2, pause_ms: 300}
+        cite: vendor, section 1.8, example 1
+
+"""
+
 Data: TypeAlias = "dict[str, Any]"
 Steps: TypeAlias = "tuple[str | int, ...]"
 

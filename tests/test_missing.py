@@ -10,7 +10,7 @@ import pytest
 from framegen.cli import main
 from framegen.witnesses import DECLARATION, read_witnesses
 
-from tests.factories import BUSSERVO, ROOT, data_of
+from tests.factories import BUSSERVO, NEW_MESSAGE, ROOT, data_of
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -22,23 +22,6 @@ Missing: TypeAlias = "tuple[str, str, str]"
 CASES, ORACLE = "tests/cases.py", "tests/oracle.py"
 CONTRACT = "tests/test_client_contract.py"
 
-BLOW = """\
-  HornBlow:
-    id: 201
-    direction: host -> controller
-    summary: Blow the horn on the board.
-    cite: vendor, section 1.8
-    length: 5
-    fields:
-      times: {type: u8, about: How many times.}
-      pause_ms: {type: u16, unit: ms, about: How long the pause between two of them is.}
-    examples:
-      - title: Blow twice, 300 ms apart
-        hex: 55 55 05 C9 02 2C 01
-        values: {times: 2, pause_ms: 300}
-        cite: vendor, section 1.8, example 1
-
-"""
 BLOW_CASE = """\
     Case(
         HornBlow(times=2, pause_ms=300), "55 55 05 C9 02 2C 01", HOST, "1.8 example 1"
@@ -115,7 +98,7 @@ def test_nothing_is_missing(capsys: Capture, monkeypatch: pytest.MonkeyPatch) ->
 # The changes of the spec, what is missing after them, and what has to be written.
 CHANGES: dict[str, tuple[list[tuple[str, str]], list[Missing], dict[str, tuple[str, str]]]] = {
     "a command": (
-        [("  ServoUnload:\n", f"{BLOW}  ServoUnload:\n")],
+        [("  ServoUnload:\n", f"{NEW_MESSAGE}  ServoUnload:\n")],
         [
             ("case", CASES, "messages.HornBlow"),
             ("layout", ORACLE, "messages.HornBlow"),

@@ -16,7 +16,7 @@ from framegen.reading.source import Source
 from framegen.render import render, snippets
 from framegen.targets.docs.html_pages import render_site
 
-from tests.factories import BUSSERVO, DEMO, Data, Steps, data_of
+from tests.factories import BUSSERVO, DEMO, NEW_MESSAGE, Data, Steps, data_of
 
 SPECS = {"busservo": BUSSERVO, "greenhouse": DEMO}
 PATH = "spec/some.yaml"
@@ -34,24 +34,6 @@ MOST = 8
 
 # Modules that hold the words which the command prints; all else has words in docstrings alone.
 FOR_READERS = {"_cli/examples.py", "_codec/lookalikes.py"}
-
-MESSAGE = """\
-  HornBlow:
-    id: 201
-    direction: host -> controller
-    summary: Blow the horn on the board.
-    cite: vendor, section 1.8
-    length: 5
-    fields:
-      times: {type: u8, about: How many times.}
-      pause_ms: {type: u16, unit: ms, about: How long the pause between two of them is.}
-    examples:
-      - title: Blow twice, 300 ms apart
-        hex: 55 55 05 C9 02 2C 01
-        values: {times: 2, pause_ms: 300}
-        cite: vendor, section 1.8, example 1
-
-"""
 
 
 def compiled(text: str) -> Compiled:
@@ -263,7 +245,7 @@ def test_a_new_message_changes_what_shows_it() -> None:
     text = text_of("busservo")
     # Before the line above the messages of the controller.
     where = text.index("  # -----", text.index("  ServoUnload:"))
-    touched = changed(files(text), files(text[:where] + MESSAGE + text[where:]))
+    touched = changed(files(text), files(text[:where] + NEW_MESSAGE + text[where:]))
     pages = {"README.md", "examples.md", "messages/HornBlow.md", "sequences.md"}
     modules = {
         *("__init__.py", "__init__.pyi", "messages.py", "strategies.py", "vectors.json"),
@@ -279,7 +261,7 @@ def test_a_new_message_changes_few_vectors_of_others() -> None:
     text = text_of("busservo")
     where = text.index("  # -----", text.index("  ServoUnload:"))
     path = "generated/busservo/vectors.json"
-    new = text[:where] + MESSAGE + text[where:]
+    new = text[:where] + NEW_MESSAGE + text[where:]
     before, after = (files(each)[path].splitlines() for each in (text, new))
     gone = [json.loads(line.rstrip(","))["title"] for line in before if line not in after]
     # Unless there were so many that these lines did not change either.

@@ -18,11 +18,6 @@ class NumberType:
     high: int
     code: str
 
-    @property
-    def is_byte(self) -> bool:
-        """Whether it is an unsigned byte."""
-        return self.size == 1 and self.low == 0
-
 
 NUMBER_TYPES = {
     number_type.name: number_type
