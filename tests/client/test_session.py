@@ -328,6 +328,20 @@ def test_half_a_report_is_not_lost_because_a_request_times_out_meanwhile() -> No
     assert line.counters.noise == 0
 
 
+def test_stray_bytes_and_half_a_report_are_told_together_where_no_reply_came() -> None:
+    line = session()
+    request = requested(line, BatteryVoltageRead())
+    line.receive(b"\xff\xff\xff", 0.02)
+    assert line.tick_at is not None
+    expires = line.tick_at
+    report = ActionGroupCompleted(8, 1).encode()
+    line.receive(report[:4], expires - 0.04)
+    line.receive(report[4:6], expires + 0.009)
+    line.tick(expires + 0.05)
+    assert isinstance(request.error, NoReplyError)
+    assert request.error.noise == 3 + 6
+
+
 def test_a_reply_behind_a_false_header_is_found_before_the_time_is_up() -> None:
     line = session()
     request = requested(line, BatteryVoltageRead())
