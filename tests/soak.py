@@ -50,7 +50,7 @@ LIVE["longest_delay"] = 0.1
 VIRTUAL = {"noise": 0.2, "splits": 0.2, "coalesced": 0.1, "delays": 0.2, "dropped": 0.1}
 # Later than a request waits for its reply, but not than the next one of its kind does.
 VIRTUAL["longest_delay"] = 0.4
-BOTH = {"fewer": 0.05, "absent": 0.05, "unasked": 0.2}
+BOTH = {"fewer": 0.05, "absent": 0.05, "unsolicited": 0.2}
 # What a round may leave behind: caches that grow by a little, and never by a message each.
 SPARE_BLOCKS = 2000
 # Fewer do not even fill what is kept on purpose: the board's log, the latest reports.

@@ -43,7 +43,7 @@ class FaultInjector:
 
     def reports(self, report: Report) -> Iterator[Report]:
         """Yield the reports that are sent in place of `report`."""
-        if self._happens(self.faults.unasked):
+        if self._happens(self.faults.unsolicited):
             yield self._unsolicited()
         if isinstance(report, REPLIES) and self._happens(self.faults.dropped):
             return

@@ -39,7 +39,7 @@ class Faults:
     fewer: float = _chance("a servo is left out of a reply; the chance is that of each servo")
     absent: float = _chance("a servo is reported off, by 65535; the chance is that of each servo")
     wrong_count: float = _chance("a reply counts one servo more, or fewer, than its length holds")
-    unasked: float = _chance("a report that nobody asked for comes in front of a frame")
+    unsolicited: float = _chance("an unsolicited report comes in front of a frame")
     hang_up: float = _chance("the line is cut in the middle of a frame")
     noise_to_board: float = _chance("bytes that hold no header come in front of what a host writes")
     bit_flips_to_board: float = _chance(

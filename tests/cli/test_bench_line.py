@@ -27,7 +27,7 @@ def test_round_trips_and_the_share_of_the_line_rate_are_reported(
         port = board.port
         assert (board.accepted, board.rejects.total) == (5, 0)
     first, wire, trips, rate, errors = capsys.readouterr().out.splitlines()
-    assert first == f"ServoPositionsRead servo_ids=1,2,3,4,5,6 on {port}: 5 asked, 5 answered"
+    assert first == f"ServoPositionsRead servo_ids=1,2,3,4,5,6 on {port}: 5 requests, 5 answered"
     assert wire == "  the wire alone  35.42 ms: 11 bytes there and 23 back, at 9600 baud"
     times = [float(each) for each in re.findall(r"([0-9.]+) ms", trips)]
     assert times == sorted(times)
@@ -42,7 +42,7 @@ def test_json_has_the_same_in_seconds(capsys: pytest.CaptureFixture[str]) -> Non
     with VirtualController("tcp") as board:
         assert main(["bench-line", "--port", board.port, "-n", "3", "--json", *PATIENT]) == 0
     found = json.loads(capsys.readouterr().out)
-    assert (found["question"], found["asked"], found["answered"]) == ("BatteryVoltageRead", 3, 3)
+    assert (found["question"], found["requests"], found["answered"]) == ("BatteryVoltageRead", 3, 3)
     assert (found["errors"], found["wire"], found["baud"]) == ({}, 0.010417, 9600)
     assert 0 < found["min"] <= found["median"] <= found["max"]
 
@@ -106,7 +106,7 @@ def test_errors_are_counted_by_kind(
     words = ["ServoPositionsRead", "servo_ids=1,2", "-n", "5"]
     assert main(["bench-line", "--port", "COM7", *words]) == 1
     lines = capsys.readouterr().out.splitlines()
-    assert lines[0].endswith(" on COM7: 5 asked, 3 answered")
+    assert lines[0].endswith(" on COM7: 5 requests, 3 answered")
     assert lines[-1] == "  errors          2 no reply, 1 incomplete reply"
 
 
@@ -114,7 +114,7 @@ def test_a_lost_line_ends_the_measurement(capsys: pytest.CaptureFixture[str]) ->
     with VirtualController("tcp", faults=Faults(hang_up=1.0)) as board:
         assert main(["bench-line", "--port", board.port, *PATIENT]) == 3
     output, errors = capsys.readouterr()
-    assert output.splitlines()[0].endswith(": 0 asked, 0 answered")
+    assert output.splitlines()[0].endswith(": 0 requests, 0 answered")
     assert "the line was lost" in errors
 
 
@@ -122,7 +122,7 @@ def test_silence_alone_gives_no_times(capsys: pytest.CaptureFixture[str]) -> Non
     words = ["--timeout", "0.02", "-n", "2"]
     assert main(["bench-line", "--port", "loop://", *words]) == 1
     assert capsys.readouterr().out.splitlines() == [
-        "BatteryVoltageRead on loop://: 2 asked, 0 answered",
+        "BatteryVoltageRead on loop://: 2 requests, 0 answered",
         "  errors          2 no reply",
     ]
 
@@ -159,5 +159,5 @@ def test_a_question_must_be_named_where_each_has_fields(
     monkeypatch.setattr(bench_line, "_usual", lambda: None)
     assert main(["bench-line", "--port", "no-such-port"]) == 2
     errors = capsys.readouterr().err
-    assert "name the question that is to be asked" in errors
+    assert "name the question to measure" in errors
     assert "questions are BatteryVoltageRead, ServoPositionsRead" in errors

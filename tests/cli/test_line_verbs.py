@@ -77,7 +77,7 @@ def test_a_question_too_large_for_one_reply_is_sent_in_parts(
     parts = [json.loads(line)["fields"]["positions"] for line in output.splitlines()]
     assert [len(each) for each in parts] == [84, 84, 32]
     assert [each["servo_id"] for part in parts for each in part] == [*servos]
-    assert errors == "asked in 3 requests: one reply has no room for so much\n"
+    assert errors == "sent in 3 requests: one reply has no room for so much\n"
 
 
 def test_silence_after_a_part_keeps_what_had_come(
@@ -91,7 +91,7 @@ def test_silence_after_a_part_keeps_what_had_come(
     output, errors = capsys.readouterr()
     assert output.count("ServoPositions positions=1:500 |") == 1
     first, incomplete, silent = errors.splitlines()
-    assert first == "asked in 2 requests: one reply has no room for so much"
+    assert first == "sent in 2 requests: one reply has no room for so much"
     assert incomplete.startswith("the reply is incomplete: nothing of servo_ids 2, 3, 4, ")
     assert "no ServoPositions came within" in silent
 

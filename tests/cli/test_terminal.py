@@ -202,7 +202,7 @@ def test_a_replay_reports_a_lost_line(board: VirtualController, tmp_path: Path) 
 def test_ctrl_c_ends_a_measurement_with_what_was_measured(board: VirtualController) -> None:
     words = ("bench-line", "--port", board.port, "-n", "1000000", "--timeout", str(GENEROUS))
     with OnTerminal(*words) as bench:
-        bench.wait_for(r"[0-9]+ of 1000000 asked")
+        bench.wait_for(r"[0-9]+ of 1000000 requests")
         bench.type(CTRL_C)
         assert bench.end() == 130
         first, *rows, rest = bench.lines

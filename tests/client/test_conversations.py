@@ -62,7 +62,7 @@ schedules = st.builds(
     dropped=chance,
     fewer=chance,
     absent=chance,
-    unasked=chance,
+    unsolicited=chance,
     longest_delay=st.sampled_from([0.01, LATE / 2, LATE]),
     splits_to_board=chance,
 )
@@ -185,11 +185,11 @@ FAULTS = {
         dropped=0.05,
         fewer=0.1,
         absent=0.1,
-        unasked=0.5,
+        unsolicited=0.5,
         longest_delay=0.05,
         splits_to_board=0.3,
     ),
-    "cut": Faults(noise=0.2, unasked=0.3, hang_up=0.08),
+    "cut": Faults(noise=0.2, unsolicited=0.3, hang_up=0.08),
 }
 # As if on a slow machine, where an answer takes its time; each lost one costs twice as much.
 LIVE_REPLY_TIMEOUT = 0.5

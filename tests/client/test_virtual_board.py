@@ -20,7 +20,7 @@ from busservo_simulator import Faults, VirtualClock, VirtualController
 @pytest.mark.parametrize("seed", range(25))
 def test_whatever_goes_wrong_no_position_is_wrong(seed: int) -> None:
     faults = Faults(
-        seed=seed, noise=0.3, splits=0.5, delays=0.2, dropped=0.2, fewer=0.3, unasked=0.4
+        seed=seed, noise=0.3, splits=0.5, delays=0.2, dropped=0.2, fewer=0.3, unsolicited=0.4
     )
     clock = VirtualClock(follow_reads=True)
     with VirtualController(via="memory", servos=range(1, 7), clock=clock, faults=faults) as board:

@@ -180,7 +180,7 @@ def test_json_holds_everything(capsys: pytest.CaptureFixture[str]) -> None:
         "version": "1.0.0",
         "program": python(STUBBORN)[1:],
         "conforms": False,
-        "asked": report["agreed"] + report["differed"],
+        "questions": report["agreed"] + report["differed"],
         "agreed": report["agreed"],
         "differed": len(report["differences"]),
         "unsupported": {"decode": 0, "encode": 0, "stream": 0},

@@ -429,7 +429,7 @@ def test_any_answer_of_a_program_can_be_reported(said: list[str], question: Ques
     text = list(report.as_text(MODEL, trial, ["./codec"]))
     assert text[-1].startswith("./codec: ")
     assert all("\n" not in line for line in text)
-    assert json.loads(json.dumps(report.as_json(MODEL, trial, ["./codec"], None)))["asked"] == 1
+    assert json.loads(json.dumps(report.as_json(MODEL, trial, ["./codec"], None)))["questions"] == 1
 
 
 @pytest.mark.parametrize(

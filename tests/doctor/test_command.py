@@ -108,7 +108,7 @@ def test_a_report_is_a_recording_that_says_what_was_found(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     path = tmp_path / "report.hex"
-    with board_with(Faults(noise=0.5, unasked=0.3, seed=1), local_echo=True) as board:
+    with board_with(Faults(noise=0.5, unsolicited=0.3, seed=1), local_echo=True) as board:
         report = report_of(diagnosis_of(board), path)
     lines = report.splitlines()
     assert lines[0].startswith("# doctor of busservo ")

@@ -86,7 +86,7 @@ CASES = {
         Faults(dropped=0.3, seed=6),
         expected={"reply": (FAILED, "not answered", "retries=2 asks again")},
     ),
-    "reports": Case(Faults(unasked=1.0)),
+    "reports": Case(Faults(unsolicited=1.0)),
     "hung up": Case(
         Faults(hang_up=1.0), expected=LOST | {"rate": (FAILED, "virtual board: ", "run this again")}
     ),
@@ -229,7 +229,7 @@ CHANCES = st.sampled_from([0.0, 0.0, 0.05, 0.5, 1.0])
         fewer=CHANCES,
         absent=CHANCES,
         wrong_count=CHANCES,
-        unasked=CHANCES,
+        unsolicited=CHANCES,
         hang_up=st.sampled_from([0.0, 0.0, 0.1]),
         late_by=st.floats(0, 5),
     ),

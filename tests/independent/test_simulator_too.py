@@ -122,7 +122,7 @@ whole = st.builds(
     longest_delay=st.sampled_from([0.01, 0.3, 1.0]),
     dropped=chance,
     wrong_count=chance,
-    unasked=chance,
+    unsolicited=chance,
 )
 holed = st.builds(
     Faults,

@@ -212,7 +212,7 @@ def test_servos_are_left_out_or_reported_to_be_off() -> None:
 
 
 def test_unsolicited_reports_are_sent() -> None:
-    with faulty(unasked=1) as board:
+    with faulty(unsolicited=1) as board:
         host = host_of(board)
         kinds = set()
         for _ in range(30):

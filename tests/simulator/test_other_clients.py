@@ -58,7 +58,7 @@ def test_a_client_that_writes_in_two_parts_and_reads_two_bytes_too_many_is_serve
 def test_a_client_that_clears_its_input_first_is_served(
     board: VirtualController, line: serial.Serial
 ) -> None:
-    board.faults = Faults(seed=1, noise=0.5, splits=0.5, unasked=0.5)
+    board.faults = Faults(seed=1, noise=0.5, splits=0.5, unsolicited=0.5)
     for _ in range(10):
         line.reset_input_buffer()
         line.write(READ_TWO)

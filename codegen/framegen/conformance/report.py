@@ -119,7 +119,7 @@ def as_json(model: Model, trial: Trial, command: Sequence[str], seed: int | None
         "version": protocol.version,
         "program": list(command),
         "conforms": trial.conforms,
-        "asked": trial.questions,
+        "questions": trial.questions,
         "agreed": trial.agreed,
         "differed": len(trial.differences),
         "unsupported": {kind.verb: trial.unsupported[kind.verb] for kind in _QUESTIONS},

@@ -55,7 +55,7 @@ def run(arguments: Namespace) -> int:
     messages = in_parts(arguments.message, arguments.fields)
     note_deprecated(type(messages[0]))
     if len(messages) > 1:
-        note = f"asked in {len(messages)} requests: one reply has no room for so much"
+        note = f"sent in {len(messages)} requests: one reply has no room for so much"
         print(note, file=sys.stderr)
     lines = EntryLines(sys.stdout, "json" if arguments.json else "text")
     missing: dict[str, list[int]] = {}

@@ -133,27 +133,27 @@ class NoReplyError(ProtocolError, TimeoutError):
 class IncompleteReplyError(ProtocolError):
     """A reply held less than was requested.
 
-    `missing` is what was requested and not received, `arrived` what was received (such as
-    positions), and `replies` the messages that held it.
+    `missing` is what was requested and not received, by its `field`, `arrived` what was received
+    (such as positions), and `replies` the messages that held it.
     """
 
     def __init__(
         self,
-        asked: str,
+        field: str,
         missing: Iterable[int],
         replies: Iterable[Message],
         arrived: Iterable[object],
     ) -> None:
-        self.asked = asked
+        self.field = field
         self.missing = tuple(missing)
         self.replies = tuple(replies)
         self.arrived = tuple(arrived)
-        super().__init__(asked, self.missing, self.replies, self.arrived)
+        super().__init__(field, self.missing, self.replies, self.arrived)
 
     def __str__(self) -> str:
         missing = ", ".join(str(number) for number in self.missing)
         return (
-            f"nothing was reported of {self.asked} {missing}; "
+            f"nothing was reported of {self.field} {missing}; "
             f"what did arrive ({len(self.arrived)}) is kept in `arrived`"
         )
 
@@ -164,7 +164,7 @@ class AbsentError(IncompleteReplyError):
     def __str__(self) -> str:
         missing = ", ".join(str(number) for number in self.missing)
         return (
-            f"nothing was sent, since these are off or missing: {self.asked} {missing}; "
+            f"nothing was sent, since these are off or missing: {self.field} {missing}; "
             f"what did arrive ({len(self.arrived)}) is kept in `arrived`"
         )
 

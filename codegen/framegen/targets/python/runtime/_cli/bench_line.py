@@ -81,7 +81,7 @@ def _question(arguments: Namespace) -> Message:
     questions = [kind.__name__ for kind, each in EXCHANGES.items() if each.reply is not None]
     known = f"questions are {', '.join(questions) or 'unknown to this protocol'}"
     if arguments.message is None:
-        raise UsageError(f"name the question that is to be asked; {known}")
+        raise UsageError(f"name the question to measure; {known}")
     kind, exchange = exchange_named(arguments.message)
     if exchange.reply is None:
         raise UsageError(f"nothing answers {kind.__name__}, so it cannot be timed; {known}")
@@ -113,7 +113,7 @@ class Trips:
         """Make `count` round trips. Raises TransportError once the line is lost."""
         began = time.perf_counter()
         try:
-            with shown_progress(lambda _: f"{self._requested} of {count} asked; Ctrl-C ends"):
+            with shown_progress(lambda _: f"{self._requested} of {count} requests; Ctrl-C ends"):
                 for _ in range(count):
                     self._make_one(client)
         finally:
@@ -147,7 +147,7 @@ class Trips:
         return {
             "question": type(self._question).__name__,
             "baud": None if self._baud == math.inf else self._baud,
-            "asked": self._requested,
+            "requests": self._requested,
             "answered": len(taken),
             "errors": self.errors,
             "unsolicited": self._unsolicited,
@@ -164,9 +164,8 @@ class Trips:
         """Return the result, for people."""
         found = self.as_record()
         name = " ".join(filter(None, [found["question"], fields_as_text(self._question)]))
-        lines = [
-            f"{name} on {visible(self._port)}: {self._requested} asked, {len(self._taken)} answered"
-        ]
+        counted = f"{self._requested} requests, {len(self._taken)} answered"
+        lines = [f"{name} on {visible(self._port)}: {counted}"]
         if self._taken:
             there, size = len(self._question.encode()), round(median(self._sizes))
             times = [f"{found[each] * 1000:.2f} ms" for each in ("wire", "min", "median", "max")]
