@@ -173,9 +173,12 @@ def renamed(value: Any, old: str, new: str) -> Any:
 
 def write_files(files: Mapping[str, str], folder: Path) -> None:
     """Write texts below `folder`, as they are, with the folders that they need."""
+    for above in {path.rpartition("/")[0] for path in files}:
+        (folder / above).mkdir(parents=True, exist_ok=True)
     for path, text in files.items():
-        (folder / path).parent.mkdir(parents=True, exist_ok=True)
-        (folder / path).write_text(text, encoding="utf-8", newline="")
+        # The shortest way: a library has two hundred files, and tests make hundreds of libraries.
+        with open(f"{folder}/{path}", "wb") as file:  # noqa: PTH123
+            file.write(text.encode())
 
 
 @contextmanager
@@ -187,9 +190,12 @@ def library(files: dict[str, str], folder: Path) -> Iterator[ModuleType]:
     before = {key: sys.modules.pop(key) for key in [*sys.modules] if key.split(".")[0] == name}
     sys.path.insert(0, str(folder / "generated"))
     importlib.invalidate_caches()
+    # Nobody imports it from there again.
+    cached, sys.dont_write_bytecode = sys.dont_write_bytecode, True
     try:
         yield importlib.import_module(name)
     finally:
+        sys.dont_write_bytecode = cached
         sys.path.remove(str(folder / "generated"))
         for module in [module for module in sys.modules if module.split(".")[0] == name]:
             del sys.modules[module]
