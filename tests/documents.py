@@ -58,8 +58,10 @@ TIMEOUT_OPTIONS = {
 # What a page runs is to take no longer than it must.
 GROUPS = {8: ActionGroup([Step(20, {2: 500})])}
 
-_NEEDED = (
-    *("spec", "generated", "codegen", "docs", "simulator", "tests/captures"),
+# What examples read, and what follows from it, for those that change it.
+_READ = ("spec", "docs", "tests/captures")
+_CHANGED = (
+    *("generated", "codegen", "simulator"),
     *("tests/witnesses.yaml", "tests/cases.py", "tests/oracle.py", "tests/test_client_contract.py"),
 )
 _COMMANDS = {"busservo": busservo._cli.main, "framegen": framegen.cli.main}
@@ -75,10 +77,11 @@ def played(page: str, folder: Path) -> str:
     return _BLOCK.sub(lambda block: f"```{block[1]}\n{player.play(block[1], block[2])}```", page)
 
 
-def copy_project(folder: Path) -> Path:
-    """Copy all that the examples work on, and return the copy."""
+def copy_project(folder: Path, page: str) -> Path:
+    """Copy all that the examples of a page work on, and return the copy."""
     litter = shutil.ignore_patterns("__pycache__")
-    for name in _NEEDED:
+    kinds = {kind for kind, _ in _BLOCK.findall(page)}
+    for name in (*(_READ if kinds else ()), *(_CHANGED if "diff" in kinds else ())):
         if (ROOT / name).is_dir():
             shutil.copytree(ROOT / name, folder / name, ignore=litter)
         else:
@@ -254,7 +257,7 @@ def _refresh() -> None:
     for page in PAGES:
         text = page.read_text(encoding="utf-8")
         with tempfile.TemporaryDirectory() as folder:
-            new = played(text, copy_project(Path(folder)))
+            new = played(text, copy_project(Path(folder), text))
         if new != text:
             page.write_text(new, encoding="utf-8", newline="\n")
             print(f"wrote {page.relative_to(ROOT)}")

@@ -6,9 +6,10 @@ import re
 import sys
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
+from importlib.machinery import FileFinder, SourceFileLoader
 from pathlib import Path
-from types import ModuleType
-from typing import Any, TypeAlias
+from types import CodeType, ModuleType
+from typing import Any, ClassVar, TypeAlias
 
 from framegen.compile import Compiled, compile_spec
 from framegen.language.load import read_source
@@ -173,9 +174,31 @@ def renamed(value: Any, old: str, new: str) -> Any:
 
 def write_files(files: Mapping[str, str], folder: Path) -> None:
     """Write texts below `folder`, as they are, with the folders that they need."""
+    for above in {path.rpartition("/")[0] for path in files}:
+        (folder / above).mkdir(parents=True, exist_ok=True)
     for path, text in files.items():
-        (folder / path).parent.mkdir(parents=True, exist_ok=True)
-        (folder / path).write_text(text, encoding="utf-8", newline="")
+        # The shortest way: a library has two hundred files, and tests make hundreds of libraries.
+        with open(f"{folder}/{path}", "wb") as file:  # noqa: PTH123
+            file.write(text.encode())
+
+
+class OneCompiler(SourceFileLoader):
+    """Compiles a text once: most modules are the same in all libraries."""
+
+    made: ClassVar[dict[bytes, CodeType]] = {}
+
+    def get_code(self, fullname: str) -> CodeType:
+        path = self.get_filename(fullname)
+        text = self.get_data(path)
+        if text not in self.made:
+            self.made[text] = compile(text, path, "exec", dont_inherit=True)
+        return code_at(path, self.made[text])
+
+
+def code_at(path: str, code: CodeType) -> CodeType:
+    """Return code as if it had been compiled from the file at `path`."""
+    inner = (code_at(path, it) if isinstance(it, CodeType) else it for it in code.co_consts)
+    return code.replace(co_filename=path, co_consts=tuple(inner))
 
 
 @contextmanager
@@ -187,9 +210,17 @@ def library(files: dict[str, str], folder: Path) -> Iterator[ModuleType]:
     before = {key: sys.modules.pop(key) for key in [*sys.modules] if key.split(".")[0] == name}
     sys.path.insert(0, str(folder / "generated"))
     importlib.invalidate_caches()
+
+    def finder(path: str) -> FileFinder:
+        if not Path(path).is_relative_to(folder):
+            raise ImportError(path)
+        return FileFinder(path, (OneCompiler, [".py"]))
+
+    sys.path_hooks.insert(0, finder)
     try:
         yield importlib.import_module(name)
     finally:
+        sys.path_hooks.remove(finder)
         sys.path.remove(str(folder / "generated"))
         for module in [module for module in sys.modules if module.split(".")[0] == name]:
             del sys.modules[module]

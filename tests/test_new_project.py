@@ -47,7 +47,7 @@ def python(project: Path, *words: str) -> subprocess.CompletedProcess[str]:
     return subprocess.run(
         [sys.executable, *words],
         cwd=project,
-        env=os.environ | {"PYTHONPATH": path, "PYTHONDONTWRITEBYTECODE": "1"},
+        env=os.environ | {"PYTHONPATH": path},
         capture_output=True,
         encoding="utf-8",
         timeout=5 * GENEROUS,

@@ -111,10 +111,14 @@ NEW = """
   ServoUnload:"""
 
 BOARD = """
-import asyncio, socket, threading
+import asyncio, socket, threading, types
 import busservo
 from busservo import LampBlinking, LampsState
 from busservo.device import Device
+from serial.urlhandler import protocol_socket
+
+# As in tests/conftest.py: nobody waits behind a socket that is closed.
+protocol_socket.time = types.SimpleNamespace(sleep=lambda seconds: None)
 
 class Board(Device):
     levels = {1: 0, 2: 0, 7: 0}

@@ -2,16 +2,19 @@
 
 import ast
 import contextlib
+import importlib
 import io
 import re
 import subprocess
 import sys
 import tokenize
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
+from functools import cache
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeAlias
 
 import pytest
+from framegen.compile import Compiled
 from framegen.render import render_target
 from framegen.targets.vectors import TARGET as VECTORS
 
@@ -23,8 +26,11 @@ from tests.factories import (
     data_of,
     files_of,
     leaves,
-    write_files,
+    library,
+    library_files,
 )
+
+Call: TypeAlias = "Callable[..., tuple[int, str]]"
 
 # One that asks and answers, one with poses, a sensor that only reports, a lamp that only obeys.
 FILES = [DEMO, *(DEMO.with_name(f"{name}.yaml") for name in ("blinds", "weather", "lamp"))]
@@ -41,6 +47,11 @@ SAID = (
     *("hiwonder", "lewansoul", "xarm", "le-?arm", r"lx-?\w+", r"lsc-?\w*", "(?:the|a) host"),
     *("9600", "55 55", "5555", "0x55"),
 )
+
+
+@cache
+def compiled_once(file: Path) -> Compiled:
+    return compiled_of(data_of(file))
 
 
 def names_in(value: Any) -> Iterator[str]:
@@ -70,16 +81,18 @@ def forbidden(spec: Data) -> re.Pattern[str]:
     return re.compile(rf"(?i)(?<!\w)(?:{'|'.join([*words, prose_alone])})(?!\w)")
 
 
-def prose(text: str) -> Iterator[str]:
-    """Yield every line of the docstrings, other text and comments of a module."""
+@cache
+def prose(text: str) -> tuple[str, ...]:
+    """Return every line of the docstrings, other text and comments of a module."""
+    lines = []
     for node in ast.walk(ast.parse(text)):
         # What is a name is code, such as that of a module in a table of modules.
         if isinstance(node, ast.Constant) and isinstance(node.value, str):
-            lines = node.value.split("\n")
-            yield from [] if node.value == "_client.controller" else lines
+            lines += [] if node.value == "_client.controller" else node.value.split("\n")
     for token in tokenize.generate_tokens(io.StringIO(text).readline):
         if token.type == tokenize.COMMENT:
-            yield token.string
+            lines.append(token.string)
+    return tuple(lines)
 
 
 def mentions(files: dict[str, str], words: re.Pattern[str]) -> list[str]:
@@ -94,9 +107,9 @@ def mentions(files: dict[str, str], words: re.Pattern[str]) -> list[str]:
 
 @pytest.mark.parametrize("name", OTHERS)
 def test_no_library_mentions_another_protocol(name: str) -> None:
-    spec = data_of(OTHERS[name])
-    vectors = render_target(VECTORS, compiled_of(spec))
-    assert mentions({**files_of(spec), **vectors}, forbidden(spec)) == []
+    compiled = compiled_once(OTHERS[name])
+    files = {**library_files(compiled), **render_target(VECTORS, compiled)}
+    assert mentions(files, forbidden(data_of(OTHERS[name]))) == []
 
 
 def test_the_words_of_a_protocol_are_found_in_its_own_library() -> None:
@@ -110,24 +123,37 @@ def test_the_words_of_a_protocol_are_found_in_its_own_library() -> None:
 
 
 @pytest.fixture(scope="module")
-def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """Return where the libraries of the others stand side by side."""
+def folder(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Path]:
+    """Return where the libraries of the others stand side by side; they are imported as well."""
     made = tmp_path_factory.mktemp("others")
-    for file in OTHERS.values():
-        write_files(files_of(data_of(file)), made)
-    return made / "generated"
+    with contextlib.ExitStack() as stack:
+        for file in OTHERS.values():
+            stack.enter_context(library(library_files(compiled_once(file)), made))
+        yield made / "generated"
+
+
+@pytest.fixture
+def call(folder: Path, capsys: pytest.CaptureFixture[str]) -> Call:
+    """Return what calls the command of a library in this process, for its status and output."""
+
+    def call(name: str, *words: str) -> tuple[int, str]:
+        assert folder.joinpath(name).is_dir()
+        status = importlib.import_module(f"{name}._cli").main([*words])
+        return status, capsys.readouterr().out
+
+    return call
 
 
 def command(folder: Path, *words: str) -> tuple[int, str, str]:
+    """Call a command in a process of its own."""
     done = subprocess.run(
         [sys.executable, "-m", *words], cwd=folder, capture_output=True, text=True, check=False
     )
     return done.returncode, done.stdout, done.stderr
 
 
-def verbs_of(folder: Path, name: str) -> list[str]:
-    code, shown, _ = command(folder, name, "--help")
-    assert code == 0
+def verbs_in(shown: str) -> list[str]:
+    """Return the verbs that are listed in the help of a command."""
     table = shown.partition("\nverbs:\n")[2].partition("\n\n")[0]
     return [line.split()[0] for line in table.split("\n")]
 
@@ -138,19 +164,18 @@ HEARING = ["answer", "decode", "docs", "doctor", "encode", "explain", "monitor",
 @pytest.mark.parametrize(
     ("name", "verbs"),
     [
-        pytest.param(
-            "greenhouse", ["bench-line", *HEARING, "replay", "send"], marks=pytest.mark.slow
-        ),
+        ("greenhouse", ["bench-line", *HEARING, "replay", "send"]),
         ("blinds", ["bench-line", *HEARING, "replay", "send", "play", "teach"]),
         ("weather", HEARING),
-        pytest.param("stage_lamp", [*HEARING, "replay", "send"], marks=pytest.mark.slow),
+        ("stage_lamp", [*HEARING, "replay", "send"]),
     ],
 )
-def test_only_what_can_work_is_offered(folder: Path, name: str, verbs: list[str]) -> None:
-    assert verbs_of(folder, name) == sorted(verbs)
+def test_only_what_can_work_is_offered(call: Call, name: str, verbs: list[str]) -> None:
+    status, shown = call(name, "--help")
+    assert (status, verbs_in(shown)) == (0, sorted(verbs))
     for verb in verbs:
-        code, shown, _ = command(folder, name, verb, "--help")
-        assert (code, shown.startswith(f"usage: {name} {verb} ")) == (0, True)
+        status, shown = call(name, verb, "--help")
+        assert (status, shown.startswith(f"usage: {name} {verb} ")) == (0, True)
         assert f"\nexamples:\n  {name} {verb}" in shown
 
 
@@ -168,19 +193,21 @@ REQUESTING = ["rate", "echo", "reply", "round-trip"]
     ],
 )
 def test_the_doctor_makes_only_checks_that_can_find_something(
-    folder: Path, name: str, checks: list[str]
+    call: Call, name: str, checks: list[str]
 ) -> None:
-    _, shown, _ = command(folder, name, "doctor", "--help")
+    _, shown = call(name, "doctor", "--help")
     listed = shown.partition("Makes these checks, one after the other:\n")[2].partition(".\n")[0]
     assert listed.split(", ") == checks
-    _, shown, _ = command(folder, name, "doctor", "--port", "no-such-port")
+    _, shown = call(name, "doctor", "--port", "no-such-port")
     assert [line.split()[1] for line in shown.splitlines() if line[0] != " "] == checks
 
 
-def test_help_speaks_of_no_verb_and_no_reply_that_there_is_not(folder: Path) -> None:
-    assert "replay" not in command(folder, "weather", "monitor", "--help")[1]
-    assert "reply" not in command(folder, "stage_lamp", "--help")[1]
-    assert "print the reply" in command(folder, "greenhouse", "--help")[1]
+def test_help_speaks_of_no_verb_and_no_reply_that_there_is_not(
+    call: Call,
+) -> None:
+    assert "replay" not in call("weather", "monitor", "--help")[1]
+    assert "reply" not in call("stage_lamp", "--help")[1]
+    assert "print the reply" in call("greenhouse", "--help")[1]
 
 
 MISSING = (
@@ -191,13 +218,13 @@ MISSING = (
 
 def test_there_is_a_simulator_where_one_is_installed(folder: Path, tmp_path: Path) -> None:
     assert command(folder, "greenhouse", "simulate") == (2, "", MISSING)
-    assert "simulate" in verbs_of(folder, "busservo")
+    assert "simulate" in verbs_in(command(folder, "busservo", "--help")[1])
     package = folder / "greenhouse_simulator"
     package.mkdir()
     (package / "__init__.py").touch()
     (package / "cli.py").write_text("def main(words, program): print(program, words)\n")
     try:
-        assert "simulate" in verbs_of(folder, "greenhouse")
+        assert "simulate" in verbs_in(command(folder, "greenhouse", "--help")[1])
         said = command(folder, "greenhouse", "simulate", "--fast")
         assert said == (0, "greenhouse simulate ['--fast']\n", "")
     finally:

@@ -16,7 +16,7 @@ pages = pytest.mark.parametrize("page", PAGES, ids=lambda page: page.relative_to
 @pages
 def test_examples_print_what_the_page_says(page: Path, tmp_path: Path) -> None:
     text = page.read_text(encoding="utf-8")
-    truth = played(text, copy_project(tmp_path))
+    truth = played(text, copy_project(tmp_path, text))
     assert truth == text, "if this was meant to change: python -m tests.documents"
 
 
@@ -45,7 +45,6 @@ def test_code_has_a_place(page: Path) -> None:
 def test_a_page_that_lies_is_found_out(tmp_path: Path) -> None:
     page = "```console\n$ busservo encode ActionGroupStop\n55 55 02 08\n```\n"
     truth = page.replace("08", "07")
-    copy_project(tmp_path)
     assert played(page, tmp_path) == truth
     assert played(truth, tmp_path) == truth
 
@@ -61,7 +60,6 @@ def test_a_session_that_lies_is_found_out(tmp_path: Path) -> None:
 def test_left_out_lines_may_be_anything_but_the_rest_may_not(tmp_path: Path) -> None:
     page = "```console\n$ framegen rules\n...\nreply  {}\n...\n```\n"
     title = "Replies and reports are messages of the other direction"
-    copy_project(tmp_path)
     shown = played(page.format(title), tmp_path)
     line = next(line for line in shown.splitlines() if line.startswith("reply"))
     truth = page.replace("reply  {}", line)

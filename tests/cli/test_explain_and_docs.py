@@ -10,6 +10,8 @@ from typing import TYPE_CHECKING, Any
 import pytest
 import yaml
 from busservo._cli import main
+from framegen.cases.invalid import invalid_frames
+from framegen.cases.valid import valid_frames
 from framegen.cli import main as framegen_main
 from framegen.explain import explain
 from framegen.explanation.text import as_json, as_text
@@ -21,12 +23,10 @@ from tests.factories import (
     BUSSERVO,
     DEMO,
     Data,
-    compiled_of,
     data_of,
     files_of,
     layout_of,
     library,
-    vectors_of,
 )
 
 if TYPE_CHECKING:
@@ -99,8 +99,8 @@ def servo() -> Explain:
 
 def frames_of(data: Data) -> list[bytes]:
     """Return every single frame of the test vectors, legal or not, and those of look-alikes."""
-    vectors, model = vectors_of(compiled_of(data)), layout_of(data)
-    given = [bytes.fromhex(case["hex"]) for kind in ("valid", "invalid") for case in vectors[kind]]
+    model = layout_of(data)
+    given = [each.data for frames in (valid_frames, invalid_frames) for each in frames(model)]
     others = [each.hex for other in model.spec.lookalikes.values() for each in other.examples]
     return [*given, *others, given[0] + given[1], b"\x00" + given[0]]
 

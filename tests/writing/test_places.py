@@ -61,6 +61,8 @@ def test_a_link_of_a_file_that_leads_out_is_refused(root: Path, tmp_path: Path) 
     _link(root / CHANGED, away)
     with pytest.raises(Unusable, match="is a link that leads to"):
         write(root, [AFTER], force=True)
+    with pytest.raises(Unusable, match="is a link that leads to"):
+        changes(root, [AFTER])
     assert away.read_bytes() == b"precious\n"
 
 

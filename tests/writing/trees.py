@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 import hashlib
-from typing import TYPE_CHECKING, TypeAlias
+import os
+from pathlib import Path
+from typing import TypeAlias
 
 from framegen.output import Output, banner
 from framegen.writing.workshop import NAME
-
-if TYPE_CHECKING:
-    from pathlib import Path
 
 Snapshot: TypeAlias = "dict[str, bytes | None]"
 
@@ -21,10 +20,15 @@ PAGES = "docs/reference/kiln"
 
 def snapshot(folder: Path) -> Snapshot:
     """Return every path below `folder`: the bytes of files, None for folders."""
-    return {
-        path.relative_to(folder).as_posix(): None if path.is_dir() else path.read_bytes()
-        for path in sorted(folder.rglob("*"))
-    }
+    found: Snapshot = {}
+    for above, folders, files in os.walk(folder):
+        inner = Path(above).relative_to(folder)
+        start = f"{inner.as_posix()}/" if inner.parts else ""
+        found |= {f"{start}{name}": None for name in folders}
+        for name in files:
+            with open(f"{above}/{name}", "rb") as file:  # noqa: PTH123 - many thousands of times
+                found[f"{start}{name}"] = file.read()
+    return dict(sorted(found.items()))
 
 
 def without_workshop(found: Snapshot) -> Snapshot:
@@ -32,7 +36,11 @@ def without_workshop(found: Snapshot) -> Snapshot:
 
 
 def times(folder: Path) -> dict[str, int]:
-    return {str(path): path.stat().st_mtime_ns for path in folder.rglob("*") if path.is_file()}
+    return {
+        path: Path(path).stat().st_mtime_ns
+        for above, _, files in os.walk(folder)
+        for path in (str(Path(above, name)) for name in files)
+    }
 
 
 def output(name: str = "kiln", spec: str = SPEC, **bodies: str) -> Output:

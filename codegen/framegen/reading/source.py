@@ -27,7 +27,7 @@ class Source:
     name: str
     text: str
     path: str = ""
-    lines: list[str] = field(init=False, repr=False)
+    lines: list[str] = field(init=False, repr=False, compare=False)
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "lines", self.text.split("\n"))

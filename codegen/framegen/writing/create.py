@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from pathlib import PurePosixPath
 from typing import TYPE_CHECKING
 
 from framegen.console import visible
@@ -38,9 +37,9 @@ def create(root: Path, files: Mapping[str, str]) -> list[str]:
                 for path in missing
             }
             for path, file in staged.items():
-                for folder in reversed(PurePosixPath(path).parents[:-1]):
-                    disk.make_folder(root / folder)
-                disk.move(file, places.at(path))
+                place = places.at(path)
+                places.make_folders_above(path)
+                disk.move(file, place)
     except OSError as error:
         raise Unusable(
             f"{visible(str(error.filename or root))} cannot be written: {error.strerror or error}",

@@ -24,12 +24,22 @@ _ASTRAY = re.compile(r"/|[A-Za-z]:|(?:.*/)?\.\.?(?:/|$)|.*(?:\\|//|/$)")
 
 def file_digest(data: bytes) -> str:
     """Return the SHA-256 of a file with LF line ends, so that a checkout with others is no edit."""
-    return sha256(data.replace(b"\r\n", b"\n")).hexdigest()
+    return sha256(_with_lf(data)).hexdigest()
 
 
 def text_digest(text: str) -> str:
     """Return the SHA-256 of text that is to be written."""
     return file_digest(text.encode())
+
+
+def is_text(data: bytes, text: str) -> bool:
+    """Tell whether a file holds a text, whatever its line ends: whether their digests are one."""
+    wanted = text.encode()
+    return data == wanted or _with_lf(data) == _with_lf(wanted)
+
+
+def _with_lf(data: bytes) -> bytes:
+    return data.replace(b"\r\n", b"\n") if b"\r" in data else data
 
 
 @dataclass(frozen=True, slots=True)

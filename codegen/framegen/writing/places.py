@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 
 from framegen.console import visible
 from framegen.reading.yamltree import Unusable
+from framegen.writing import disk
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -32,31 +33,35 @@ class Places:
     def __init__(self, root: Path) -> None:
         self.root = root
         self._real = Path(os.path.realpath(root))
-        self._looked_at: set[PurePosixPath] = set()
+        self._looked_at = {""}
 
     def at(self, path: str) -> Path:
         """Return the place of a path, all folders above it being folders below the root."""
-        pure = PurePosixPath(path)
-        if pure.parent not in self._looked_at:
-            for folder in reversed(pure.parents[:-1]):
-                if folder not in self._looked_at:
-                    self._look_at(folder)
-                    self._looked_at.add(folder)
+        self._look_above(path)
         place = self.root / path
         if place.is_symlink():
             self._stay(path)
         return place
 
-    def _look_at(self, folder: PurePosixPath) -> None:
+    def _look_above(self, path: str) -> None:
+        """Look at each folder above a path, once."""
+        if path.rpartition("/")[0] in self._looked_at:
+            return
+        for folder in map(str, reversed(PurePosixPath(path).parents[:-1])):
+            if folder not in self._looked_at:
+                self._look_at(folder)
+                self._looked_at.add(folder)
+
+    def _look_at(self, folder: str) -> None:
         place = self.root / folder
-        self._stay(str(folder))
+        self._stay(folder)
         try:
             mode = place.stat().st_mode
         except (FileNotFoundError, NotADirectoryError):
             return
         if not stat.S_ISDIR(mode):
             raise Unusable(
-                f"{visible(str(folder))} is no folder, but output goes there",
+                f"{visible(folder)} is no folder, but output goes there",
                 hint="move it elsewhere; nothing was changed",
             )
 
@@ -71,17 +76,26 @@ class Places:
 
     def look(self, path: str) -> Standing | None:
         """Return what stands at a path; None for nothing. Raises Unusable if it cannot be read."""
-        place = self.at(path)
+        self._look_above(path)
+        place = self.root / path
         try:
             kind = _kind(place.lstat().st_mode)
             # A link stands for its file, as long as there is nothing to write.
-            regular = kind in ("", "a link") and place.is_file()
-            return Standing(place.read_bytes() if regular or not kind else b"", kind)
+            if kind == "a link":
+                self._stay(path)
+            regular = not kind or (kind == "a link" and place.is_file())
+            return Standing(place.read_bytes() if regular else b"", kind)
         except FileNotFoundError:
             return None
         except OSError as error:
             reason = error.strerror or str(error)
             raise Unusable(f"{visible(str(place))} cannot be read: {reason}") from None
+
+    def make_folders_above(self, path: str) -> None:
+        """Make the folders above a path that are not there yet."""
+        if not (self.root / path).parent.is_dir():
+            for folder in reversed(PurePosixPath(path).parents[:-1]):
+                disk.make_folder(self.root / folder)
 
     def listed(self, folder: str, pattern: str) -> list[str]:
         """Return the files of a folder, not of those below, whose names match."""
@@ -93,8 +107,9 @@ class Places:
         top = self.at(f"{folder}/x").parent
         for above, folders, names in os.walk(top):
             folders[:] = sorted(set(folders) - _LITTER)
-            inner = PurePosixPath(Path(above).relative_to(self.root).as_posix())
-            yield from (str(inner / name) for name in names if name not in _LITTER)
+            inner = Path(above).relative_to(self.root)
+            start = f"{inner.as_posix()}/" if inner.parts else ""
+            yield from (f"{start}{name}" for name in names if name not in _LITTER)
 
 
 def _kind(mode: int) -> str:

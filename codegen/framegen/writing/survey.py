@@ -10,7 +10,7 @@ from framegen.console import visible
 from framegen.reading.yamltree import Unusable
 from framegen.writing.change import Change
 from framegen.writing.kept import is_kept
-from framegen.writing.manifest import Manifest, file_digest, read_manifest, text_digest
+from framegen.writing.manifest import Manifest, file_digest, is_text, read_manifest, text_digest
 from framegen.writing.marks import is_blank, is_conflicted, is_former_page, is_generated
 from framegen.writing.places import Places
 
@@ -167,7 +167,7 @@ class _Surveyor:
         if standing is None:
             self._found.changes.append(Change(path, "missing", None, text))
             return False
-        same = standing.kind in ("", "a link") and file_digest(standing.data) == text_digest(text)
+        same = standing.kind in ("", "a link") and is_text(standing.data, text)
         # Where capitals tell no names apart, the orphan of this name is this very file.
         if same and path.casefold() not in self._folded:
             return True
@@ -274,7 +274,7 @@ class _Surveyor:
             self._found.changes.append(Change(path, "missing", None, text))
         elif standing.kind:
             self._found.changes.append(Change(path, "foreign", None, text))
-        elif file_digest(standing.data) != text_digest(text):
+        elif not is_text(standing.data, text):
             self._found.changes.append(Change(path, "stale", self._text(standing), text))
 
     @staticmethod

@@ -38,6 +38,7 @@ class Workshop:
     def __init__(self, root: Path) -> None:
         self.root = root
         self._folders: dict[int, Path] = {}
+        self._nearest: dict[Path, Path] = {}
         self._number = 0
 
     def stage(self, data: bytes, place: Path, *, flush: bool) -> Path:
@@ -49,11 +50,14 @@ class Workshop:
         return staged
 
     def _folder(self, place: Path) -> Path:
-        above = next(folder for folder in place.parents if folder.is_dir())
-        device = above.stat().st_dev
-        if device not in self._folders:
-            self._folders[device] = _opened(self._top(above, device))
-        return self._folders[device]
+        """Return the folder on the file system that a place will lie on."""
+        if place.parent not in self._nearest:
+            above = next(folder for folder in place.parents if folder.is_dir())
+            device = above.stat().st_dev
+            if device not in self._folders:
+                self._folders[device] = _opened(self._top(above, device))
+            self._nearest[place.parent] = self._folders[device]
+        return self._nearest[place.parent]
 
     def _top(self, above: Path, device: int) -> Path:
         """Return the root, or the mount point below it."""

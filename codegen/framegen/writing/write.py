@@ -174,21 +174,23 @@ class _Writer:
     def _put(self, path: str, staged: Path) -> None:
         self._begun = True
         place = self._places.at(path)
-        for folder in reversed(PurePosixPath(path).parents[:-1]):
-            disk.make_folder(self._places.root / folder)
+        self._places.make_folders_above(path)
         disk.move(staged, place)
 
     def _remove_empty_folders(self) -> None:
         """Remove what Python made of removed files, and empty folders."""
-        for path in sorted(self._found.left, reverse=True):
+        folders = set()
+        for path in sorted(self._found.left):
             place = self._places.at(path)
             if place.suffix == ".py" and not place.exists():
                 cache = place.parent / "__pycache__"
                 for file in cache.glob(f"{escape(place.stem)}.*.pyc"):
                     disk.remove_file(file)
-                _remove_if_empty(cache)
-            for folder in PurePosixPath(path).parents[:-1]:
-                _remove_if_empty(self._places.root / folder)
+                folders.add(cache)
+            folders |= {self._places.root / it for it in PurePosixPath(path).parents[:-1]}
+        # Each before the one that it lies in.
+        for folder in sorted(folders, reverse=True):
+            _remove_if_empty(folder)
 
 
 def _remove_if_empty(folder: Path) -> None:
