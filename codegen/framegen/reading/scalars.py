@@ -55,6 +55,10 @@ _AMBIGUOUS = (
 )
 
 
+# How each of them begins, or all of it. Most words are nothing of the kind.
+_SUSPECT = re.compile(r"[-+.=<0-9]|(?i:y|n|yes|no|on|off|true|false|null)\Z")
+
+
 class Ambiguous(ValueError):  # noqa: N818 - says what the scalar is
     """A plain scalar that YAML readers disagree on; `hint` says what to write instead."""
 
@@ -69,6 +73,8 @@ def resolve(text: str) -> str | int | bool | None:
         return None
     if text in _BOOLEANS:
         return _BOOLEANS[text]
+    if not _SUSPECT.match(text):
+        return text
     # A number of a thousand digits is text to us: Python refuses to convert it.
     if _INTEGER.fullmatch(text) and len(text) < 40:
         return int(text, 0)
