@@ -7,7 +7,7 @@ gives the reason and the offset. Single frames and streams are judged by this al
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from functools import cached_property, lru_cache, partial
+from functools import lru_cache, partial
 from itertools import islice
 from typing import TYPE_CHECKING
 
@@ -126,7 +126,7 @@ class _Look:
         self.seen: list[Placed] = []
         self.likely: MessageLayout | None = None
 
-    @cached_property
+    @property
     def largest(self) -> int:
         """The size of the largest frame that there may be."""
         largest = self.model.largest(self.directions)
