@@ -79,10 +79,16 @@ def kiln() -> Data:
 
 def yaml_of(value: object) -> str:
     """Return `value` as YAML, every text in double quotes and in ASCII, whatever it holds."""
+    text = json.dumps(value)
+    # JSON is YAML, but for what it writes as two surrogates, and for the one control in it.
+    return _yaml_of(value) if "\\ud" in text or "\x7f" in text else text
+
+
+def _yaml_of(value: object) -> str:
     if isinstance(value, dict):
-        return "{" + ", ".join(f"{yaml_of(k)}: {yaml_of(v)}" for k, v in value.items()) + "}"
+        return "{" + ", ".join(f"{_yaml_of(k)}: {_yaml_of(v)}" for k, v in value.items()) + "}"
     if isinstance(value, list):
-        return "[" + ", ".join(map(yaml_of, value)) + "]"
+        return "[" + ", ".join(map(_yaml_of, value)) + "]"
     if isinstance(value, str):
         return f'"{value if _PLAIN.fullmatch(value) else "".join(map(_escaped, value))}"'
     if value is None:

@@ -10,7 +10,7 @@ from typing import Any
 import pytest
 from framegen.cli import main
 from framegen.comparison import KINDS, differences
-from framegen.compile import compile_spec
+from framegen.language.load import load
 from framegen.model.model import Model, derive
 from framegen.reading.source import Source
 
@@ -27,17 +27,18 @@ def derived(data: Data) -> Model:
 
 @cache
 def _derived(text: str) -> Model:
-    spec = compile_spec(Source("made_up.yaml", text)).read
+    spec = load(Source("made_up.yaml", text)).spec
     assert spec is not None
     return derive(spec)
 
 
 def with_(data: Data, *path_and_value: Any) -> Data:
-    """Return a copy with a value at a path, or without what is GONE."""
+    """Return a copy with a value at a path, or without what is GONE; all else is shared."""
     *steps, last, value = path_and_value
-    changed = copy.deepcopy(data)
-    around = changed
+    changed = copy.copy(data)
+    around: Any = changed
     for step in steps:
+        around[step] = copy.copy(around[step])
         around = around[step]
     if value == GONE:
         del around[last]
@@ -662,8 +663,8 @@ def test_the_exit_code_says_whether_anything_breaks(
 def test_what_breaks_most_comes_first(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     changed = with_(HOUSE, "protocol", "name", "hothouse")
     changed = with_(changed, "messages", "StationRead", "id", 0x20)
-    for example in changed["messages"]["StationRead"]["examples"]:
-        example["hex"] = "C3 5A A5 20 00 00"
+    example = ("messages", "StationRead", "examples", 0, "hex")
+    changed = with_(changed, *example, "C3 5A A5 20 00 00")
     files = written(tmp_path, "old.yaml", HOUSE), written(tmp_path, "new.yaml", changed)
     assert main(["diff", *files]) == 1
     assert [line.split()[0] for line in capsys.readouterr().out.splitlines()] == [
