@@ -62,6 +62,8 @@ CONTRACT: dict[str, Row] = {
     ),
 }
 TREE = data_of(BUSSERVO)
+# All but what is said of the documents: that a fact contradicts them is not enough.
+FACTS = {key: TREE[key] for key in TREE if key not in ("errata", "unknowns", "lookalikes")}
 
 
 def said_by(data: Data) -> dict[str, Row] | None:
@@ -203,7 +205,7 @@ CHANGES = [*methods(), *echoes(), *answers(), *results()]
     ("name", "key", "value"), [pytest.param(*each, id=str(each)[:90]) for each in CHANGES]
 )
 def test_a_changed_fact_contradicts_the_contract(name: str, key: str, value: Any) -> None:
-    data = json.loads(json.dumps(TREE))
+    data = json.loads(json.dumps(FACTS))
     message = data["messages"][name]
     assert message.get(key) != value, "a mutation changes something"
     if value is None:
