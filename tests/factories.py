@@ -6,10 +6,12 @@ import re
 import sys
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
-from importlib.machinery import FileFinder, SourceFileLoader
+from importlib.abc import Loader, MetaPathFinder
+from importlib.machinery import ModuleSpec
+from importlib.util import spec_from_file_location
 from pathlib import Path
 from types import CodeType, ModuleType
-from typing import Any, ClassVar, TypeAlias
+from typing import Any, TypeAlias
 
 from framegen.compile import Compiled, compile_spec
 from framegen.language.load import read_source
@@ -188,46 +190,66 @@ def write_files(files: Mapping[str, str], folder: Path) -> None:
             file.write(text.encode())
 
 
-class OneCompiler(SourceFileLoader):
-    """Compiles a text once: most modules are the same in all libraries."""
+class _Library(MetaPathFinder, Loader):
+    """A finder and loader of one library, from memory."""
 
-    made: ClassVar[dict[bytes, CodeType]] = {}
+    def __init__(self, files: Mapping[str, str], folder: Path) -> None:
+        self._folder = folder / "generated"
+        self._texts = {str(folder / path): text for path, text in files.items()}
 
-    def get_code(self, fullname: str) -> CodeType:
-        path = self.get_filename(fullname)
-        text = self.get_data(path)
-        if text not in self.made:
-            self.made[text] = compile(text, path, "exec", dont_inherit=True)
-        return code_at(path, self.made[text])
+    def find_spec(self, fullname: str, _path: object, _target: object = None) -> ModuleSpec | None:
+        file = self._file(fullname)
+        return spec_from_file_location(fullname, file, loader=self) if file in self._texts else None
+
+    def exec_module(self, module: ModuleType) -> None:
+        file = self._file(module.__name__)
+        text = self._texts[file]
+        # Most modules are the same in every library.
+        if text not in _CODE:
+            _CODE[text] = compile(text, file, "exec", dont_inherit=True)
+        exec(_code_at(file, _CODE[text]), vars(module))  # noqa: S102 - it is our own
+
+    def is_package(self, fullname: str) -> bool:
+        return Path(self._file(fullname)).name == "__init__.py"
+
+    def get_source(self, fullname: str) -> str:
+        return self._texts[self._file(fullname)]
+
+    def get_data(self, path: str) -> bytes:
+        return self._texts[path].encode()
+
+    def _file(self, fullname: str) -> str:
+        place = self._folder.joinpath(*fullname.split("."))
+        package = str(place / "__init__.py")
+        return package if package in self._texts else f"{place}.py"
 
 
-def code_at(path: str, code: CodeType) -> CodeType:
+_CODE: dict[str, CodeType] = {}
+
+
+def _code_at(path: str, code: CodeType) -> CodeType:
     """Return code as if it had been compiled from the file at `path`."""
-    inner = (code_at(path, it) if isinstance(it, CodeType) else it for it in code.co_consts)
+    inner = (_code_at(path, it) if isinstance(it, CodeType) else it for it in code.co_consts)
     return code.replace(co_filename=path, co_consts=tuple(inner))
 
 
 @contextmanager
-def library(files: dict[str, str], folder: Path) -> Iterator[ModuleType]:
-    """Return the library among `files`, written below `folder`, imported, and forgotten again."""
-    write_files(files, folder)
+def library(files: Mapping[str, str], folder: Path | None = None) -> Iterator[ModuleType]:
+    """Return the library among `files`, imported, and forgotten again.
+
+    They are also written below `folder`, if one is given.
+    """
+    if folder is not None:
+        write_files(files, folder)
     name = next(path for path in files if path.endswith("/py.typed")).split("/")[1]
     # Another test may have imported a library of the same name.
     before = {key: sys.modules.pop(key) for key in [*sys.modules] if key.split(".")[0] == name}
-    sys.path.insert(0, str(folder / "generated"))
-    importlib.invalidate_caches()
-
-    def finder(path: str) -> FileFinder:
-        if not Path(path).is_relative_to(folder):
-            raise ImportError(path)
-        return FileFinder(path, (OneCompiler, [".py"]))
-
-    sys.path_hooks.insert(0, finder)
+    finder = _Library(files, folder or Path("made"))
+    sys.meta_path.insert(0, finder)
     try:
         yield importlib.import_module(name)
     finally:
-        sys.path_hooks.remove(finder)
-        sys.path.remove(str(folder / "generated"))
+        sys.meta_path.remove(finder)
         for module in [module for module in sys.modules if module.split(".")[0] == name]:
             del sys.modules[module]
         sys.modules.update(before)

@@ -279,12 +279,10 @@ def test_the_vectors_and_the_reference_keep_the_names_of_the_author(name: str) -
 
 
 @pytest.fixture(scope="module", params=CROWDS)
-def crowd(
-    request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory
-) -> Iterator[tuple[Model, ModuleType]]:
+def crowd(request: pytest.FixtureRequest) -> Iterator[tuple[Model, ModuleType]]:
     """Return a spec of taken names, and its library."""
     name = str(request.param)
-    with library(files_of_crowd(name), tmp_path_factory.mktemp(name)) as made:
+    with library(files_of_crowd(name)) as made:
         yield compiled_crowd(name).model, made
 
 
@@ -371,8 +369,8 @@ def test_every_message_has_a_strategy(crowd: tuple[Model, ModuleType]) -> None:
     assert {"messages", "noise", "noisy_streams"} <= {*vars(strategies)}
 
 
-def test_a_pose_is_read_and_held_under_bent_names(tmp_path: Path) -> None:
-    with library(files_of_crowd("pose"), tmp_path) as lib:
+def test_a_pose_is_read_and_held_under_bent_names() -> None:
+    with library(files_of_crowd("pose")) as lib:
         device = lib.Device()
         there = lib.Places([(1, 7), (2, 8)])
         moved: list[Any] = []
