@@ -8,6 +8,7 @@ differently is refused; the author writes what was meant, in quotes or in decima
 from __future__ import annotations
 
 import re
+from functools import lru_cache
 
 _INTEGER = re.compile(r"[-+]?(?:0|[1-9][0-9]*)|0x[0-9a-fA-F]+")
 _NULLS = frozenset(["", "~", "null"])
@@ -67,8 +68,12 @@ class Ambiguous(ValueError):  # noqa: N818 - says what the scalar is
         self.hint = hint
 
 
+@lru_cache(maxsize=512)
 def resolve(text: str) -> str | int | bool | None:
-    """Find the value of a plain scalar. Raises Ambiguous where YAML readers disagree."""
+    """Find the value of a plain scalar. Raises Ambiguous where YAML readers disagree.
+
+    What is read often is kept: most keys of a spec stand in it many times.
+    """
     if text in _NULLS:
         return None
     if text in _BOOLEANS:
