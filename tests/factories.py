@@ -13,13 +13,15 @@ from pathlib import Path
 from types import CodeType, ModuleType
 from typing import Any, TypeAlias
 
-from framegen.compile import Compiled, compile_spec
-from framegen.language.load import read_source
+from framegen.compile import Compiled, compile_loaded, compile_spec
+from framegen.language.load import Loaded, read_source
+from framegen.language.spec import Spec
 from framegen.model.model import Model
 from framegen.reading.source import Source
-from framegen.reading.yamltree import Unusable, read_tree
+from framegen.reading.yamltree import Tree, Unusable, read_tree
 from framegen.render import render_target
 from framegen.targets import python, vectors
+from pydantic import ValidationError
 
 ROOT = Path(__file__).parent.parent
 BUSSERVO = ROOT / "spec" / "busservo.yaml"
@@ -112,6 +114,22 @@ def _escaped(character: str) -> str:
 def compiled_of(data: Data, name: str = "made_up.yaml") -> Compiled:
     """Compile `data`, by way of its text. Raises Unusable."""
     return compile_spec(Source(name, yaml_of(data)))
+
+
+def is_misfit(data: Data) -> bool:
+    """Tell whether a spec does not fit the language, which is a finding whatever else it says."""
+    try:
+        Spec.model_validate(data)
+    except ValidationError:
+        return True
+    return False
+
+
+def compiled_values(data: Data) -> Compiled:
+    """Compile `data` without its text: no finding has a place. Raises ValidationError."""
+    values = json.loads(json.dumps(data))
+    source = Source("made_up.yaml", "")
+    return compile_loaded(Loaded(source, Tree(values), Spec.model_validate(values), []))
 
 
 def rules_broken(data: Data) -> list[str]:

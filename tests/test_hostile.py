@@ -18,7 +18,6 @@ from framegen.cases.valid import valid_frames
 from framegen.compile import Compiled
 from framegen.output import banner
 from framegen.reading.text import is_invisible
-from framegen.reading.yamltree import Unusable
 from framegen.targets.python.characters import columns
 from framegen.targets.python.docstring import TYPOGRAPHY, docstring, prose
 from framegen.targets.python.escape import Text, assigned, literal
@@ -35,8 +34,10 @@ from tests.factories import (
     Steps,
     changed,
     compiled_of,
+    compiled_values,
     data_of,
     files_of,
+    is_misfit,
     layout_of,
     leaves,
     library,
@@ -384,10 +385,9 @@ def test_hostile_modules_stay_as_the_formatter_has_them(tmp_path: Path) -> None:
 
 def usable(data: Data) -> Compiled | None:
     """Compile a spec; None if anything is wrong with it."""
-    try:
-        compiled = compiled_of(data)
-    except Unusable:
+    if is_misfit(data):
         return None
+    compiled = compiled_values(data)
     return None if compiled.findings else compiled
 
 
@@ -524,7 +524,8 @@ NAMED = {
 @pytest.mark.parametrize("kind", NAMED)
 def test_what_is_no_plain_name_is_a_finding(kind: str) -> None:
     for name in NO_NAMES:
-        assert rules_broken(renamed(SPECS["greenhouse"], NAMED[kind], name)), name
+        data = renamed(SPECS["greenhouse"], NAMED[kind], name)
+        assert usable(data) is None, name
 
 
 def test_no_message_can_take_a_name_that_the_generated_modules_use() -> None:
