@@ -6,18 +6,22 @@ import re
 import sys
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
-from importlib.machinery import FileFinder, SourceFileLoader
+from importlib.abc import Loader, MetaPathFinder
+from importlib.machinery import ModuleSpec
+from importlib.util import spec_from_file_location
 from pathlib import Path
 from types import CodeType, ModuleType
-from typing import Any, ClassVar, TypeAlias
+from typing import Any, TypeAlias
 
-from framegen.compile import Compiled, compile_spec
-from framegen.language.load import read_source
+from framegen.compile import Compiled, compile_loaded, compile_spec
+from framegen.language.load import Loaded, read_source
+from framegen.language.spec import Spec
 from framegen.model.model import Model
 from framegen.reading.source import Source
-from framegen.reading.yamltree import Unusable, read_tree
+from framegen.reading.yamltree import Tree, Unusable, read_tree
 from framegen.render import render_target
 from framegen.targets import python, vectors
+from pydantic import ValidationError
 
 ROOT = Path(__file__).parent.parent
 BUSSERVO = ROOT / "spec" / "busservo.yaml"
@@ -79,10 +83,16 @@ def kiln() -> Data:
 
 def yaml_of(value: object) -> str:
     """Return `value` as YAML, every text in double quotes and in ASCII, whatever it holds."""
+    text = json.dumps(value)
+    # JSON is YAML, but for what it writes as two surrogates, and for the one control in it.
+    return _yaml_of(value) if "\\ud" in text or "\x7f" in text else text
+
+
+def _yaml_of(value: object) -> str:
     if isinstance(value, dict):
-        return "{" + ", ".join(f"{yaml_of(k)}: {yaml_of(v)}" for k, v in value.items()) + "}"
+        return "{" + ", ".join(f"{_yaml_of(k)}: {_yaml_of(v)}" for k, v in value.items()) + "}"
     if isinstance(value, list):
-        return "[" + ", ".join(map(yaml_of, value)) + "]"
+        return "[" + ", ".join(map(_yaml_of, value)) + "]"
     if isinstance(value, str):
         return f'"{value if _PLAIN.fullmatch(value) else "".join(map(_escaped, value))}"'
     if value is None:
@@ -104,6 +114,22 @@ def _escaped(character: str) -> str:
 def compiled_of(data: Data, name: str = "made_up.yaml") -> Compiled:
     """Compile `data`, by way of its text. Raises Unusable."""
     return compile_spec(Source(name, yaml_of(data)))
+
+
+def is_misfit(data: Data) -> bool:
+    """Tell whether a spec does not fit the language, which is a finding whatever else it says."""
+    try:
+        Spec.model_validate(data)
+    except ValidationError:
+        return True
+    return False
+
+
+def compiled_values(data: Data) -> Compiled:
+    """Compile `data` without its text: no finding has a place. Raises ValidationError."""
+    values = json.loads(json.dumps(data))
+    source = Source("made_up.yaml", "")
+    return compile_loaded(Loaded(source, Tree(values), Spec.model_validate(values), []))
 
 
 def rules_broken(data: Data) -> list[str]:
@@ -182,46 +208,66 @@ def write_files(files: Mapping[str, str], folder: Path) -> None:
             file.write(text.encode())
 
 
-class OneCompiler(SourceFileLoader):
-    """Compiles a text once: most modules are the same in all libraries."""
+class _Library(MetaPathFinder, Loader):
+    """A finder and loader of one library, from memory."""
 
-    made: ClassVar[dict[bytes, CodeType]] = {}
+    def __init__(self, files: Mapping[str, str], folder: Path) -> None:
+        self._folder = folder / "generated"
+        self._texts = {str(folder / path): text for path, text in files.items()}
 
-    def get_code(self, fullname: str) -> CodeType:
-        path = self.get_filename(fullname)
-        text = self.get_data(path)
-        if text not in self.made:
-            self.made[text] = compile(text, path, "exec", dont_inherit=True)
-        return code_at(path, self.made[text])
+    def find_spec(self, fullname: str, _path: object, _target: object = None) -> ModuleSpec | None:
+        file = self._file(fullname)
+        return spec_from_file_location(fullname, file, loader=self) if file in self._texts else None
+
+    def exec_module(self, module: ModuleType) -> None:
+        file = self._file(module.__name__)
+        text = self._texts[file]
+        # Most modules are the same in every library.
+        if text not in _CODE:
+            _CODE[text] = compile(text, file, "exec", dont_inherit=True)
+        exec(_code_at(file, _CODE[text]), vars(module))  # noqa: S102 - it is our own
+
+    def is_package(self, fullname: str) -> bool:
+        return Path(self._file(fullname)).name == "__init__.py"
+
+    def get_source(self, fullname: str) -> str:
+        return self._texts[self._file(fullname)]
+
+    def get_data(self, path: str) -> bytes:
+        return self._texts[path].encode()
+
+    def _file(self, fullname: str) -> str:
+        place = self._folder.joinpath(*fullname.split("."))
+        package = str(place / "__init__.py")
+        return package if package in self._texts else f"{place}.py"
 
 
-def code_at(path: str, code: CodeType) -> CodeType:
+_CODE: dict[str, CodeType] = {}
+
+
+def _code_at(path: str, code: CodeType) -> CodeType:
     """Return code as if it had been compiled from the file at `path`."""
-    inner = (code_at(path, it) if isinstance(it, CodeType) else it for it in code.co_consts)
+    inner = (_code_at(path, it) if isinstance(it, CodeType) else it for it in code.co_consts)
     return code.replace(co_filename=path, co_consts=tuple(inner))
 
 
 @contextmanager
-def library(files: dict[str, str], folder: Path) -> Iterator[ModuleType]:
-    """Return the library among `files`, written below `folder`, imported, and forgotten again."""
-    write_files(files, folder)
+def library(files: Mapping[str, str], folder: Path | None = None) -> Iterator[ModuleType]:
+    """Return the library among `files`, imported, and forgotten again.
+
+    They are also written below `folder`, if one is given.
+    """
+    if folder is not None:
+        write_files(files, folder)
     name = next(path for path in files if path.endswith("/py.typed")).split("/")[1]
     # Another test may have imported a library of the same name.
     before = {key: sys.modules.pop(key) for key in [*sys.modules] if key.split(".")[0] == name}
-    sys.path.insert(0, str(folder / "generated"))
-    importlib.invalidate_caches()
-
-    def finder(path: str) -> FileFinder:
-        if not Path(path).is_relative_to(folder):
-            raise ImportError(path)
-        return FileFinder(path, (OneCompiler, [".py"]))
-
-    sys.path_hooks.insert(0, finder)
+    finder = _Library(files, folder or Path("made"))
+    sys.meta_path.insert(0, finder)
     try:
         yield importlib.import_module(name)
     finally:
-        sys.path_hooks.remove(finder)
-        sys.path.remove(str(folder / "generated"))
+        sys.meta_path.remove(finder)
         for module in [module for module in sys.modules if module.split(".")[0] == name]:
             del sys.modules[module]
         sys.modules.update(before)

@@ -115,15 +115,16 @@ def keys_of_the_language(value: Any) -> Iterator[Steps]:
 @pytest.mark.parametrize("value", ODD, ids=repr)
 def test_anything_in_place_of_a_value_is_reported_in_our_words(value: object) -> None:
     """And never in those of the library that reads it."""
+    data = copied(KILN)
     for path in keys_of_the_language(KILN):
-        data = copied(KILN)
         around = at(data, path[:-1])
-        around[path[-1]] = value
+        before, around[path[-1]] = around[path[-1]], value
         kinds: set[str] = set()
         try:
             Spec.model_validate(data)
         except ValidationError as error:
             kinds = {each["type"] for each in error.errors(include_url=False)}
+        around[path[-1]] = before
         assert kinds <= {*misfit._MESSAGES, "missing", "extra_forbidden"}, path
 
 

@@ -11,11 +11,9 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 
 import pytest
 from busservo._client.exchanges import EXCHANGES
-from framegen.compile import compile_spec
 from framegen.model.exchanges import STEPS_PER_SECOND
-from framegen.reading.source import Source
 
-from tests.factories import BUSSERVO, Data, data_of, layout_of
+from tests.factories import BUSSERVO, Data, compiled_values, data_of, is_misfit, layout_of
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -62,11 +60,15 @@ CONTRACT: dict[str, Row] = {
     ),
 }
 TREE = data_of(BUSSERVO)
+# All but what is said of the documents: that a fact contradicts them is not enough.
+FACTS = {key: TREE[key] for key in TREE if key not in ("errata", "unknowns", "lookalikes")}
 
 
 def said_by(data: Data) -> dict[str, Row] | None:
     """Return the facts of a spec about its requests; None if `framegen check` objects to it."""
-    compiled = compile_spec(Source("changed.yaml", json.dumps(data)))
+    if is_misfit(data):
+        return None
+    compiled = compiled_values(data)
     if compiled.findings or compiled.spec is None:
         return None
     return {
@@ -203,7 +205,7 @@ CHANGES = [*methods(), *echoes(), *answers(), *results()]
     ("name", "key", "value"), [pytest.param(*each, id=str(each)[:90]) for each in CHANGES]
 )
 def test_a_changed_fact_contradicts_the_contract(name: str, key: str, value: Any) -> None:
-    data = json.loads(json.dumps(TREE))
+    data = json.loads(json.dumps(FACTS))
     message = data["messages"][name]
     assert message.get(key) != value, "a mutation changes something"
     if value is None:

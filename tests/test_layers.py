@@ -2,6 +2,7 @@
 
 import ast
 from collections.abc import Iterator
+from functools import cache
 from pathlib import Path
 
 import pytest
@@ -62,13 +63,26 @@ def _part(parts: tuple[str, ...]) -> str:
     return ".".join(parts[:2]) if parts[0] == "targets" else parts[0]
 
 
+@cache
+def statements(file: Path) -> list[ast.Import | ast.ImportFrom]:
+    """Return every import in a module, for typing alone or not, wherever it stands."""
+    found: list[ast.Import | ast.ImportFrom] = []
+    bodies: list[ast.AST] = [ast.parse(file.read_text(encoding="utf-8"))]
+    # An expression holds no statement.
+    while bodies:
+        for node in ast.iter_child_nodes(bodies.pop()):
+            if isinstance(node, ast.Import | ast.ImportFrom):
+                found.append(node)
+            elif not isinstance(node, ast.expr):
+                bodies.append(node)
+    return found
+
+
 def imported(file: Path) -> Iterator[str]:
-    """Return everything that a module imports, for typing alone or not, in full."""
-    for node in ast.walk(ast.parse(file.read_text(encoding="utf-8"))):
-        if isinstance(node, ast.Import):
-            yield from (alias.name for alias in node.names)
-        elif isinstance(node, ast.ImportFrom):
-            yield from (f"{node.module}.{alias.name}" for alias in node.names)
+    """Yield everything that a module imports, in full."""
+    for node in statements(file):
+        module = f"{node.module}." if isinstance(node, ast.ImportFrom) else ""
+        yield from (f"{module}{alias.name}" for alias in node.names)
 
 
 MODULES = list(modules())
@@ -116,7 +130,7 @@ PARTS = sorted(file.relative_to(LIBRARY) for file in LIBRARY.rglob("*.py"))
 
 def needed(path: Path) -> Iterator[str]:
     """Yield every package and module of the library that one of its modules imports."""
-    for node in ast.walk(ast.parse((LIBRARY / path).read_text(encoding="utf-8"))):
+    for node in statements(LIBRARY / path):
         if isinstance(node, ast.ImportFrom) and node.level == len(path.parts):
             names = [node.module] if node.module else [alias.name for alias in node.names]
             yield from (name.partition(".")[0] for name in names)

@@ -10,6 +10,7 @@ import keyword
 import re
 import subprocess
 import sys
+from functools import cache
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -38,9 +39,9 @@ from tests.factories import (
     ROOT,
     compiled_of,
     data_of,
-    files_of,
     layout_of,
     library,
+    library_files,
     renamed,
     vectors_of,
     write_files,
@@ -50,6 +51,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
     from types import ModuleType
 
+    from framegen.compile import Compiled
     from framegen.model.layout import MessageLayout
     from framegen.model.model import Model
 
@@ -65,6 +67,17 @@ MODULES = sorted(
     if "_cli" not in path.parts and MINE & {*re.findall(r"\w+", path.read_text(encoding="utf-8"))}
 )
 CROWDS = {"names": taken_names, "elements": taken_elements, "pose": taken_pose}
+
+
+@cache
+def compiled_crowd(name: str) -> Compiled:
+    """Compile one of CROWDS, which are large."""
+    return compiled_of(CROWDS[name]())
+
+
+@cache
+def files_of_crowd(name: str) -> dict[str, str]:
+    return library_files(compiled_crowd(name))
 
 
 # ------------------------------------------------------------------ the lists have it all
@@ -249,8 +262,7 @@ def test_where_nothing_is_bent_the_library_is_made_of_the_model_itself(file: Pat
 
 @pytest.mark.parametrize("name", CROWDS)
 def test_the_vectors_and_the_reference_keep_the_names_of_the_author(name: str) -> None:
-    data = CROWDS[name]()
-    compiled = compiled_of(data)
+    data, compiled = CROWDS[name](), compiled_crowd(name)
     shown = vectors_of(compiled)
     assert shown["protocol"] == data["protocol"]["name"]
     assert {each["message"]: each["direction"] for each in shown["valid"]} == {
@@ -267,13 +279,11 @@ def test_the_vectors_and_the_reference_keep_the_names_of_the_author(name: str) -
 
 
 @pytest.fixture(scope="module", params=CROWDS)
-def crowd(
-    request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory
-) -> Iterator[tuple[Model, ModuleType]]:
+def crowd(request: pytest.FixtureRequest) -> Iterator[tuple[Model, ModuleType]]:
     """Return a spec of taken names, and its library."""
-    data = CROWDS[request.param]()
-    with library(files_of(data), tmp_path_factory.mktemp(request.param)) as made:
-        yield layout_of(data), made
+    name = str(request.param)
+    with library(files_of_crowd(name)) as made:
+        yield compiled_crowd(name).model, made
 
 
 def plain(value: Any) -> Any:
@@ -359,9 +369,8 @@ def test_every_message_has_a_strategy(crowd: tuple[Model, ModuleType]) -> None:
     assert {"messages", "noise", "noisy_streams"} <= {*vars(strategies)}
 
 
-def test_a_pose_is_read_and_held_under_bent_names(tmp_path: Path) -> None:
-    data = taken_pose()
-    with library(files_of(data), tmp_path) as lib:
+def test_a_pose_is_read_and_held_under_bent_names() -> None:
+    with library(files_of_crowd("pose")) as lib:
         device = lib.Device()
         there = lib.Places([(1, 7), (2, 8)])
         moved: list[Any] = []
@@ -379,8 +388,8 @@ def test_a_pose_is_read_and_held_under_bent_names(tmp_path: Path) -> None:
 def on_disk(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """Return the libraries of all of them, side by side."""
     folder = tmp_path_factory.mktemp("crowds")
-    for data in CROWDS.values():
-        write_files(files_of(data()), folder)
+    for name in CROWDS:
+        write_files(files_of_crowd(name), folder)
     return folder / "generated"
 
 

@@ -134,18 +134,18 @@ def test_the_generator_knows_no_protocol_by_name(path: Path) -> None:
     if path.suffix == ".jinja":
         assert forbidden.findall(text) == []
         return
-    tree = ast.parse(text)
-    names = {node.id for node in ast.walk(tree) if isinstance(node, ast.Name)}
-    names |= {node.attr for node in ast.walk(tree) if isinstance(node, ast.Attribute)}
-    names |= {node.arg for node in ast.walk(tree) if isinstance(node, ast.arg)}
+    code = [*ast.walk(ast.parse(text))]
+    names = {node.id for node in code if isinstance(node, ast.Name)}
+    names |= {node.attr for node in code if isinstance(node, ast.Attribute)}
+    names |= {node.arg for node in code if isinstance(node, ast.arg)}
     names |= {
         node.name
-        for node in ast.walk(tree)
+        for node in code
         if isinstance(node, ast.FunctionDef | ast.ClassDef | ast.AsyncFunctionDef)
     }
     assert [name for name in names if forbidden.search(name)] == []
     # Text that is compared or looked up would be knowledge; text that is shown is an example.
-    for node in ast.walk(tree):
+    for node in code:
         compared: list[ast.AST] = []
         if isinstance(node, ast.Compare):
             compared = [node.left, *node.comparators]
@@ -156,7 +156,7 @@ def test_the_generator_knows_no_protocol_by_name(path: Path) -> None:
         for each in compared:
             if isinstance(each, ast.Constant):
                 assert forbidden.search(str(each.value)) is None
-    assert 0x5555 not in [n.value for n in ast.walk(tree) if isinstance(n, ast.Constant)]
+    assert 0x5555 not in [node.value for node in code if isinstance(node, ast.Constant)]
 
 
 @pytest.mark.parametrize("path", [*TEMPLATES, *RUNTIME], ids=named)

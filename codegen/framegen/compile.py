@@ -13,6 +13,7 @@ from framegen.reading.findings import in_order
 from framegen.reading.yamltree import Unusable
 
 if TYPE_CHECKING:
+    from framegen.language.load import Loaded
     from framegen.language.spec import Spec
     from framegen.model.model import Model
     from framegen.reading.findings import Finding
@@ -53,7 +54,11 @@ def compile_spec(source: Source) -> Compiled:
 
     What is wrong is in `findings`, from the top of the file down.
     """
-    loaded = load(source)
+    return compile_loaded(load(source))
+
+
+def compile_loaded(loaded: Loaded) -> Compiled:
+    """Check a spec that has been read, and derive its model."""
     found, spec, model = list(loaded.findings), loaded.spec, None
     if spec is not None:
         structure = check_structure(spec, loaded.tree)
@@ -61,4 +66,4 @@ def compile_spec(source: Source) -> Compiled:
         if not structure:
             model = derive(spec)
             found += check_model(model, loaded.tree)
-    return Compiled(source, loaded.tree, in_order(found), spec, model)
+    return Compiled(loaded.source, loaded.tree, in_order(found), spec, model)

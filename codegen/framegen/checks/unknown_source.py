@@ -12,7 +12,7 @@ from framegen.language.values import Citation
 from framegen.reading.findings import did_you_mean
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Iterable, Iterator
 
     from framegen.language.spec import Spec
     from framegen.reading.yamltree import KeyPath
@@ -27,19 +27,26 @@ def _look(spec: Spec) -> Iterator[Problem]:
             yield Problem(path, f"there is no source `{source}`", hint)
 
 
+# What a citation is, or may be in; most values are texts and numbers.
+_CITING = (Citation, BaseModel, dict, list)
+
+
 def _cited(path: KeyPath, value: Any) -> Iterator[tuple[KeyPath, str]]:
     """Find the citations in `value`, wherever the language allows one."""
     if isinstance(value, Citation):
         yield path, value.source
-    elif isinstance(value, BaseModel):
-        for name, info in type(value).model_fields.items():
-            yield from _cited((*path, info.alias or name), getattr(value, name))
+        return
+    inner: Iterable[tuple[str | int, Any]] = ()
+    if isinstance(value, BaseModel):
+        fields = type(value).model_fields
+        inner = ((info.alias or name, getattr(value, name)) for name, info in fields.items())
     elif isinstance(value, dict):
-        for key, item in value.items():
-            yield from _cited((*path, str(key)), item)
+        inner = ((str(key), item) for key, item in value.items())
     elif isinstance(value, list):
-        for index, item in enumerate(value):
-            yield from _cited((*path, index), item)
+        inner = enumerate(value)
+    for step, item in inner:
+        if isinstance(item, _CITING):
+            yield from _cited((*path, step), item)
 
 
 RULE = StructureRule(

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import partial
 from typing import TYPE_CHECKING
 
 from framegen.checks.rule import Problem, StructureRule
@@ -19,7 +20,8 @@ if TYPE_CHECKING:
 def _look(spec: Spec) -> Iterator[Problem]:
     for path, type_ in _types(spec):
         if type_ not in NUMBER_TYPES:
-            yield Problem(path, f"unknown type `{type_}`", did_you_mean(type_, NUMBER_TYPES))
+            hint = partial(did_you_mean, type_, NUMBER_TYPES)
+            yield Problem(path, f"unknown type `{type_}`", hint)
 
 
 def _types(spec: Spec) -> Iterator[tuple[KeyPath, str]]:

@@ -80,6 +80,13 @@ class ReferenceDecoder:
         reason = BAD_HEADER
         at = 0
         while at < len(data):
+            if data[at] != header[0]:
+                # Nothing begins before the first byte of the next header.
+                found = data.find(header[:1], at)
+                end = len(data) if found < 0 else found
+                _emit_noise(events, at, data[at:end], reason)
+                at = end
+                continue
             rest = data[at:]
             verdict = self.weigh(rest)
             if verdict.message is not None:

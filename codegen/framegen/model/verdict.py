@@ -85,7 +85,7 @@ def weigh(
     largest offset is given.
     """
     if data and data[0] != model.frame.header[0]:
-        return _begins_otherwise(model.plain.frame.opening)
+        return _begins_otherwise(model.frame.opening)
     look = _Look(model, directions, data, max_frame)
     try:
         length, candidates = look.head()
@@ -122,10 +122,15 @@ class _Look:
         self.frame = model.frame
         self.directions = directions
         self.data = data
-        largest = model.largest(directions)
-        self.largest = largest if max_frame is None else min(largest, max_frame)
+        self.max_frame = max_frame
         self.seen: list[Placed] = []
         self.likely: MessageLayout | None = None
+
+    @property
+    def largest(self) -> int:
+        """The size of the largest frame that there may be."""
+        largest = self.model.largest(self.directions)
+        return largest if self.max_frame is None else min(largest, self.max_frame)
 
     def head(self) -> tuple[int, list[MessageLayout]]:
         """Read the slots in front of the fields: the length, and the messages that can have it."""
@@ -182,10 +187,13 @@ class _Look:
         return Verdict(None, reason, offset, due, tuple(seen), likely, claim)
 
     def _due(self, reason: str, offset: int, likely: MessageLayout | None) -> Callable[[], str]:
-        """Return what says what is expected."""
+        """Return what says what is expected: few verdicts are asked."""
+        return partial(self._expected, reason, offset, likely)
+
+    def _expected(self, reason: str, offset: int, likely: MessageLayout | None) -> str:
         plain, ways = self.model.plain, self.directions
         message = None if likely is None else plain.messages[likely.name]
-        return Refused(plain, ways, self.data, reason, offset, message, self.largest).expected
+        return Refused(plain, ways, self.data, reason, offset, message, self.largest).expected()
 
     def _constant(self, placed: Placed, slot: Constant) -> None:
         found = placed.of(self.data)

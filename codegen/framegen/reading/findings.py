@@ -77,7 +77,9 @@ def in_order(findings: Iterable[Finding]) -> list[Finding]:
 def did_you_mean(word: str, known: Iterable[str], *, otherwise: str = "") -> str:
     """Suggest what a misspelt word was meant to be: its nearest neighbour, or the choices."""
     choices = list(known)
-    near = get_close_matches(word, choices)
+    # Of two words, one three times as long as the other, too few letters can agree.
+    longest = max(map(len, choices), default=0)
+    near = get_close_matches(word, choices) if len(word) <= 3 * longest else []
     if near:
         return f"did you mean `{near[0]}`?"
     if otherwise or not choices:

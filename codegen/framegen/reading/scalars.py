@@ -8,6 +8,7 @@ differently is refused; the author writes what was meant, in quotes or in decima
 from __future__ import annotations
 
 import re
+from functools import lru_cache
 
 _INTEGER = re.compile(r"[-+]?(?:0|[1-9][0-9]*)|0x[0-9a-fA-F]+")
 _NULLS = frozenset(["", "~", "null"])
@@ -55,6 +56,10 @@ _AMBIGUOUS = (
 )
 
 
+# How each of them begins, or all of it. Most words are nothing of the kind.
+_SUSPECT = re.compile(r"[-+.=<0-9]|(?i:y|n|yes|no|on|off|true|false|null)\Z")
+
+
 class Ambiguous(ValueError):  # noqa: N818 - says what the scalar is
     """A plain scalar that YAML readers disagree on; `hint` says what to write instead."""
 
@@ -63,12 +68,18 @@ class Ambiguous(ValueError):  # noqa: N818 - says what the scalar is
         self.hint = hint
 
 
+@lru_cache(maxsize=512)
 def resolve(text: str) -> str | int | bool | None:
-    """Find the value of a plain scalar. Raises Ambiguous where YAML readers disagree."""
+    """Find the value of a plain scalar. Raises Ambiguous where YAML readers disagree.
+
+    What is read often is kept: most keys of a spec stand in it many times.
+    """
     if text in _NULLS:
         return None
     if text in _BOOLEANS:
         return _BOOLEANS[text]
+    if not _SUSPECT.match(text):
+        return text
     # A number of a thousand digits is text to us: Python refuses to convert it.
     if _INTEGER.fullmatch(text) and len(text) < 40:
         return int(text, 0)

@@ -31,7 +31,11 @@ def markdown(value: object) -> str:
     """Escape `value` for Markdown: no mark-up, no HTML, no link, and all on one line."""
     if isinstance(value, Safe):
         return value
-    folded = " ".join(str(value).split())
+    text = str(value)
+    # Most of it is names and numbers.
+    if text.isascii() and text.isalpha():
+        return text
+    folded = " ".join(text.split())
     escaped = _SPECIAL.sub(r"\\\1", folded.translate(_ENTITIES))
     leading = _LEADING.match(escaped)
     if leading is not None:

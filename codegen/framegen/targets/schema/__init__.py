@@ -7,6 +7,7 @@ left out, and every version of it gives the same text.
 from __future__ import annotations
 
 import json
+from functools import cache
 from typing import TYPE_CHECKING, Any
 
 from framegen.language.number_types import NUMBER_TYPES
@@ -61,6 +62,11 @@ def schema_text() -> str:
             "Python was started with -OO, and has no descriptions for the schema",
             hint="start it without -OO",
         )
+    return _schema_text()
+
+
+@cache
+def _schema_text() -> str:
     schema = _tidied(Spec.model_json_schema(by_alias=True, mode="validation"))
     for model in schema["$defs"].values():
         if "type" in model["properties"]:
