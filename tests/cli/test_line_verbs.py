@@ -16,6 +16,7 @@ from busservo import ServoPositions, ServoPositionsRead
 from busservo._cli import link, main, send, simulate
 from busservo._cli.examples import EXAMPLES, VERBS
 from busservo._cli.questions import in_parts
+from busservo._client import session
 from busservo._client.client import Client
 from busservo._serial.hid_devices import HidDevice
 from busservo._serial.link_errors import PortNotFoundError
@@ -138,8 +139,9 @@ def test_the_rate_is_that_of_the_port(
 
 @pytest.mark.parametrize("echoes", [True, False])
 def test_a_local_echo_is_expected_where_it_was_said(
-    capsys: pytest.CaptureFixture[str], *, echoes: bool
+    capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch, *, echoes: bool
 ) -> None:
+    monkeypatch.setattr(session, "_ECHO_LATENCY", GENEROUS)
     words = ["BatteryVoltageRead", "--baud", "inf", "--local-echo"]
     with VirtualController("tcp", local_echo=echoes) as board:
         status = main(["send", "--port", board.port, *words, *PATIENT])

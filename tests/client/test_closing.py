@@ -886,7 +886,7 @@ def test_a_client_that_is_forgotten_while_the_port_takes_its_question() -> None:
     line = Slow()
 
     async def work() -> None:
-        controller = Forgotten(line)
+        controller = Forgotten(line, **LIVE)
         asking = asyncio.ensure_future(controller.read_battery_voltage())
         assert await asyncio.get_running_loop().run_in_executor(None, begun.wait, GENEROUS)
         asking.cancel()
@@ -934,7 +934,7 @@ def test_a_loop_that_has_ended_with_a_question_under_way_hinders_no_closing() ->
     loop.set_exception_handler(lambda *_: None)
 
     async def ask() -> tuple[AsyncController, asyncio.Task[int]]:
-        controller = AsyncController(line, reply_timeout=GENEROUS)
+        controller = AsyncController(line, **LIVE)
         asking = asyncio.ensure_future(controller.read_battery_voltage())
         while not line.received:
             await asyncio.sleep(0.001)
