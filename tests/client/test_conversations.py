@@ -9,7 +9,6 @@ from __future__ import annotations
 import asyncio
 import math
 import sys
-import traceback
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import contextmanager
 from dataclasses import replace
@@ -23,6 +22,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from tests import soak
+from tests.at_once import at_once
 from tests.client.conversation import (
     Ledger,
     converse,
@@ -32,7 +32,7 @@ from tests.client.conversation import (
 )
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable, Iterator
+    from collections.abc import Iterator
     from contextlib import AbstractAsyncContextManager
     from pathlib import Path
 
@@ -234,21 +234,6 @@ def faults_at(way: str, kind: str) -> Faults:
     return replace(FAULTS[kind], seed=cut if kind == "cut" else mixed)
 
 
-def at_once(talk: Callable[[str, str], None], lines: Iterable[tuple[str, str]] = LINES) -> None:
-    """Run the same conversation on each of these lines at once: most of one is waiting."""
-
-    def failure(line: tuple[str, str]) -> str:
-        try:
-            talk(*line)
-        except Exception:  # noqa: BLE001 - it is shown
-            return f"{line}: {traceback.format_exc()}"
-        return ""
-
-    lines = [*lines]
-    with ThreadPoolExecutor(len(lines)) as pool:
-        assert "\n".join(filter(None, pool.map(failure, lines))) == ""
-
-
 def test_answers_and_reports_are_right_over_a_live_line(tmp_path: Path) -> None:
     def talk(way: str, kind: str) -> None:
         faults = faults_at(way, kind)
@@ -261,7 +246,7 @@ def test_answers_and_reports_are_right_over_a_live_line(tmp_path: Path) -> None:
             assert ledger.right >= 3
             assert (ledger.reconnected > 0) == (kind == "cut")
 
-    at_once(talk)
+    at_once(talk, LINES)
 
 
 def test_answers_and_reports_are_right_over_a_live_line_with_asyncio(tmp_path: Path) -> None:
@@ -280,7 +265,7 @@ def test_answers_and_reports_are_right_over_a_live_line_with_asyncio(tmp_path: P
             assert ledger.right >= 3
             assert (ledger.reconnected > 0) == (kind == "cut")
 
-    at_once(talk)
+    at_once(talk, LINES)
 
 
 def test_eight_threads_share_a_line_with_faults(tmp_path: Path) -> None:
