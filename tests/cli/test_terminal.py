@@ -145,7 +145,7 @@ def test_a_lost_line_is_reported_and_the_log_is_kept(tmp_path: Path, via: str) -
 
 
 def test_a_reply_that_does_not_come_is_reported_in_place_of_the_progress() -> None:
-    words = ("send", "--port", "loop://", "--local-echo", "BatteryVoltageRead", "--timeout", "0.3")
+    words = ("send", "--port", "loop://", "--local-echo", "BatteryVoltageRead", "--timeout", "0.1")
     with OnTerminal(*words) as send:
         assert send.end() == 1
         (errors, rest) = send.lines
