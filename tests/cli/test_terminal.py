@@ -8,14 +8,14 @@ import sys
 from typing import TYPE_CHECKING
 
 import pytest
-from busservo import BatteryVoltage
+from busservo import BatteryVoltage, open_controller
 from busservo_simulator import VirtualController
 
 if sys.platform != "linux":
     pytest.skip("terminals differ by system, and only Linux's are tried", allow_module_level=True)
 
 from tests.cli.terminal import OnTerminal, run, start
-from tests.timeouts import GENEROUS, await_that
+from tests.timeouts import GENEROUS, LIVE, await_that
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -45,8 +45,8 @@ def test_ctrl_c_ends_a_monitor_with_its_totals(board: VirtualController) -> None
         assert totals == "6 bytes: 1 message, 0 bytes of noise"
         assert rest == [""]
     # The port has been given back: the next one has it, exclusively.
-    words = ("send", "--port", board.port, "BatteryVoltageRead", "--timeout", str(GENEROUS))
-    assert run(*words).returncode == 0
+    with open_controller(board.port, **LIVE) as controller:
+        assert controller.read_battery_voltage() == 7500
 
 
 def test_sigterm_ends_a_monitor_as_cleanly(board: VirtualController) -> None:
