@@ -111,7 +111,7 @@ NEW = """
   ServoUnload:"""
 
 BOARD = """
-import asyncio, socket, threading, types
+import asyncio, math, socket, threading, types
 import busservo
 from busservo import LampBlinking, LampsState
 from busservo.device import Device
@@ -119,6 +119,8 @@ from serial.urlhandler import protocol_socket
 
 # As in tests/conftest.py: nobody waits behind a socket that is closed.
 protocol_socket.time = types.SimpleNamespace(sleep=lambda seconds: None)
+# The board is quick, on a line that takes no time.
+LIVE = {"reply_timeout": 60, "baud": math.inf, "settle": 0}
 
 class Board(Device):
     levels = {1: 0, 2: 0, 7: 0}
@@ -146,7 +148,7 @@ port = f"socket://127.0.0.1:{listener.getsockname()[1]}"
 """
 
 METHODS = """
-with busservo.open_controller(port, reply_timeout=60) as controller:
+with busservo.open_controller(port, **LIVE) as controller:
     set_ = controller.lamp_set([(7, 9), (1, 3)], 0)
     print(set_.lasts, set_.wait())
     print(controller.lamp_set([(7, 9)], fade_s=2, latest=True).lasts)
@@ -160,7 +162,7 @@ with busservo.open_controller(port, reply_timeout=60) as controller:
         print(error)
 
 async def work():
-    async with busservo.open_async_controller(port, reply_timeout=60) as controller:
+    async with busservo.open_async_controller(port, **LIVE) as controller:
         await (await controller.lamp_set([(2, 200)], 0)).wait()
         print(await controller.read_lamps([2]))
 
@@ -170,8 +172,8 @@ print(board.rejects)
 
 VERB = """
 from busservo._cli import main
-assert main(["send", "--port", port, "LampSet", "fade_s=0", "lamps=7:9"]) == 0
-assert main(["send", "--port", port, "LampsRead", "lamp_ids=7"]) == 0
+assert main(["send", "--port", port, "--baud", "inf", "LampSet", "fade_s=0", "lamps=7:9"]) == 0
+assert main(["send", "--port", port, "--baud", "inf", "LampsRead", "lamp_ids=7"]) == 0
 assert main(["encode", "LampSet", "fade_s=0", "lamps=7:9"]) == 0
 """
 

@@ -8,7 +8,9 @@ from contextlib import contextmanager
 from typing import TYPE_CHECKING, TypedDict
 from unittest import mock
 
+from busservo._cli.checks import probe
 from busservo._client import session
+from framegen.conformance.device import session as firmware_session
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
@@ -39,10 +41,15 @@ def await_that(true: Callable[[], object]) -> None:
 
 @contextmanager
 def undoubted() -> Iterator[None]:
-    """Shorten the waits of clients: nobody else sends requests, and each reply comes once.
+    """Shorten the waits for more bytes: nobody else sends requests, and each reply comes once.
 
     A client otherwise waits before it sends on a line that was opened just now, and before it
-    believes a reply that came sooner than a wire could have carried it.
+    believes a reply that came sooner than a wire could have carried it; and the doctor and a test
+    of firmware wait behind each reply for another.
     """
-    with mock.patch.object(session, "_LATENCY", 0.001):
+    with (
+        mock.patch.object(session, "_LATENCY", 0.001),
+        mock.patch.object(probe, "_PAUSE", 0.001),
+        mock.patch.object(firmware_session, "_QUIET", 0.001),
+    ):
         yield

@@ -26,11 +26,13 @@ ENVIRONMENT = {
 }
 # What a shell does for its programs: the terminal becomes the one that sends SIGINT for Ctrl-C, and
 # SIGINT does something, even where the tests themselves run in the background and ignore it.
+# A wait is shown soon, as no test is about how long one goes on before that.
 _PROGRAM = """
 import fcntl, signal, sys, termios
 fcntl.ioctl(0, termios.TIOCSCTTY, 0)
 signal.signal(signal.SIGINT, signal.default_int_handler)
-from busservo._cli import main
+from busservo._cli import main, progress
+progress.PROGRESS_INTERVAL = 0.02
 sys.exit(main())
 """
 

@@ -16,6 +16,7 @@ from busservo import ServoPositions, ServoPositionsRead
 from busservo._cli import link, main, send, simulate
 from busservo._cli.examples import EXAMPLES, VERBS
 from busservo._cli.questions import in_parts
+from busservo._client import session
 from busservo._client.client import Client
 from busservo._serial.hid_devices import HidDevice
 from busservo._serial.link_errors import PortNotFoundError
@@ -70,7 +71,8 @@ def test_a_question_too_large_for_one_reply_is_sent_in_parts(
 ) -> None:
     servos = range(1, 201)
     with VirtualController("tcp", servos=servos) as board:
-        words = ["ServoPositionsRead", f"servo_ids={','.join(map(str, servos))}", "--json"]
+        ids = f"servo_ids={','.join(map(str, servos))}"
+        words = ["ServoPositionsRead", ids, "--json", "--baud", "inf"]
         assert main(["send", "--port", board.port, *words, *PATIENT]) == 0
         assert board.accepted == 3
     output, errors = capsys.readouterr()
@@ -97,7 +99,7 @@ def test_silence_after_a_part_keeps_what_had_come(
 
 
 def test_retries_ask_again(capsys: pytest.CaptureFixture[str]) -> None:
-    words = ["--retries", "2", "--timeout", "0.05"]
+    words = ["--retries", "2", "--timeout", "0.01"]
     assert main(["send", "--port", "loop://", "BatteryVoltageRead", *words]) == 1
     assert "to 3 requests of BatteryVoltageRead()" in capsys.readouterr().err
 
@@ -137,8 +139,9 @@ def test_the_rate_is_that_of_the_port(
 
 @pytest.mark.parametrize("echoes", [True, False])
 def test_a_local_echo_is_expected_where_it_was_said(
-    capsys: pytest.CaptureFixture[str], *, echoes: bool
+    capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch, *, echoes: bool
 ) -> None:
+    monkeypatch.setattr(session, "_ECHO_LATENCY", GENEROUS)
     words = ["BatteryVoltageRead", "--baud", "inf", "--local-echo"]
     with VirtualController("tcp", local_echo=echoes) as board:
         status = main(["send", "--port", board.port, *words, *PATIENT])
@@ -148,7 +151,8 @@ def test_a_local_echo_is_expected_where_it_was_said(
 
 
 def test_a_missing_reply_has_an_exit_status_of_its_own(capsys: pytest.CaptureFixture[str]) -> None:
-    assert main(["send", "--port", "loop://", "BatteryVoltageRead"]) == 1
+    words = ["BatteryVoltageRead", "--timeout", "0.01"]
+    assert main(["send", "--port", "loop://", *words]) == 1
     assert "no BatteryVoltage came" in capsys.readouterr().err
 
 

@@ -6,6 +6,7 @@ import io
 import re
 import socket
 import sys
+import time
 from typing import TYPE_CHECKING
 from unittest import mock
 
@@ -21,6 +22,7 @@ from busservo import (
     open_controller,
 )
 from busservo._cli import main, playback
+from busservo._cli.playback import Playback
 from busservo_simulator import Faults, VirtualController
 
 from tests.timeouts import GENEROUS, await_that
@@ -36,13 +38,21 @@ RUN = ActionGroupRun(group=8, times=1)
 LAST = ServoPositionsRead([200])
 
 
-# How long a replay waits for the last answer, where the test is about one.
-LAST_ANSWER = playback._QUIET
-
-
 @pytest.fixture(autouse=True)
 def _no_answer_is_waited_for(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(playback, "_QUIET", 0.0)
+
+
+def prolong_waits(monkeypatch: pytest.MonkeyPatch, *counts: int) -> None:
+    """Let each wait of a replay go on until so many lines are shown, on however slow a machine."""
+    wait, lines = Playback._wait, iter(counts)
+
+    def wait_longer(self: Playback, until: float, what: str) -> None:
+        wait(self, until, what)
+        enough = next(lines)
+        await_that(lambda: self._lines.count >= enough or wait(self, time.monotonic() + 0.01, what))
+
+    monkeypatch.setattr(Playback, "_wait", wait_longer)
 
 
 def hexed(message: Message) -> str:
@@ -75,8 +85,8 @@ def replayed(log: Path, *words: str) -> tuple[int, list[Message | Noise]]:
 def test_a_trace_of_a_client_is_played_without_what_came_back(
     log: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    # So long does it wait for the last answer.
-    monkeypatch.setattr(playback, "_QUIET", 2.0)
+    # Before each of the three, and behind them for both answers.
+    prolong_waits(monkeypatch, 0, 0, 0, 5)
     with (
         VirtualController("tcp") as board,
         open_controller(board.port, reply_timeout=GENEROUS, trace=log) as controller,
@@ -119,8 +129,9 @@ def test_a_lost_line_ends_the_replay_and_the_progress_is_reported(
 def test_half_a_frame_that_comes_back_is_given_up_when_the_line_is_quiet(
     log: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(playback, "_QUIET", LAST_ANSWER)
-    log.write_text(f"{hexed(MOVE)}  # 0 s, host: a\n{hexed(ASK)}  # 2.5 s, host: b\n")
+    # The second is sent once the half frame has been shown, and its answer is waited for.
+    prolong_waits(monkeypatch, 0, 2, 4)
+    log.write_text(f"{hexed(MOVE)}  # 0 s, host: a\n{hexed(ASK)}  # 0.1 s, host: b\n")
     with VirtualController("tcp") as board:
 
         def begin(_: ServoMove) -> None:

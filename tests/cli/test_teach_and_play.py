@@ -27,13 +27,12 @@ if TYPE_CHECKING:
 
     from busservo import Message
 
-PATIENT = ("--timeout", str(GENEROUS))
+PATIENT = ("--timeout", str(GENEROUS), "--baud", "inf")
 
 
 @pytest.fixture
 def board() -> Iterator[VirtualController]:
-    # At the pace of the wire, as a client takes for granted: on a faster one it would be careful.
-    with VirtualController("tcp", servos=[1, 2, 3], baud=9600) as board:
+    with VirtualController("tcp", servos=[1, 2, 3]) as board:
         yield board
 
 
@@ -182,10 +181,11 @@ def test_without_any_servo_nothing_is_released(
     typed: Any, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     typed("y\n")
-    with VirtualController("tcp", servos=[], baud=9600) as board:
+    with VirtualController("tcp", servos=[]) as board:
         assert main(["teach", str(tmp_path / "new"), "--port", board.port, *PATIENT]) == 1
     assert capsys.readouterr().err == "no servo is there: is the supply of the servos on?\n"
-    assert main(["teach", str(tmp_path / "new"), "--port", "loop://", "--timeout", "0.05"]) == 1
+    words = ["--timeout", "0.01", "--baud", "inf"]
+    assert main(["teach", str(tmp_path / "new"), "--port", "loop://", *words]) == 1
     assert "no ServoPositions came within" in capsys.readouterr().err
 
 

@@ -16,6 +16,7 @@ import threading
 import time
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import contextmanager
+from types import SimpleNamespace
 from typing import TYPE_CHECKING
 
 import pytest
@@ -186,7 +187,7 @@ def test_another_reader_of_the_port_costs_replies_and_makes_none_wrong() -> None
 
         def steal() -> None:
             nonlocal stolen
-            with serial.Serial(board.port, 9600, timeout=0) as thief:
+            with serial.Serial(board.port, 9600, timeout=0.01) as thief:
                 begun.set()
                 while not over.is_set():
                     try:
@@ -202,7 +203,7 @@ def test_another_reader_of_the_port_costs_replies_and_makes_none_wrong() -> None
             assert begun.wait(BOUND)
             with open_controller(board.port, exclusive=False, reply_timeout=0.02) as controller:
                 requests, end = 0, time.monotonic() + BOUND
-                while requests < 60 or (not stolen and time.monotonic() < end):
+                while requests < 20 or (not stolen and time.monotonic() < end):
                     requests += 1
                     with bounded():
                         try:
@@ -390,7 +391,10 @@ def test_what_is_cancelled_leaves_a_live_line_usable(board: VirtualController) -
 
 @needs_pty
 @pytest.mark.filterwarnings("ignore:set(Daemon|Name):DeprecationWarning")
-def test_a_port_over_rfc_2217() -> None:
+def test_a_port_over_rfc_2217(monkeypatch: pytest.MonkeyPatch) -> None:
+    # pyserial sleeps between looks whether a server has agreed, and when it has closed.
+    briefly = SimpleNamespace(sleep=lambda seconds: time.sleep(min(seconds, 0.001)))
+    monkeypatch.setattr(serial.rfc2217, "time", briefly)
     with (
         VirtualController("pty") as board,
         Rfc2217Server(board.port) as server,

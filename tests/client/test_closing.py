@@ -221,7 +221,7 @@ def test_a_client_for_asyncio_that_is_forgotten_says_so_and_gives_everything_bac
             super().__del__(lambda text, *_, **__: warned.append(text))
 
     async def work() -> None:
-        controller = Watched(line, reply_timeout=GENEROUS)
+        controller = Watched(line, **LIVE)
         assert await controller.read_battery_voltage() == 7500
         assert len(own_threads()) == 2
 
@@ -230,6 +230,29 @@ def test_a_client_for_asyncio_that_is_forgotten_says_so_and_gives_everything_bac
     await_that(lambda: line.closed)
     await_that(lambda: not own_threads())
     assert len(warned) == 1
+
+
+class ReadsOn(LiveLine):
+    """A line whose reads find nothing once it is closed, rather than say so."""
+
+    def read(self, timeout: float) -> bytes:
+        try:
+            return super().read(timeout)
+        except ClosedError:
+            time.sleep(min(timeout, 0.001))
+            return b""
+
+
+@pytest.mark.parametrize("line", [LiveLine, ReadsOn])
+def test_no_thread_reads_on_where_a_client_for_asyncio_is_closed(line: type[LiveLine]) -> None:
+    async def work() -> AsyncController:
+        async with AsyncController(line(), **LIVE) as controller:
+            assert await controller.read_battery_voltage() == 7500
+        return controller
+
+    controller = asyncio.run(work())
+    await_that(lambda: not own_threads())
+    assert controller.closed
 
 
 def test_the_warning_is_a_resource_warning() -> None:
@@ -863,7 +886,7 @@ def test_a_client_that_is_forgotten_while_the_port_takes_its_question() -> None:
     line = Slow()
 
     async def work() -> None:
-        controller = Forgotten(line)
+        controller = Forgotten(line, **LIVE)
         asking = asyncio.ensure_future(controller.read_battery_voltage())
         assert await asyncio.get_running_loop().run_in_executor(None, begun.wait, GENEROUS)
         asking.cancel()
@@ -911,7 +934,7 @@ def test_a_loop_that_has_ended_with_a_question_under_way_hinders_no_closing() ->
     loop.set_exception_handler(lambda *_: None)
 
     async def ask() -> tuple[AsyncController, asyncio.Task[int]]:
-        controller = AsyncController(line, reply_timeout=GENEROUS)
+        controller = AsyncController(line, **LIVE)
         asking = asyncio.ensure_future(controller.read_battery_voltage())
         while not line.received:
             await asyncio.sleep(0.001)

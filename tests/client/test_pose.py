@@ -347,7 +347,7 @@ def test_the_same_for_asyncio() -> None:
         async with busservo.open_async_controller(port, limits=None) as controller:
             await controller.send(MOVE_BEYOND)
 
-    with VirtualController("tcp", servos=[1, 2, 3], baud=9600) as board:
+    with VirtualController("tcp", servos=[1, 2, 3]) as board:
         asyncio.run(run(board.port))
         assert board.rejects.total == 0
 

@@ -1,5 +1,24 @@
-"""What holds for tests that start boards."""
+"""What holds for tests that start boards, and what shortens those in real time."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import pytest
+from busservo._cli.checks import silence
 
 from tests.boards import no_board_refuses_anything, pytest_runtest_makereport
+from tests.timeouts import undoubted
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
 
 __all__ = ["no_board_refuses_anything", "pytest_runtest_makereport"]
+
+
+@pytest.fixture
+def nothing_else_comes(monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
+    """Shorten the waits for what a board may send besides its replies."""
+    monkeypatch.setattr(silence, "_LISTENING", 0.001)
+    with undoubted():
+        yield

@@ -28,6 +28,7 @@ if TYPE_CHECKING:
 PATIENT = ("--timeout", str(GENEROUS))
 
 
+@pytest.mark.usefixtures("nothing_else_comes")
 def test_each_check_is_a_line_with_its_bytes_below_it(capsys: pytest.CaptureFixture[str]) -> None:
     with VirtualController("tcp") as board:
         assert main(["doctor", "--port", board.port, *PATIENT]) == 0
@@ -49,6 +50,7 @@ def test_a_failed_check_comes_with_advice(capsys: pytest.CaptureFixture[str]) ->
     assert "unknown  rate         not looked at: see the check `opening`\n" in output
 
 
+@pytest.mark.usefixtures("nothing_else_comes")
 def test_json_has_a_line_for_each_check(
     capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -64,6 +66,7 @@ def test_json_has_a_line_for_each_check(
     assert rate["bytes"] == ["55 55 04 0F 4C 1D"]
 
 
+@pytest.mark.usefixtures("nothing_else_comes")
 def test_a_line_that_is_lost_has_a_status_of_its_own(capsys: pytest.CaptureFixture[str]) -> None:
     with VirtualController("tcp", faults=Faults(hang_up=1.0)) as board:
         assert main(["doctor", "--port", board.port, *PATIENT]) == 3

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import TYPE_CHECKING
 
 import pytest
@@ -12,7 +13,7 @@ from busservo._cli.checks.move import move_check
 from busservo._cli.checks.result import FAILED, PASSED, UNKNOWN
 from busservo._client.exchanges import POSE
 from busservo._client.limits import Limits
-from busservo_simulator import Faults, VirtualController
+from busservo_simulator import Faults, VirtualController, servo
 
 from tests.doctor.patient import board_with, diagnosis_of
 from tests.timeouts import GENEROUS
@@ -76,6 +77,7 @@ def test_a_servo_that_does_not_move_is_reported(monkeypatch: pytest.MonkeyPatch)
 
 
 @pytest.mark.parametrize(("answer", "status"), [("y\n", 0), ("n\n", 2), ("\n", 2), ("", 2)])
+@pytest.mark.usefixtures("nothing_else_comes")
 def test_it_asks_before_it_moves(
     capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch, answer: str, status: int
 ) -> None:
@@ -88,7 +90,10 @@ def test_it_asks_before_it_moves(
 
     monkeypatch.setattr("sys.stdin", Terminal())
     monkeypatch.setattr(doctor, "CHECKS", OPENING)
-    monkeypatch.setattr(move, "_MILLISECONDS", 10)
+    # It moves in no time, and so before its position is read, on however slow a machine.
+    monkeypatch.setattr(servo, "STEPS_PER_SECOND", math.inf)
+    monkeypatch.setattr(move, "_MILLISECONDS", 0)
+    monkeypatch.setattr(move, "_AFTER", 0.0)
     words = ["--move", "1", "--timeout", str(GENEROUS)]
     with VirtualController("tcp") as board:
         assert main(["doctor", "--port", board.port, *words]) == status

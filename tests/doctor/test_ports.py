@@ -132,7 +132,7 @@ def test_a_line_lost_during_the_checks_is_reported_as_lost() -> None:
 
 
 @pytest.fixture
-def quick(monkeypatch: pytest.MonkeyPatch) -> None:
+def quick(monkeypatch: pytest.MonkeyPatch, nothing_else_comes: None) -> None:
     """Shorten the waits: nothing here is late."""
     monkeypatch.setattr(rate, "EXTRA_TIME", 0.0)
 
@@ -156,6 +156,7 @@ def test_the_rate_at_which_a_board_answers_is_found() -> None:
 
 
 @pytest.mark.garbage
+@pytest.mark.usefixtures("nothing_else_comes")
 def test_a_board_at_the_rate_of_the_protocol_is_at_no_other() -> None:
     pytest.importorskip("pty", reason="there are pseudo-terminals only where there is a tty")
     with VirtualController("pty") as board:
@@ -163,6 +164,7 @@ def test_a_board_at_the_rate_of_the_protocol_is_at_no_other() -> None:
     assert (found.state, found.seen) == (PASSED, "it answers at 9600 baud")
 
 
+@pytest.mark.usefixtures("nothing_else_comes")
 def test_a_connection_has_no_rate() -> None:
     with VirtualController("tcp") as board:
         found = rate_of(board.port, reply_timeout=GENEROUS)

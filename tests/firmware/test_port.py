@@ -5,6 +5,7 @@ import json
 import subprocess
 import sys
 from argparse import ArgumentParser
+from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
@@ -13,18 +14,27 @@ import serial
 from busservo_simulator import VirtualController
 from framegen.cli import main
 from framegen.conformance import firmware
+from framegen.conformance.device import session
 from framegen.conformance.device.port import open_port
 from framegen.reading.yamltree import Unusable
 
 from tests.factories import BUSSERVO
 from tests.firmware.runs import model_of
+from tests.timeouts import GENEROUS, await_that, undoubted
 
 MODEL = model_of()
 LINK = MODEL.spec.link
 unix = pytest.mark.skipif(sys.platform == "win32", reason="Windows has no pseudo-terminals")
 
 
-def ask(port: str, *words: str, timeout: float = 0.25) -> int:
+@pytest.fixture(autouse=True)
+def _nothing_else_comes(monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
+    monkeypatch.setattr(session, "_LISTENING", 0.001)
+    with undoubted():
+        yield
+
+
+def ask(port: str, *words: str, timeout: float = GENEROUS) -> int:
     """Return a run in real time."""
     parser = ArgumentParser()
     firmware.add_arguments(parser)
@@ -46,7 +56,8 @@ def test_the_simulator_passes_through_a_port(via: Any, capsys: pytest.CaptureFix
 @pytest.mark.garbage
 def test_a_line_at_another_rate_is_reported(capsys: pytest.CaptureFixture[str]) -> None:
     with VirtualController("pty", baud=9600) as board:
-        assert ask(board.port, "--baud", "19200", timeout=0.05) == 1
+        assert ask(board.port, "--baud", "19200", timeout=0.01) == 1
+        await_that(lambda: board.rejects.total)
     out = capsys.readouterr().out
     assert f"controller at {board.port}, 19200 8N1\n" in out
     assert "FAIL     BatteryVoltageRead, example 1\n" in out
@@ -56,6 +67,7 @@ def test_the_command_tests_firmware(capsys: pytest.CaptureFixture[str], tmp_path
     log = str(tmp_path / "run.hex")
     with VirtualController("tcp") as board:
         words = [str(BUSSERVO), "--port", board.port, "--format", "json", "--log", log]
+        words += ["--timeout", str(GENEROUS)]
         assert main(["conform", *words]) == 0
         assert json.loads(capsys.readouterr().out)["passed"]
         assert main(["conform", *words]) == 2

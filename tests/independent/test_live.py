@@ -16,6 +16,7 @@ from typing import TYPE_CHECKING
 import pytest
 from busservo import AsyncController, Controller, open_async_controller, open_controller
 
+from tests.at_once import at_once
 from tests.independent import faults, firmware
 from tests.independent.board import Board
 from tests.independent.conversation import SIX, Conversation, repeated
@@ -102,58 +103,66 @@ def reports_of(controller: Controller, board: Board) -> list[bytes]:
     return received
 
 
-@pytest.mark.parametrize("port", PORTS)
-def test_one_thread_gets_right_answers(port: type[Port]) -> None:
-    with (
-        port(scripts(1)) as end,
-        open_controller(end.name, reply_timeout=REPLY_TIMEOUT, settle=0) as controller,
-    ):
-        talk = Conversation(end.board, time.monotonic)
-        ask_all(talk, controller, 1, 20)
-        await_that(lambda: settle(end.board, controller))
-        check(end.board, controller, [talk])
-        assert controller.read_battery_voltage() == end.board.questions
-        assert reports_of(controller, end.board) == end.board.reported
+def test_one_thread_gets_right_answers() -> None:
+    def talk_at(port: type[Port]) -> None:
+        with (
+            port(scripts(1)) as end,
+            open_controller(end.name, reply_timeout=REPLY_TIMEOUT, settle=0) as controller,
+        ):
+            talk = Conversation(end.board, time.monotonic)
+            ask_all(talk, controller, 1, 20)
+            await_that(lambda: settle(end.board, controller))
+            check(end.board, controller, [talk])
+            assert controller.read_battery_voltage() == end.board.questions
+            assert reports_of(controller, end.board) == end.board.reported
+
+    at_once(talk_at, [(port,) for port in PORTS])
 
 
-@pytest.mark.parametrize("port", PORTS)
-def test_eight_threads_get_right_answers(port: type[Port]) -> None:
-    with (
-        port(scripts(2)) as end,
-        open_controller(end.name, reply_timeout=REPLY_TIMEOUT, settle=0) as controller,
-    ):
-        talks = [Conversation(end.board, time.monotonic) for _ in range(8)]
-        with ThreadPoolExecutor(8) as pool:
-            each = enumerate(talks)
-            list(pool.map(lambda item: ask_all(item[1], controller, item[0], 4), each))
-        await_that(lambda: settle(end.board, controller))
-        check(end.board, controller, talks)
-        assert controller.read_battery_voltage() == end.board.questions
-        assert reports_of(controller, end.board) == end.board.reported
+def test_eight_threads_get_right_answers() -> None:
+    def talk_at(port: type[Port]) -> None:
+        with (
+            port(scripts(2)) as end,
+            open_controller(end.name, reply_timeout=REPLY_TIMEOUT, settle=0) as controller,
+        ):
+            talks = [Conversation(end.board, time.monotonic) for _ in range(8)]
+            with ThreadPoolExecutor(8) as pool:
+                each = enumerate(talks)
+                list(pool.map(lambda item: ask_all(item[1], controller, item[0], 4), each))
+            await_that(lambda: settle(end.board, controller))
+            check(end.board, controller, talks)
+            assert controller.read_battery_voltage() == end.board.questions
+            assert reports_of(controller, end.board) == end.board.reported
+
+    at_once(talk_at, [(port,) for port in PORTS])
 
 
-@pytest.mark.parametrize("port", PORTS)
-def test_one_task_and_twenty_more_get_right_answers(port: type[Port]) -> None:
-    with port(scripts(3)) as end:
+def test_one_task_and_twenty_more_get_right_answers() -> None:
+    def talk_at(port: type[Port]) -> None:
+        with port(scripts(3)) as end:
 
-        async def work() -> None:
-            async with open_async_controller(
-                end.name, reply_timeout=REPLY_TIMEOUT, settle=0
-            ) as controller:
-                talks = [Conversation(end.board, time.monotonic) for _ in range(21)]
-                await ask_all_async(talks[0], controller, 0, 10)
-                each = enumerate(talks[1:])
-                await asyncio.gather(*(ask_all_async(talk, controller, n, 1) for n, talk in each))
-                while not settle(end.board, controller):
-                    await asyncio.sleep(0.001)
-                check(end.board, controller, talks)
-                assert await controller.read_battery_voltage() == end.board.questions
-                while controller.counters.reports < len(end.board.reported):
-                    await asyncio.sleep(0.001)
-                received = [each.encode() async for each in controller.reports(timeout=0.05)]
-                assert received == end.board.reported
+            async def work() -> None:
+                async with open_async_controller(
+                    end.name, reply_timeout=REPLY_TIMEOUT, settle=0
+                ) as controller:
+                    talks = [Conversation(end.board, time.monotonic) for _ in range(21)]
+                    await ask_all_async(talks[0], controller, 0, 10)
+                    each = enumerate(talks[1:])
+                    await asyncio.gather(
+                        *(ask_all_async(talk, controller, n, 1) for n, talk in each)
+                    )
+                    while not settle(end.board, controller):
+                        await asyncio.sleep(0.001)
+                    check(end.board, controller, talks)
+                    assert await controller.read_battery_voltage() == end.board.questions
+                    while controller.counters.reports < len(end.board.reported):
+                        await asyncio.sleep(0.001)
+                    received = [each.encode() async for each in controller.reports(timeout=0.05)]
+                    assert received == end.board.reported
 
-        asyncio.run(asyncio.wait_for(work(), GENEROUS))
+            asyncio.run(asyncio.wait_for(work(), GENEROUS))
+
+    at_once(talk_at, [(port,) for port in PORTS])
 
 
 @pytest.mark.parametrize("port", PORTS)

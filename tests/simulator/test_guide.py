@@ -14,7 +14,7 @@ from busservo_simulator.cli import _board
 from busservo_simulator.faults import CHANCES, TO_BOARD
 from busservo_simulator.options import PROGRAM, parser_of
 
-from tests.timeouts import GENEROUS
+from tests.timeouts import LIVE
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -59,7 +59,7 @@ def test_the_guide_describes_every_fault_as_the_help_does() -> None:
 @pytest.mark.parametrize("block", SHOWN)
 def test_an_example_does_what_it_says(block: str, monkeypatch: pytest.MonkeyPatch) -> None:
     # A guide need not say that a machine may be busy.
-    with_timeout = partial(busservo.open_controller, reply_timeout=GENEROUS)
-    monkeypatch.setattr(busservo, "open_controller", with_timeout)
+    live = partial(busservo.open_controller, **LIVE)
+    monkeypatch.setattr(busservo, "open_controller", live)
     names: dict[str, object] = {"__name__": "guide"}
     exec(compile(block, str(GUIDE.name), "exec"), names)  # noqa: S102 - the guide is ours

@@ -108,7 +108,7 @@ def test_no_byte_comes_before_the_wire_could_carry_it(connect: Connect) -> None:
 
 
 def test_a_fast_writer_is_slowed_to_the_line(connect: Connect) -> None:
-    board, host = connect(baud=115200)
+    board, host = connect(baud=921600)
     move = ServoMove(0, [(1, 500)])
     for _ in range(500):
         host.say(move)

@@ -29,8 +29,8 @@ if TYPE_CHECKING:
 _ROOM, _ROOM_EACH = 100_000, 60
 # What is kept of the errors that it prints.
 _LAST_WORDS = 2_000
-# How long a program may take to end by itself, and the threads at its pipes to notice.
-_ENDING = 2.0
+# How long a program may take to end by itself, and how long until it shows that it has ended.
+_ENDING, _NOTICING = 2.0, 2.0
 _PIECE = 65_536
 
 
@@ -134,7 +134,7 @@ class _Running:
             hint = "" if lines else "; does it flush its output behind each `end`?"
             return f"no `end` came within {timeout:g} s, {after}{hint}"
         with suppress(subprocess.TimeoutExpired):
-            self._process.wait(_ENDING)
+            self._process.wait(_NOTICING)
         status = self._process.poll()
         if status is None:
             return f"it closed its output {after}"
@@ -156,7 +156,7 @@ class _Running:
         self._kill()
         self._process.wait()
         for thread in self._threads:
-            thread.join(_ENDING)
+            thread.join(_NOTICING)
         for thread, pipe in zip(self._threads, self._pipes(), strict=True):
             if not thread.is_alive():  # or else somebody who got away still has the other end
                 with suppress(OSError):

@@ -41,6 +41,7 @@ class LineThreads(AsyncLine):
         super().__init__(*line, **callbacks)
         self._outbox: _Outbox = SimpleQueue()
         self._threads: list[threading.Thread] = []
+        self._closed = False
         # When the reading thread should report, at the latest, that time has passed and nothing
         # come.
         self._tick_at: float | None = None
@@ -104,13 +105,15 @@ class LineThreads(AsyncLine):
         for thread in self._threads[1:]:
             thread.join(DRAIN_TIMEOUT)
         super().shut(drain)
+        self._closed = True
         for thread in self._threads[:1]:
             thread.join(DRAIN_TIMEOUT)
 
     # ------------------------------------------------------------------ in the threads
 
     def _run_reader(self, loop: asyncio.AbstractEventLoop) -> None:
-        while self._arrived() is not None and self._read(loop):
+        # A transport that is closed need not say so, as long as its reads end.
+        while not self._closed and self._arrived() is not None and self._read(loop):
             pass
 
     def _read(self, loop: asyncio.AbstractEventLoop) -> bool:

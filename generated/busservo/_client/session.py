@@ -45,6 +45,8 @@ if TYPE_CHECKING:
 # A device that answers at all has begun to do so by then: how long a doubtful reply is held, and
 # how long a line settles, however long the reply timeout.
 _LATENCY = 0.25
+# How long an adapter may take to give back what is sent, however long the reply timeout.
+_ECHO_LATENCY = 0.25
 # How long a port may take to accept a frame: longer than a write takes until it fails.
 _WRITING = 1.5
 
@@ -299,7 +301,7 @@ class Session:
         if request.exchange.reports:
             self.reports.caused(request.message, request.exchange.reports)
         if self._echo is not None:
-            until = request.left_at + self._latency
+            until = request.left_at + min(self._reply_timeout, _ECHO_LATENCY)
             self._echo.sent(request, frame, until)
         else:
             self._echo_watch.sent(frame)
