@@ -20,7 +20,7 @@ from framegen.language.values import Direction
 from hypothesis import given
 from hypothesis import strategies as st
 
-from tests.factories import BUSSERVO, ROOT, data_of, first_edition, layout_of
+from tests.factories import BUSSERVO, ROOT, data_of, first_model, layout_of
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -30,7 +30,7 @@ if TYPE_CHECKING:
     Change: TypeAlias = Callable[[Question, list[str], int], list[str] | Reply]
 
 SPECS = [BUSSERVO, *sorted((ROOT / "tests" / "specs").glob("*.yaml"))]
-MODEL = layout_of(first_edition())
+MODEL = first_model()
 HOST = Direction("host", "controller")
 
 
