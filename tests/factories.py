@@ -6,6 +6,7 @@ import re
 import sys
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
+from functools import cache
 from importlib.abc import Loader, MetaPathFinder
 from importlib.machinery import ModuleSpec
 from importlib.util import spec_from_file_location
@@ -72,6 +73,12 @@ def first_edition() -> Data:
     data = data_of(BUSSERVO)
     messages = data["messages"]
     return {**data, "messages": {name: messages[name] for name in messages if name in FIRST}}
+
+
+@cache
+def first_model() -> Model:
+    """Return the model of it; models never change."""
+    return layout_of(first_edition())
 
 
 def kiln() -> Data:

@@ -14,7 +14,7 @@ may hold none; ids, groups and 16-bit values are limited by their width alone.
 import functools
 import operator
 from collections.abc import Iterable, Iterator, Mapping
-from typing import Any
+from typing import Any, NamedTuple
 
 from construct import (
     Byte,
@@ -41,14 +41,22 @@ class OracleError(ValueError):
     """These bytes are not exactly one legal frame, or these values cannot be sent."""
 
 
-def _frame(command: int, *parameters: Any) -> Any:
+class _Frame(NamedTuple):
+    """The layout of a frame, and its command, which stands behind header and length."""
+
+    command: int
+    layout: Any
+
+
+def _frame(command: int, *parameters: Any) -> _Frame:
     """Lay out one frame: `55 55`, then a length byte that counts itself and all after it."""
     body = Struct(Const(command, Byte), *parameters, Terminated)
-    return Struct(
+    layout = Struct(
         Const(b"\x55\x55"),
         "body" / Prefixed(Byte, body, includelength=True),
         Terminated,
     )
+    return _Frame(command, layout)
 
 
 _SERVO_AND_POSITION = Struct("servo_id" / Byte, "position" / Int16ul)
@@ -64,7 +72,7 @@ _MOVE = (
     "targets" / _SERVO_AND_POSITION[this._servo_count],
 )
 
-_FRAMES: dict[str, dict[str, Any]] = {
+_FRAMES: dict[str, dict[str, _Frame]] = {
     HOST_TO_CONTROLLER: {
         "ServoMove": _frame(3, *_MOVE),
         "ActionGroupRun": _frame(6, *_GROUP_AND_TIMES),
@@ -96,8 +104,11 @@ def parse(frame: bytes, direction: str | None) -> tuple[str, dict[str, Any]]:
     None either side may have sent it, and a frame that is legal both ways is the host's.
     """
     directions = MESSAGES if direction is None else (direction,)
-    for layouts in (_FRAMES[each] for each in directions):
-        for name, layout in layouts.items():
+    for frames in (_FRAMES[each] for each in directions):
+        for name, (command, layout) in frames.items():
+            # construct would refuse it as well, and take its time.
+            if frame[3:4] != bytes([command]):
+                continue
             try:
                 body = layout.parse(frame).body
             except ConstructError:
@@ -112,11 +123,11 @@ def build(name: str, fields: Mapping[str, Any]) -> bytes:
     Takes what `parse` returns; sequences may be lists or tuples.
     """
     values = _numbers(dict(fields))
-    layout = next((frames[name] for frames in _FRAMES.values() if name in frames), None)
-    if layout is None:
+    found = next((frames[name] for frames in _FRAMES.values() if name in frames), None)
+    if found is None:
         raise OracleError(f"no message is called {name}")
     try:
-        frame: bytes = layout.build({"body": values})
+        frame: bytes = found.layout.build({"body": values})
     except (ConstructError, KeyError, TypeError, ValueError) as error:
         raise OracleError(f"{name} cannot be sent with {fields}: {error}") from error
     # construct overlooks a field that it does not know; reading the frame back does not.
@@ -169,7 +180,7 @@ def may_become_frame(data: bytes, direction: str | None) -> bool:
     return any(
         len(data) < len(frame) and data[: len(beginning)] == beginning[: len(data)]
         for each in (MESSAGES if direction is None else (direction,))
-        for beginning, frame in _beginnings(each)
+        for beginning, frame in _beginnings(each).get(data[:4], [])
     )
 
 
@@ -201,17 +212,20 @@ def _plain(value: Any) -> Any:
 
 
 @functools.cache
-def _beginnings(direction: str) -> list[tuple[bytes, bytes]]:
+def _beginnings(direction: str) -> dict[bytes, list[tuple[bytes, bytes]]]:
     """List one frame per message and count, each with the part that its parameters cannot change.
 
     All fields but the count take any value, so header, length, command and count, the first five
     bytes, decide which beginnings are legal; in a frame without a count, the first four do.
+    Each is found by any part of its first four bytes.
     """
-    pairs = []
+    pairs: dict[bytes, list[tuple[bytes, bytes]]] = {}
     for name in MESSAGES[direction]:
-        blanks = [*_blanks(_FRAMES[direction][name])]
+        blanks = [*_blanks(_FRAMES[direction][name].layout)]
         fixed = 4 if len(blanks) == 1 else 5
-        pairs += [(frame[:fixed], frame) for frame in _built(name, blanks)]
+        for frame in _built(name, blanks):
+            for size in range(5):
+                pairs.setdefault(frame[:size], []).append((frame[:fixed], frame))
     return pairs
 
 
@@ -239,10 +253,13 @@ def _zero(layout: Any) -> Any:
 
 
 def _built(name: str, attempts: Iterable[dict[str, Any]]) -> Iterator[bytes]:
-    """Build the frames of a message that can be built."""
+    """Build the frames of a message that can be built, up to the longest list that can."""
+    frame = b""
     for fields in attempts:
         try:
             frame = build(name, fields)
         except OracleError:
+            if frame:
+                return
             continue
         yield frame

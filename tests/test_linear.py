@@ -73,15 +73,20 @@ def lines_run(work: Callable[[], object], leaving_out: str = "no such file") -> 
     """Return how many lines run, those of templates among them, save in some files."""
     count = 0
 
-    def trace(frame: FrameType, _event: str, _argument: object) -> Any:
+    def enter(frame: FrameType, _event: str, _argument: object) -> Any:
         nonlocal count
         if leaving_out in frame.f_code.co_filename:
             return None
         count += 1
-        return trace
+        return step
+
+    def step(_frame: FrameType, _event: str, _argument: object) -> Any:
+        nonlocal count
+        count += 1
+        return step
 
     before = sys.gettrace()
-    sys.settrace(trace)
+    sys.settrace(enter)
     try:
         work()
     finally:
@@ -148,18 +153,16 @@ RUNS = ("55", "55 " * 40 + "02 07", "55 " * 80 + "00 00 00")
 @cache
 def lines_per_byte(pattern: bytes, size: int) -> float:
     """Return how many lines run for a byte of a repeated pattern, in chunks of a size."""
-
-    def read(length: int) -> int:
-        line = (pattern * length)[:length]
-        decoder = StreamDecoder(Direction.CONTROLLER_TO_HOST)
-        chunks = [line[at : at + size] for at in range(0, length, size)]
-        return lines_run(lambda: [decoder.feed(chunk) for chunk in chunks])
-
     # More than any frame, and than a chunk.
     least = max(1024, size)
-    read(least)  # what is looked up is learnt once for all
-    # The beginning, when nothing is held yet, is cheaper.
-    return (read(3 * least) - read(least)) / (2 * least)
+    line = (pattern * 3 * least)[: 3 * least]
+    chunks = [line[at : at + size] for at in range(0, len(line), size)]
+    decoder = StreamDecoder(Direction.CONTROLLER_TO_HOST)
+    # The beginning, when nothing is held yet, is cheaper; and some is looked up once for all.
+    begun = least // size
+    for chunk in chunks[:begun]:
+        decoder.feed(chunk)
+    return lines_run(lambda: [decoder.feed(chunk) for chunk in chunks[begun:]]) / (2 * least)
 
 
 # A port hands over some bytes at a time, a file many: traffic is then so cheap that noise, of which

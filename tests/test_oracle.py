@@ -267,7 +267,8 @@ def test_every_count_has_the_printed_length_and_no_other_count_exists(
     fixed: int,
     counts: range,
 ) -> None:
-    for count in range(300):
+    # Behind the last that is legal, all are refused alike, until the count itself is too large.
+    for count in sorted({*range(counts.stop + 20), *range(250, 260), 299}):
         fields = {**others, key: [element] * count}
         if count not in counts:
             with pytest.raises(OracleError):

@@ -5,7 +5,7 @@ from __future__ import annotations
 import importlib
 from contextlib import ExitStack
 from functools import cache
-from itertools import pairwise
+from itertools import cycle, pairwise
 from typing import TYPE_CHECKING, Any, TypeAlias
 
 import pytest
@@ -57,9 +57,10 @@ def lib(name: str) -> Any:
 
 
 @cache
-def values(low: int, high: int) -> st.SearchStrategy[int | None]:
-    """Return a number, often the ends of its range; None for one that looks like a header."""
-    return st.one_of(st.none(), st.sampled_from([low, high]), st.integers(low, high))
+def values(low: int, high: int) -> st.SearchStrategy[list[int | None]]:
+    """Return some numbers, often the ends of their range; None for one that looks like a header."""
+    value = st.one_of(st.none(), st.sampled_from([low, high]), st.integers(low, high))
+    return st.lists(value, min_size=1, max_size=5)
 
 
 @cache
@@ -72,8 +73,9 @@ def frames(model: Model) -> st.SearchStrategy[bytes]:
 
 @st.composite
 def frame_of(draw: st.DrawFn, model: Model, message: MessageLayout, count: int) -> bytes:
-    """Return a frame of a message with so many elements."""
+    """Return a frame of a message with so many elements, of which long lists repeat the first."""
     data = bytearray(message.size_at(count))
+    numbers: dict[str, Iterator[int | None]] = {}
     for placed in message.lay_out(count):
         slot = placed.slot
         assert not isinstance(slot, Body)
@@ -87,7 +89,9 @@ def frame_of(draw: st.DrawFn, model: Model, message: MessageLayout, count: int) 
             written = slot.write(count)
         else:
             assert isinstance(slot, Number)
-            value = draw(values(slot.low, slot.high))
+            if slot.name not in numbers:
+                numbers[slot.name] = cycle(draw(values(slot.low, slot.high)))
+            value = next(numbers[slot.name])
             alike = (model.frame.header * slot.size)[: slot.size]
             written = alike if value is None else slot.write(value)
         data[placed.at : placed.end] = written

@@ -2,30 +2,35 @@
 
 from __future__ import annotations
 
-import sys
+from importlib import import_module
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from framegen.render import snippets
 from framegen.targets.docs.html_pages import render_site
 
+from tests.conformance.harness import run
 from tests.docs.reference import NODE
-from tests.factories import library_files, write_files
+from tests.factories import library, library_files
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Sequence
 
     from framegen.compile import Compiled
 
 ANSWER = Path(__file__).parent / "answer.js"
 
 
-def python_command(compiled: Compiled, folder: Path) -> list[str]:
-    """Write the library to `folder`; return the command that answers with it."""
-    write_files(library_files(compiled), folder)
-    name = compiled.spec.protocol.name
-    code = f"import sys; sys.path.insert(0, sys.argv.pop(1)); from {name}._cli import main; "
-    return [sys.executable, "-c", f"{code}sys.exit(main())", str(folder / "generated"), "answer"]
+def of_the_library(compiled: Compiled, folder: Path, questions: Sequence[str]) -> list[list[str]]:
+    """Write the library to `folder`; return what its verb `answer` prints for each question."""
+    with library(library_files(compiled), folder) as module:
+        answer = import_module(f"{module.__name__}._cli.answer").answer
+        return [answer(question) for question in questions]
+
+
+def of_the_page(compiled: Compiled, folder: Path, questions: Sequence[str]) -> list[list[str]]:
+    """Write the page with the decoder to `folder`; return the answers of its script."""
+    return run(page_command(compiled, folder), questions)
 
 
 def page_command(compiled: Compiled, folder: Path) -> list[str]:
@@ -36,8 +41,8 @@ def page_command(compiled: Compiled, folder: Path) -> list[str]:
     return [str(NODE), str(ANSWER), str(page)]
 
 
-# By language, the program that answers with what is made of a spec.
-ANSWERERS: dict[str, Callable[[Compiled, Path], list[str]]] = {
-    "python": python_command,
-    "page": page_command,
+# By language, what answers questions with the codec that is made of a spec.
+ANSWERERS: dict[str, Callable[[Compiled, Path, Sequence[str]], list[list[str]]]] = {
+    "python": of_the_library,
+    "page": of_the_page,
 }

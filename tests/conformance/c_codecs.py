@@ -53,9 +53,9 @@ def compile_codec(folder: Path, old: str = "", new: str = "") -> str:
     program = folder / "codec"
     # What other compilers warn of is theirs.
     strict = ["-pedantic", "-Wall", "-Wextra", "-Werror"]
-    flags = strict if sys.platform == "linux" and not old else ["-w"]
+    flags = [*strict, "-O1"] if sys.platform == "linux" and not old else ["-w"]
     subprocess.run(
-        [str(COMPILER), "-std=c99", *flags, "-O1", f"-I{HERE}", "-o", str(program), str(source)],
+        [str(COMPILER), "-std=c99", *flags, f"-I{HERE}", "-o", str(program), str(source)],
         check=True,
     )
     return str(program)

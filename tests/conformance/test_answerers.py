@@ -9,7 +9,7 @@ from framegen.compile import Compiled, compile_spec
 from framegen.language.load import read_source
 
 from tests.conformance.answerers import ANSWERERS
-from tests.conformance.harness import cases_of, differences, joined, run
+from tests.conformance.harness import cases_of, differences, joined
 from tests.docs.reference import NODE
 from tests.factories import BUSSERVO, DEMO, vectors_of
 
@@ -37,8 +37,7 @@ def test_a_codec_says_what_the_vectors_say(language: str, spec: Path, tmp_path: 
     if language == "page" and NODE is None:
         pytest.skip("node is not installed")
     questions = [*cases_of(published(spec))]
-    command = ANSWERERS[language](compiled(spec), tmp_path)
-    answers = run(command, [each.question for each in questions])
+    answers = ANSWERERS[language](compiled(spec), tmp_path, [each.question for each in questions])
     assert differences(questions, answers) == []
 
 

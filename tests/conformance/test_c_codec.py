@@ -15,9 +15,9 @@ from framegen.conformance.trial import Trial, hold
 from framegen.model.model import Model
 
 from tests.conformance.c_codecs import SOURCE, WRONG, Wrong, compile_codec, needs_compiler
-from tests.factories import first_edition, layout_of
+from tests.factories import first_model
 
-MODEL = layout_of(first_edition())
+MODEL = first_model()
 FURTHER = 100
 
 pytestmark = needs_compiler

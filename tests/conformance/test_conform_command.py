@@ -7,6 +7,8 @@ import json
 import re
 import subprocess
 import sys
+from contextlib import redirect_stderr, redirect_stdout
+from functools import cache
 from typing import TYPE_CHECKING, Any
 from xml.etree import ElementTree as ET
 
@@ -52,6 +54,18 @@ def python(source: str) -> list[str]:
     return ["--", sys.executable, "-c", source]
 
 
+@cache
+def stubborn(*words: str) -> tuple[int, str, str]:
+    """Return status, output and errors for a program that answers everything alike."""
+    out, err = io.StringIO(), io.StringIO()
+    with redirect_stdout(out), redirect_stderr(err):
+        status = main(["conform", SPEC, *words, *python(STUBBORN)])
+    return status, out.getvalue(), err.getvalue()
+
+
+AS_JSON = ["--format", "json", "--more", "5", "--seed", "7"]
+
+
 def process(words: Sequence[str], given: str = "") -> tuple[int, str, str]:
     done = subprocess.run(
         [*FRAMEGEN, "conform", *words],
@@ -68,8 +82,9 @@ def process(words: Sequence[str], given: str = "") -> tuple[int, str, str]:
 # -- What conforms -------------------------------------------------------------------------------
 
 
-def test_our_own_library_conforms() -> None:
-    status, out, err = process(["busservo", "--more", "300", "--seed", "1", "--", *LIBRARY])
+def test_our_own_library_conforms(capsys: pytest.CaptureFixture[str]) -> None:
+    words = ["--more", "300", "--seed", "1", "--", *LIBRARY]
+    status, out, err = conform(capsys, SPEC, *words)
     assert (status, err) == (0, "the same questions again: --more 300 --seed 1\n")
     name = re.escape(" ".join(LIBRARY))
     assert re.fullmatch(
@@ -109,8 +124,8 @@ def test_without_a_seed_every_run_asks_something_else(capsys: pytest.CaptureFixt
 # -- What differs --------------------------------------------------------------------------------
 
 
-def test_a_difference_is_shown_byte_by_byte(capsys: pytest.CaptureFixture[str]) -> None:
-    status, out, err = conform(capsys, SPEC, *python(STUBBORN))
+def test_a_difference_is_shown_byte_by_byte() -> None:
+    status, out, err = stubborn()
     assert (status, err) == (1, "")
     head, strip, answers, rows, kinds, verdict = out.split("\n\n")
     assert re.fullmatch(
@@ -139,7 +154,7 @@ def test_a_difference_is_shown_byte_by_byte(capsys: pytest.CaptureFixture[str]) 
 
 
 def test_it_is_in_colour_on_a_terminal_alone(
-    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+    monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     class Terminal(io.StringIO):
         def isatty(self) -> bool:
@@ -147,7 +162,7 @@ def test_it_is_in_colour_on_a_terminal_alone(
 
     monkeypatch.delenv("NO_COLOR", raising=False)
     monkeypatch.setenv("TERM", "xterm")
-    plain = conform(capsys, SPEC, *python(STUBBORN))[1]
+    plain = stubborn()[1]
     terminal = Terminal()
     with monkeypatch.context() as patched:
         patched.setattr(sys, "stdout", terminal)
@@ -170,9 +185,8 @@ def test_what_a_program_prints_does_not_command_the_terminal(
     assert "  `\\x1b[2J` is no line of an answer\n" in out
 
 
-def test_json_holds_everything(capsys: pytest.CaptureFixture[str]) -> None:
-    words = ["--format", "json", "--more", "5", "--seed", "7"]
-    status, out, _ = conform(capsys, SPEC, *words, *python(STUBBORN))
+def test_json_holds_everything() -> None:
+    status, out, _ = stubborn(*AS_JSON)
     report: dict[str, Any] = json.loads(out)
     assert status == 1
     assert {**report, "smallest": None, "differences": []} == {
@@ -309,17 +323,20 @@ def test_the_guide_shows_what_a_wrong_codec_gets(
     assert re.fullmatch(r"(?:.*\n)*".join(map(re.escape, pieces)), out), out
 
 
-def test_the_guide_shows_what_the_reference_answers() -> None:
+def test_the_guide_shows_what_the_reference_answers(
+    capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
     (block,) = shown("framegen conform busservo --answers")
     questions = re.findall(r"^(?:decode|encode|stream) .*\n", block, flags=re.MULTILINE)
-    status, answers, _ = process(["busservo", "--answers"], "".join(questions))
+    monkeypatch.setattr(sys, "stdin", io.TextIOWrapper(io.BytesIO("".join(questions).encode())))
+    status, answers, _ = conform(capsys, SPEC, "--answers")
     session = zip(questions, re.findall(r"(?:.*\n)*?end\n", answers), strict=True)
     assert "".join(question + answer for question, answer in session) == block
     assert status == 0
 
 
-def test_the_guide_names_every_key_of_the_report(capsys: pytest.CaptureFixture[str]) -> None:
-    _, out, _ = conform(capsys, SPEC, "--format", "json", *python(STUBBORN))
+def test_the_guide_names_every_key_of_the_report() -> None:
+    _, out, _ = stubborn(*AS_JSON)
     report: dict[str, Any] = json.loads(out)
     keys = {*report, *report["smallest"], *report["differences"][0]}
     assert sorted(key for key in keys if f"`{key}`" not in GUIDE) == []

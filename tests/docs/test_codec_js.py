@@ -3,9 +3,10 @@
 import json
 import random
 import subprocess
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
+from functools import cache
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeAlias
 
 import pytest
 from busservo._codec.hextext import HexError, read_hex
@@ -21,6 +22,7 @@ from framegen.language.load import read_source
 from framegen.language.spec import Spec
 from framegen.language.values import Direction
 from framegen.model.codec import NotAFrame, decode, encode
+from framegen.model.layout import MessageLayout
 from framegen.model.model import Model, derive
 from framegen.targets.docs.data import protocol_data
 
@@ -55,8 +57,8 @@ def page(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactor
     return Page(compile_spec(read_source(request.param)), tmp_path_factory.mktemp("page"))
 
 
-def test_lines_are_decoded_as_the_reference_decodes_them(page: Page) -> None:
-    questions = list(streams(page.model, 17, 600))
+def test_lines_and_single_frames_are_decoded_as_the_reference_decodes_them(page: Page) -> None:
+    questions = [*streams(page.model, 17, 600), *single_frames(page.model, 9, 300)]
     for question, reply in zip(questions, page.answers(questions), strict=True):
         assert reply == joined(answer(page.model, question)), question.line
 
@@ -81,15 +83,12 @@ def _parts(chance: random.Random, line: bytes) -> Iterator[bytes | None]:
         yield None
 
 
-def test_single_frames_are_judged_as_the_reference_judges_them(page: Page) -> None:
-    questions: list[Question] = [
-        Decode(way, line[:end])
-        for line in noisy_lines(page.model, 9, 300)
-        for way in page.model.directions
-        for end in (len(line), len(line) // 2, 10)
-    ]
-    for question, reply in zip(questions, page.answers(questions), strict=True):
-        assert reply == joined(answer(page.model, question)), question.line
+def single_frames(model: Model, seed: int, number: int) -> Iterator[Question]:
+    """Return the beginnings of noisy lines, each as one frame."""
+    for line in noisy_lines(model, seed, number):
+        for way in model.directions:
+            for end in (len(line), len(line) // 2, 10):
+                yield Decode(way, line[:end])
 
 
 # What a line says, by the parts in which it comes.
@@ -129,11 +128,19 @@ LINES = {
 
 
 @pytest.mark.parametrize("title", LINES)
-def test_a_line_is_decoded_into_these_events(busservo: Page, title: str) -> None:
-    parts, expected = LINES[title]
+def test_a_line_is_decoded_into_these_events(found: dict[str, list[str]], title: str) -> None:
+    assert found[title] == LINES[title][1]
+
+
+@pytest.fixture(scope="module")
+def found(busservo: Page) -> dict[str, list[str]]:
+    """Return the events in each of LINES; one process decodes them all."""
     way = busservo.model.directions[0]
-    chunks = tuple(None if part == "quiet" else bytes.fromhex(part) for part in parts.split())
-    assert busservo.answers([Stream(way, 257, chunks)]) == [expected]
+    questions: list[Question] = []
+    for line, _ in LINES.values():
+        parts = [None if part == "quiet" else bytes.fromhex(part) for part in line.split()]
+        questions.append(Stream(way, 257, tuple(parts)))
+    return dict(zip(LINES, busservo.answers(questions), strict=True))
 
 
 @pytest.fixture(scope="module")
@@ -156,9 +163,7 @@ def test_a_recorded_line_is_decoded_as_the_reference_decodes_it(busservo: Page) 
 
 # Asks the scripts of the page, as they are published, the questions that no other codec gets.
 HARNESS = """
-const { protocol, questions } = JSON.parse(require("fs").readFileSync(0, "utf8"));
-const codec = makeCodec(protocol);
-const answers = questions.map(({ ask, text, name, fields }) => {
+function answer(codec, { ask, text, name, fields }) {
   try {
     if (ask === "hex") return parseHex(text);
     if (ask === "encode") return codec.encode(name, fields);
@@ -171,13 +176,26 @@ const answers = questions.map(({ ask, text, name, fields }) => {
     if (error instanceof Unusable) return { refused: error.message };
     throw error;
   }
+}
+const answers = JSON.parse(require("fs").readFileSync(0, "utf8")).map(([protocol, questions]) => {
+  const codec = makeCodec(protocol);
+  return questions.map((question) => answer(codec, question));
 });
 console.log(JSON.stringify(answers));
 """
 
 
-def ask(model: Model, questions: list[dict[str, Any]]) -> list[Any]:
+Asked: TypeAlias = "list[dict[str, Any]]"
+
+
+def ask(model: Model, questions: Asked) -> list[Any]:
     """Return the answers of the page's scripts to each question about a protocol."""
+    (answers,) = ask_about([(model, questions)])
+    return answers
+
+
+def ask_about(batches: Sequence[tuple[Model, Asked]]) -> list[list[Any]]:
+    """Return the answers to questions about several protocols; one process gives them all."""
     (codec,) = [
         text
         for _, text in reference("busservo").pages["decoder.html"].scripts
@@ -185,13 +203,13 @@ def ask(model: Model, questions: list[dict[str, Any]]) -> list[Any]:
     ]
     done = subprocess.run(
         [str(NODE), "--input-type=commonjs", "-e", codec + HARNESS],
-        input=json.dumps({"protocol": protocol_data(model), "questions": questions}),
+        input=json.dumps([(protocol_data(model), asked) for model, asked in batches]),
         capture_output=True,
         encoding="utf-8",
         check=False,
     )
     assert done.returncode == 0, done.stderr
-    answers: list[Any] = json.loads(done.stdout)
+    answers: list[list[Any]] = json.loads(done.stdout)
     return answers
 
 
@@ -216,35 +234,66 @@ ENVELOPES: dict[str, dict[str, Any]] = {
 }
 
 
-@pytest.fixture(params=ENVELOPES)
-def wrapped(request: pytest.FixtureRequest) -> Model:
+@cache
+def wrapped(title: str) -> Model:
+    """Return the protocol in one of ENVELOPES."""
     data = data_of(BUSSERVO)
-    parts = ENVELOPES[request.param]
+    parts = ENVELOPES[title]
     data["frame"] = parts if "parameters" in parts else {**data["frame"], **parts}
     return derive(Spec.model_validate(data))
 
 
-def test_any_envelope_is_decoded_as_the_reference_decodes_it_both_ways(wrapped: Model) -> None:
-    lines = noisy_lines(wrapped, 5, 400)
-    replies = ask(wrapped, [{"ask": "line", "text": line.hex()} for line in lines])
-    for line, events in zip(lines, replies, strict=True):
+def lines_in(model: Model) -> list[bytes]:
+    return noisy_lines(model, 5, 400)
+
+
+def examples_of(model: Model) -> list[tuple[MessageLayout, dict[str, Any]]]:
+    return [
+        (message, example.values)
+        for message in model.messages.values()
+        for example in message.message.examples
+    ]
+
+
+@pytest.fixture(scope="module")
+def unwrapped() -> dict[str, tuple[list[Any], list[Any]]]:
+    """Return what the page makes of lines and of examples in each of ENVELOPES."""
+    models = [wrapped(title) for title in ENVELOPES]
+    lines = [[{"ask": "line", "text": line.hex()} for line in lines_in(model)] for model in models]
+    examples = [
+        [{"ask": "encode", "name": each.name, "fields": values} for each, values in cases]
+        for cases in map(examples_of, models)
+    ]
+    both = [read + written for read, written in zip(lines, examples, strict=True)]
+    return {
+        title: (answers[: len(read)], answers[len(read) :])
+        for title, read, answers in zip(
+            ENVELOPES, lines, ask_about([*zip(models, both, strict=True)]), strict=True
+        )
+    }
+
+
+@pytest.mark.parametrize("title", ENVELOPES)
+def test_any_envelope_is_decoded_as_the_reference_decodes_it_both_ways(
+    unwrapped: dict[str, tuple[list[Any], list[Any]]], title: str
+) -> None:
+    model, (replies, _) = wrapped(title), unwrapped[title]
+    for line, events in zip(lines_in(model), replies, strict=True):
         said = [
             [event["type"], bytes(event["bytes"]).hex(), event.get("message", event.get("reason"))]
             for event in events
         ]
-        assert peers.joined(said) == reference_events(wrapped, line, None), line.hex(" ")
+        assert peers.joined(said) == reference_events(model, line, None), line.hex(" ")
         ends = [event["at"] + len(event["bytes"]) for event in events]
         assert [event["at"] for event in events] == [0, *ends][: len(events)], line.hex(" ")
 
 
-def test_any_envelope_is_encoded_as_the_reference_encodes_it(wrapped: Model) -> None:
-    cases = [
-        (message, example.values)
-        for message in wrapped.messages.values()
-        for example in message.message.examples
-    ]
-    questions = [{"ask": "encode", "name": each.name, "fields": values} for each, values in cases]
-    assert ask(wrapped, questions) == [list(encode(each, values)) for each, values in cases]
+@pytest.mark.parametrize("title", ENVELOPES)
+def test_any_envelope_is_encoded_as_the_reference_encodes_it(
+    unwrapped: dict[str, tuple[list[Any], list[Any]]], title: str
+) -> None:
+    cases, (_, replies) = examples_of(wrapped(title)), unwrapped[title]
+    assert replies == [list(encode(each, values)) for each, values in cases]
 
 
 # What a line says both ways: where each piece stands, its bytes, and the byte where it was refused.
@@ -265,14 +314,22 @@ PIECES = {
 }
 
 
+@pytest.fixture(scope="module")
+def reported() -> dict[str, tuple[Any, Any]]:
+    """Return the pieces of each of PIECES, read as a whole, and byte by byte."""
+    asked = [{"ask": how, "text": text} for text, _ in PIECES.values() for how in ("line", "bytes")]
+    replies = ask(reference("busservo").model, asked)
+    return dict(zip(PIECES, zip(replies[::2], replies[1::2], strict=True), strict=True))
+
+
 @pytest.mark.parametrize("title", PIECES)
-def test_noise_is_reported_in_pieces_with_the_refused_byte(title: str) -> None:
-    text, expected = PIECES[title]
-    questions = [{"ask": "line", "text": text}, {"ask": "bytes", "text": text}]
-    whole, cut = ask(reference("busservo").model, questions)
+def test_noise_is_reported_in_pieces_with_the_refused_byte(
+    reported: dict[str, tuple[Any, Any]], title: str
+) -> None:
+    whole, cut = reported[title]
     assert [
         (each["at"], bytes(each["bytes"]).hex(), each["refusedAt"]) for each in whole
-    ] == expected
+    ] == PIECES[title][1]
     # A piece that is cut goes on, at its own place, and was refused where it was.
     assert bytewise(cut) == bytewise(whole)
 
@@ -304,24 +361,24 @@ def verdict(model: Model, way: Direction | None, data: bytes) -> Any:
         return [error.reason, error.offset]
 
 
-@pytest.mark.parametrize(
-    ("fields", "error"),
-    [
-        ({"time_ms": 65536, "targets": [{"servo_id": 1, "position": 2}]}, "time_ms: 65536 is out"),
-        (
-            {"time_ms": 1, "targets": [{"servo_id": 1, "position": 70000}]},
-            "targets[0].position: 70000 is outside 0..65535",
-        ),
-        ({"time_ms": 1, "targets": []}, "targets: 0 items is outside 1..83"),
-        ({"time_ms": 1.5, "targets": [{"servo_id": 1, "position": 2}]}, "time_ms: a whole number"),
-        ({"time_ms": 1, "targets": [{"servo_id": 1}]}, "targets[0].position: a whole number"),
-    ],
-)
-def test_values_that_no_frame_can_carry_are_refused(fields: dict[str, Any], error: str) -> None:
-    (reply,) = ask(
-        reference("busservo").model, [{"ask": "encode", "name": "ServoMove", "fields": fields}]
-    )
-    assert reply["refused"].startswith(error)
+# Values of a ServoMove, and what is wrong with them.
+UNUSABLE: list[tuple[dict[str, Any], str]] = [
+    ({"time_ms": 65536, "targets": [{"servo_id": 1, "position": 2}]}, "time_ms: 65536 is out"),
+    (
+        {"time_ms": 1, "targets": [{"servo_id": 1, "position": 70000}]},
+        "targets[0].position: 70000 is outside 0..65535",
+    ),
+    ({"time_ms": 1, "targets": []}, "targets: 0 items is outside 1..83"),
+    ({"time_ms": 1.5, "targets": [{"servo_id": 1, "position": 2}]}, "time_ms: a whole number"),
+    ({"time_ms": 1, "targets": [{"servo_id": 1}]}, "targets[0].position: a whole number"),
+]
+
+
+def test_values_that_no_frame_can_carry_are_refused() -> None:
+    asked = [{"ask": "encode", "name": "ServoMove", "fields": fields} for fields, _ in UNUSABLE]
+    replies = ask(reference("busservo").model, asked)
+    for (fields, error), reply in zip(UNUSABLE, replies, strict=True):
+        assert reply["refused"].startswith(error), fields
 
 
 def test_hex_is_read_as_the_library_reads_it() -> None:

@@ -5,6 +5,7 @@ import sys
 from pathlib import Path
 
 import pytest
+from framegen.cli import main
 
 from tests.docs.reference import ROOT, Page
 from tests.docs.test_validity import complaints
@@ -16,24 +17,22 @@ pytest.importorskip("markdown_it", reason="markdown-it-py is not installed")
 @pytest.fixture(scope="module")
 def site(tmp_path_factory: pytest.TempPathFactory) -> dict[str, Page]:
     """Return the folder that `make docs` builds."""
-    root = tmp_path_factory.mktemp("build")
-    folder = root / "site"
+    folder = tmp_path_factory.mktemp("build") / "site"
     makefile = (ROOT / "Makefile").read_text(encoding="utf-8")
-    for command in (
-        "framegen docs --out build/site/reference",
-        "python docs/site.py build/site",
-    ):
-        assert f"\t$(IN)/{command}\n" in makefile
-        name, *words = command.replace("build/site", str(folder)).split()
-        done = subprocess.run(
-            [sys.executable, *(["-m", name] if name == "framegen" else []), *words],
-            cwd=ROOT,
-            env={"PYTHONPATH": str(ROOT / "codegen")},
-            capture_output=True,
-            encoding="utf-8",
-            check=False,
-        )
-        assert done.returncode == 0, done.stderr
+    docs, guides = "framegen docs --out build/site/reference", "python docs/site.py build/site"
+    assert f"\t$(IN)/{docs}\n\t$(IN)/{guides}\n" in makefile
+    with pytest.MonkeyPatch.context() as patched:
+        patched.chdir(ROOT)
+        assert main(docs.replace("build/site", str(folder)).split()[1:]) == 0
+    done = subprocess.run(
+        [sys.executable, *guides.replace("build/site", str(folder)).split()[1:]],
+        cwd=ROOT,
+        env={"PYTHONPATH": str(ROOT / "codegen")},
+        capture_output=True,
+        encoding="utf-8",
+        check=False,
+    )
+    assert done.returncode == 0, done.stderr
     return {
         file.relative_to(folder).as_posix(): Page(
             file.relative_to(folder).as_posix(), file.read_text("utf-8")

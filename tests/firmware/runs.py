@@ -3,6 +3,7 @@
 import json
 from argparse import ArgumentParser
 from contextlib import redirect_stderr, redirect_stdout
+from functools import cache
 from io import StringIO
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -12,7 +13,7 @@ from framegen.conformance import firmware
 from framegen.language.load import read_source
 from framegen.model.model import Model
 
-from tests.factories import first_edition, layout_of
+from tests.factories import first_model
 from tests.firmware.devices import Observed
 
 
@@ -44,9 +45,10 @@ class Run(NamedTuple):
         ]
 
 
+@cache
 def model_of(file: Path | None = None) -> Model:
     """Return the model of a spec."""
-    return layout_of(first_edition()) if file is None else compile_spec(read_source(file)).model
+    return first_model() if file is None else compile_spec(read_source(file)).model
 
 
 def run(model: Model, line: Any, *words: str, form: str = "json", timeout: float = 0.25) -> Run:

@@ -1,6 +1,7 @@
 """Nothing is written to a port but what is allowed, whatever a device does and loses of it."""
 
 from collections.abc import Callable
+from functools import cache
 from itertools import chain
 from pathlib import Path
 
@@ -15,7 +16,7 @@ from hypothesis import strategies as st
 
 from tests.factories import BUSSERVO, DEMO, Data, data_of, layout_of
 from tests.firmware.devices import Answer, VirtualLine, by_the_reference
-from tests.firmware.runs import model_of, run
+from tests.firmware.runs import Run, model_of, run
 from tests.independent.firmware import Reader, well_formed
 
 MODEL = model_of()
@@ -68,11 +69,17 @@ def obeyed(data: bytes) -> set[int]:
     return {frame[3] for frame in frames if well_formed(frame)}
 
 
+@cache
+def sent_to(device: str, *options: str) -> Run:
+    """Return the run on one of DEVICES."""
+    return run(MODEL, VirtualLine(DEVICES[device]()), *options)
+
+
 @pytest.mark.parametrize("options", OPTIONS, ids="_".join)
 @pytest.mark.parametrize("device", DEVICES)
 def test_nothing_is_sent_but_what_is_allowed(options: list[str], device: str) -> None:
     allowed = allowed_by(options)
-    done = run(MODEL, VirtualLine(DEVICES[device]()), *options)
+    done = sent_to(device, *options)
     assert received(done.written, quiet=True) | received(done.written, quiet=False) <= allowed
     codes = {MODEL.messages[name].id for name in {*COMMANDS} - allowed}
     assert not begun(b"".join(done.written)) & codes
@@ -82,21 +89,21 @@ def test_nothing_is_sent_but_what_is_allowed(options: list[str], device: str) ->
 
 @pytest.mark.parametrize("options", OPTIONS, ids="_".join)
 def test_all_that_is_allowed_is_sent(options: list[str]) -> None:
-    done = run(MODEL, VirtualLine(by_the_reference(MODEL)), *options)
+    done = sent_to("answers", *options)
     assert received(done.written, quiet=True) == allowed_by(options)
     assert all(step["not_sent"] is None for step in done.report["steps"])
 
 
 def test_only_examples_of_allowed_messages_are_sent() -> None:
-    done = run(MODEL, VirtualLine(by_the_reference(MODEL)), "--allow", "ServoMove")
+    done = sent_to("answers", "--malformed", "--allow", "ServoMove")
     examples = [each.hex for each in MODEL.messages["ServoMove"].message.examples]
-    moves = [data for data in done.written if data[3] == 3]
+    moves = [data for data in done.written if data[3:4] == b"\3"]
     assert moves == examples
 
 
 @pytest.mark.parametrize("device", DEVICES)
 def test_nothing_else_is_obeyed_even_if_a_byte_is_lost(device: str) -> None:
-    written = run(MODEL, VirtualLine(DEVICES[device]()), "--malformed").written
+    written = sent_to(device, "--malformed").written
     for at, data in enumerate(written):
         for lost in range(len(data)):
             left = data[:lost] + data[lost + 1 :]

@@ -153,13 +153,15 @@ def dashed(reason: str) -> str:
 def joined(lines: Iterable[str]) -> list[str]:
     """Join neighbouring noise of one reason in the lines of an answer; write hex in lower case."""
     found: list[str] = []
+    # The first two words of the last line.
+    last: list[str] = []
     for line in lines:
         words = line.split()
-        last = found[-1].split() if found else []
         hexed = HEX_AT.get(words[0] if words else "", len(words))
         words[hexed : hexed + 1] = [word.lower() for word in words[hexed : hexed + 1]]
-        if words[:1] == ["noise"] and len(words) == 3 and words[:2] == last[:2]:
+        if words[:1] == ["noise"] and len(words) == 3 and words[:2] == last:
             found[-1] += words[2]
         else:
             found.append(" ".join(words))
+            last = words[:2]
     return found

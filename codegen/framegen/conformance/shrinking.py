@@ -34,17 +34,18 @@ def shrink(
     times.
     """
     tried = {question.line}
-    smaller = _smaller(model, question)
+    smaller, weight = _smaller(model, question), _weight(model, question)
     while len(tried) <= tries:
         candidate = next(smaller, None)
         if candidate is None:
             break
-        if candidate.line in tried or not _weight(model, candidate) < _weight(model, question):
+        line = candidate.line
+        if line in tried or not _weight(model, candidate) < weight:
             continue
-        tried.add(candidate.line)
+        tried.add(line)
         if differs(candidate):
             question = candidate
-            smaller = _smaller(model, question)
+            smaller, weight = _smaller(model, question), _weight(model, question)
     return question, len(tried) - 1
 
 

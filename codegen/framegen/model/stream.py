@@ -1,7 +1,8 @@
 """The reference stream decoder: the messages of a stream, and the noise between them.
 
-Slow and plain: it examines every offset anew. Every decoder in any language is tested against it,
-with neighbouring noise joined: where noise is cut depends on the chunks, and its sum does not.
+Slow and plain: it examines every offset anew at which a frame may begin. Every decoder in any
+language is tested against it, with neighbouring noise joined: where noise is cut depends on the
+chunks, and its sum does not.
 """
 
 from __future__ import annotations
@@ -34,7 +35,7 @@ class Event:
 
 @dataclass(frozen=True)
 class ReferenceDecoder:
-    """A decoder for a line that carries `directions`; it examines every offset anew.
+    """A decoder for a line that carries `directions`.
 
     Frames of more than `max_frame` bytes are refused by their length; None for no bound.
     """
@@ -103,8 +104,11 @@ class ReferenceDecoder:
                 continue
             if rest.startswith(header):
                 reason = verdict.reason
-            _emit_noise(events, at, rest[:1], reason)
-            at += 1
+            # No frame begins but with the first byte of a header.
+            end = data.find(header[:1], at + 1)
+            end = len(data) if end < 0 else end
+            _emit_noise(events, at, data[at:end], reason)
+            at = end
         return events
 
     def _may_change(self, data: bytes, verdict: Verdict) -> bool:
@@ -117,11 +121,19 @@ class ReferenceDecoder:
 
         A possible frame takes precedence over a claim that nothing proves.
         """
-        verdicts = (self.weigh(claimed[at:]) for at in range(1, len(claimed)))
+        verdicts = map(self.weigh, self._begun(claimed))
         return any(verdict.message or verdict.undecided for verdict in verdicts)
 
     def _has_message(self, data: bytes) -> bool:
-        return any(self.weigh(data[at:]).message for at in range(1, len(data)))
+        return any(self.weigh(begun).message for begun in self._begun(data))
+
+    def _begun(self, data: bytes) -> Iterator[bytes]:
+        """Yield what begins behind the first byte as a header does."""
+        first = self.model.frame.header[:1]
+        at = data.find(first, 1)
+        while at > 0:
+            yield data[at:]
+            at = data.find(first, at + 1)
 
 
 def _emit_noise(events: list[Event], at: int, data: bytes, reason: str) -> None:

@@ -63,26 +63,31 @@ class Permission:
             found = self._dangerous.get(self._id(data, at))
             if found is not None:
                 return f"it holds {to_hex(data[at : at + head])}, which begins {found}"
-        if name := self._holds(data, range(len(data))):
+        begun = self._begun(data, range(len(data)))
+        if name := self._holds(data, begun):
             return f"it holds a frame of {name}"
         for lost in range(len(data)):
+            left = data[:lost] + data[lost + 1 :]
             # Frames that end before it, or begin behind it, are as they were.
-            near = range(max(0, lost - self._largest), lost + 1)
-            if name := self._holds(data[:lost] + data[lost + 1 :], near):
-                byte, before = to_hex(data[lost : lost + 1]), to_hex(data[max(0, lost - 4) : lost])
-                return f"it holds a frame of {name} if the {byte} behind {before} is lost"
+            before = [at for at in begun if lost - self._largest <= at <= lost - head]
+            across = self._begun(left, range(max(0, lost - head + 1), lost + 1))
+            if name := self._holds(left, [*before, *across]):
+                byte, front = to_hex(data[lost : lost + 1]), to_hex(data[max(0, lost - 4) : lost])
+                return f"it holds a frame of {name} if the {byte} behind {front} is lost"
         return ""
 
-    def _holds(self, data: bytes, places: range) -> str:
+    def _holds(self, data: bytes, places: Iterable[int]) -> str:
         """Return the first forbidden message that begins at one of these places."""
-        for at in self._headers(data, places):
-            if self._id(data, at) not in self._forbidden:
-                continue
+        for at in places:
             for way in self._ways:
                 message = weigh(self.model, [way], data[at : at + self._largest]).message
                 if message is not None and message.name not in self.allowed:
                     return message.name
         return ""
+
+    def _begun(self, data: bytes, places: range) -> list[int]:
+        """Return where the header and the id of a forbidden message stand."""
+        return [at for at in self._headers(data, places) if self._id(data, at) in self._forbidden]
 
     def _headers(self, data: bytes, places: range) -> Iterator[int]:
         header = self.model.frame.header
