@@ -22,7 +22,7 @@ BENCH_VENV := .tools/bench
 MUTATION_VENV := .tools/mutation
 PINS_VENV := .tools/pins
 # How many tests run at once. Many only wait, so more than there are cores; 0 is one after another.
-WORKERS = 4
+WORKERS = 3
 # How many slow tests of each file are a sample; others on each day, or those of a SEED.
 SAMPLE = 3
 SEED =
