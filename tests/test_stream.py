@@ -400,6 +400,9 @@ def test_6_what_is_shown_has_the_exact_shape_of_an_unknown_frame(
 
 # --- Chosen lines --------------------------------------------------------------------------------
 
+# The first 86 bytes of a move of 65 servos: what LENGTH 55 counts, with a stray 55 in front.
+LONG_MOVE = ServoMove(800, [(servo, 500) for servo in range(65)]).encode()[:86].hex(" ")
+
 
 @pytest.mark.parametrize(
     ("direction", "line", "events"),
@@ -491,6 +494,12 @@ def test_6_what_is_shown_has_the_exact_shape_of_an_unknown_frame(
                 noise("55", Reason.COUNT_MISMATCH),
                 ServoMove(1500, [(1, 500), (2, 500), (3, 500), (4, 500), (5, 500)]),
             ],
+        ),
+        # A stray 55 before a long move reads as an unknown frame, in which the move has begun.
+        (
+            HOST,
+            f"55 {LONG_MOVE}",
+            [noise("55", Reason.UNKNOWN_COMMAND), noise(LONG_MOVE, Reason.TOO_SHORT)],
         ),
         # There is no checksum: a frame cut short takes its rest from the next.
         (
