@@ -301,6 +301,13 @@ def test_callbacks_may_use_the_client_and_fail_alone(caplog: pytest.LogCaptureFi
     assert len(received) == 2
 
 
+def test_the_thread_that_listens_is_named_after_the_line() -> None:
+    line = LiveLine()
+    with Controller(line, baud=math.inf, reply_timeout=GENEROUS) as controller:
+        controller.read_battery_voltage()
+        assert f"busservo on {line.name}" in [thread.name for thread in threading.enumerate()]
+
+
 def test_eight_threads_share_a_controller() -> None:
     line = LiveLine()
     with (
