@@ -751,6 +751,12 @@ def test_a_port_has_to_be_opened_before_pyserial_is_imported() -> None:
     assert "serial" not in modules
 
 
+def test_what_opens_a_port_imports_nothing_that_looks_for_devices() -> None:
+    modules = modules_after("from busservo import Controller, open_controller")
+    assert "busservo._serial.hid_devices" in modules
+    assert "pathlib" not in modules
+
+
 def modules_after(statement: str) -> set[str]:
     """Return all modules imported after a statement; -S keeps away those of a site's .pth files."""
     home = Path(busservo.__file__).parent.parent

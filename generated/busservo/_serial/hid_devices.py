@@ -8,17 +8,18 @@ from __future__ import annotations
 
 import sys
 from importlib import import_module
-from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
 
 from .._frame.protocol import HID_DEVICES
 from .link_errors import TransportError
 
 if TYPE_CHECKING:
+    from os import PathLike
+    from pathlib import Path
     from typing import Any
 
 UNSEEN = "not seen on hardware yet"
-_LINUX = Path("/sys/bus/hid/devices")
+_LINUX = "/sys/bus/hid/devices"
 
 
 class HidDevice(NamedTuple):
@@ -71,12 +72,15 @@ def hid_devices(library: Any) -> list[HidDevice]:
     return sorted(each for each in found if report_size(each.vendor, each.product_id) is not None)
 
 
-def hid_devices_at_hand(folder: Path = _LINUX) -> list[HidDevice] | None:
+def hid_devices_at_hand(folder: str | PathLike[str] = _LINUX) -> list[HidDevice] | None:
     """Return the devices that are plugged in without opening any; None if that cannot be known."""
+    from pathlib import Path
+
     try:
         return hid_devices(hid_library("hid://"))
     except (TransportError, OSError):
-        return _as_linux_tells(folder) if folder.is_dir() else None
+        listed = Path(folder)
+        return _as_linux_tells(listed) if listed.is_dir() else None
 
 
 def _as_linux_tells(folder: Path) -> list[HidDevice]:
