@@ -188,13 +188,13 @@ def _do(reader: Reader, block: Block, shown: str) -> str:
             if command == WAITS:
                 reader.waits()
                 continue
-            status, told = reader.shell(command)
+            status, printed = reader.shell(command)
             if status != 0:
-                raise WrongError(f"`{command}` ends with {status}:\n{told}")
+                raise WrongError(f"`{command}` ends with {status}:\n{printed}")
     elif block.kind == "console":
         for part in re.split(r"^\$ ", block.text, flags=re.MULTILINE)[1:]:
-            command, _, said = part.partition("\n")
-            _compare(said, reader.shell(command)[1])
+            command, _, expected = part.partition("\n")
+            _compare(expected, reader.shell(command)[1])
     elif block.kind in {"python", "pycon"}:
         return reader.python(block)
     elif block.kind == "output":
@@ -204,9 +204,9 @@ def _do(reader: Reader, block: Block, shown: str) -> str:
     return ""
 
 
-def _compare(said: str, told: str) -> None:
-    if not doctest.OutputChecker().check_output(said, told, doctest.ELLIPSIS):
-        raise WrongError(f"it says\n{said}\nand prints\n{told}")
+def _compare(expected: str, printed: str) -> None:
+    if not doctest.OutputChecker().check_output(expected, printed, doctest.ELLIPSIS):
+        raise WrongError(f"it says\n{expected}\nand prints\n{printed}")
 
 
 def main() -> int:

@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 
 
 def main(argv: Sequence[str] | None = None) -> int:
-    """Run the command line, and return its exit status: one of those in `exits`."""
+    """Run the command line, and return its exit status: one of `exit_codes`."""
     words = sys.argv[1:] if argv is None else list(argv)
     return console.run(PROGRAM, lambda: _run(words))
 
