@@ -22,7 +22,7 @@ from framegen.targets.python.characters import columns
 from framegen.targets.python.docstring import TYPOGRAPHY, docstring, prose
 from framegen.targets.python.escape import Text, assigned, literal
 from framegen.targets.python.names import names_of
-from hypothesis import given
+from hypothesis import example, given
 from hypothesis import strategies as st
 
 from tests.crowd import Crowd
@@ -703,9 +703,10 @@ def test_a_literal_says_any_text_in_visible_characters(text: str) -> None:
     assert not any(map(is_invisible, shown))
 
 
+@example("\"\n'\n\U00010000\\")
 @given(TEXT)
 def test_a_literal_in_several_lines_says_its_text(text: str) -> None:
-    for said in (assigned(text * 9, "x", 4), f"x = f({Text(text * 9, 'y=').fitted(8)})"):
+    for said in (assigned(text * 9, "x", 4), f"x = f({Text(text * 9, 'y=').fitted(8, last=')')})"):
         [statement] = ast.parse(said).body
         assert isinstance(statement, ast.Assign)
         literal = next(node for node in ast.walk(statement.value) if isinstance(node, ast.Constant))

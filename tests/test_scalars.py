@@ -7,7 +7,7 @@ import pytest
 import yaml
 from framegen.reading.scalars import Ambiguous, resolve
 from framegen.reading.text import first_invisible, is_invisible
-from hypothesis import given
+from hypothesis import example, given
 from hypothesis import strategies as st
 
 # The core schema of YAML 1.2, section 10.3.2, as printed there.
@@ -34,7 +34,9 @@ def kind_in_1_2(text: str) -> str:
 def kind_in_1_1(text: str) -> str:
     resolver: Any = yaml.SafeLoader("")
     tag = resolver.resolve(yaml.ScalarNode, text, (True, False))
-    return str(tag).rpartition(":")[2]
+    kind = str(tag).rpartition(":")[2]
+    # A rule of PyYAML for `!`, `&` and `*`, with which no plain scalar begins.
+    return "str" if kind == "yaml" else kind
 
 
 def kind_here(text: str) -> str:
@@ -177,6 +179,7 @@ def test_no_number_means_two_things(text: str) -> None:
     agreed(text)
 
 
+@example("*")
 @given(st.text(max_size=20))
 def test_any_text_has_a_meaning_or_a_hint(text: str) -> None:
     agreed(text.strip())
