@@ -90,31 +90,15 @@ def kiln() -> Data:
 
 def yaml_of(value: object) -> str:
     """Return `value` as YAML, every text in double quotes and in ASCII, whatever it holds."""
-    text = json.dumps(value)
-    # JSON is YAML, but for what it writes as two surrogates, and for the one control in it.
-    return _yaml_of(value) if "\\ud" in text or "\x7f" in text else text
+    # JSON is YAML, but for two surrogates in the place of one character, and a control as it is.
+    return _NOT_PLAIN.sub(_escaped, json.dumps(value, ensure_ascii=False))
 
 
-def _yaml_of(value: object) -> str:
-    if isinstance(value, dict):
-        return "{" + ", ".join(f"{_yaml_of(k)}: {_yaml_of(v)}" for k, v in value.items()) + "}"
-    if isinstance(value, list):
-        return "[" + ", ".join(map(_yaml_of, value)) + "]"
-    if isinstance(value, str):
-        return f'"{value if _PLAIN.fullmatch(value) else "".join(map(_escaped, value))}"'
-    if value is None:
-        return "null"
-    return str(value).lower() if isinstance(value, bool) else str(value)
+_NOT_PLAIN = re.compile(r"[^ -~]")
 
 
-# Printable ASCII that means nothing else in double quotes.
-_PLAIN = re.compile(r"[ !#-\[\]-~]*")
-
-
-def _escaped(character: str) -> str:
-    code = ord(character)
-    if character.isascii() and character.isprintable() and character not in '"\\':
-        return character
+def _escaped(found: re.Match[str]) -> str:
+    code = ord(found[0])
     return f"\\u{code:04x}" if code < 0x10000 else f"\\U{code:08x}"
 
 

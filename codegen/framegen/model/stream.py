@@ -81,13 +81,6 @@ class ReferenceDecoder:
         reason = BAD_HEADER
         at = 0
         while at < len(data):
-            if data[at] != header[0]:
-                # Nothing begins before the first byte of the next header.
-                found = data.find(header[:1], at)
-                end = len(data) if found < 0 else found
-                _emit_noise(events, at, data[at:end], reason)
-                at = end
-                continue
             rest = data[at:]
             verdict = self.weigh(rest)
             if verdict.message is not None:
@@ -104,9 +97,7 @@ class ReferenceDecoder:
                 continue
             if rest.startswith(header):
                 reason = verdict.reason
-            # No frame begins but with the first byte of a header.
-            end = data.find(header[:1], at + 1)
-            end = len(data) if end < 0 else end
+            end = self._next_begun(data, at + 1)
             _emit_noise(events, at, data[at:end], reason)
             at = end
         return events
@@ -129,11 +120,15 @@ class ReferenceDecoder:
 
     def _begun(self, data: bytes) -> Iterator[bytes]:
         """Yield what begins behind the first byte as a header does."""
-        first = self.model.frame.header[:1]
-        at = data.find(first, 1)
-        while at > 0:
+        at = self._next_begun(data, 1)
+        while at < len(data):
             yield data[at:]
-            at = data.find(first, at + 1)
+            at = self._next_begun(data, at + 1)
+
+    def _next_begun(self, data: bytes, at: int) -> int:
+        """Return where the next byte stands with which a header begins, and so a frame may."""
+        found = data.find(self.model.frame.header[:1], at)
+        return len(data) if found < 0 else found
 
 
 def _emit_noise(events: list[Event], at: int, data: bytes, reason: str) -> None:
