@@ -107,6 +107,12 @@ def compiled_of(data: Data, name: str = "made_up.yaml") -> Compiled:
     return compile_spec(Source(name, yaml_of(data)))
 
 
+@cache
+def compiled_file(file: Path) -> Compiled:
+    """Compile a spec file, once in a process: what is compiled never changes."""
+    return compile_spec(read_source(file))
+
+
 def is_misfit(data: Data) -> bool:
     """Tell whether a spec does not fit the language, which is a finding whatever else it says."""
     try:

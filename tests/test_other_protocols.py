@@ -14,7 +14,6 @@ from pathlib import Path
 from typing import Any, TypeAlias
 
 import pytest
-from framegen.compile import Compiled
 from framegen.render import render_target
 from framegen.targets.vectors import TARGET as VECTORS
 
@@ -22,7 +21,7 @@ from tests.factories import (
     BUSSERVO,
     DEMO,
     Data,
-    compiled_of,
+    compiled_file,
     data_of,
     files_of,
     leaves,
@@ -47,11 +46,6 @@ SAID = (
     *("hiwonder", "lewansoul", "xarm", "le-?arm", r"lx-?\w+", r"lsc-?\w*", "(?:the|a) host"),
     *("9600", "55 55", "5555", "0x55"),
 )
-
-
-@cache
-def compiled_once(file: Path) -> Compiled:
-    return compiled_of(data_of(file))
 
 
 def names_in(value: Any) -> Iterator[str]:
@@ -107,7 +101,7 @@ def mentions(files: dict[str, str], words: re.Pattern[str]) -> list[str]:
 
 @pytest.mark.parametrize("name", OTHERS)
 def test_no_library_mentions_another_protocol(name: str) -> None:
-    compiled = compiled_once(OTHERS[name])
+    compiled = compiled_file(OTHERS[name])
     files = {**library_files(compiled), **render_target(VECTORS, compiled)}
     assert mentions(files, forbidden(data_of(OTHERS[name]))) == []
 
@@ -128,7 +122,7 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Path]:
     made = tmp_path_factory.mktemp("others")
     with contextlib.ExitStack() as stack:
         for file in OTHERS.values():
-            stack.enter_context(library(library_files(compiled_once(file)), made))
+            stack.enter_context(library(library_files(compiled_file(file)), made))
         yield made / "generated"
 
 

@@ -5,13 +5,11 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from framegen.compile import Compiled, compile_spec
-from framegen.language.load import read_source
 
 from tests.conformance.answerers import ANSWERERS
 from tests.conformance.harness import cases_of, differences, joined
 from tests.docs.reference import NODE
-from tests.factories import BUSSERVO, DEMO, vectors_of
+from tests.factories import BUSSERVO, DEMO, compiled_file, vectors_of
 
 SPECS = [
     BUSSERVO,
@@ -21,14 +19,9 @@ SPECS = [
 
 
 @cache
-def compiled(spec: Path) -> Compiled:
-    return compile_spec(read_source(spec))
-
-
-@cache
 def published(spec: Path) -> dict[str, Any]:
     """Return the vectors of a spec."""
-    return vectors_of(compiled(spec))
+    return vectors_of(compiled_file(spec))
 
 
 @pytest.mark.parametrize("spec", SPECS, ids=lambda spec: spec.stem)
@@ -37,7 +30,9 @@ def test_a_codec_says_what_the_vectors_say(language: str, spec: Path, tmp_path: 
     if language == "page" and NODE is None:
         pytest.skip("node is not installed")
     questions = [*cases_of(published(spec))]
-    answers = ANSWERERS[language](compiled(spec), tmp_path, [each.question for each in questions])
+    answers = ANSWERERS[language](
+        compiled_file(spec), tmp_path, [each.question for each in questions]
+    )
     assert differences(questions, answers) == []
 
 

@@ -10,7 +10,7 @@ from typing import Any, TypeAlias
 
 import pytest
 from busservo._codec.hextext import HexError, read_hex
-from framegen.compile import Compiled, compile_spec
+from framegen.compile import Compiled
 from framegen.conformance.language import (
     Decode,
     Question,
@@ -18,7 +18,6 @@ from framegen.conformance.language import (
     answer,
     joined,
 )
-from framegen.language.load import read_source
 from framegen.language.spec import Spec
 from framegen.language.values import Direction
 from framegen.model.codec import NotAFrame, decode, encode
@@ -31,7 +30,7 @@ from tests.conformance.harness import run
 from tests.docs import peers
 from tests.docs.peers import noisy_lines, reference_events
 from tests.docs.reference import NODE, ROOT, reference
-from tests.factories import BUSSERVO, data_of
+from tests.factories import BUSSERVO, compiled_file, data_of
 from tests.hex_cases import HEX, NO_HEX, random_texts
 
 pytestmark = pytest.mark.skipif(NODE is None, reason="node is not installed")
@@ -54,7 +53,7 @@ class Page:
 
 @pytest.fixture(params=SPECS, ids=lambda file: file.stem, scope="module")
 def page(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory) -> Page:
-    return Page(compile_spec(read_source(request.param)), tmp_path_factory.mktemp("page"))
+    return Page(compiled_file(request.param), tmp_path_factory.mktemp("page"))
 
 
 def test_lines_and_single_frames_are_decoded_as_the_reference_decodes_them(page: Page) -> None:

@@ -3,17 +3,14 @@
 import json
 from argparse import ArgumentParser
 from contextlib import redirect_stderr, redirect_stdout
-from functools import cache
 from io import StringIO
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from framegen.compile import compile_spec
 from framegen.conformance import firmware
-from framegen.language.load import read_source
 from framegen.model.model import Model
 
-from tests.factories import first_model
+from tests.factories import compiled_file, first_model
 from tests.firmware.devices import Observed
 
 
@@ -45,10 +42,9 @@ class Run(NamedTuple):
         ]
 
 
-@cache
 def model_of(file: Path | None = None) -> Model:
     """Return the model of a spec."""
-    return first_model() if file is None else compile_spec(read_source(file)).model
+    return first_model() if file is None else compiled_file(file).model
 
 
 def run(model: Model, line: Any, *words: str, form: str = "json", timeout: float = 0.25) -> Run:
