@@ -27,14 +27,15 @@ def explain(model: Model, data: bytes, directions: Sequence[Direction]) -> Expla
 def _judge(model: Model, direction: str, data: bytes) -> Judgement:
     verdict = weigh_whole(model, [Direction.parse(direction)], data)
     name = None if verdict.message is None else verdict.message.name
-    return Judgement(name, verdict.reason, verdict.offset)
+    return Judgement(name, verdict.reason, verdict.offset, verdict.frame)
 
 
 def seen_rows(model: Model, verdict: Verdict, data: bytes) -> tuple[Row, ...]:
     """Explain the slots that agreed with the beginning of a frame."""
-    frame, number = model.plain.frame, len(verdict.seen)
+    number = len(verdict.seen)
     likely = None if verdict.likely is None else model.plain.messages[verdict.likely.name]
-    slots = frame.head
+    slots = model.plain.envelopes[verdict.frame].head if verdict.frame else ()
     if likely is not None and number > len(slots):
-        slots = tuple(likely.lay_out(frame.length.read_in(data)))
+        length = likely.length_of(data)
+        slots = tuple(likely.lay_out(likely.lengths[0] if length is None else length))
     return rows_of(data, slots[:number], likely)

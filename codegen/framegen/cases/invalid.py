@@ -33,7 +33,7 @@ def invalid_frames(model: Model) -> Iterator[InvalidFrame]:
     """Yield every example of the spec, spoilt in every way; no bytes twice."""
     for direction in model.directions:
         seen: set[bytes] = set()
-        for message in model.sent(direction).values():
+        for message in model.sent(direction):
             for example in message.message.examples:
                 for title, data in spoilt(model, message, example.hex):
                     if data in seen:

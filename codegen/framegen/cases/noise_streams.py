@@ -70,7 +70,7 @@ def _cuts(sender: Sender, frame: bytes, other: bytes) -> Iterator[tuple[str, Par
 def _lengths(sender: Sender, frame: bytes) -> Iterator[tuple[str, Parts]]:
     """Yield frames of a known message whose length no frame has."""
     envelope = sender.model.frame
-    known = next(iter(sender.model.sent(sender.direction)))
+    known = sender.model.sent(sender.direction)[0].id
     sizes = {
         "less than a frame has": envelope.least - 1,
         "more than a frame has": sender.largest + 1,

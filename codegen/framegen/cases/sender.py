@@ -42,7 +42,7 @@ class Sender:
     def small_frames(self) -> dict[str, bytes]:
         """A small frame of each of the first messages: the first example that is small."""
         found: dict[str, bytes] = {}
-        for message in self.model.sent(self.direction).values():
+        for message in self.model.sent(self.direction):
             frames = (each.data for each in frames_of(message))
             frame = next((each for each in frames if len(each) <= _SMALL), None)
             if frame is not None and len(found) < _MESSAGES:
@@ -99,7 +99,7 @@ class Sender:
         None where there is none, or none that a line has room for.
         """
         sizes: dict[int, tuple[MessageLayout, int]] = {}
-        for message in self.model.sent(self.direction).values():
+        for message in self.model.sent(self.direction):
             for count in _counts_around(message, limit):
                 if message.size_at(count) <= LONGEST:
                     sizes.setdefault(message.size_at(count), (message, count))

@@ -9,15 +9,17 @@ from framegen.checks.rule import Problem, StructureRule
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
+    from framegen.language.notation import Ids
     from framegen.language.spec import Spec
     from framegen.language.values import Direction
 
 
 def _look(spec: Spec) -> Iterator[Problem]:
-    first: dict[tuple[Direction, int], str] = {}
+    first: dict[tuple[Direction, str, Ids | None], str] = {}
     for name, message in spec.messages.items():
-        other = first.setdefault((message.direction, message.id), name)
-        if other != name:
+        key = message.direction, spec.frame_of(message), message.id
+        other = first.setdefault(key, name)
+        if other != name and message.id is not None:
             yield Problem(
                 ("messages", name, "id"),
                 f"{other} and {name} are both {message.id}, {message.direction}",

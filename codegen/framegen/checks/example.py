@@ -42,7 +42,7 @@ def _executed(
         return
     differences = list(_differences((*path, "values"), decoded.values, example.values, message))
     yield from differences
-    again = encode(message, decoded.values)
+    again = encode(message, decoded.values, example.hex)
     if again != example.hex:
         yield Problem((*path, "hex"), f"its values encode to {to_hex(again)}, which is not this")
 

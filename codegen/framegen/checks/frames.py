@@ -12,7 +12,7 @@ from framegen.reading.findings import did_you_mean
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from framegen.language.spec import FramePart
+    from framegen.language.spec import Frame, FramePart, Spec
     from framegen.reading.yamltree import KeyPath
 
 
@@ -26,11 +26,19 @@ _WITHOUT = {
 }
 
 
+def envelopes(spec: Spec) -> Iterator[tuple[KeyPath, Frame]]:
+    """Yield every kind of frame of the protocol, with its path."""
+    if spec.frame is not None:
+        yield ("frame",), spec.frame
+    for name, frame in spec.frames.items():
+        yield ("frames", name), frame
+
+
 def part_problems(path: KeyPath, frame: dict[str, FramePart]) -> Iterator[Problem]:
     """Find what is wrong with the parts of the frame at `path`."""
-    for kind in ("length", "id", "body"):
+    for kind in ("length", "body", "address", "counter"):
         names = [name for name, part in frame.items() if part.is_ == kind]
-        if not names:
+        if not names and kind == "body":
             yield Problem(path, f"the frame has no {kind} part", _WITHOUT[kind])
         for name in names[1:]:
             yield Problem(

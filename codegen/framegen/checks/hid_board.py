@@ -25,7 +25,8 @@ def _look(spec: Spec) -> Iterator[Problem]:
             )
     if any(True for rule in (unknown_type, frame_parts) for _ in rule.RULE.look(spec)):
         return
-    least = derive_envelope(spec.frame, spec.byte_order).least
+    order = spec.byte_order
+    least = min(derive_envelope(frame, order).least for frame in spec.envelopes.values())
     for at, board in enumerate(spec.link.usb_hid):
         if board.report_size < least:
             yield Problem(

@@ -9,31 +9,43 @@ from framegen.language.number_types import NUMBER_TYPES
 from framegen.language.spec import IdPart
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Iterable, Iterator
 
+    from framegen.language.notation import Ids
     from framegen.language.spec import Spec
     from framegen.reading.yamltree import KeyPath
 
 
 def _look(spec: Spec) -> Iterator[Problem]:
-    for part_name, part in spec.frame.items():
-        type_ = NUMBER_TYPES.get(part.type) if isinstance(part, IdPart) else None
-        if type_ is None:
-            continue
-        for path, code in _codes(spec):
-            if code > type_.high:
+    for frame_name, path, ids in _given(spec):
+        frame = spec.envelopes.get(frame_name, {})
+        parts = {name: part for name, part in frame.items() if isinstance(part, IdPart)}
+        for step, part_name, code in ids_by_part(ids, parts):
+            part = parts.get(part_name)
+            type_ = None if part is None else NUMBER_TYPES.get(part.type)
+            if type_ is not None and code > type_.high:
                 yield Problem(
-                    path,
+                    (*path, *step),
                     f"{code} does not fit `{part_name}`, a {type_.name}: it ends at {type_.high}",
                 )
 
 
-def _codes(spec: Spec) -> Iterator[tuple[KeyPath, int]]:
+def ids_by_part(ids: Ids, parts: Iterable[str]) -> Iterator[tuple[KeyPath, str, int]]:
+    """Yield each id with the rest of its path and the part that holds it."""
+    if ids.one is not None:
+        for name in parts:
+            yield (), name, ids.one
+    for name, number in ids.by_part:
+        yield (name,), name, number
+
+
+def _given(spec: Spec) -> Iterator[tuple[str, KeyPath, Ids]]:
     for name, message in spec.messages.items():
-        yield ("messages", name, "id"), message.id
+        if message.id is not None:
+            yield spec.frame_of(message), ("messages", name, "id"), message.id
     for index, reserved in enumerate(spec.reserved):
         if reserved.id is not None:
-            yield ("reserved", index, "id"), reserved.id
+            yield next(iter(spec.envelopes)), ("reserved", index, "id"), reserved.id
 
 
 RULE = StructureRule(

@@ -47,7 +47,7 @@ def _look(model: Model) -> Iterator[Problem]:
 
 
 def _messages(model: Model, pose: Pose) -> Iterator[Problem]:
-    sent = [message.name for message in model.sent(model.roles.sent).values()]
+    sent = [message.name for message in model.sent(model.roles.sent)]
     for key in ("read", "move", "release"):
         name: str = getattr(pose, key)
         if name not in sent:

@@ -50,10 +50,10 @@ READING_RULES: tuple[ReadingRule, ...] = (
     ReadingRule(
         id="yaml-ambiguous",
         title="A plain scalar means the same to every YAML reader",
-        why="YAML 1.1 and 1.2 read `no`, `010`, `1:30` and `1.0` differently, and editors and "
+        why="YAML 1.1 and 1.2 read `no`, `010`, `1:30` and `1e3` differently, and editors and "
         "programs use either.",
-        bad="version: 1.0",
-        good='version: "1.0"',
+        bad="title: no",
+        good='title: "no"',
     ),
     ReadingRule(
         id="yaml-nesting",

@@ -5,8 +5,9 @@ from __future__ import annotations
 from functools import partial
 from typing import TYPE_CHECKING
 
+from framegen.checks.frames import envelopes
 from framegen.checks.rule import Problem, StructureRule
-from framegen.language.number_types import NUMBER_TYPES
+from framegen.language.number_types import ALL_TYPES, NUMBER_TYPES
 from framegen.language.spec import ListField
 from framegen.reading.findings import did_you_mean
 
@@ -19,13 +20,13 @@ if TYPE_CHECKING:
 
 def _look(spec: Spec) -> Iterator[Problem]:
     for path, type_ in _types(spec):
-        if type_ not in NUMBER_TYPES:
+        if type_ not in ALL_TYPES:
             hint = partial(did_you_mean, type_, NUMBER_TYPES)
             yield Problem(path, f"unknown type `{type_}`", hint)
 
 
 def _types(spec: Spec) -> Iterator[tuple[KeyPath, str]]:
-    frames: dict[KeyPath, dict[str, FramePart]] = {("frame",): spec.frame}
+    frames: dict[KeyPath, dict[str, FramePart]] = dict(envelopes(spec))
     for key, other in spec.lookalikes.items():
         frames["lookalikes", key, "frame"] = other.frame or {}
     for path, frame in frames.items():

@@ -34,7 +34,7 @@ def further(model: Model, seed: int) -> Iterator[tuple[str, Question]]:
         kind = dice.pick(("decode", "encode", "stream", "stream"))
         way = dice.pick(model.directions)
         if kind == "encode":
-            message = dice.pick(list(model.sent(way).values()))
+            message = dice.pick(list(model.sent(way)))
             question: Question = Encode(message, _values(dice, message, wild=dice.below(3) == 0))
         elif kind == "decode":
             question = Decode(way, _piece(model, dice, way))
@@ -78,7 +78,7 @@ def _stream(model: Model, dice: _Dice, way: Direction) -> Stream:
 
 def _piece(model: Model, dice: _Dice, way: Direction) -> bytes:
     """Make a frame, one with something wrong, or noise that resembles the beginning of one."""
-    message = dice.pick(list(model.sent(way).values()))
+    message = dice.pick(list(model.sent(way)))
     frame = encode(message, _values(dice, message, wild=False))
     at = dice.below(len(frame))
     # In front of the fields is where most goes wrong.

@@ -138,7 +138,7 @@ def _runs(items: Sequence[object]) -> Iterator[tuple[int, int]]:
 
 def _with_smaller_frames(model: Model, way: Direction, symbols: list[int]) -> Iterator[list[int]]:
     """Replace a legal frame by a smaller one, of its own or of any message."""
-    others = sorted((_least(message) for message in model.sent(way).values()), key=len)
+    others = sorted((_least(message) for message in model.sent(way)), key=len)
     for at in range(len(symbols)):
         rest = bytes(symbol for symbol in symbols[at:] if symbol >= 0)
         verdict = weigh(model, [way], rest)

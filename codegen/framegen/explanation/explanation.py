@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Iterator, Sequence
     from typing import TypeAlias
 
-    from .protocol import Message, Placed, Protocol
+    from .protocol import Envelope, Message, Placed, Protocol, Value
 
     # The verdict on bytes as exactly one frame, sent in a direction.
     Judge: TypeAlias = Callable[[str, bytes], "Judgement"]
@@ -26,11 +26,15 @@ _MOST_WITHIN = 8
 
 @dataclass(frozen=True)
 class Judgement:
-    """The name of the message that bytes are; or none, with the reason and where it shows."""
+    """The name of the message that bytes are; or none, with the reason and where it shows.
+
+    `frame` is the name of the envelope that comes closest; empty for the only one.
+    """
 
     message: str | None
     reason: str = ""
     offset: int = 0
+    frame: str = ""
 
 
 @dataclass(frozen=True)
@@ -45,7 +49,7 @@ class Row:
     data: bytes
     path: str
     role: str
-    value: int | None
+    value: Value | None
     text: str
     meaning: str
 
@@ -111,14 +115,16 @@ def rows_of(data: bytes, slots: Iterable[Placed], message: Message | None) -> tu
 def _row(placed: Placed, data: bytes, message: Message | None) -> Row:
     slot, piece = placed.slot, placed.of(data)
     where = (placed.at, piece, placed.path, slot.role)
-    if not slot.is_number:
+    if not slot.is_number and slot.role not in ("packed", "text"):
         return Row(*where, None, "", slot.about)
-    value = slot.read(piece)
-    if slot.is_field:
+    value = slot.value(piece)
+    if slot.is_field or slot.role in ("address", "packed", "text"):
         return Row(*where, value, *slot.in_words(value))
     meaning = slot.about
     if slot.role == "length" and message is not None:
-        meaning = message.formula if message.items else f"always {message.formula}"
+        meaning = message.formula if message.varies else f"always {message.formula}"
+    elif slot.role == "checksum":
+        meaning = f"{slot.said['method']} of {', '.join(slot.of)}"
     elif slot.role == "id":
         meaning = "" if message is None else _named(message)
     return Row(*where, value, str(value), meaning)
@@ -156,28 +162,28 @@ class _Explainer:
         return Explanation(self.protocol.title, self.data, tuple(readings), tuple(refusals), hints)
 
     def _reading(self, message: Message) -> Reading:
-        rows = rows_of(self.data, self._slots(message, len(self.data)), message)
+        slots = self._slots(message.frame, message, len(self.data))
+        rows = rows_of(self.data, slots, message)
         facts = tuple(self._facts(message))
         return Reading(message.name, message.direction, message.said["summary"], rows, facts)
 
     def _refusal(self, direction: str, judgement: Judgement) -> Refusal:
         reason, offset = judgement.reason, judgement.offset
-        number = self.protocol.frame.id
-        likely = None
-        if number.at + number.size <= offset:
-            likely = self.protocol.message(direction, number.read_in(self.data))
+        frame = self.protocol.envelopes.get(judgement.frame, self.protocol.frame)
+        likely = self.protocol.message(direction, frame, self.data[:offset])
         largest = self.protocol.largest([direction])
-        refused = Refused(self.protocol, [direction], self.data, reason, offset, likely, largest)
-        right = rows_of(self.data, self._slots(likely, offset), likely)
+        refused = Refused(
+            self.protocol, frame, [direction], self.data, reason, offset, likely, largest
+        )
+        right = rows_of(self.data, self._slots(frame, likely, offset), likely)
         return Refusal(direction, reason, offset, refused.expected(), right)
 
-    def _slots(self, message: Message | None, end: int) -> list[Placed]:
+    def _slots(self, frame: Envelope, message: Message | None, end: int) -> list[Placed]:
         """Return the slots up to an offset, in frames of a message if it is known."""
-        frame = self.protocol.frame
         head = frame.head
-        if message is None or end < head[-1].end:
+        length = None if message is None else message.length_of(self.data)
+        if message is None or length is None or (head and end < head[-1].end):
             return [placed for placed in head if placed.end <= end]
-        length = frame.length.read_in(self.data)
         return [placed for placed in message.lay_out(length) if placed.end <= end]
 
     def _facts(self, message: Message) -> Iterator[tuple[str, str]]:
@@ -222,7 +228,10 @@ class _Explainer:
         unknown = [each.direction for each in refusals if each.reason == UNKNOWN_COMMAND]
         if not unknown:
             return
-        number = self.protocol.frame.id.read_in(self.data)
+        part = self.protocol.frame.id
+        if part is None or not part.is_in(self.data):
+            return
+        number = part.read_in(self.data)
         for lookalike in self.protocol.lookalikes.values():
             if "frame" not in lookalike.said and number in lookalike.commands:
                 yield Hint(f"in {_the(lookalike.title)}, {number} {lookalike.commands[number]}")
@@ -235,7 +244,9 @@ class _Explainer:
         """Try the length that so many bytes should have."""
         frame, size = self.protocol.frame, len(self.data)
         length = size - frame.uncounted
-        if length not in range(frame.length.high + 1) or size < frame.body_at:
+        if frame.length is None or length not in range(frame.length.high + 1):
+            return
+        if size < frame.body_at:
             return
         at, end = frame.length.at, frame.length.at + frame.length.size
         mended = self.data[:at] + frame.length.write(length) + self.data[end:]
@@ -249,7 +260,7 @@ class _Explainer:
     def _frames_within(self) -> Iterator[Hint]:
         """Find whole frames among the bytes, from the first byte on."""
         frame, found, at = self.protocol.frame, 0, 0
-        while at + frame.body_at <= len(self.data):
+        while frame.length is not None and at + frame.body_at <= len(self.data):
             size = frame.uncounted + frame.length.read_in(self.data[at:])
             piece = self.data[at : at + size]
             names = self._names(self.protocol.directions, piece)

@@ -33,6 +33,8 @@ def recognise(protocol: Protocol, data: bytes) -> Recognised | None:
         # With neither a frame nor ids of its own, there is nothing to tell it by.
         if parts is None or not ("frame" in lookalike.said or lookalike.commands):
             continue
+        if lookalike.frame.id is None:
+            continue
         placed = parts[lookalike.frame.id.name]
         command = placed.slot.read(placed.of(data))
         if command in lookalike.commands or not lookalike.commands:

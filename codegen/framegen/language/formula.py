@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from dataclasses import dataclass
+from typing import TypeAlias
 
 _TOKEN = re.compile(r"\s*(?:(?P<number>[0-9]{1,6})|(?P<name>[A-Za-z_]\w*)|(?P<sign>[*+·]))")
 
@@ -32,6 +33,47 @@ class Formula:
             return 0 if length == self.constant else None
         count, rest = divmod(length - self.constant, self.factor)
         return count if rest == 0 and count >= 0 else None
+
+
+@dataclass(frozen=True, slots=True)
+class Sizes:
+    """The lengths of a message whose last fields may be absent: `[2, 4]`, the shortest first."""
+
+    sizes: tuple[int, ...]
+
+    # As a formula has them: it depends on no count that a frame holds.
+    name = None
+    factor = 0
+
+    @property
+    def constant(self) -> int:
+        """The shortest length."""
+        return self.sizes[0]
+
+    def __str__(self) -> str:
+        return ", ".join(map(str, self.sizes))
+
+    def at(self, count: int) -> int:
+        """Return the length of a frame with `count` of the optional fields."""
+        return self.sizes[count]
+
+    def count_at(self, length: int) -> int | None:
+        """Return the number of optional fields at `length`, or None where no number gives it."""
+        return self.sizes.index(length) if length in self.sizes else None
+
+
+LengthRule: TypeAlias = Formula | Sizes
+
+
+def sizes_of(lengths: list[object]) -> Sizes:
+    """Read a list of lengths. Raises ValueError that says what is wrong."""
+    for length in lengths:
+        if not isinstance(length, int) or isinstance(length, bool) or length < 0:
+            raise ValueError(f"`{length}` is no length: list whole numbers, like `[2, 4]`")
+    sizes = tuple(each for each in lengths if isinstance(each, int))
+    if not sizes or sorted(set(sizes)) != list(sizes):
+        raise ValueError("the lengths are listed once each, the shortest first, like `[2, 4]`")
+    return Sizes(sizes)
 
 
 def parse_formula(text: str) -> Formula:

@@ -88,7 +88,7 @@ class _Misfit:
             return f"write `framegen: {LATEST}`"
         if self.problem["type"] not in ("string_type", "notation_type"):
             return ""
-        if not isinstance(self.problem["input"], bool | int):
+        if not isinstance(self.problem["input"], bool | int | float):
             return ""
         start = self.span.column - 1
         text = source.line(self.span.line)[start : start + self.span.length]

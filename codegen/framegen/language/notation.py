@@ -16,12 +16,13 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, slots=True)
 class Notation:
-    """A type for `Annotated`: text read by `parse`; a bare number by `number`, if given."""
+    """A type for `Annotated`: text read by `parse`; a number or a list by its own, if given."""
 
     what: str
     example: str
     parse: Callable[[str], Any]
     number: Callable[[int], Any] | None = None
+    listed: Callable[[list[object]], Any] | None = None
 
     def __get_pydantic_core_schema__(
         self, _type: object, _handler: GetCoreSchemaHandler
@@ -31,20 +32,24 @@ class Notation:
     def __get_pydantic_json_schema__(
         self, _schema: core_schema.CoreSchema, _handler: GetJsonSchemaHandler
     ) -> JsonSchemaValue:
-        kind = "string" if self.number is None else ["string", "integer"]
-        return {"type": kind, "examples": [self.example]}
+        kinds = ["string"] + ["integer"] * (self.number is not None)
+        kinds += ["array"] * (self.listed is not None)
+        return {"type": kinds if len(kinds) > 1 else "string", "examples": [self.example]}
 
     def _read(self, value: object) -> Any:
         if self.number is not None and isinstance(value, int) and not isinstance(value, bool):
             return self.number(value)
-        if not isinstance(value, str):
+        is_listed = self.listed is not None and isinstance(value, list)
+        if not isinstance(value, str) and not is_listed:
             raise PydanticCustomError(
                 "notation_type",
                 "{what} is written as text, like `{example}`",
                 {"what": self.what, "example": self.example},
             )
         try:
-            return self.parse(value)
+            if self.listed is not None and isinstance(value, list):
+                return self.listed(value)
+            return self.parse(str(value))
         except ValueError as error:
             context = {"message": str(error), "part": getattr(error, "part", "")}
             raise PydanticCustomError("notation", "{message}", context) from None
@@ -68,3 +73,43 @@ class OneOf:
             return value
 
         return core_schema.no_info_before_validator_function(read, handler(source))
+
+
+@dataclass(frozen=True, slots=True)
+class Ids:
+    """The ids of a message: one number, or one for each id part of its frame by name."""
+
+    one: int | None
+    by_part: tuple[tuple[str, int], ...] = ()
+
+    def __str__(self) -> str:
+        if self.one is not None:
+            return str(self.one)
+        return ", ".join(f"{name} {number}" for name, number in self.by_part)
+
+    @classmethod
+    def __get_pydantic_core_schema__(
+        cls, _source: object, _handler: GetCoreSchemaHandler
+    ) -> core_schema.CoreSchema:
+        return core_schema.no_info_plain_validator_function(cls._read)
+
+    @classmethod
+    def __get_pydantic_json_schema__(
+        cls, _schema: core_schema.CoreSchema, _handler: GetJsonSchemaHandler
+    ) -> JsonSchemaValue:
+        number = {"type": "integer", "minimum": 0}
+        return {"anyOf": [number, {"type": "object", "additionalProperties": number}]}
+
+    @classmethod
+    def _read(cls, value: object) -> Ids:
+        if isinstance(value, dict):
+            return cls(None, tuple((str(name), _natural(each)) for name, each in value.items()))
+        return cls(_natural(value))
+
+
+def _natural(value: object) -> int:
+    if not isinstance(value, int) or isinstance(value, bool):
+        raise PydanticKnownError("int_type")
+    if value < 0:
+        raise PydanticKnownError("greater_than_equal", {"ge": 0})
+    return value

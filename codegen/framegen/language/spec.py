@@ -9,12 +9,20 @@ from __future__ import annotations
 
 from typing import Annotated, Any, Literal, TypeAlias
 
-from pydantic import BaseModel, ConfigDict, Discriminator, StrictBool, StrictInt, Tag
+from pydantic import (
+    BaseModel,
+    ConfigDict,
+    Discriminator,
+    StrictBool,
+    StrictInt,
+    Tag,
+    model_validator,
+)
 from pydantic import Field as Key
 
 from framegen.language.edition import LATEST, Edition
-from framegen.language.formula import Formula, parse_formula
-from framegen.language.notation import Notation, OneOf
+from framegen.language.formula import Formula, LengthRule, parse_formula, sizes_of
+from framegen.language.notation import Ids, Notation, OneOf
 from framegen.language.number_types import NUMBER_TYPES
 from framegen.language.values import Citation, Direction, Method, Range, Scale, parse_hex
 
@@ -24,14 +32,20 @@ Way: TypeAlias = Annotated[
     Direction, Notation("a direction", "host -> controller", Direction.parse)
 ]
 Bounds: TypeAlias = Annotated[Range, Notation("a range", "0..1000", Range.parse)]
+Count: TypeAlias = Annotated[Range, Notation("a count", "1..", Range.parse, number=Range.only)]
+BitRange: TypeAlias = Annotated[
+    Range, Notation("a range of bits", "0..6", Range.parse, number=Range.only)
+]
 Step: TypeAlias = Annotated[Scale, Notation("a scale", "0.001 V", Scale.parse)]
 Length: TypeAlias = Annotated[
-    Formula, Notation("a length rule", "3 * servo_count + 5", parse_formula, Formula)
+    LengthRule,
+    Notation("a length rule", "3 * servo_count + 5", parse_formula, Formula, sizes_of),
 ]
 Call: TypeAlias = Annotated[
     Method, Notation("a method", "read_positions(servo_ids) -> positions", Method.parse)
 ]
 Natural: TypeAlias = Annotated[StrictInt, Key(ge=0)]
+Order: TypeAlias = Literal["little", "big"]
 
 
 class Part(BaseModel):
@@ -92,6 +106,9 @@ class Link(Part):
     )
     parity: Literal["none", "even", "odd"] = Key("none", description="Parity bit of a character.")
     stop_bits: Annotated[Literal[1, 2], OneOf()] = Key(1, description="Stop bits of a character.")
+    local_echo: StrictBool = Key(
+        False, description="Whether each end receives what it sends itself, as on a single wire."
+    )
     usb_hid: list[HidBoard] = Key(
         [], description="Boards that show as a USB HID device instead of a serial port."
     )
@@ -111,20 +128,37 @@ class ConstantPart(Part):
     about: str = Key("", description="What it is.")
 
 
+class ReservedPart(Part):
+    """Bytes without a meaning: always written so, and read as anything."""
+
+    is_: Literal["reserved"] = Key(alias="is")
+    bytes_: Hex = Key(alias="bytes", description="The bytes that are written, in hex.")
+    about: str = Key("", description="What it is.")
+
+
 class LengthPart(Part):
     """The number of bytes in some parts of the frame."""
 
     is_: Literal["length"] = Key(alias="is")
     type: str = Key(description="The number type, such as u8.")
-    counts: list[str] = Key(description="The parts whose bytes it counts.")
+    counts: list[str] = Key(
+        description="The parts whose bytes it counts, such as `counts: [length, body, checksum]`."
+    )
+    byte_order: Order | None = Key(None, description="Which byte comes first, if not as usual.")
     about: str = Key("", description="What it is.")
 
 
 class IdPart(Part):
-    """The id of the message."""
+    """The id of the message, or one of its ids."""
 
     is_: Literal["id"] = Key(alias="is")
     type: str = Key(description="The number type, such as u8.")
+    sent: StrictBool = Key(
+        True,
+        description="Whether it is in the frame; one that is not is known to both ends, and only "
+        "covered by a checksum.",
+    )
+    byte_order: Order | None = Key(None, description="Which byte comes first, if not as usual.")
     about: str = Key("", description="What it is.")
 
 
@@ -135,11 +169,40 @@ class BodyPart(Part):
     about: str = Key("", description="What it is.")
 
 
+class NamedAddress(Part):
+    """An address with a meaning of its own."""
+
+    value: Natural = Key(description="The address.")
+    about: str = Key("", description="What it means.")
+    silent: StrictBool = Key(
+        False, description="Whether nobody answers what is sent there, as with a broadcast."
+    )
+    cite: Cite | None = Key(None, description="Where it is known from.")
+
+
 class AddressPart(Part):
-    """The number of a device."""
+    """The number of a device on the line: the first argument of every message."""
 
     is_: Literal["address"] = Key(alias="is")
     type: str = Key(description="The number type, such as u8.")
+    range: Bounds | None = Key(
+        None, description="The addresses that devices have, where they are fewer than the type has."
+    )
+    values: dict[str, NamedAddress] = Key(
+        {},
+        description="Addresses with a meaning of their own, by name, inside the range or not, such "
+        "as `all: {value: 254, silent: true}`.",
+    )
+    byte_order: Order | None = Key(None, description="Which byte comes first, if not as usual.")
+    about: str = Key("", description="What it is.")
+
+
+class CounterPart(Part):
+    """A running number that the sender adds to each frame."""
+
+    is_: Literal["counter"] = Key(alias="is")
+    type: str = Key(description="The number type, such as u8.")
+    byte_order: Order | None = Key(None, description="Which byte comes first, if not as usual.")
     about: str = Key("", description="What it is.")
 
 
@@ -147,16 +210,24 @@ class ChecksumPart(Part):
     """A number worked out from other parts."""
 
     is_: Literal["checksum"] = Key(alias="is")
-    type: str = Key(description="The number type, such as u8.")
-    method: Literal["inverted sum"] = Key(description="How it is worked out.")
-    covers: list[str] = Key(description="The parts it is worked out from.")
+    type: str = Key(description="The number type, such as u8: as wide as the method.")
+    method: str = Key(
+        description="How it is worked out, by its name in the catalogue, such as `inverted sum` or "
+        "`crc-16/modbus`."
+    )
+    covers: list[str] = Key(
+        description="The parts it is worked out from, in order, such as `covers: [length, body]`."
+    )
+    byte_order: Order | None = Key(None, description="Which byte comes first, if not as usual.")
     about: str = Key("", description="What it is.")
 
 
+NumberPart: TypeAlias = LengthPart | IdPart | AddressPart | CounterPart | ChecksumPart
 FramePart: TypeAlias = Annotated[
-    ConstantPart | LengthPart | IdPart | BodyPart | AddressPart | ChecksumPart,
+    ConstantPart | ReservedPart | BodyPart | NumberPart,
     Key(discriminator="is_"),
 ]
+Frame: TypeAlias = dict[str, FramePart]
 
 
 class Note(Part):
@@ -188,10 +259,26 @@ class Limits(Part):
     )
 
 
-class NumberField(Part):
-    """A number; with `counted_by`, a list of them."""
+class Bits(Part):
+    """A bit of a number, or several next to each other, with a meaning of their own."""
 
-    type: str = Key(description=f"The number type: {', '.join(NUMBER_TYPES)}.")
+    at: BitRange = Key(description="Which bits, the lowest being 0: `0`, or `0..6`.")
+    about: str = Key("", description="What they mean.")
+
+    @model_validator(mode="before")
+    @classmethod
+    def _short(cls, value: object) -> object:
+        """Read `0..6` as `{at: 0..6}`."""
+        return value if isinstance(value, dict) else {"at": value}
+
+
+class NumberField(Part):
+    """A number; with `counted_by`, `sized_by` or a `count`, a list of them."""
+
+    type: str = Key(
+        description=f"The number type: {', '.join(NUMBER_TYPES)}; and u1 to u63, for packed "
+        "numbers in a list of a fixed `count`."
+    )
     about: str = Key(description="What it is.")
     unit: str = Key("", description="The unit of one step, such as ms.")
     scale: Step | None = Key(None, description="What one step is in a larger unit.")
@@ -211,10 +298,36 @@ class NumberField(Part):
     values: dict[str, NamedValue] = Key(
         {}, description="Numbers with a meaning of their own, by name."
     )
+    bits: dict[str, Bits] = Key(
+        {},
+        description="Its bits with a meaning of their own, by name, such as "
+        "`{low_voltage: 0, code: 1..7}`.",
+    )
+    always: StrictInt | None = Key(
+        None, description="The only value that it has: no argument, and checked."
+    )
+    reserved: StrictInt | None = Key(
+        None, description="What it is written as, though it is read as anything: no argument."
+    )
+    optional: StrictBool = Key(
+        False,
+        description="Whether it may be absent: only the last fields, each with those behind it.",
+    )
+    byte_order: Order | None = Key(None, description="Which byte comes first, if not as usual.")
     counted_by: str | None = Key(
         None, description="The earlier field that says how many of these there are."
     )
-    count: Bounds | None = Key(None, description="How many there may be, such as 1..")
+    sized_by: str | None = Key(
+        None,
+        description="The earlier field that says how many bytes these have, or the length part of "
+        "the frame: whatever it leaves.",
+    )
+    count: Count | None = Key(
+        None, description="How many there may be, such as 1.., or always are, such as 16."
+    )
+    text: Literal["ascii"] | None = Key(
+        None, description="For a list of u8 that is text: in which characters."
+    )
     notes: list[Note] = Key([], description="What else is known, each with its source.")
     cite: Cite | None = Key(
         None, description="Where it is known from, if not where the message is."
@@ -225,9 +338,18 @@ class ListField(Part):
     """A list of elements that each have fields of their own."""
 
     element: str = Key(description="The name of one element's class.")
-    about: str = Key(description="What the list is.")
-    counted_by: str = Key(description="The earlier field that says how many elements there are.")
-    count: Bounds | None = Key(None, description="How many there may be, such as 1..")
+    about: str = Key(description="What its elements are.")
+    counted_by: str | None = Key(
+        None, description="The earlier field that says how many elements there are."
+    )
+    sized_by: str | None = Key(
+        None,
+        description="The earlier field that says how many bytes they have, or the length part of "
+        "the frame: whatever it leaves.",
+    )
+    count: Count | None = Key(
+        None, description="How many there may be, such as 1.., or always are, such as 3."
+    )
     fields: dict[str, NumberField] = Key(
         description="The fields of one element, in the order of the frame."
     )
@@ -263,13 +385,30 @@ class Example(Part):
 class Message(Part):
     """One message in one direction."""
 
-    id: Natural = Key(description="Its code, which the id part of the frame holds.")
+    id: Ids | None = Key(
+        None,
+        description="Its code, which the id part of the frame holds; where there are several, one "
+        "for each by name: `{class: 5, message: 1}`.",
+    )
+    frame: str | None = Key(
+        None, description="Which of `frames` it has, where the protocol has several."
+    )
     direction: Way = Key(description="Who sends it to whom, such as `host -> controller`.")
     vendor_name: str = Key("", description="What the vendor calls it.")
     summary: str = Key(description="What it does, in one line.")
     description: str = Key("", description="What else its user should know.")
     cite: Cite = Key(description="Where it is known from.")
     reply: str | None = Key(None, description="The message that answers it, always.")
+    refusal: str | None = Key(
+        None,
+        description="The message that comes instead of its `reply` where it is refused: a client "
+        "raises it.",
+    )
+    failure: str | None = Key(
+        None,
+        description="The field of this reply that is not zero where what it answers has failed: a "
+        "client raises it.",
+    )
     echoed: dict[str, str] = Key(
         {},
         description="Fields that the reply repeats, and where it has them, such as "
@@ -291,7 +430,10 @@ class Message(Part):
         description="What sends it in a client: name, order of the arguments, and the field of the "
         "reply that is returned, where it is not the whole reply.",
     )
-    length: Length = Key(description="The value of the length part, such as `3 * servo_count + 5`.")
+    length: Length = Key(
+        description="The value of the length part, such as `3 * servo_count + 5`, or `[2, 4]` "
+        "where last fields may be absent; in a frame without one, the size of the frame."
+    )
     fields: dict[str, AnyField] = Key({}, description="Its fields, in the order of the frame.")
     examples: list[Example] = Key([], description="Frames, each with what it means.")
     since: str = Key("", description="The first spec version that has it, if not the first of all.")
@@ -318,7 +460,7 @@ class Pose(Part):
 class Reserved(Part):
     """An id or a name that must not be used, for instance because a removed message had it."""
 
-    id: Natural | None = Key(None, description="The code.")
+    id: Ids | None = Key(None, description="The code.")
     direction: Way | None = Key(
         None, description="The direction in which the code is reserved; both, if left out."
     )
@@ -375,7 +517,7 @@ class Lookalike(Part):
     title: str = Key(description="What it is called.")
     about: str = Key(description="How to tell it from this one.")
     cite: Cite = Key(description="Where it is known from.")
-    frame: dict[str, FramePart] | None = Key(None, description="Its frame, if it differs.")
+    frame: Frame | None = Key(None, description="Its frame, if it differs.")
     commands: dict[int, str] = Key({}, description="Meanings of codes there, by code.")
     examples: list[LookalikeExample] = Key([], description="Frames of it.")
 
@@ -402,8 +544,13 @@ class Spec(Part):
         "for, then the one that it talks to."
     )
     link: Link = Key(description="The serial line.")
-    byte_order: Literal["little", "big"] = Key(description="Which byte of a number comes first.")
-    frame: dict[str, FramePart] = Key(description="The parts of every frame, in order.")
+    byte_order: Order = Key(description="Which byte of a number comes first.")
+    frame: Frame | None = Key(None, description="The parts of every frame, in order.")
+    frames: dict[str, Frame] = Key(
+        {},
+        description="Instead of `frame`, the parts of several kinds of frame by name, where the "
+        "directions or the messages differ in theirs.",
+    )
     messages: dict[str, Message] = Key(description="The messages, by name.")
     pose: Pose | None = Key(
         None, description="How positions are read, commanded and let go, where there are any."
@@ -415,3 +562,12 @@ class Spec(Part):
     history: list[Release] = Key(
         [], description="What changed from version to version of this spec."
     )
+
+    @property
+    def envelopes(self) -> dict[str, Frame]:
+        """Every kind of frame by name; the only one is called `frame`."""
+        return self.frames or {"frame": self.frame or {}}
+
+    def frame_of(self, message: Message) -> str:
+        """Return the name of the kind of frame that a message has."""
+        return next(iter(self.envelopes)) if message.frame is None else message.frame

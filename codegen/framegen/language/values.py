@@ -17,7 +17,9 @@ _DIRECTION = re.compile(r"(\S+)\s*->\s*(\S+)")
 _RANGE = re.compile(r"(-?[0-9]{1,20})\s*\.\.\s*(-?[0-9]{1,20})?")
 _METHOD = re.compile(r"(\w+)\s*\(\s*((?:\w+(?:\s*,\s*\w+)*)?)\s*\)(?:\s*->\s*(\w+))?", re.ASCII)
 _NAME = re.compile(r"\w+", re.ASCII)
-_SCALE = re.compile(r"([0-9]{1,6}(?:\.[0-9]{1,12})?)\s+(\S+)")
+_SCALE = re.compile(
+    r"([0-9]{1,6}(?:\.[0-9]{1,12})?)\s+(\S+)(?:\s+([-+])\s*([0-9]{1,12}(?:\.[0-9]{1,12})?))?"
+)
 
 
 @dataclass(frozen=True, slots=True)
@@ -65,6 +67,11 @@ class Range:
         return self.low <= other.low and within
 
     @classmethod
+    def only(cls, number: int) -> Range:
+        """Return the range of one number."""
+        return cls(number, number)
+
+    @classmethod
     def parse(cls, text: str) -> Range:
         """Read `0..1000` or `1..`."""
         match = _RANGE.fullmatch(text)
@@ -78,17 +85,24 @@ class Range:
 
 @dataclass(frozen=True, slots=True)
 class Scale:
-    """The size of one step of a value in a larger unit, written `0.001 V`."""
+    """The size of one step of a value in a larger unit, written `0.001 V`.
+
+    With what a value of zero is in that unit, if it is not zero: `0.125 °C - 256`.
+    """
 
     step: Decimal
     unit: str
+    offset: Decimal = Decimal(0)
 
     def __str__(self) -> str:
-        return f"{self.step} {self.unit}"
+        text = f"{self.step} {self.unit}"
+        if not self.offset:
+            return text
+        return f"{text} {'-' if self.offset < 0 else '+'} {abs(self.offset)}"
 
     def of(self, value: int) -> str:
         """Convert `value` to that unit, exactly: 7500 steps of 0.001 V are `7.500 V`."""
-        return f"{value * self.step} {self.unit}"
+        return f"{value * self.step + self.offset} {self.unit}"
 
     @classmethod
     def parse(cls, text: str) -> Scale:
@@ -96,9 +110,10 @@ class Scale:
         match = _SCALE.fullmatch(text)
         if match is None or not Decimal(match[1]):
             raise ValueError(
-                f"`{text}` is no scale: write a step above zero and its unit, like `0.001 V`"
+                f"`{text}` is no scale: write a step above zero and its unit, like `0.001 V`, "
+                "and what a value of zero is, if it is not zero: `0.125 °C - 256`"
             )
-        return cls(Decimal(match[1]), match[2])
+        return cls(Decimal(match[1]), match[2], Decimal(f"{match[3]}{match[4]}" if match[3] else 0))
 
 
 @dataclass(frozen=True, slots=True)

@@ -9,11 +9,11 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
-from framegen.model.slots import Body, Constant, Items, Number
+from framegen.model.slots import Body, Constant, Items, Number, Packed, Text
 from framegen.model.verdict import weigh_whole
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
+    from collections.abc import Callable, Mapping
 
     from framegen.language.values import Direction
     from framegen.model.layout import MessageLayout
@@ -54,79 +54,171 @@ def decode(model: Model, direction: Direction | None, data: bytes) -> Decoded:
 
 
 def values_of(message: MessageLayout, frame: bytes) -> dict[str, Any]:
-    """Return the values of a legal frame, by field."""
+    """Return the values of a legal frame, by argument; None for a field that is absent."""
     count = message.count_of(frame)
-    # In the order of the frame, which is that of the fields.
-    numbers = (
-        placed.slot.read(placed.of(frame))
-        for placed in message.lay_out(count)
-        if isinstance(placed.slot, Number) and placed.slot.is_field
-    )
+    placed = {each.path: each for each in message.lay_out(count)}
+
+    def number(path: str) -> float | str | None:
+        there = placed.get(path)
+        if there is None or not isinstance(there.slot, Number | Text):
+            return None
+        return there.slot.value(there.of(frame))
+
     values: dict[str, Any] = {}
-    for slot in message.fields:
-        if isinstance(slot, Number):
-            values[slot.name] = next(numbers)
-        elif slot.element is None:
-            values[slot.name] = [next(numbers) for _ in range(count)]
-        else:
-            values[slot.name] = [
-                {field.name: next(numbers) for field in slot.fields} for _ in range(count)
-            ]
-    return {argument.name: values[argument.name] for argument in message.arguments}
+    for slot in message.arguments:
+        match slot:
+            case Number() | Text():
+                values[slot.name] = number(slot.name)
+            case Packed():
+                values[slot.name] = slot.values(placed[slot.name].of(frame))
+            case Items():
+                elements = range(slot.low if slot.is_fixed else count)
+                values[slot.name] = _items(slot, elements, number)
+    return values
 
 
-def encode(message: MessageLayout, values: Mapping[str, Any]) -> bytes:
-    """Encode the frame that carries `values`, by field. Raises Unencodable."""
+def _items(items: Items, elements: range, number: Callable[[str], float | str | None]) -> Any:
+    """Return the value of a list, whose numbers are found by path."""
+    if items.element is not None:
+        return [
+            {field.name: number(items.path(index, field)) for field in items.fields}
+            for index in elements
+        ]
+    (field,) = items.fields
+    numbers = [number(items.path(index, field)) for index in elements]
+    if items.text is None:
+        return numbers
+    return bytes(int(each or 0) for each in numbers).decode(items.text)
+
+
+def encode(message: MessageLayout, values: Mapping[str, Any], like: bytes | None = None) -> bytes:
+    """Encode the frame that carries `values`, by argument. Raises Unencodable.
+
+    A running number may be left out, and an optional field be None: it is absent. Reserved bytes
+    are those of a frame of the same size, if it is given.
+    """
     count, numbers = _numbers(message, values)
     frame = bytearray(message.size_at(count))
+    checksums: list[Placed] = []
     for placed in message.lay_out(count):
-        frame[placed.at : placed.end] = _written(message, placed, count, numbers)
+        if placed.slot.role == "checksum":
+            checksums.append(placed)
+        elif placed.slot.role == "reserved" and like is not None:
+            frame[placed.at : placed.end] = placed.of(like)
+        else:
+            frame[placed.at : placed.end] = _written(message, placed, count, numbers)
+    for placed in checksums:
+        if isinstance(placed.slot, Number):
+            frame[placed.at : placed.end] = message.checksum(placed.slot, bytes(frame))
     return bytes(frame)
 
 
 def _written(
-    message: MessageLayout, placed: Placed, count: int, numbers: Mapping[str, object]
+    message: MessageLayout, placed: Placed, count: int, numbers: Mapping[str, Any]
 ) -> bytes:
     slot = placed.slot
     match slot:
         case Constant():
             return slot.data
+        case Packed():
+            return slot.write(numbers[placed.path])
         case Number(role="length"):
             return slot.write(message.formula.at(count))
         case Number(role="id"):
-            return slot.write(message.id)
-        case Number(role="count"):
-            return slot.write(_checked(slot, slot.name, count))
+            return slot.write(message.id_of(slot))
+        case Number(role="count" | "size"):
+            counted = 0 if message.items is None else message.items.counted(slot, count)
+            return slot.write(_checked(slot, slot.name, counted))
         case Number():
             return slot.write(_checked(slot, placed.path, numbers[placed.path]))
+        case Text():
+            return _text(slot, placed.path, numbers[placed.path])
         case Body():
             raise AssertionError("a message has fields where its envelope has the body")
 
 
-def _numbers(message: MessageLayout, values: Mapping[str, Any]) -> tuple[int, dict[str, object]]:
-    """Return the given numbers by path (`targets[0].position`), and the number of elements."""
+def _numbers(message: MessageLayout, values: Mapping[str, Any]) -> tuple[int, dict[str, Any]]:
+    """Return the given numbers by path (`targets[0].position`), and the count of the frame."""
     expected = {argument.name for argument in message.arguments}
-    for name in sorted(values.keys() ^ expected):
+    counter = message.frame.counter
+    given = {counter.name: 0, **values} if counter is not None else values
+    for name in sorted(given.keys() ^ expected):
         raise Unencodable(
             f"`{name}` is missing"
             if name in expected
             else f"{message.name} has no field `{name}` to be given"
         )
-    count = 0
-    numbers: dict[str, object] = {}
+    count = message.counts[0]
+    numbers: dict[str, Any] = {}
     for slot in message.arguments:
-        if isinstance(slot, Number):
-            numbers[slot.name] = values[slot.name]
-            continue
-        items = values[slot.name]
-        if not isinstance(items, list):
-            raise Unencodable(f"{slot.name} must be a list")
-        count = len(items)
-        if count not in message.counts:
-            raise Unencodable(f"{slot.name}: {count} items is outside {slot.low}..{slot.high}")
-        for index, item in enumerate(items):
-            numbers |= _element(slot, index, item)
-    return count, numbers
+        value = given[slot.name]
+        match slot:
+            case Number():
+                if value is not None or not slot.optional:
+                    numbers[slot.name] = value
+            case Text():
+                numbers[slot.name] = value
+            case Packed():
+                numbers[slot.name] = _packed(slot, value)
+            case Items():
+                items = _listed(slot, value)
+                if slot is message.items:
+                    count = len(items)
+                for index, item in enumerate(items):
+                    numbers |= _element(slot, index, item)
+    return _optional(message, numbers) if message.optional else count, numbers
+
+
+def _optional(message: MessageLayout, numbers: Mapping[str, object]) -> int:
+    """Return the count of a frame whose optional fields are those among `numbers`."""
+    given = [slot.name for slot in message.optional if slot.name in numbers]
+    for count in message.counts:
+        if given == [slot.name for slot in message.there(count) if slot in message.optional]:
+            return count
+    named = ", ".join(given) or "none of them"
+    raise Unencodable(f"{message.name} has no frame with {named} of its optional fields")
+
+
+def _packed(packed: Packed, value: Any) -> list[int]:
+    if not isinstance(value, list):
+        raise Unencodable(f"{packed.name} must be a list")
+    if len(value) != packed.count:
+        raise Unencodable(f"{packed.name}: {len(value)} numbers, and it has {packed.count}")
+    for index, number in enumerate(value):
+        path = f"{packed.name}[{index}]"
+        if not isinstance(number, int) or isinstance(number, bool):
+            raise Unencodable(f"{path}: {number!r} is not a whole number")
+        if not packed.low <= number <= packed.high:
+            raise Unencodable(f"{path}: {number} is outside {packed.low}..{packed.high}")
+    return value
+
+
+def _listed(slot: Items, value: Any) -> list[Any]:
+    """Return the elements of a list that is given; those of text are its characters."""
+    if slot.text is not None:
+        value = list(_encoded(slot.name, slot.text, value))
+    if not isinstance(value, list):
+        raise Unencodable(f"{slot.name} must be a list")
+    if not slot.low <= len(value) <= slot.high:
+        bounds = f"{slot.low}..{slot.high}"
+        raise Unencodable(f"{slot.name}: {len(value)} items is outside {bounds}")
+    return value
+
+
+def _encoded(path: str, charset: str, value: Any) -> bytes:
+    if not isinstance(value, str):
+        raise Unencodable(f"{path} must be text")
+    try:
+        return value.encode(charset)
+    except UnicodeEncodeError as error:
+        raise Unencodable(f"{path}: {value[error.start]!r} is not {charset}") from None
+
+
+def _text(text: Text, path: str, value: Any) -> bytes:
+    data = _encoded(path, text.charset, value)
+    if len(data) > text.size:
+        raise Unencodable(f"{path}: {len(data)} characters, and it has room for {text.size}")
+    return text.write(value)
 
 
 def _element(items: Items, index: int, item: Any) -> dict[str, object]:
@@ -138,9 +230,21 @@ def _element(items: Items, index: int, item: Any) -> dict[str, object]:
     return {items.path(index, field): item[field.name] for field in items.fields}
 
 
-def _checked(number: Number, path: str, value: object) -> int:
-    if not isinstance(value, int) or isinstance(value, bool):
+def _checked(number: Number, path: str, value: object) -> float:
+    if isinstance(value, bool) or not isinstance(value, int | float):
+        raise Unencodable(f"{path}: {value!r} is not a number")
+    if number.is_float:
+        return _floating(number, path, value)
+    if not isinstance(value, int):
         raise Unencodable(f"{path}: {value!r} is not a whole number")
-    if not number.low <= value <= number.high:
+    if not number.holds(value):
         raise Unencodable(f"{path}: {value} is outside {number.low}..{number.high}")
+    return value
+
+
+def _floating(number: Number, path: str, value: float) -> float:
+    try:
+        number.write(value)
+    except OverflowError:
+        raise Unencodable(f"{path}: {value} is no {number.number_type.name}") from None
     return value

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 from framegen.language.formula import Formula
 from framegen.language.values import to_hex
-from framegen.model.slots import Body, Constant, Items, Number
+from framegen.model.slots import Body, Constant, Items, Number, Packed, Text
 
 if TYPE_CHECKING:
     from framegen.language.spec import (
@@ -42,7 +42,7 @@ def model_data(model: Model) -> dict[str, Any]:
             name: {"title": source.title, "kind": source.kind}
             for name, source in spec.sources.items()
         },
-        "frame": _envelope(model.frame),
+        **_frames(model),
         "messages": {name: _message(model, layout) for name, layout in model.messages.items()},
         "reserved": [_reserved(each) for each in spec.reserved],
         "lookalikes": {
@@ -72,28 +72,49 @@ def model_data(model: Model) -> dict[str, Any]:
     }
 
 
+def _frames(model: Model) -> dict[str, Any]:
+    """Return the only envelope, or all of them by name."""
+    if not model.spec.frames:
+        return {"frame": _envelope(model.frame)}
+    return {"frames": {name: _envelope(frame) for name, frame in model.envelopes.items()}}
+
+
 def _message(model: Model, layout: MessageLayout) -> dict[str, Any]:
     message, name = layout.message, layout.name
-    return _filled(
-        id=layout.id,
-        direction=str(layout.direction),
-        kind=model.kind(name),
-        vendor_name=message.vendor_name,
-        summary=message.summary,
-        description=message.description,
-        deprecated=message.deprecated,
-        since=message.since,
-        reply=message.reply,
-        reports=message.reports,
-        acknowledged=message.acknowledged,
-        lasts=message.lasts,
-        answers=model.answers.get(name),
-        reports_on=model.reports_on.get(name),
-        cite=str(message.cite),
-    ) | {
-        "fields": [_slot(slot) for slot in layout.fields],
-        "examples": [_example(each) for each in message.examples],
-    }
+    return (
+        _ids(layout)
+        | _filled(
+            frame=message.frame,
+            direction=str(layout.direction),
+            kind=model.kind(name),
+            vendor_name=message.vendor_name,
+            summary=message.summary,
+            description=message.description,
+            deprecated=message.deprecated,
+            since=message.since,
+            reply=message.reply,
+            refusal=message.refusal,
+            failure=message.failure,
+            reports=message.reports,
+            acknowledged=message.acknowledged,
+            lasts=message.lasts,
+            answers=model.answers.get(name),
+            reports_on=model.reports_on.get(name),
+            cite=str(message.cite),
+        )
+        | {
+            "fields": [_slot(slot) for slot in layout.body],
+            **({"lengths": list(layout.lengths)} if layout.optional else {}),
+            "examples": [_example(each) for each in message.examples],
+        }
+    )
+
+
+def _ids(layout: MessageLayout) -> dict[str, Any]:
+    """Return the id of a message, or its ids where its frame has several, or none."""
+    if len(layout.ids) > 1:
+        return {"ids": list(layout.ids)}
+    return {"id": number for number in layout.ids}
 
 
 def _example(example: Example) -> dict[str, Any]:
@@ -104,7 +125,7 @@ def _example(example: Example) -> dict[str, Any]:
 
 
 def _reserved(reserved: Reserved) -> dict[str, Any]:
-    given = {} if reserved.id is None else {"id": reserved.id}
+    given = {} if reserved.id is None else {"id": reserved.id.one or str(reserved.id)}
     way = None if reserved.direction is None else str(reserved.direction)
     cite = None if reserved.cite is None else str(reserved.cite)
     return given | _filled(name=reserved.name, direction=way, why=reserved.why, cite=cite)
@@ -123,7 +144,8 @@ def _lookalike(lookalike: Lookalike, frame: Envelope) -> dict[str, Any]:
 
 
 def _envelope(frame: Envelope) -> list[dict[str, Any]]:
-    return [_slot(slot) for slot in frame.slots]
+    hidden = [{**_slot(slot), "sent": False} for slot in frame.unsent]
+    return [*(_slot(slot) for slot in frame.slots), *hidden]
 
 
 def _slot(slot: Slot) -> dict[str, Any]:
@@ -133,24 +155,34 @@ def _slot(slot: Slot) -> dict[str, Any]:
         case Body():
             return said | {"size": 0} | _filled(about=slot.about)
         case Constant():
-            return (
-                said | {"size": slot.size, "bytes": to_hex(slot.data)} | _filled(about=slot.about)
-            )
+            said |= {"size": slot.size, "bytes": to_hex(slot.data)} | _filled(about=slot.about)
+            return said if slot.field is None else said | {"field": True} | _evidence(slot.field)
         case Number():
             return said | _number(slot)
+        case Text():
+            said |= {"size": slot.size, "charset": slot.charset}
+            return said | _filled(about=slot.field.about) | _evidence(slot.field)
+        case Packed():
+            return said | _packed(slot)
         case Items():
             return said | _items(slot)
 
 
 def _number(number: Number) -> dict[str, Any]:
     field, limits = number.field, number.field.limits
-    bounds = {"size": number.size, "type": number.number_type.name}
-    bounds |= {"low": number.low, "high": number.high}
+    bounds: dict[str, Any] = {"size": number.size, "type": number.number_type.name}
+    if not number.is_float:
+        bounds |= {"low": number.low, "high": number.high}
     return bounds | _filled(
         signed=number.number_type.low < 0,
+        byte_order=field.byte_order,
+        optional=number.optional,
         of=list(number.of),
+        method=number.method,
+        silent=sorted(number.silent),
         unit=field.unit,
-        scale=field.scale and [str(field.scale.step), field.scale.unit],
+        scale=_scale(field),
+        bits={name: [bits.at.low, bits.at.high, bits.about] for name, bits in field.bits.items()},
         about=field.about,
         values={name: _value(value) for name, value in field.values.items()},
         limits=limits
@@ -163,9 +195,32 @@ def _number(number: Number) -> dict[str, Any]:
     )
 
 
+def _scale(field: NumberField) -> list[str]:
+    if field.scale is None:
+        return []
+    offset = [str(field.scale.offset)] if field.scale.offset else []
+    return [str(field.scale.step), field.scale.unit, *offset]
+
+
+def _packed(packed: Packed) -> dict[str, Any]:
+    field = packed.field
+    bounds = {"size": packed.size, "packed": packed.number_type.name, "count": packed.count}
+    bounds |= {"low": packed.low, "high": packed.high}
+    return bounds | _filled(
+        byte_order=field.byte_order,
+        unit=field.unit,
+        scale=_scale(field),
+        about=field.about,
+        **_evidence(field),
+    )
+
+
 def _items(items: Items) -> dict[str, Any]:
-    said = {"size": items.size, "low": items.low, "high": items.high, "counter": items.counter.name}
-    fields = {"fields": [_slot(field) for field in items.fields]}
+    said: dict[str, Any] = {"size": items.size, "low": items.low, "high": items.high}
+    if items.counter is not None:
+        said["counter"] = items.counter.name
+    said |= _filled(sized=items.variable == items.name, fixed=items.is_fixed, text=items.text)
+    fields = {"fields": [_slot(slot) for slot in items.slots]}
     if items.element is None:  # the list and its numbers are declared as one
         return said | fields
     return (

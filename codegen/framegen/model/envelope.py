@@ -1,4 +1,4 @@
-"""The envelope of every frame: the slots that a spec lists under `frame`."""
+"""The envelope of a frame: the slots that a spec lists under `frame`, or under one of `frames`."""
 
 from __future__ import annotations
 
@@ -8,62 +8,129 @@ from typing import TYPE_CHECKING
 
 from framegen.language.number_types import NUMBER_TYPES
 from framegen.language.spec import (
+    AddressPart,
     BodyPart,
     ChecksumPart,
     ConstantPart,
+    IdPart,
     LengthPart,
     NumberField,
+    ReservedPart,
 )
+from framegen.model.covered import Covered
 from framegen.model.slots import Body, Constant, Number, Placed, lay_out
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
 
-    from framegen.language.spec import AddressPart, FramePart, IdPart
+    from framegen.language.spec import Frame, FramePart, NumberPart
     from framegen.model.slots import ByteOrder
 
 
 @dataclass(frozen=True)
 class Envelope:
-    """The slots of a frame of any message, the body among them."""
+    """The slots of a frame of any message, the body among them.
+
+    `unsent` are ids that no frame holds: both ends know them, and a checksum covers them.
+    """
 
     slots: tuple[Constant | Number | Body, ...]
+    name: str = "frame"
+    unsent: tuple[Number, ...] = ()
 
     @cached_property
     def header(self) -> bytes:
-        """The constant bytes with which a frame begins."""
+        """The constant bytes with which a frame begins; b"" where it begins otherwise."""
         found = b""
         for slot in self.slots:
-            if not isinstance(slot, Constant):
+            if not isinstance(slot, Constant) or slot.role == "reserved":
                 break
             found += slot.data
         return found
 
     @cached_property
+    def first_bytes(self) -> frozenset[int]:
+        """The bytes with which a frame may begin."""
+        first = self.slots[0]
+        if self.header:
+            return frozenset(self.header[:1])
+        if not isinstance(first, Number) or first.role != "address":
+            return frozenset(range(0x100))
+        addresses = {*range(first.low, first.high + 1), *first.named}
+        return frozenset(first.write(address)[0] for address in addresses)
+
+    @cached_property
     def opening(self) -> str:
         """The beginning of a frame, in words."""
-        return f"a frame begins {self.header.hex(' ').upper()}"
+        if self.header:
+            return f"a frame begins {self.header.hex(' ').upper()}"
+        return f"a frame begins with its {self.slots[0].name}"
 
     @cached_property
     def shortest(self) -> str:
         """The size of the shortest frame, in words."""
         return f"the shortest frame has {self.least} bytes"
 
+    # Its numbers.
+
     @cached_property
+    def length_part(self) -> Number | None:
+        """The number that says how long the frame is, if there is one."""
+        return next(self._of_role("length"), None)
+
+    @property
     def length(self) -> Number:
-        """The number that says how long the frame is."""
-        return self._only("length")
+        """The number that says how long the frame is, of an envelope that has one."""
+        if self.length_part is None:
+            raise AssertionError(f"frames of {self.name} have no length")
+        return self.length_part
 
     @cached_property
-    def id(self) -> Number:
-        """The number that identifies the message."""
-        return self._only("id")
+    def ids(self) -> tuple[Number, ...]:
+        """The numbers that identify the message together, those not sent among them."""
+        return (*self._of_role("id"), *self.unsent)
 
-    def _only(self, role: str) -> Number:
-        for slot in self.slots:
-            if isinstance(slot, Number) and slot.role == role:
-                return slot
-        raise AssertionError("the rule frame-parts sees to both")
+    @cached_property
+    def id_part(self) -> Number | None:
+        """The last number by which a frame tells its message, if there is one."""
+        return next(reversed([*self._of_role("id")]), None)
+
+    @property
+    def id(self) -> Number:
+        """The last number by which a frame tells its message, of an envelope that has one."""
+        if self.id_part is None:
+            raise AssertionError(f"frames of {self.name} have no id")
+        return self.id_part
+
+    @cached_property
+    def address(self) -> Number | None:
+        """The number of the device, if there is one."""
+        return next(self._of_role("address"), None)
+
+    @cached_property
+    def counter(self) -> Number | None:
+        """The running number, if there is one."""
+        return next(self._of_role("counter"), None)
+
+    @cached_property
+    def given(self) -> tuple[Number, ...]:
+        """The numbers that a user gives with every message: the address, and the running number."""
+        return tuple(slot for slot in (self.address, self.counter) if slot is not None)
+
+    @cached_property
+    def checksums(self) -> tuple[Number, ...]:
+        """The numbers worked out from other parts."""
+        return tuple(self._of_role("checksum"))
+
+    @property
+    def proven(self) -> bool:
+        """Whether a frame proves by itself that it is one."""
+        return bool(self.checksums)
+
+    def _of_role(self, role: str) -> Iterator[Number]:
+        return (slot for slot in self.slots if isinstance(slot, Number) and slot.role == role)
+
+    # Its places.
 
     @cached_property
     def body_at(self) -> int:
@@ -86,6 +153,11 @@ class Envelope:
         return tuple(slot for slot in self._fixed if slot.at < 0)
 
     @cached_property
+    def tail_size(self) -> int:
+        """The number of bytes behind the fields."""
+        return sum(slot.size for slot in self.tail)
+
+    @cached_property
     def _fixed(self) -> tuple[Constant | Number, ...]:
         return tuple(slot for slot in self.slots if isinstance(slot, Constant | Number))
 
@@ -96,7 +168,12 @@ class Envelope:
 
     @cached_property
     def uncounted(self) -> int:
-        """The number of bytes of a frame that its length does not count."""
+        """The number of bytes of a frame that its length does not count.
+
+        Without a length part, the length of a frame is its size.
+        """
+        if self.length_part is None:
+            return 0
         return sum(slot.size for slot in self._fixed if slot.name not in self.length.of)
 
     @property
@@ -105,48 +182,93 @@ class Envelope:
         return self.least - self.uncounted
 
     @property
+    def longest(self) -> int | None:
+        """The size of the largest frame that its length can say; None without a length."""
+        return None if self.length_part is None else self.length_part.high + self.uncounted
+
+    @property
     def legal_ids(self) -> range:
         """The ids that a message can have."""
         return range(self.id.low, self.id.high + 1)
+
+    @property
+    def proves_unknown(self) -> bool:
+        """Whether a frame of unknown id proves by itself that it is one."""
+        return self.proven and self.length_part is not None and not self.unsent
+
+    def covered(self, checksum: Number, ids: Mapping[str, int]) -> Covered:
+        """Return what a checksum is worked out from, in a frame with these ids by part."""
+        found = Covered()
+        for name in checksum.of:
+            for hidden in self.unsent:
+                if hidden.name == name:
+                    found = found.then(hidden.write(ids[name]))
+            for slot in self.slots:
+                if slot.name == name:
+                    end = -self.tail_size if isinstance(slot, Body) else slot.at + slot.size
+                    found = found.then((slot.at, end or None))
+        return found
 
     def lay_out(self, size: int) -> Iterator[Placed]:
         """Place the slots of a frame of `size` bytes; its fields are one piece."""
         return lay_out(self.slots, size)
 
 
-def derive_envelope(parts: Mapping[str, FramePart], order: ByteOrder) -> Envelope:
+def derive_envelope(parts: Frame, order: ByteOrder, name: str = "frame") -> Envelope:
     """Place the parts of a frame. Needs parts that keep the rule frame-parts."""
     slots: list[Constant | Number | Body] = []
+    unsent: list[Number] = []
     at = 0
     left = sum(map(_size_of, parts.values()))
-    for name, part in parts.items():
+    for part_name, part in parts.items():
         left -= _size_of(part)
         if isinstance(part, BodyPart):
-            slots.append(Body(name, at, part.about))
+            slots.append(Body(part_name, at, part.about))
             at = -left
             continue
-        if isinstance(part, ConstantPart):
-            slots.append(Constant(name, at, part.bytes_, part.about))
+        if isinstance(part, ConstantPart | ReservedPart):
+            slots.append(Constant(part_name, at, part.bytes_, part.about, part.is_))
+        elif isinstance(part, IdPart) and not part.sent:
+            unsent.append(_number(part_name, part, at, order))
+            continue
         else:
-            slots.append(_number(name, part, at, order))
+            slots.append(_number(part_name, part, at, order))
         at += _size_of(part)
-    return Envelope(tuple(slots))
+    return Envelope(tuple(slots), name, tuple(unsent))
 
 
-def _number(
-    name: str, part: LengthPart | IdPart | AddressPart | ChecksumPart, at: int, order: ByteOrder
-) -> Number:
+def _number(name: str, part: NumberPart, at: int, order: ByteOrder) -> Number:
     of: tuple[str, ...] = ()
-    if isinstance(part, LengthPart):
-        of = tuple(part.counts)
-    elif isinstance(part, ChecksumPart):
-        of = tuple(part.covers)
-    field = NumberField.model_validate({"type": part.type, "about": part.about})
-    return Number(name, part.is_, at, NUMBER_TYPES[part.type], order, field, of)
+    method, silent = "", frozenset[int]()
+    said: Mapping[str, object] = {"type": part.type, "about": part.about}
+    match part:
+        case LengthPart():
+            of = tuple(part.counts)
+        case ChecksumPart():
+            of, method = tuple(part.covers), part.method
+        case AddressPart():
+            silent = frozenset(each.value for each in part.values.values() if each.silent)
+            named = {
+                name: {"value": each.value, "about": each.about, "cite": _written(each.cite)}
+                for name, each in part.values.items()
+            }
+            said = {**said, "range": _written(part.range), "values": named}
+    field = NumberField.model_validate(
+        {key: each for key, each in said.items() if each is not None}
+    )
+    its_order = part.byte_order or order
+    number_type = NUMBER_TYPES[part.type]
+    return Number(name, part.is_, at, number_type, its_order, field, of, method, silent)
+
+
+def _written(value: object) -> str | None:
+    return None if value is None else str(value)
 
 
 def _size_of(part: FramePart) -> int:
     """Return the size of a part of a frame in bytes; 0 for the body, whose size varies."""
-    if isinstance(part, ConstantPart):
+    if isinstance(part, ConstantPart | ReservedPart):
         return len(part.bytes_)
-    return 0 if isinstance(part, BodyPart) else NUMBER_TYPES[part.type].size
+    if isinstance(part, BodyPart) or (isinstance(part, IdPart) and not part.sent):
+        return 0
+    return NUMBER_TYPES[part.type].size

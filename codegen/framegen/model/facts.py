@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from functools import partial
 from typing import TYPE_CHECKING, Any
 
-from framegen.language.formula import Formula, parse_formula
+from framegen.language.formula import Formula, Sizes, parse_formula
 from framegen.language.spec import ListField
 from framegen.model.codec import decode
 from framegen.model.slots import Number
@@ -34,13 +34,15 @@ class NoSuchFact(ValueError):  # noqa: N818 - says what the fact is
 class Fact:
     """A fact of the spec; None where the subject exists but has no single value."""
 
-    value: int | str | list[Any] | Formula | None
+    value: int | str | list[Any] | Formula | Sizes | None
 
     def __str__(self) -> str:
         return json.dumps(self.value) if isinstance(self.value, list) else str(self.value)
 
     def agrees(self, said: object) -> bool:
         """Tell whether `said` is the same; a length rule may be spaced and ordered differently."""
+        if isinstance(self.value, Sizes):
+            return list(self.value.sizes) == said
         if not isinstance(self.value, Formula):
             # As JSON, 1 and true differ.
             return json.dumps(self.value, sort_keys=True) == json.dumps(said, sort_keys=True)
@@ -77,7 +79,7 @@ def look_up(model: Model, concern: Concern) -> Fact:
 
 def _of_message(model: Model, message: MessageLayout, fact: str) -> Fact:
     if fact == "id":
-        return Fact(message.id)
+        return Fact(message.ids[0] if len(message.ids) == 1 else list(message.ids))
     if fact == "kind":
         return Fact(model.kind(message.name))
     return Fact(message.message.length)
@@ -96,7 +98,7 @@ def _of_example(model: Model, message: MessageLayout, number: int, field: str | 
     if field in values:
         return Fact(values[field])
     if field == "length":
-        return Fact(message.frame.length.read_in(data))
+        return Fact(len(data) - message.frame.uncounted)
     raise NoSuchFact(
         "field",
         f"the examples of {message.name} give no field `{field}`",

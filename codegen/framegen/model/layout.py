@@ -10,21 +10,25 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING
 
-from framegen.language.formula import Formula
-from framegen.language.number_types import NUMBER_TYPES
+from framegen.language.formula import Formula, Sizes
+from framegen.language.number_types import ALL_TYPES
 from framegen.language.spec import ListField
-from framegen.model.slots import Body, Constant, Items, Number, lay_out
+from framegen.model.slots import Body, Constant, Items, Number, Packed, Text, lay_out
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Iterator
+    from collections.abc import Iterable, Iterator, Mapping
 
+    from framegen.language.formula import LengthRule
     from framegen.language.spec import Limits, Link, Message, NumberField, Spec
     from framegen.language.values import Direction
+    from framegen.model.covered import Covered
     from framegen.model.envelope import Envelope
-    from framegen.model.slots import MessageSlot, NumberRole, Placed
+    from framegen.model.slots import Field, MessageSlot, NumberRole, Placed
 
 # What stands where is not remembered of frames with more elements: they would fill the memory.
 _KEPT = 0x100
+# The size of the largest frame that there may be, whatever its length can say.
+LONGEST = 0xFFFF
 
 
 @dataclass(frozen=True)
@@ -37,10 +41,25 @@ class MessageLayout:
     link: Link
     slots: tuple[MessageSlot, ...]
 
+    @cached_property
+    def ids(self) -> tuple[int, ...]:
+        """The ids of the message, one for each id part of its envelope."""
+        said, parts = self.message.id, self.frame.ids
+        if said is None:
+            return ()
+        if said.one is not None:
+            return (said.one,)
+        by_part = dict(said.by_part)
+        return tuple(by_part[part.name] for part in parts)
+
     @property
     def id(self) -> int:
-        """The id of the message."""
-        return self.message.id
+        """The id of the message by which a frame tells it, the last of several."""
+        return self.id_of(self.frame.id)
+
+    def id_of(self, part: Number) -> int:
+        """Return the id of the message that a part of its envelope holds."""
+        return self.ids[self.frame.ids.index(part)]
 
     @property
     def direction(self) -> Direction:
@@ -48,23 +67,38 @@ class MessageLayout:
         return self.message.direction
 
     @cached_property
-    def fields(self) -> tuple[Number | Items, ...]:
-        """The slots of the message between head and tail: counts, numbers and the list."""
+    def body(self) -> tuple[MessageSlot, ...]:
+        """The slots of the message between head and tail, constants among them."""
+        return self.slots[len(self.frame.head) : len(self.slots) - len(self.frame.tail)]
+
+    @cached_property
+    def fields(self) -> tuple[Field, ...]:
+        """The slots of the message between head and tail: counts, numbers and lists."""
         return tuple(
             slot
             for slot in self.slots
-            if isinstance(slot, Items) or (isinstance(slot, Number) and slot.is_field)
+            if isinstance(slot, Items | Packed | Text)
+            or (isinstance(slot, Number) and slot.is_field)
         )
 
     @cached_property
     def items(self) -> Items | None:
-        """The list, where the message has one."""
-        return next((slot for slot in self.slots if isinstance(slot, Items)), None)
+        """The list of a size that varies, where the message has one: its last field."""
+        lists = (slot for slot in self.slots if isinstance(slot, Items))
+        return next((slot for slot in lists if not slot.is_fixed), None)
 
     @cached_property
-    def arguments(self) -> tuple[Number | Items, ...]:
-        """The fields that a user gives: all but the count."""
-        return tuple(slot for slot in self.fields if isinstance(slot, Items) or slot.given)
+    def optional(self) -> tuple[Number, ...]:
+        """The fields that may be absent, each with those behind it."""
+        return tuple(slot for slot in self.slots if isinstance(slot, Number) and slot.optional)
+
+    @cached_property
+    def arguments(self) -> tuple[Field, ...]:
+        """What a user gives: the address, and all fields but the count; a running number last."""
+        fields = tuple(slot for slot in self.fields if not isinstance(slot, Number) or slot.given)
+        address, counter = self.frame.address, self.frame.counter
+        front = () if address is None else (address,)
+        return (*front, *fields) if counter is None else (*front, *fields, counter)
 
     @property
     def limited(self) -> dict[str, Limits]:
@@ -83,35 +117,61 @@ class MessageLayout:
             if isinstance(slot, Number):
                 found[slot.name] = slot
                 continue
-            for field in slot.fields:
-                inner = "" if slot.element is None else f".{field.name}"
-                found[f"{slot.name}{inner}"] = field
+            for field in slot.fields if isinstance(slot, Items) else ():
+                inner = "" if isinstance(slot, Items) and slot.element is None else f".{field.name}"
+                if isinstance(field, Number):
+                    found[f"{slot.name}{inner}"] = field
         return found
 
-    # Its size: `base + step * n`, solved both ways.
+    def covered(self, checksum: Number) -> Covered:
+        """Return what a checksum is worked out from."""
+        ids = zip(self.frame.ids, self.ids, strict=True)
+        return self.frame.covered(checksum, {part.name: number for part, number in ids})
+
+    def checksum(self, checksum: Number, frame: bytes) -> bytes:
+        """Return the checksum that a whole frame of the message should have, as bytes."""
+        return self.covered(checksum).checksum(checksum, frame)
+
+    # Its size, by a count: that of the elements of its list, or the number of its size among those
+    # that it may have, from 0. With a list it is `base + step * count`, solved both ways.
 
     @cached_property
-    def formula(self) -> Formula:
+    def formula(self) -> LengthRule:
         """The length rule that follows from the slots."""
-        fixed = sum(slot.size for slot in self.slots if isinstance(slot, Constant | Number))
-        constant = fixed - self.frame.uncounted
+        optional = self.optional
+        absent = sum(slot.size for slot in optional)
+        sizes = (slot.size for slot in self.slots if slot is not self.items)
+        constant = sum(sizes) - absent - self.frame.uncounted
+        for slot in self.slots:
+            if isinstance(slot, Items) and slot is not self.items:
+                constant += (slot.low - 1) * slot.size
+        if optional:
+            there = (sum(slot.size for slot in optional[:n]) for n in range(len(optional) + 1))
+            possible = [constant + size for size in there]
+            declared = self.message.length
+            listed = declared.sizes if isinstance(declared, Sizes) else possible
+            return Sizes(tuple(size for size in possible if size in listed) or tuple(possible))
         if self.items is None:
             return Formula(constant)
-        return Formula(constant, self.items.size, self.items.counter.name)
+        return Formula(constant, self.items.size, self.items.variable)
 
     @property
     def counts(self) -> range:
-        """The legal numbers of elements; 0 alone where the message has no list."""
-        return range(1) if self.items is None else range(self.items.low, self.items.high + 1)
+        """The legal counts; 0 alone where the size of the message is fixed."""
+        if self.items is not None:
+            return range(self.items.low, self.items.high + 1)
+        return range(len(self.formula.sizes) if isinstance(self.formula, Sizes) else 1)
 
     @cached_property
-    def lengths(self) -> range:
-        """The legal values of the length."""
+    def lengths(self) -> range | tuple[int, ...]:
+        """The legal values of the length, by count."""
+        if isinstance(self.formula, Sizes):
+            return self.formula.sizes
         lowest, highest = self.formula.at(self.counts[0]), self.formula.at(self.counts[-1])
         return range(lowest, highest + 1, self.formula.factor or 1)
 
     def size_at(self, count: int) -> int:
-        """Return the size of a frame with `count` elements in bytes."""
+        """Return the size of a frame with this count in bytes."""
         return self.formula.at(count) + self.frame.uncounted
 
     def count_at(self, length: int) -> int:
@@ -119,8 +179,13 @@ class MessageLayout:
         return self.counts[self.lengths.index(length)]
 
     def count_of(self, frame: bytes) -> int:
-        """Return the number of elements of a legal frame."""
-        return self.count_at(self.frame.length.read_in(frame))
+        """Return the count of a legal frame."""
+        return self.count_at(len(frame) - self.frame.uncounted)
+
+    @property
+    def least(self) -> int:
+        """The size of the smallest legal frame in bytes."""
+        return self.size_at(self.counts[0])
 
     @property
     def largest(self) -> int:
@@ -128,12 +193,20 @@ class MessageLayout:
         return self.size_at(self.counts[-1])
 
     def lay_out(self, count: int) -> Iterable[Placed]:
-        """Place the slots of a frame with `count` elements, from its first byte on."""
+        """Place the slots of a frame with this count, from its first byte on."""
         if count > _KEPT:
-            return lay_out(self.slots, self.size_at(count), count)
+            return lay_out(self.there(count), self.size_at(count), count)
         if count not in self._laid_out:
-            self._laid_out[count] = tuple(lay_out(self.slots, self.size_at(count), count))
+            placed = lay_out(self.there(count), self.size_at(count), count)
+            self._laid_out[count] = tuple(placed)
         return self._laid_out[count]
+
+    def there(self, count: int) -> Iterable[MessageSlot]:
+        """Return the slots that a frame with this count has."""
+        if not self.optional:
+            return self.slots
+        end = self.size_at(count) - self.frame.tail_size
+        return [slot for slot in self.slots if not 0 <= end <= slot.at]
 
     @cached_property
     def _laid_out(self) -> dict[int, tuple[Placed, ...]]:
@@ -158,44 +231,114 @@ def derive_message(spec: Spec, frame: Envelope, name: str) -> MessageLayout:
 
 
 def _fields(spec: Spec, frame: Envelope, message: Message) -> Iterator[MessageSlot]:
-    counters = {field.counted_by for field in message.fields.values()}
+    roles = _roles(message)
     numbers: dict[str, Number] = {}
     at = frame.body_at
-    behind = sum(slot.size for slot in frame.tail)
+    slot: MessageSlot
     for name, field in message.fields.items():
-        if field.counted_by is None and not isinstance(field, ListField):
-            role: NumberRole = "count" if name in counters else "field"
-            number_type = NUMBER_TYPES[field.type]
-            numbers[name] = Number(name, role, at, number_type, spec.byte_order, field)
-            yield numbers[name]
-            at += number_type.size
-            continue
-        element = field.element if isinstance(field, ListField) else None
-        fields = tuple(_element(spec, name, field))
-        counter = numbers[str(field.counted_by)]
-        fixed = at + behind - frame.uncounted
-        low, high = _count_bounds(frame, field, counter, fixed, sum(each.size for each in fields))
-        yield Items(name, at, element, fields, counter, low, high, field)
+        if isinstance(field, ListField) or is_list(field):
+            slot = _list(spec, frame, name, field, at, numbers)
+            at += slot.size * slot.low if isinstance(slot, Items) else slot.size
+        else:
+            slot = _single(spec, name, field, roles.get(name, "field"), at)
+            if isinstance(slot, Number):
+                numbers[name] = slot
+            at += slot.size
+        yield slot
 
 
-def _element(spec: Spec, name: str, field: ListField | NumberField) -> Iterator[Number]:
+def _single(
+    spec: Spec, name: str, field: NumberField, role: NumberRole, at: int
+) -> Number | Text | Constant:
+    """Return a field or a part of an element that is no list: a number, a text or a constant."""
+    number_type = ALL_TYPES[field.type]
+    number = Number(name, role, at, number_type, field.byte_order or spec.byte_order, field)
+    times = 1 if field.count is None else field.count.low
+    if field.always is not None:
+        return Constant(name, at, number.write(field.always) * times, field.about, field=field)
+    if field.reserved is not None:
+        data = number.write(field.reserved) * times
+        return Constant(name, at, data, field.about, "reserved", field)
+    if field.text is not None:
+        return Text(name, at, times, field.text, field)
+    return number
+
+
+def is_list(field: ListField | NumberField) -> bool:
+    """Tell whether a field is a list, of elements or of bare numbers."""
+    if isinstance(field, ListField):
+        return True
+    if field.counted_by is not None or field.sized_by is not None:
+        return True
+    single = field.always is not None or field.reserved is not None or field.text is not None
+    return field.count is not None and not single
+
+
+def _roles(message: Message) -> dict[str, NumberRole]:
+    """Return the roles of those fields that say how long a list is, by name."""
+    roles: dict[str, NumberRole] = {}
+    for field in message.fields.values():
+        if field.counted_by is not None:
+            roles[field.counted_by] = "count"
+        if field.sized_by is not None:
+            roles[field.sized_by] = "size"
+    return roles
+
+
+def _list(
+    spec: Spec,
+    frame: Envelope,
+    name: str,
+    field: ListField | NumberField,
+    at: int,
+    numbers: Mapping[str, Number],
+) -> Items | Packed:
+    counter = numbers.get(field.counted_by or field.sized_by or "")
+    if not isinstance(field, ListField):
+        number_type = ALL_TYPES[field.type]
+        if number_type.is_packed:
+            count = 0 if field.count is None else field.count.low
+            order = field.byte_order or spec.byte_order
+            return Packed(name, at, number_type, count, order, field)
+    element = field.element if isinstance(field, ListField) else None
+    slots = tuple(_element(spec, name, field))
+    size = sum(each.size for each in slots)
+    low, high = _count_bounds(frame, field, counter, at + frame.tail_size, size)
+    return Items(name, at, element, slots, counter, low, high, field)
+
+
+def _element(
+    spec: Spec, name: str, field: ListField | NumberField
+) -> Iterator[Number | Text | Constant]:
+    if not isinstance(field, ListField):
+        order = field.byte_order or spec.byte_order
+        yield Number(name, "field", 0, ALL_TYPES[field.type], order, field)
+        return
     at = 0
-    inner = field.fields if isinstance(field, ListField) else {name: field}
-    for each, number in inner.items():
-        yield Number(each, "field", at, NUMBER_TYPES[number.type], spec.byte_order, number)
-        at += NUMBER_TYPES[number.type].size
+    for each, number in field.fields.items():
+        slot = _single(spec, each, number, "field", at)
+        yield slot
+        at += slot.size
 
 
 def _count_bounds(
     frame: Envelope,
     field: ListField | NumberField,
-    counter: Number,
-    constant: int,
+    counter: Number | None,
+    fixed: int,
     size: int,
 ) -> tuple[int, int]:
-    """Return the fewest and the most elements, as declared or as length and count allow."""
-    room = min((frame.length.high - constant) // size, counter.high)
+    """Return the fewest and the most elements, as declared or as length and count allow.
+
+    A list without a counter has the number declared, unless the length of the frame says more.
+    """
     declared = field.count
+    if counter is None and field.sized_by is None:
+        return (0, 0) if declared is None else (declared.low, declared.low)
+    longest = LONGEST if frame.longest is None else frame.longest
+    room = (longest - fixed) // size
+    if counter is not None:
+        room = min(room, counter.high // (size if counter.role == "size" else 1))
     if declared is None:
         return 0, room
     return declared.low, room if declared.high is None else declared.high

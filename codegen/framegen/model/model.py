@@ -14,7 +14,7 @@ from framegen.model.layout import derive_message
 from framegen.model.roles import kinds, settle
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Mapping
+    from collections.abc import Iterable, Mapping, Sequence
 
     from framegen.language.spec import Spec
     from framegen.language.values import Direction
@@ -30,8 +30,13 @@ class Model:
 
     spec: Spec
     roles: Roles
-    frame: Envelope
+    envelopes: dict[str, Envelope]
     messages: dict[str, MessageLayout]
+
+    @property
+    def frame(self) -> Envelope:
+        """The envelope of every frame; where there are several, the first."""
+        return next(iter(self.envelopes.values()))
 
     @cached_property
     def lookalikes(self) -> dict[str, Envelope]:
@@ -58,16 +63,50 @@ class Model:
         """The model as plain data, for what explains it; a library carries the same."""
         return Protocol(model_data(self))
 
-    def sent(self, direction: Direction) -> Mapping[int, MessageLayout]:
-        """Return the messages of one direction, by id."""
-        return self._sent.get(direction, {})
+    def sent(self, direction: Direction) -> Sequence[MessageLayout]:
+        """Return the messages of one direction, in the order of the spec."""
+        return self._sent.get(direction, ())
+
+    def with_ids(self, direction: Direction, ids: tuple[int, ...]) -> list[MessageLayout]:
+        """Return the messages of a direction that have these ids, of any envelope."""
+        return [message for message in self.sent(direction) if message.ids == ids]
 
     @cached_property
-    def _sent(self) -> dict[Direction, dict[int, MessageLayout]]:
-        found: dict[Direction, dict[int, MessageLayout]] = {}
+    def _sent(self) -> dict[Direction, list[MessageLayout]]:
+        found: dict[Direction, list[MessageLayout]] = {}
         for message in self.messages.values():
-            found.setdefault(message.direction, {})[message.id] = message
+            found.setdefault(message.direction, []).append(message)
         return found
+
+    def candidates(
+        self, directions: Sequence[Direction]
+    ) -> Sequence[tuple[Envelope, Sequence[MessageLayout]]]:
+        """Return what may be on a line: each envelope, and its messages, direction by direction."""
+        key = tuple(directions)
+        if key not in self._candidates:
+            found: dict[str, list[MessageLayout]] = {}
+            for message in (each for way in key for each in self.sent(way)):
+                found.setdefault(message.frame.name, []).append(message)
+            named = self.envelopes.items()
+            self._candidates[key] = [(each, found[name]) for name, each in named if name in found]
+        return self._candidates[key]
+
+    @cached_property
+    def _candidates(
+        self,
+    ) -> dict[tuple[Direction, ...], list[tuple[Envelope, list[MessageLayout]]]]:
+        """What may be on each kind of line, worked out once."""
+        return {}
+
+    @cached_property
+    def first_bytes(self) -> frozenset[int]:
+        """The bytes with which a frame may begin."""
+        return frozenset[int]().union(*(each.first_bytes for each in self.envelopes.values()))
+
+    @cached_property
+    def opening(self) -> str:
+        """The beginning of a frame, in words."""
+        return " or ".join(dict.fromkeys(each.opening for each in self.envelopes.values()))
 
     def largest(self, directions: Iterable[Direction]) -> int:
         """Return the size of the largest legal frame of these directions; 0 for no messages."""
@@ -75,10 +114,7 @@ class Model:
 
     @cached_property
     def _largest(self) -> dict[Direction, int]:
-        return {
-            way: max(message.largest for message in sent.values())
-            for way, sent in self._sent.items()
-        }
+        return {way: max(message.largest for message in sent) for way, sent in self._sent.items()}
 
     def kind(self, name: str) -> Kind:
         """Return the kind of a message: `query`, `command`, `reply` or `report`."""
@@ -116,6 +152,12 @@ def _turned(named: Mapping[str, Iterable[str]]) -> dict[str, list[str]]:
 
 def derive(spec: Spec) -> Model:
     """Derive the model. Needs a spec that keeps the structure rules."""
-    frame = derive_envelope(spec.frame, spec.byte_order)
-    messages = {name: derive_message(spec, frame, name) for name in spec.messages}
-    return Model(spec, settle(spec), frame, messages)
+    envelopes = {
+        name: derive_envelope(frame, spec.byte_order, name)
+        for name, frame in spec.envelopes.items()
+    }
+    messages = {
+        name: derive_message(spec, envelopes[spec.frame_of(message)], name)
+        for name, message in spec.messages.items()
+    }
+    return Model(spec, settle(spec), envelopes, messages)

@@ -76,7 +76,6 @@ class ReferenceDecoder:
 
     def _read(self, data: bytes, *, quiet: bool) -> list[Event]:
         events: list[Event] = []
-        header = self.model.frame.header
         # Why the noise at hand is none: as long as no header came, because none did.
         reason = BAD_HEADER
         at = 0
@@ -91,11 +90,11 @@ class ReferenceDecoder:
             if not quiet and self._may_change(rest, verdict):
                 break
             claim = verdict.claim
-            if 0 < claim <= len(rest) and not self._lives(rest[:claim]):
+            if self._is_unknown(rest, verdict):
                 events.append(Event("unknown", at, rest[:claim], reason=UNKNOWN_COMMAND))
                 at, reason = at + claim, BAD_HEADER
                 continue
-            if rest.startswith(header):
+            if self._is_header(rest):
                 reason = verdict.reason
             end = self._next_begun(data, at + 1)
             _emit_noise(events, at, data[at:end], reason)
@@ -105,7 +104,23 @@ class ReferenceDecoder:
     def _may_change(self, data: bytes, verdict: Verdict) -> bool:
         """Tell whether more bytes could change the verdict on what `data` begins."""
         unfinished = verdict.claim > len(data)
+        if verdict.provable:
+            return unfinished
         return verdict.undecided or (unfinished and not self._has_message(data))
+
+    def _is_unknown(self, data: bytes, verdict: Verdict) -> bool:
+        """Tell whether a frame of unknown id begins: one that is proven, or that may be one."""
+        if verdict.provable:
+            return verdict.proven
+        return 0 < verdict.claim <= len(data) and not self._lives(data[: verdict.claim])
+
+    def _is_header(self, data: bytes) -> bool:
+        """Tell whether a frame may begin here as far as its header goes."""
+        frames = (frame for frame, _ in self.model.candidates(self.directions))
+        return any(
+            data.startswith(frame.header) if frame.header else data[0] in frame.first_bytes
+            for frame in frames
+        )
 
     def _lives(self, claimed: bytes) -> bool:
         """Tell whether a frame begins, or may begin, behind the first claimed byte.
@@ -127,8 +142,9 @@ class ReferenceDecoder:
 
     def _next_begun(self, data: bytes, at: int) -> int:
         """Return where the next byte stands with which a header begins, and so a frame may."""
-        found = data.find(self.model.frame.header[:1], at)
-        return len(data) if found < 0 else found
+        while at < len(data) and data[at] not in self.model.first_bytes:
+            at += 1
+        return at
 
 
 def _emit_noise(events: list[Event], at: int, data: bytes, reason: str) -> None:

@@ -12,7 +12,9 @@ from itertools import islice
 from typing import TYPE_CHECKING
 
 from framegen.explanation.refusals import (
+    BAD_CHECKSUM,
     BAD_HEADER,
+    BAD_TRAILER,
     COUNT_MISMATCH,
     LENGTH_MISMATCH,
     OUT_OF_RANGE,
@@ -21,12 +23,13 @@ from framegen.explanation.refusals import (
     UNKNOWN_COMMAND,
     Refused,
 )
-from framegen.model.slots import Constant, Number
+from framegen.model.slots import Constant, Number, Packed, Text
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
 
     from framegen.language.values import Direction
+    from framegen.model.envelope import Envelope
     from framegen.model.layout import MessageLayout
     from framegen.model.model import Model
     from framegen.model.slots import Placed
@@ -41,8 +44,11 @@ class Verdict:
     `due` says what was expected. `seen` are the slots that agreed up to there, and `likely` is the
     message that they began, if it is known.
 
-    Of a frame of unknown id, `claim` is the size that it claims, which nothing proves; the size of
-    the smallest frame, as long as its head is cut short; 0 for a size that no frame has.
+    Of a frame of unknown id, `claim` is the size that it claims; the size of the smallest frame, as
+    long as its head is cut short; 0 for a size that no frame has. `provable` tells whether a
+    checksum decides about it, and `proven` whether it has decided for it.
+
+    `frame` is the name of the envelope, empty where none begins.
     """
 
     message: MessageLayout | None
@@ -52,6 +58,9 @@ class Verdict:
     seen: tuple[Placed, ...]
     likely: MessageLayout | None
     claim: int = 0
+    provable: bool = False
+    proven: bool = False
+    frame: str = ""
 
     @property
     def undecided(self) -> bool:
@@ -84,18 +93,18 @@ def weigh(
     several directions belongs to the first; where it is legal in none, the refusal with the
     largest offset is given.
     """
-    if data and data[0] != model.frame.header[0]:
-        return _begins_otherwise(model.frame.opening)
-    look = _Look(model, directions, data, max_frame)
-    try:
-        length, candidates = look.head()
-    except _Refused as refused:
-        claim = look.claim() if refused.verdict[0] == UNKNOWN_COMMAND else 0
-        return look.refused(*refused.verdict, look.seen, look.likely, claim)
-    verdicts = [look.fields(message, length) for message in candidates]
+    if data and data[0] not in model.first_bytes:
+        return _begins_otherwise(model.opening)
+    verdicts = [
+        verdict
+        for envelope, messages in model.candidates(directions)
+        for verdict in _Look(model, envelope, messages, directions, data, max_frame).verdicts()
+    ]
     legal = (verdict for verdict in verdicts if verdict.message is not None)
+    proven = (verdict for verdict in verdicts if verdict.proven)
     # Of equals, `max` gives the first.
-    return next(legal, None) or max(verdicts, key=lambda verdict: verdict.offset)
+    furthest = max(verdicts, key=lambda verdict: verdict.offset, default=None)
+    return next(legal, None) or next(proven, None) or furthest or _NOTHING
 
 
 def weigh_whole(model: Model, directions: Sequence[Direction], data: bytes) -> Verdict:
@@ -106,6 +115,10 @@ def weigh_whole(model: Model, directions: Sequence[Direction], data: bytes) -> V
     return replace(verdict, message=None, reason=TRAILING_BYTES)
 
 
+# No message goes that way.
+_NOTHING = Verdict(None, BAD_HEADER, 0, partial(str, "no message goes this way"), (), None)
+
+
 @lru_cache
 def _begins_otherwise(opening: str) -> Verdict:
     """Return the verdict on most offsets of a line, made once."""
@@ -113,13 +126,20 @@ def _begins_otherwise(opening: str) -> Verdict:
 
 
 class _Look:
-    """One offset where a frame may begin, examined slot by slot."""
+    """One offset where a frame of an envelope may begin, examined slot by slot."""
 
     def __init__(
-        self, model: Model, directions: Sequence[Direction], data: bytes, max_frame: int | None
+        self,
+        model: Model,
+        frame: Envelope,
+        messages: Sequence[MessageLayout],
+        directions: Sequence[Direction],
+        data: bytes,
+        max_frame: int | None,
     ) -> None:
         self.model = model
-        self.frame = model.frame
+        self.frame = frame
+        self.messages = messages
         self.directions = directions
         self.data = data
         self.max_frame = max_frame
@@ -132,47 +152,56 @@ class _Look:
         largest = self.model.largest(self.directions)
         return largest if self.max_frame is None else min(largest, self.max_frame)
 
-    def head(self) -> tuple[int, list[MessageLayout]]:
+    def verdicts(self) -> list[Verdict]:
+        """Judge the bytes as each message that its head allows, or as none."""
+        try:
+            length, candidates = self.head()
+        except _Refused as refused:
+            if refused.verdict[0] == UNKNOWN_COMMAND:
+                return [self._unknown(refused.verdict[1])]
+            return [self.refused(*refused.verdict, self.seen, self.likely)]
+        return [self.fields(message, length) for message in candidates]
+
+    def head(self) -> tuple[int | None, Sequence[MessageLayout]]:
         """Read the slots in front of the fields: the length, and the messages that can have it."""
         length: int | None = None
-        candidates: list[MessageLayout] | None = None
+        candidates = self._short_enough(self.messages)
+        ids_left = sum(slot.role == "id" for slot in self.frame.head)
         for placed in self.frame.placed_head:
             slot = placed.slot
             if isinstance(slot, Constant):
                 self._constant(placed, slot)
             elif isinstance(slot, Number):
-                number = slot.read(self._whole(placed))
-                if slot.role == "length":
-                    length = self._length(number)
-                elif slot.role == "id":
-                    candidates = self._candidates(number)
+                found = self._whole(placed)
+                number = slot.read(found)
+                match slot.role:
+                    case "length":
+                        length = self._length(number)
+                    case "id":
+                        candidates = self._with_id(candidates, slot, number)
+                        ids_left -= 1
+                    case "address":
+                        if not slot.holds(number):
+                            raise _Refused(OUT_OF_RANGE, placed.at)
             self.seen.append(placed)
-            if length is not None and candidates is not None:
+            if length is not None and not ids_left:
                 candidates = self._fitting(candidates, length)
-        if length is None or candidates is None:
-            raise AssertionError("the rule frame-parts sees to both")
         return length, candidates
 
-    def claim(self) -> int:
-        """Return the size that a frame of unknown id claims; 0 for a size that no frame has."""
-        if len(self.data) < self.frame.body_at:
-            return self.frame.least
-        size = self.frame.length.read_in(self.data) + self.frame.uncounted
-        return size if self._is_possible(size) else 0
-
-    def fields(self, message: MessageLayout, length: int) -> Verdict:
-        """Judge what follows the head as the fields of one message."""
-        count = message.count_at(length)
-        size = message.size_at(count)
+    def fields(self, message: MessageLayout, length: int | None) -> Verdict:
+        """Judge what follows the head as the rest of one message."""
         seen = list(self.seen)
         try:
+            count = self._count(message) if length is None else message.count_at(length)
             for placed in islice(message.lay_out(count), len(seen), None):
-                self._field(placed, count)
+                self._field(message, placed, count)
                 seen.append(placed)
+            size = message.size_at(count)
+            self._proven(message.checksum, self.data[:size])
         except _Refused as refused:
             return self.refused(*refused.verdict, seen, message)
         due = self._due(TRAILING_BYTES, size, message)
-        return Verdict(message, "", size, due, tuple(seen), message)
+        return Verdict(message, "", size, due, tuple(seen), message, frame=self.frame.name)
 
     def refused(
         self,
@@ -180,11 +209,48 @@ class _Look:
         offset: int,
         seen: Sequence[Placed],
         likely: MessageLayout | None,
-        claim: int = 0,
     ) -> Verdict:
         """Return the verdict for a refusal."""
         due = self._due(reason, offset, likely)
-        return Verdict(None, reason, offset, due, tuple(seen), likely, claim)
+        return Verdict(None, reason, offset, due, tuple(seen), likely, frame=self.frame.name)
+
+    def _unknown(self, offset: int) -> Verdict:
+        """Return the verdict on a frame of unknown id."""
+        claim = self._claim()
+        refused = self.refused(UNKNOWN_COMMAND, offset, self.seen, self.likely)
+        provable = self.frame.proves_unknown and claim > 0
+        proven = provable and self.frame.body_at <= claim <= len(self.data)
+        if proven:
+            try:
+                self._tail(self.data[:claim])
+            except _Refused:
+                proven = False
+        return replace(refused, claim=claim, provable=provable, proven=proven)
+
+    def _claim(self) -> int:
+        """Return the size that a frame of unknown id claims; 0 for a size that no frame has."""
+        if len(self.data) < self.frame.body_at:
+            return self.frame.least
+        if self.frame.length_part is None:
+            return 0
+        size = self.frame.length.read_in(self.data) + self.frame.uncounted
+        return size if self._is_possible(size) else 0
+
+    def _tail(self, frame: bytes) -> None:
+        """Refuse what is behind the fields of a frame of unknown id, unless it is right."""
+        for placed in self.frame.lay_out(len(frame)):
+            if isinstance(placed.slot, Constant):
+                self._constant(placed, placed.slot)
+        self._proven(
+            lambda checksum, data: self.frame.covered(checksum, {}).checksum(checksum, data), frame
+        )
+
+    def _proven(self, expected: Callable[[Number, bytes], bytes], frame: bytes) -> None:
+        """Refuse a whole frame that has other checksums than `expected`."""
+        for checksum in self.frame.checksums:
+            at = checksum.at if checksum.at >= 0 else len(frame) + checksum.at
+            if frame[at : at + checksum.size] != expected(checksum, frame):
+                raise _Refused(BAD_CHECKSUM, at)
 
     def _due(self, reason: str, offset: int, likely: MessageLayout | None) -> Callable[[], str]:
         """Return what says what is expected: few verdicts are asked."""
@@ -193,16 +259,19 @@ class _Look:
     def _expected(self, reason: str, offset: int, likely: MessageLayout | None) -> str:
         plain, ways = self.model.plain, self.directions
         message = None if likely is None else plain.messages[likely.name]
-        return Refused(plain, ways, self.data, reason, offset, message, self.largest).expected()
+        frame, largest = plain.envelopes[self.frame.name], self.largest
+        refused = Refused(plain, frame, ways, self.data, reason, offset, message, largest)
+        return refused.expected()
 
     def _constant(self, placed: Placed, slot: Constant) -> None:
         found = placed.of(self.data)
-        if found == slot.data:
-            return
-        for at, (byte, right) in enumerate(zip(found, slot.data, strict=False), placed.at):
-            if byte != right:
-                raise _Refused(BAD_HEADER, at)
-        raise _Refused(TOO_SHORT, len(self.data))
+        if slot.role == "constant":
+            for at, (byte, right) in enumerate(zip(found, slot.data, strict=False), placed.at):
+                if byte != right:
+                    reason = BAD_HEADER if slot.at >= 0 else BAD_TRAILER
+                    raise _Refused(reason if slot.field is None else OUT_OF_RANGE, at)
+        if len(found) < placed.size:
+            raise _Refused(TOO_SHORT, len(self.data))
 
     def _whole(self, placed: Placed) -> bytes:
         found = placed.of(self.data)
@@ -218,30 +287,69 @@ class _Look:
     def _is_possible(self, size: int) -> bool:
         return self.frame.least <= size <= self.largest
 
-    def _messages(self, code: int) -> list[MessageLayout]:
-        sent = (self.model.sent(direction).get(code) for direction in self.directions)
-        return [message for message in sent if message is not None]
+    def _short_enough(self, messages: Sequence[MessageLayout]) -> Sequence[MessageLayout]:
+        """Return the messages that fit into `max_frame`, where no length tells of their size."""
+        if self.max_frame is None or self.frame.length_part is not None:
+            return messages
+        return [message for message in messages if message.least <= self.max_frame]
 
-    def _candidates(self, code: int) -> list[MessageLayout]:
-        found = self._messages(code)
+    def _with_id(
+        self, candidates: Sequence[MessageLayout], part: Number, number: int
+    ) -> Sequence[MessageLayout]:
+        found = [message for message in candidates if message.id_of(part) == number]
         if not found:
-            raise _Refused(UNKNOWN_COMMAND, self.frame.id.at)
+            self.likely = None
+            raise _Refused(UNKNOWN_COMMAND, part.at)
         self.likely = found[0]
         return found
 
-    def _fitting(self, candidates: list[MessageLayout], length: int) -> list[MessageLayout]:
+    def _fitting(self, candidates: Sequence[MessageLayout], length: int) -> Sequence[MessageLayout]:
         fitting = [message for message in candidates if length in message.lengths]
         if not fitting:
             raise _Refused(LENGTH_MISMATCH, self.frame.length.at)
         return fitting
 
-    def _field(self, placed: Placed, count: int) -> None:
+    def _count(self, message: MessageLayout) -> int:
+        """Read the count of a message whose frame says nothing of its length."""
+        items, least = message.items, message.counts[0]
+        if items is None or items.counter is None:
+            return least
+        for placed in islice(message.lay_out(least), len(self.seen), None):
+            if placed.slot is not items.counter:
+                self._field(message, placed, least)
+                continue
+            count = items.count_at(items.counter.read(self._whole(placed)))
+            if count is None or message.size_at(count) > self.largest:
+                raise _Refused(COUNT_MISMATCH, placed.at)
+            return count
+        raise AssertionError("the counter of a list is a field")
+
+    def _field(self, message: MessageLayout, placed: Placed, count: int) -> None:
         slot = placed.slot
-        if isinstance(slot, Constant):
-            self._constant(placed, slot)
-        if not isinstance(slot, Number):
-            return
-        if slot.role == "count" and not slot.write(count).startswith(placed.of(self.data)):
-            raise _Refused(COUNT_MISMATCH, placed.at)
-        if not slot.low <= slot.read(self._whole(placed)) <= slot.high:
+        match slot:
+            case Constant():
+                self._constant(placed, slot)
+            case Packed():
+                values = slot.values(self._whole(placed))
+                if not all(slot.low <= value <= slot.high for value in values):
+                    raise _Refused(OUT_OF_RANGE, placed.at)
+            case Text():
+                self._characters(placed, slot)
+            case Number():
+                self._number(message, placed, slot, count)
+
+    def _characters(self, placed: Placed, slot: Text) -> None:
+        try:
+            slot.value(self._whole(placed))
+        except UnicodeDecodeError as error:
+            raise _Refused(OUT_OF_RANGE, placed.at + error.start) from None
+
+    def _number(self, message: MessageLayout, placed: Placed, slot: Number, count: int) -> None:
+        items = message.items
+        if slot.counts and items is not None:
+            due = slot.write(items.counted(slot, count))
+            if not due.startswith(placed.of(self.data)):
+                raise _Refused(COUNT_MISMATCH, placed.at)
+        found = self._whole(placed)
+        if not slot.holds(slot.value(found)):
             raise _Refused(OUT_OF_RANGE, placed.at)

@@ -10,6 +10,8 @@ from __future__ import annotations
 import re
 from functools import lru_cache
 
+# Both want digits on both sides of the point, and YAML 1.1 a sign in the exponent.
+_FLOAT = re.compile(r"[-+]?(?:0|[1-9][0-9]*)\.[0-9]+(?:[eE][-+][0-9]+)?")
 _INTEGER = re.compile(r"[-+]?(?:0|[1-9][0-9]*)|0x[0-9a-fA-F]+")
 _NULLS = frozenset(["", "~", "null"])
 _BOOLEANS = {"true": True, "false": False}
@@ -69,7 +71,7 @@ class Ambiguous(ValueError):  # noqa: N818 - says what the scalar is
 
 
 @lru_cache(maxsize=512)
-def resolve(text: str) -> str | int | bool | None:
+def resolve(text: str) -> str | int | float | bool | None:
     """Find the value of a plain scalar. Raises Ambiguous where YAML readers disagree.
 
     What is read often is kept: most keys of a spec stand in it many times.
@@ -83,6 +85,8 @@ def resolve(text: str) -> str | int | bool | None:
     # A number of a thousand digits is text to us: Python refuses to convert it.
     if _INTEGER.fullmatch(text) and len(text) < 40:
         return int(text, 0)
+    if _FLOAT.fullmatch(text) and len(text) < 40:
+        return float(text)
     for pattern, reads_as, hint in _AMBIGUOUS:
         if pattern.fullmatch(text):
             raise Ambiguous(text, reads_as, hint.format(text=text, decimal=_decimal(text)))

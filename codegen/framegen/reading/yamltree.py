@@ -217,7 +217,7 @@ class _Builder:
         key = self._scalar(event, path)
         return str(event.value if key is None else key)
 
-    def _scalar(self, event: Any, path: KeyPath) -> str | int | bool | None:
+    def _scalar(self, event: Any, path: KeyPath) -> str | int | float | bool | None:
         text: str = event.value
         character = first_invisible(text)
         if character is not None:

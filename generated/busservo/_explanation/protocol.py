@@ -3,14 +3,18 @@
 
 from __future__ import annotations
 
+import struct
 from dataclasses import dataclass
 from decimal import Decimal
 from functools import cached_property
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Iterator, Mapping
-    from typing import Any
+    from collections.abc import Iterable, Iterator, Mapping, Sequence
+    from typing import Any, TypeAlias
+
+    # What a slot can hold.
+    Value: TypeAlias = float | str | list[int]
 
 
 @dataclass(frozen=True)
@@ -67,7 +71,27 @@ class Slot:
     @property
     def is_field(self) -> bool:
         """Whether it belongs to the message; all others belong to the envelope."""
-        return self.role in ("count", "field")
+        return self.role in ("count", "size", "field", "text") or "field" in self.said
+
+    @property
+    def is_float(self) -> bool:
+        """Whether it is a floating-point number."""
+        return str(self.said.get("type", "")).startswith("f")
+
+    @property
+    def is_fixed(self) -> bool:
+        """Whether a list always has the same number of elements."""
+        return bool(self.said.get("fixed"))
+
+    @property
+    def is_sized(self) -> bool:
+        """Whether the counter of a list says how many bytes it has, not how many elements."""
+        return bool(self.said.get("sized"))
+
+    @property
+    def order(self) -> str:
+        """The byte order of a number, its own or that of the protocol."""
+        return str(self.said.get("byte_order", self.byte_order))
 
     @cached_property
     def low(self) -> int:
@@ -85,14 +109,31 @@ class Slot:
         return tuple(Slot(field, self.byte_order) for field in self.said["fields"])
 
     def read(self, data: bytes) -> int:
-        """Read a number from its bytes."""
-        ordered = data if self.byte_order == "big" else data[::-1]
+        """Read a whole number from its bytes."""
+        ordered = data if self.order == "big" else data[::-1]
         return int.from_bytes(ordered, "big", signed=bool(self.said.get("signed")))
 
+    def value(self, data: bytes) -> Value:
+        """Return the value of its bytes: a number, a text, or all the numbers of a packed list."""
+        if self.role == "text":
+            return data.rstrip(b"\0").decode(self.said["charset"], "backslashreplace")
+        if self.role == "packed":
+            return self._packed(data)
+        if not self.is_float:
+            return self.read(data)
+        (value,) = struct.unpack((">" if self.order == "big" else "<") + "fd"[self.size > 4], data)
+        return float(value)
+
+    def _packed(self, data: bytes) -> list[int]:
+        bits, count = int(self.said["packed"][1:]), int(self.said["count"])
+        whole = int.from_bytes(data if self.order == "big" else data[::-1], "big")
+        found = [whole >> bits * number & (1 << bits) - 1 for number in range(count)]
+        return found[::-1] if self.order == "big" else found
+
     def write(self, value: int) -> bytes:
-        """Write a number as bytes. Raises OverflowError where it does not fit."""
+        """Write a whole number as bytes. Raises OverflowError where it does not fit."""
         data = value.to_bytes(self.size, "big", signed=bool(self.said.get("signed")))
-        return data if self.byte_order == "big" else data[::-1]
+        return data if self.order == "big" else data[::-1]
 
     def read_in(self, frame: bytes) -> int:
         """Read a number from `frame`, which holds all of it."""
@@ -108,16 +149,29 @@ class Slot:
         inner = f".{field.name}" if self.said.get("element") else ""
         return f"{self.name}[{index}]{inner}"
 
-    def in_words(self, value: int) -> tuple[str, str]:
+    def in_words(self, value: Value) -> tuple[str, str]:
         """Return a value with its unit, in its larger unit and by its name; and its meaning."""
+        if isinstance(value, list | str):
+            text = " ".join(map(str, value)) if isinstance(value, list) else repr(value)
+            return text, self.about
         text = f"{value} {self.said.get('unit', '')}".rstrip()
         if "scale" in self.said:
-            step, unit = self.said["scale"]
-            text += f" = {value * Decimal(step)} {unit}"
+            step, unit, *offset = self.said["scale"]
+            scaled = Decimal(str(value)) * Decimal(step) + sum(map(Decimal, offset))
+            text += f" = {scaled} {unit}"
+        set_bits = ", ".join(self.bits_in_words(int(value))) if "bits" in self.said else ""
+        text += f" ({set_bits})" if set_bits else ""
         for name, named in self.said.get("values", {}).items():
             if named["value"] == value:
                 return f"{text} ({name})", str(named["about"])
         return text, self.about
+
+    def bits_in_words(self, value: int) -> Iterator[str]:
+        """Yield the named bits of a number that are set, those of several bits with their value."""
+        for name, (low, high, _) in self.said.get("bits", {}).items():
+            found = value >> low & (1 << high - low + 1) - 1
+            if found:
+                yield name if low == high else f"{name} {found}"
 
 
 @dataclass(frozen=True)
@@ -144,26 +198,48 @@ class Envelope:
     """The slots of a frame of any message, the body among them."""
 
     slots: tuple[Slot, ...]
+    name: str = "frame"
 
     @cached_property
-    def opening(self) -> str:
-        """The beginning of a frame, in words."""
+    def header(self) -> bytes:
+        """The constant bytes with which a frame begins; b"" where it begins otherwise."""
         found = b""
         for slot in self.slots:
             if slot.role != "constant":
                 break
             found += slot.data
-        return f"a frame begins {found.hex(' ').upper()}"
+        return found
 
     @cached_property
-    def length(self) -> Slot:
-        """The number that says how long the frame is."""
-        return next(slot for slot in self.slots if slot.role == "length")
+    def opening(self) -> str:
+        """The beginning of a frame, in words."""
+        if self.header:
+            return f"a frame begins {self.header.hex(' ').upper()}"
+        return f"a frame begins with its {self.slots[0].name}"
 
     @cached_property
-    def id(self) -> Slot:
-        """The number that identifies the message."""
-        return next(slot for slot in self.slots if slot.role == "id")
+    def length(self) -> Slot | None:
+        """The number that says how long the frame is, if there is one."""
+        return next((slot for slot in self.slots if slot.role == "length"), None)
+
+    @cached_property
+    def ids(self) -> tuple[Slot, ...]:
+        """The numbers that identify the message together, as far as a frame holds them."""
+        return tuple(slot for slot in self.slots if slot.role == "id")
+
+    @cached_property
+    def id(self) -> Slot | None:
+        """The last of them, if there is one."""
+        return self.ids[-1] if self.ids else None
+
+    def length_of(self, data: bytes) -> int:
+        """Return the length of a frame that `data` begins; without a length part, its size."""
+        return len(data) if self.length is None else self.length.read_in(data)
+
+    @property
+    def length_name(self) -> str:
+        """What the length of a frame is called."""
+        return "size" if self.length is None else self.length.name
 
     @cached_property
     def body_at(self) -> int:
@@ -178,6 +254,8 @@ class Envelope:
     @cached_property
     def uncounted(self) -> int:
         """The number of bytes of a frame that its length does not count."""
+        if self.length is None:
+            return 0
         return sum(slot.size for slot in self.slots if slot.name not in self.length.of)
 
     @cached_property
@@ -199,10 +277,17 @@ class Message:
     frame: Envelope
     byte_order: str
 
+    @cached_property
+    def ids(self) -> tuple[int, ...]:
+        """The ids, one for each id part of its envelope."""
+        if "ids" in self.said:
+            return tuple(self.said["ids"])
+        return (int(self.said["id"]),) if "id" in self.said else ()
+
     @property
-    def id(self) -> int:
-        """The id."""
-        return int(self.said["id"])
+    def seen_ids(self) -> tuple[int, ...]:
+        """Those ids that a frame holds."""
+        return self.ids[: len(self.frame.ids)]
 
     @property
     def direction(self) -> str:
@@ -224,29 +309,44 @@ class Message:
 
     @cached_property
     def items(self) -> Slot | None:
-        """The list, where the message has one."""
-        return next((slot for slot in self.fields if slot.role == "list"), None)
+        """The list of a size that varies, where the message has one."""
+        lists = (slot for slot in self.fields if slot.role == "list")
+        return next((slot for slot in lists if not slot.is_fixed), None)
+
+    @cached_property
+    def optional(self) -> tuple[Slot, ...]:
+        """The fields that may be absent, each with those behind it."""
+        return tuple(slot for slot in self.fields if slot.said.get("optional"))
 
     @cached_property
     def _fixed(self) -> int:
-        """The length of a frame without elements."""
-        sizes = (slot.size for slot in self.slots if slot.role != "list")
-        return sum(sizes) - self.frame.uncounted
+        """The length of a frame without elements, and without what may be absent."""
+        sizes = 0
+        for slot in self.slots:
+            if slot is not self.items and slot not in self.optional:
+                sizes += slot.size * (slot.low if slot.is_fixed else 1)
+        return sizes - self.frame.uncounted
 
     @cached_property
     def formula(self) -> str:
-        """The length rule: `3 * count + 5`, or a number."""
+        """The length rule: `3 * count + 5`, or a number, or several."""
         if self.items is None:
-            return str(self._fixed)
-        count, size = self.items.said["counter"], self.items.size
+            return ", ".join(map(str, self.lengths))
+        count, size = self.items.said.get("counter", self.items.name), self.items.size
+        count = self.items.name if self.items.is_sized else count
         term = count if size == 1 else f"{size} * {count}"
         return f"{term} + {self._fixed}" if self._fixed else term
 
     @cached_property
-    def lengths(self) -> range:
+    def varies(self) -> bool:
+        """Whether its frames have several lengths."""
+        return len(self.lengths) > 1
+
+    @cached_property
+    def lengths(self) -> Sequence[int]:
         """The legal values of the length."""
         if self.items is None:
-            return range(self._fixed, self._fixed + 1)
+            return self.said.get("lengths") or range(self._fixed, self._fixed + 1)
         size = self.items.size
         low, high = (self._fixed + size * count for count in (self.items.low, self.items.high))
         return range(low, high + 1, size)
@@ -260,9 +360,36 @@ class Message:
         """Return the number of elements of a frame with this legal length."""
         return 0 if self.items is None else self.items.low + self.lengths.index(length)
 
+    def counted_at(self, counter: Slot, length: int) -> int:
+        """Return the value of a counter of the list in a frame with this legal length."""
+        count = self.count_at(length)
+        is_size = counter.role == "size" and self.items is not None
+        return count * self.items.size if is_size and self.items is not None else count
+
+    def length_of(self, data: bytes) -> int | None:
+        """Return the legal length of the frame that `data` begins; None if there is none."""
+        if self.frame.length is not None:
+            length: int | None = self.frame.length.read_in(data)
+        elif self.items is None or "counter" not in self.items.said:
+            length = self.lengths[0]
+        else:
+            name = self.items.said["counter"]
+            counter = next(slot for slot in self.fields if slot.name == name)
+            if not counter.is_in(data):
+                return None
+            count, rest = counter.read_in(data), 0
+            if self.items.is_sized:
+                count, rest = divmod(count, self.items.size)
+            length = None if rest else self._fixed + self.items.size * count
+        return length if length in self.lengths else None
+
     def lay_out(self, length: int) -> Iterator[Placed]:
         """Place the slots of a frame with this legal length, from its first byte on."""
-        return lay_out(self.slots, length + self.frame.uncounted, self.count_at(length))
+        count = self.count_at(length)
+        size = length + self.frame.uncounted
+        end = size - sum(slot.size for slot in self.slots if slot.at < 0)
+        there = [slot for slot in self.slots if slot not in self.optional or slot.at < end]
+        return lay_out(there, size, count)
 
 
 @dataclass(frozen=True)
@@ -300,26 +427,43 @@ class Protocol:
         return list(self.said["directions"])
 
     @cached_property
+    def envelopes(self) -> dict[str, Envelope]:
+        """Every envelope by name; the only one is called `frame`."""
+        frames = self.said.get("frames") or {"frame": self.said["frame"]}
+        return {name: self._envelope(slots, name) for name, slots in frames.items()}
+
+    @cached_property
     def frame(self) -> Envelope:
-        """The envelope of every frame."""
-        return self._envelope(self.said["frame"])
+        """The envelope of every frame; where there are several, the first."""
+        return next(iter(self.envelopes.values()))
 
     @cached_property
     def messages(self) -> dict[str, Message]:
         """The messages, by name."""
         order = self.said["byte_order"]
         return {
-            name: Message(name, said, self.frame, order)
+            name: Message(name, said, self.envelopes[said.get("frame", self.frame.name)], order)
             for name, said in self.said["messages"].items()
         }
 
     @cached_property
-    def _by_id(self) -> dict[tuple[str, int], Message]:
-        return {(message.direction, message.id): message for message in self.messages.values()}
+    def _sent(self) -> dict[tuple[str, str], list[Message]]:
+        found: dict[tuple[str, str], list[Message]] = {}
+        for message in self.messages.values():
+            found.setdefault((message.direction, message.frame.name), []).append(message)
+        return found
 
-    def message(self, direction: str, number: int) -> Message | None:
-        """Return the message of a direction that has an id; None for no such message."""
-        return self._by_id.get((direction, number))
+    def sent(self, direction: str, frame: Envelope) -> Sequence[Message]:
+        """Return the messages of a direction in frames of an envelope."""
+        return self._sent.get((direction, frame.name), ())
+
+    def message(self, direction: str, frame: Envelope, data: bytes) -> Message | None:
+        """Return the message of a direction whose ids `data` begins with; None for no such."""
+        if not all(part.is_in(data) for part in frame.ids):
+            return None
+        ids = tuple(part.read_in(data) for part in frame.ids)
+        found = [message for message in self.sent(direction, frame) if message.seen_ids == ids]
+        return found[0] if len(found) == 1 else None
 
     @cached_property
     def lookalikes(self) -> dict[str, Lookalike]:
@@ -329,8 +473,9 @@ class Protocol:
             for name, said in self.said["lookalikes"].items()
         }
 
-    def _envelope(self, slots: Iterable[Mapping[str, Any]]) -> Envelope:
-        return Envelope(tuple(Slot(slot, self.said["byte_order"]) for slot in slots))
+    def _envelope(self, slots: Iterable[Mapping[str, Any]], name: str = "frame") -> Envelope:
+        order = self.said["byte_order"]
+        return Envelope(tuple(Slot(slot, order) for slot in slots if slot.get("sent", True)), name)
 
     def largest(self, directions: Iterable[str]) -> int:
         """Return the size of the largest legal frame of these directions; 0 for no messages."""
@@ -352,7 +497,7 @@ def lay_out(slots: Iterable[Slot], size: int, count: int = 0) -> Iterator[Placed
     for slot in slots:
         at = _from_front(slot.at, size)
         if slot.role == "list":
-            for index in range(count):
+            for index in range(slot.low if slot.is_fixed else count):
                 start = at + index * slot.size
                 for field in slot.fields:
                     path = slot.path(index, field)

@@ -11,7 +11,7 @@ TYPE_CHECKING = False
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from .protocol import Message, Placed, Protocol
+    from .protocol import Envelope, Message, Placed, Protocol
 
 # The reasons for which bytes are no frame. Every target and the test vectors use these words.
 TOO_SHORT = "too short"
@@ -21,16 +21,19 @@ LENGTH_MISMATCH = "length mismatch"
 COUNT_MISMATCH = "count mismatch"
 UNKNOWN_COMMAND = "unknown command"
 OUT_OF_RANGE = "out of range"
+BAD_CHECKSUM = "bad checksum"
+BAD_TRAILER = "bad trailer"
 
 
 @dataclass(frozen=True)
 class Refused:
-    """Bytes that are no frame, sent in any of some directions: the reason, and where it shows.
+    """Bytes that are no frame of an envelope, sent in any of some directions: why, and where it shows.
 
     `likely` is the message that they began, if it is known. No frame has more than `largest` bytes.
     """
 
     protocol: Protocol
+    frame: Envelope
     directions: Sequence[object]
     data: bytes
     reason: str
@@ -48,58 +51,99 @@ class Refused:
             COUNT_MISMATCH: self._count,
             UNKNOWN_COMMAND: self._command,
             OUT_OF_RANGE: self._range,
+            BAD_CHECKSUM: self._checksum,
+            BAD_TRAILER: self._trailer,
         }[self.reason]()
 
     def _more(self) -> str:
         """Say how much more there should be."""
-        frame, placed = self.protocol.frame, self._placed()
-        if placed.slot.role == "constant":
+        placed = self._placed()
+        if placed.slot.role == "constant" and placed.slot.at >= 0:
             return self._opening()
-        if placed.at < frame.body_at:
-            return f"the shortest frame has {frame.least} bytes"
+        if placed.at < self.frame.body_at or self._length() is None:
+            return f"the shortest frame has {self._least()} bytes"
         return self._size()
+
+    def _least(self) -> int:
+        """Return the size of the smallest frame that there may be."""
+        if self.likely is None or self.frame.length is not None:
+            return self.frame.least
+        return self.likely.lengths[0]
 
     def _size(self) -> str:
         """Say how long a frame of the length is that these bytes have."""
-        frame, length = self.protocol.frame, self._length()
-        return f"a {frame.length.name} of {length} makes {length + frame.uncounted} bytes"
+        length = self._length() or 0
+        size = length + self.frame.uncounted
+        if self.frame.length is None:
+            return f"this frame of {self._likely_name} has {size} bytes"
+        return f"a {self.frame.length.name} of {length} makes {size} bytes"
+
+    @property
+    def _likely_name(self) -> str:
+        return "a message" if self.likely is None else self.likely.name
 
     def _opening(self) -> str:
-        return self.protocol.frame.opening
+        openings = (each.opening for each in self.protocol.envelopes.values())
+        return " or ".join(dict.fromkeys(openings))
 
     def _count(self) -> str:
-        placed, name, length = self._placed(), self.protocol.frame.length.name, self._length()
-        count = 0 if self.likely is None else self.likely.count_at(length)
-        has = f"a {name} of {length} makes {placed.path} {count}"
+        placed, length = self._placed(), self._length()
         found = placed.of(self.data)
+        if length is None or self.frame.length is None:
+            lists = None if self.likely is None else self.likely.items
+            bounds = "" if lists is None else f", of {lists.low}..{lists.high} elements"
+            return (
+                f"no {self._likely_name} has a {placed.path} of {placed.slot.read(found)}{bounds}"
+            )
+        count = 0 if self.likely is None else self.likely.counted_at(placed.slot, length)
+        has = f"a {self.frame.length.name} of {length} makes {placed.path} {count}"
         return has if len(found) < placed.size else f"{has}, not {placed.slot.read(found)}"
 
     def _command(self) -> str:
-        ways, number = " or ".join(map(str, self.directions)), self.protocol.frame.id
-        return f"no message {ways} has the {number.name} {number.read_in(self.data)}"
+        ways = " or ".join(map(str, self.directions))
+        there = (part for part in self.frame.ids if part.at <= self.offset)
+        ids = " and ".join(f"{part.name} {part.read_in(self.data)}" for part in there)
+        return f"no message {ways} has the {ids}"
 
     def _range(self) -> str:
         placed = self._placed()
-        slot, value = placed.slot, placed.slot.read(placed.of(self.data))
+        slot = placed.slot
+        if slot.role == "constant":
+            return f"{placed.path} is always {slot.data.hex(' ').upper()}"
+        value = slot.value(placed.of(self.data))
         return f"{placed.path} is {value}, outside {slot.low}..{slot.high}"
 
-    def _length(self) -> int:
-        return self.protocol.frame.length.read_in(self.data)
+    def _checksum(self) -> str:
+        placed = self._placed()
+        found = placed.of(self.data).hex(" ").upper()
+        covered = ", ".join(placed.slot.of)
+        return f"{placed.path} is {found}, not the {placed.slot.said['method']} of {covered}"
+
+    def _trailer(self) -> str:
+        slot = self._placed().slot
+        return f"{slot.name} is {slot.data.hex(' ').upper()}"
+
+    def _length(self) -> int | None:
+        """Return the length that the bytes claim, or that a message has with them."""
+        if self.frame.length is not None:
+            return self.frame.length.read_in(self.data)
+        return None if self.likely is None else self.likely.length_of(self.data)
 
     def _placed(self) -> Placed:
         """Return the slot at the offset."""
-        slots = [*self.protocol.frame.head]
-        if self.likely is not None and self.offset >= slots[-1].end:
-            slots += self.likely.lay_out(self._length())
+        slots = [*self.frame.head]
+        likely = self.likely
+        if likely is not None and (not slots or self.offset >= slots[-1].end):
+            length = likely.lengths[0] if self._length() is None else self._length()
+            slots += likely.lay_out(length or 0)
         return next(placed for placed in slots if self.offset < placed.end)
 
     def _legal_lengths(self) -> str:
-        frame, found = self.protocol.frame, self._named()
-        name = frame.length.name
+        frame, found = self.frame, self._named()
+        name = frame.length_name
         if found:
             has = " or ".join(
-                f"{message.name} has a {name} of {describe_range(message.lengths)}"
-                for message in found
+                f"{message.name} has a {name} of {_lengths(message.lengths)}" for message in found
             )
         else:
             least, most = (each - frame.uncounted for each in (frame.least, self.largest))
@@ -107,10 +151,18 @@ class Refused:
         return f"{has}, not {self._length()}"
 
     def _named(self) -> list[Message]:
-        """Return the messages that have the id of these bytes, whatever precedes it."""
-        place = self.protocol.frame.id
-        if not place.is_in(self.data):
+        """Return the messages that have the ids of these bytes, whatever precedes them."""
+        if not all(part.is_in(self.data) for part in self.frame.ids):
             return []
-        number = place.read_in(self.data)
-        found = (self.protocol.message(str(way), number) for way in self.directions)
-        return [message for message in found if message is not None]
+        ids = tuple(part.read_in(self.data) for part in self.frame.ids)
+        return [
+            message
+            for way in self.directions
+            for message in self.protocol.sent(str(way), self.frame)
+            if message.seen_ids == ids
+        ]
+
+
+def _lengths(lengths: Sequence[int]) -> str:
+    """Return legal lengths in words."""
+    return describe_range(lengths) if isinstance(lengths, range) else " or ".join(map(str, lengths))

@@ -117,7 +117,7 @@ class Permission:
         return {
             message.id: message
             for way in self._ways
-            for message in self.model.sent(way).values()
+            for message in self.model.sent(way)
             if message.name not in self.allowed
         }
 
@@ -132,9 +132,9 @@ class Permission:
             for code in lookalike.commands
         }
         found |= {
-            each.id: f"a frame of the reserved id {each.id}"
+            each.id.one: f"a frame of the reserved id {each.id}"
             for each in spec.reserved
-            if each.id is not None and each.direction != received
+            if each.id is not None and each.id.one is not None and each.direction != received
         }
         found |= {code: f"a frame of {message.name}" for code, message in self._forbidden.items()}
         harmless = {self.model.messages[name].id for name in self.allowed}

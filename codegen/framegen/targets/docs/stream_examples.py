@@ -87,13 +87,13 @@ def _materials(model: Model) -> Iterator[tuple[str, Direction, bytes | None]]:
 
 
 def _frames(model: Model, way: Direction) -> list[bytes]:
-    messages = model.sent(way).values()
+    messages = model.sent(way)
     return [example.hex for message in messages for example in message.message.examples]
 
 
 def _misread(model: Model, way: Direction) -> bytes | None:
     """Find a frame that, behind a false header byte, begins like a frame of another length."""
-    for message in model.sent(way).values():
+    for message in model.sent(way):
         for frame in _lengthened(message):
             data = model.frame.header[-1:] + frame
             events = walkthrough(model, way, data).events
@@ -119,10 +119,11 @@ def _lengthened(message: MessageLayout) -> Iterator[bytes]:
 def _unknown_head(model: Model, way: Direction) -> bytes | None:
     """Make the head of a frame with an unknown id and the largest length."""
     frame, sent = model.frame, model.sent(way)
-    code = next((code for code in frame.legal_ids if code not in sent and code), None)
+    known = {message.id for message in sent}
+    code = next((code for code in frame.legal_ids if code not in known and code), None)
     if code is None:
         return None
-    length = max(message.lengths[-1] for message in sent.values())
+    length = max(message.lengths[-1] for message in sent)
     return b"".join(
         slot.data
         if isinstance(slot, Constant)

@@ -84,12 +84,12 @@ class DeviceView:
     @property
     def handlers(self) -> list[HandlerView]:
         """A handler for each message that it receives."""
-        return [HandlerView(message) for message in self.model.sent(self.incoming).values()]
+        return [HandlerView(message) for message in self.model.sent(self.incoming)]
 
     @property
     def reports(self) -> list[str]:
         """The names of the messages that it sends."""
-        return sorted(message.name for message in self.model.sent(self.incoming.reversed).values())
+        return sorted(message.name for message in self.model.sent(self.incoming.reversed))
 
     @property
     def import_messages(self) -> str:
