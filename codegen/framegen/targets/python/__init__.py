@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from framegen.targets.python.carried_model import carried_model
+from framegen.targets.python.checksum_view import checksums_of
 from framegen.targets.python.client_view import ClientView
 from framegen.targets.python.device_view import DeviceView
 from framegen.targets.python.docstring import docstring
@@ -43,13 +44,17 @@ _SHARED = {
 _IMPORT, _IMPORT_THERE = "from ..pluralize import", "from .._frame.pluralize import"
 # What only a protocol with poses has a use for.
 _FOR_POSES = {"_cli/play.py", "_cli/posefile.py", "_cli/positions.py", "_cli/teach.py"}
+# What only a protocol with checksums has a use for: each method needs some of it.
+_FOR_CHECKSUMS = {f"_frame/{name}.py" for name in ("byte_sum", "crc", "fletcher", "running")}
 
 
 def render(compiled: Compiled, _snippets: Snippets) -> dict[str, str]:
     """Render the library's files, by path below the project's root."""
     library = LibraryView(names_of(compiled.model).library)
-    poses = compiled.model.spec.pose is not None
-    copied = {name: text for name, text in _runtime().items() if poses or name not in _FOR_POSES}
+    unneeded = _FOR_CHECKSUMS.difference(*(sums.files for sums in checksums_of(compiled.model)))
+    if compiled.model.spec.pose is None:
+        unneeded |= _FOR_POSES
+    copied = {name: text for name, text in _runtime().items() if name not in unneeded}
     explained = {"_explanation/model.json": carried_model(compiled)}
     files = {**copied, **dict(_from_templates(library)), **explained, "py.typed": ""}
     (root,) = folders(compiled.model)

@@ -1,0 +1,174 @@
+"""The catalogue of checksums agrees with what others have written and published."""
+
+from dataclasses import replace
+from zlib import adler32
+
+import pytest
+from crccheck.checksum import Checksum8, Checksum16, Checksum32, ChecksumXor8
+from crccheck.crc import ALLCRCCLASSES
+from crccheck.crc import Crc as Peer
+from framegen.model.checksums import (
+    _LOOSE_NAMES,
+    _OTHER_NAMES,
+    CHECK_DATA,
+    CHECKSUMS,
+    Checksum,
+    Crc,
+    Fletcher,
+    Sum,
+    Xor,
+    suggest,
+)
+from hypothesis import given
+from hypothesis import strategies as st
+
+CRCS = [method for method in CHECKSUMS.values() if isinstance(method, Crc)]
+PUBLISHED = {kind._names[0].lower(): kind for kind in ALLCRCCLASSES if kind._width % 8 == 0}
+# Of vendors, whose documents give a table, or code.
+UNPUBLISHED = {"crc-8/ldrobot", "crc-32/novatel"}
+# What the catalogue has of other widths goes over no line of bytes as a number.
+WIDTHS = {8, 16, 24, 32, 64}
+
+
+def named(method: Checksum) -> str:
+    return method.name
+
+
+@pytest.mark.parametrize("method", CHECKSUMS.values(), ids=named)
+def test_a_method_has_its_check_value_in_each_width(method: Checksum) -> None:
+    assert {width: method.of(CHECK_DATA, width) for width in method.widths} == method.checks
+
+
+def test_the_catalogue_has_every_published_crc_of_whole_numbers() -> None:
+    published = {name for name, kind in PUBLISHED.items() if kind._width in WIDTHS}
+    assert {method.name for method in CRCS} == published | UNPUBLISHED
+
+
+@pytest.mark.parametrize("method", CRCS, ids=named)
+@given(data=st.binary(max_size=40))
+def test_a_crc_is_what_crccheck_makes_of_the_same_data(method: Crc, data: bytes) -> None:
+    # By its published name where there is one: then the row's own numbers are in question, too.
+    peer = PUBLISHED[method.name] if method.name in PUBLISHED else _peer(method)
+    assert method.of(data, method.width) == peer.calc(data)
+
+
+def _peer(method: Crc) -> Peer:
+    both = method.reflected
+    return Peer(method.width, method.poly, method.init, both, both, method.xor_out)
+
+
+@pytest.mark.parametrize("change", ["poly", "init", "reflected", "xor_out"])
+@pytest.mark.parametrize("method", CRCS, ids=named)
+def test_a_crc_with_any_number_changed_misses_its_check_value(method: Crc, change: str) -> None:
+    value = getattr(method, change)
+    changed = replace(method, **{change: value ^ (True if value is True or value is False else 8)})
+    assert changed.of(CHECK_DATA, method.width) != method.checks[method.width]
+
+
+@given(data=st.binary(max_size=300))
+def test_sums_are_what_crccheck_adds_up(data: bytes) -> None:
+    # In its wider sums bytes are taken in groups, of which each has one of ours, and zeros.
+    totals = {
+        8: Checksum8.calc(data),
+        16: Checksum16.calc(b"".join(bytes([0, byte]) for byte in data)),
+        32: Checksum32.calc(b"".join(bytes([0, 0, 0, byte]) for byte in data)),
+    }
+    for width, total in totals.items():
+        assert CHECKSUMS["sum"].of(data, width) == total
+        assert CHECKSUMS["inverted sum"].of(data, width) == total ^ (1 << width) - 1
+        assert (CHECKSUMS["negated sum"].of(data, width) + total) % (1 << width) == 0
+        assert CHECKSUMS["sum"].of(data, 24) == totals[32] % (1 << 24)
+
+
+@given(data=st.binary(max_size=300))
+def test_an_exclusive_or_is_what_crccheck_makes_of_the_same_data(data: bytes) -> None:
+    assert CHECKSUMS["xor"].of(data, 8) == ChecksumXor8.calc(data)
+    assert CHECKSUMS["inverted xor"].of(data, 8) == ChecksumXor8.calc(data) ^ 0xFF
+
+
+@given(data=st.binary(max_size=300))
+def test_adler_32_is_what_zlib_makes_of_the_same_data(data: bytes) -> None:
+    assert CHECKSUMS["adler-32"].of(data, 32) == adler32(data)
+
+
+@pytest.mark.parametrize(
+    ("method", "data", "value"),
+    [
+        # The examples that Fletcher's checksum is explained with everywhere.
+        ("fletcher-16", b"abcde", 0xC8F0),
+        ("fletcher-16", b"abcdef", 0x2057),
+        ("fletcher-16", b"abcdefgh", 0x0627),
+        # Of a frame that turns a message of a receiver off: `… FF 19` on the wire, low byte first.
+        ("fletcher-8", bytes.fromhex("06 01 03 00 F0 05 00"), 0x19FF),
+        # Of the frame in the document of a laser scanner.
+        (
+            "crc-8/ldrobot",
+            bytes.fromhex(
+                "54 2C 68 08 AB 7E E0 00 E4 DC 00 E2 D9 00 E5 D5 00 E3 D3 00 E4 D0 00 E9 CD 00 E4"
+                "CA 00 E2 C7 00 E9 C5 00 E5 C2 00 E5 C0 00 E5 BE 82 3A 1A"
+            ),
+            0x50,
+        ),
+    ],
+)
+def test_a_method_gives_the_checksum_of_a_published_example(
+    method: str, data: bytes, value: int
+) -> None:
+    [width] = CHECKSUMS[method].widths
+    assert CHECKSUMS[method].of(data, width) == value
+
+
+@given(data=st.binary(min_size=1, max_size=100), at=st.integers(0), bit=st.integers(0, 7))
+def test_any_bit_that_changes_changes_any_checksum(data: bytes, at: int, bit: int) -> None:
+    changed = bytearray(data)
+    changed[at % len(data)] ^= 1 << bit
+    for method in CHECKSUMS.values():
+        for width in method.widths:
+            assert method.of(bytes(changed), width) != method.of(data, width), method.name
+
+
+def test_every_kind_of_method_is_in_the_catalogue() -> None:
+    assert {type(method) for method in CHECKSUMS.values()} == {Sum, Xor, Fletcher, Crc}
+
+
+@pytest.mark.parametrize(
+    ("method", "hint"),
+    [
+        ("crc-16/ccitt-false", "write `crc-16/ibm-3740`, which is the same method"),
+        ("CRC16_MODBUS", "write `crc-16/modbus`, which is the same method"),
+        ("Sum", "write `sum`, which is the same method"),
+        ("x-25", "write `crc-16/ibm-sdlc`, which is the same method"),
+        ("dvb-s2", "write `crc-8/dvb-s2`, which is the same method"),
+        ("crc-24q", "write `crc-24/lte-a`, which is the same method"),
+        ("BCC", "write `xor`, which is the same method"),
+        ("two's complement", "write `negated sum`, which is the same method"),
+        ("negatd sum", "did you mean `negated sum`?"),
+        ("crc-16/modbud", "did you mean `crc-16/modbus`?"),
+        (
+            "LRC",
+            (
+                "that name stands for several methods: write `negated sum`, what makes zero of all "
+                "bytes added up: the two's complement of their sum; or `xor`, the exclusive or of "
+                "all bytes"
+            ),
+        ),
+    ],
+)
+def test_a_method_by_another_name_is_known(method: str, hint: str) -> None:
+    assert suggest(method) == hint
+
+
+def test_a_method_that_is_none_is_answered_with_those_that_most_protocols_use() -> None:
+    hint = suggest("magic")
+    assert hint.startswith("choose one of `sum`, `inverted sum`, `negated sum`, `xor`")
+    named = hint.count("`") // 2
+    assert hint.endswith(f"or {len(CHECKSUMS) - named} other CRCs")
+
+
+def test_every_other_name_leads_to_methods_and_is_none_itself() -> None:
+    others = {**_LOOSE_NAMES, **{names: (name,) for name, names in _OTHER_NAMES.items()}}
+    for names, meant in others.items():
+        assert set(meant) <= CHECKSUMS.keys()
+        for name in names.split(", "):
+            assert name not in CHECKSUMS
+            assert all(f"`{each}`" in suggest(name) for each in meant)

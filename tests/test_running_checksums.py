@@ -1,0 +1,180 @@
+"""The checksums of the libraries agree with the catalogue, also along a stream, in linear time."""
+
+import sys
+from collections.abc import Iterator
+from importlib import import_module
+from pathlib import Path
+from types import ModuleType
+from typing import Any
+
+import pytest
+from framegen.model.checksums import CHECK_DATA, CHECKSUMS
+from framegen.targets.python import _FOR_CHECKSUMS
+from framegen.targets.python import __file__ as target
+from framegen.targets.python.checksum_view import ChecksumView
+from hypothesis import given
+from hypothesis import strategies as st
+
+RUNTIME = Path(target).parent / "runtime" / "_frame"
+METHODS = [(name, width) for name, row in CHECKSUMS.items() for width in row.widths]
+# One of each class, and of each way through it.
+KINDS = [
+    ("sum", 8),
+    ("inverted sum", 8),
+    ("negated sum", 16),
+    ("xor", 8),
+    ("inverted xor", 8),
+    ("fletcher-8", 16),
+    ("adler-32", 32),
+    ("crc-8/dvb-s2", 8),
+    ("crc-8/maxim-dow", 8),
+    ("crc-16/modbus", 16),
+    ("crc-16/umts", 16),
+    ("crc-16/ibm-3740", 16),
+    ("crc-16/mcrf4xx", 16),
+    ("crc-24/lte-a", 24),
+    ("crc-32/iso-hdlc", 32),
+    ("crc-32/mpeg-2", 32),
+    ("crc-64/xz", 64),
+]
+
+
+@pytest.fixture(scope="module", autouse=True)
+def runtime() -> Iterator[None]:
+    """Make a package of what is copied into libraries."""
+    package = ModuleType("runtime_frame")
+    package.__path__ = [str(RUNTIME)]
+    sys.modules[package.__name__] = package
+    yield
+    for name in [name for name in sys.modules if name.split(".")[0] == package.__name__]:
+        del sys.modules[name]
+
+
+def make(method: str, width: int) -> Any:
+    """Make a checksum as a library does."""
+    view = ChecksumView(method, width)
+    module = import_module(f"runtime_frame.{view.module}")
+    return eval(view.made, vars(module))  # noqa: S307 - it is our own
+
+
+def test_every_module_that_a_method_needs_is_in_the_runtime() -> None:
+    needed = set().union(*(ChecksumView(*method).files for method in METHODS))
+    assert needed == _FOR_CHECKSUMS
+    assert {f"_frame/{file.name}" for file in RUNTIME.iterdir()} >= needed
+
+
+@pytest.mark.parametrize(
+    ("method", "width", "made"),
+    [
+        ("sum", 8, "Sum(8)"),
+        ("inverted sum", 16, "Sum(16, inverted=True)"),
+        ("negated sum", 8, "Sum(8, negated=True)"),
+        ("xor", 8, "Xor()"),
+        ("inverted xor", 8, "Xor(0xFF)"),
+        ("fletcher-8", 16, "Fletcher(16, 256)"),
+        ("adler-32", 32, "Fletcher(32, 65521, start=1)"),
+        ("crc-8/dvb-s2", 8, "Crc(8, 0xD5)"),
+        ("crc-16/modbus", 16, "Crc(16, 0x8005, init=0xFFFF, reflected=True)"),
+        ("crc-16/genibus", 16, "Crc(16, 0x1021, init=0xFFFF, xor_out=0xFFFF)"),
+    ],
+)
+def test_a_method_is_made_of_what_sets_it_apart(method: str, width: int, made: str) -> None:
+    assert ChecksumView(method, width).made == made
+
+
+@pytest.mark.parametrize(("method", "width"), METHODS)
+@given(data=st.binary(max_size=300))
+def test_a_checksum_is_the_one_of_the_catalogue(method: str, width: int, data: bytes) -> None:
+    checksum, row = make(method, width), CHECKSUMS[method]
+    assert checksum.of(CHECK_DATA) == row.checks[width]
+    assert checksum.of(data) == row.of(data, width)
+
+
+@st.composite
+def inquiries(draw: st.DrawFn) -> tuple[bytes, list[tuple[int, list[tuple[int, int] | bytes]]]]:
+    """Draw a stream, and what a decoder asks of it: pieces, and how much it has dropped by then.
+
+    A decoder goes forwards only: by a byte behind each header that is refused, by a frame behind
+    each that is not, or it asks again of the same place.
+    """
+    data = draw(st.binary(min_size=1, max_size=200))
+    at, dropped, asked = 0, 0, []
+    while at < len(data):
+        end = draw(st.integers(at, len(data)))
+        middle, resumed = sorted(draw(st.tuples(st.integers(at, end), st.integers(at, end))))
+        choices: list[list[tuple[int, int] | bytes]] = [
+            [(at, end)],
+            [(at, end), draw(st.binary(max_size=3))],
+            [(at, middle), draw(st.binary(max_size=3)), (resumed, end)],
+        ]
+        dropped = draw(st.integers(dropped, at))
+        asked.append((dropped, draw(st.sampled_from(choices))))
+        at += draw(st.sampled_from([0, 1, 1, 1, 2, max(1, end - at)]))
+        if len(asked) > 30:
+            break
+    return data, asked
+
+
+@pytest.mark.parametrize(("method", "width"), KINDS)
+@given(inquiry=inquiries(), copied=st.integers(0, 30))
+def test_any_stretch_of_a_stream_has_the_checksum_of_the_catalogue(
+    method: str,
+    width: int,
+    inquiry: tuple[bytes, list[tuple[int, list[tuple[int, int] | bytes]]]],
+    copied: int,
+) -> None:
+    data, asked = inquiry
+    running = make(method, width).running()
+    for number, (dropped, pieces) in enumerate(asked):
+        covered = b"".join(
+            piece if isinstance(piece, bytes) else data[piece[0] : piece[1]] for piece in pieces
+        )
+        moved = [
+            piece if isinstance(piece, bytes) else (piece[0] - dropped, piece[1] - dropped)
+            for piece in pieces
+        ]
+        if number == copied:
+            original, running = running, running.copy()
+            original.of(b"another" * 20, 0, (0, 70))
+            original.of(b"another" * 20, 0, (1, 70))
+        assert running.of(data[dropped:], dropped, *moved) == CHECKSUMS[method].of(covered, width)
+
+
+@pytest.mark.parametrize(("method", "width"), KINDS)
+@pytest.mark.parametrize("frames_between", [False, True])
+def test_long_claims_at_every_byte_cost_each_byte_twice_at_most(
+    method: str, width: int, frames_between: bool, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    checksum = make(method, width)
+    kind = type(checksum.running())
+    summed = 0
+
+    def counting(function: Any) -> Any:
+        def counted(*arguments: Any) -> Any:
+            nonlocal summed
+            summed += len(arguments[-1])
+            return function(*arguments)
+
+        return counted
+
+    monkeypatch.setattr(kind, "_go_on", counting(kind._go_on))
+    checksum.of = counting(checksum.of)
+    running = checksum.running()
+    data, claim, at = bytes(range(256)) * 16, 1000, 0
+    while at + claim <= len(data):
+        # What a decoder has read by then is no longer there.
+        running.of(data[at:], at, (0, claim))
+        at += 1
+        if frames_between and at % 7 == 0:
+            running.of(data[at:], at, (1, 9))
+            at += 10
+    assert summed <= 2 * len(data)
+
+
+@pytest.mark.parametrize(("method", "width"), KINDS)
+def test_no_more_registers_are_kept_than_two_of_the_longest_claims(method: str, width: int) -> None:
+    running = make(method, width).running()
+    data, claim = bytes(range(256)) * 40, 500
+    for at in range(len(data) - claim):
+        running.of(data[at : at + claim], at, (0, claim))
+        assert len(running._registers) <= 2 * claim + 2
