@@ -122,19 +122,27 @@ def _written(
             return slot.data
         case Packed():
             return slot.write(numbers[placed.path])
-        case Number(role="length"):
-            return slot.write(message.formula.at(count))
-        case Number(role="id"):
-            return slot.write(message.id_of(slot))
-        case Number(role="count" | "size"):
-            counted = 0 if message.items is None else message.items.counted(slot, count)
-            return slot.write(_checked(slot, slot.name, counted))
-        case Number():
-            return slot.write(_checked(slot, placed.path, numbers[placed.path]))
         case Text():
             return _text(slot, placed.path, numbers[placed.path])
+        case Number():
+            return slot.write(_number(message, slot, placed.path, count, numbers))
         case Body():
             raise AssertionError("a message has fields where its envelope has the body")
+
+
+def _number(
+    message: MessageLayout, slot: Number, path: str, count: int, numbers: Mapping[str, Any]
+) -> float:
+    """Return the value of a number, which follows from the rest of the frame unless it is given."""
+    match slot.role:
+        case "length":
+            return message.formula.at(count)
+        case "id":
+            return message.id_of(slot)
+        case "count" | "size" if message.items is not None:
+            return _checked(slot, slot.name, message.items.counted(slot, count))
+        case _:
+            return _checked(slot, path, numbers[path])
 
 
 def _numbers(message: MessageLayout, values: Mapping[str, Any]) -> tuple[int, dict[str, Any]]:

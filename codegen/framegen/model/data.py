@@ -112,9 +112,9 @@ def _message(model: Model, layout: MessageLayout) -> dict[str, Any]:
 
 def _ids(layout: MessageLayout) -> dict[str, Any]:
     """Return the id of a message, or its ids where its frame has several, or none."""
-    if len(layout.ids) > 1:
-        return {"ids": list(layout.ids)}
-    return {"id": number for number in layout.ids}
+    if len(layout.ids) == 1:
+        return {"id": layout.ids[0]}
+    return {"ids": list(layout.ids)} if layout.ids else {}
 
 
 def _example(example: Example) -> dict[str, Any]:

@@ -17,15 +17,15 @@ if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator, Sequence
 
     from framegen.language.number_types import NumberType
-    from framegen.language.spec import AddressPart, ListField, NumberField
+    from framegen.language.spec import ListField, NumberField
 
 ByteOrder: TypeAlias = Literal["little", "big"]
 
 # Of ASCII.
 _HIGHEST_CHARACTER = 0x7F
 
-# What a number is there for. Only a `field`, an `address` and a `counter` are given by a user: `count`
-# and `size` are the number of elements of a list, and that of its bytes.
+# What a number is there for. Only a `field`, an `address` and a `counter` are given by a user; a
+# `count` and a `size` are the number of elements of a list, and that of its bytes.
 NumberRole: TypeAlias = Literal[
     "length",
     "id",

@@ -27,7 +27,7 @@ BAD_TRAILER = "bad trailer"
 
 @dataclass(frozen=True)
 class Refused:
-    """Bytes that are no frame of an envelope, sent in any of some directions: why, and where it shows.
+    """Bytes that are no frame of an envelope, sent in any of some directions.
 
     `likely` is the message that they began, if it is known. No frame has more than `largest` bytes.
     """
