@@ -349,7 +349,7 @@ def test_a_report_is_waited_for_by_any_of_its_fields(crowd: tuple[Model, ModuleT
     device = lib.Device()
     line = DeviceLine(device)
     with lib.Controller(line, background=False, clock=line.clock, settle=0) as controller:
-        for message in model.sent(model.roles.received).values():
+        for message in model.sent(model.roles.received):
             if model.kind(message.name) == "reply":
                 continue
             report = made_of(lib, model, message)

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 
 import pytest
 from framegen.model.codec import NotAFrame, decode
-from framegen.model.slots import Body, Constant, Number
+from framegen.model.slots import Constant, Number
 from framegen.model.stream import ReferenceDecoder
 from hypothesis import given
 from hypothesis import strategies as st
@@ -66,7 +66,7 @@ def values(low: int, high: int) -> st.SearchStrategy[list[int | None]]:
 @cache
 def frames(model: Model) -> st.SearchStrategy[bytes]:
     """Return a frame of any message, most often with legal values."""
-    messages = [each for way in model.directions for each in model.sent(way).values()]
+    messages = [each for way in model.directions for each in model.sent(way)]
     shapes = [(each, count) for each in messages for count in (*each.counts[:4], each.counts[-1])]
     return st.sampled_from(shapes).flatmap(lambda shape: frame_of(model, *shape))
 
@@ -78,17 +78,17 @@ def frame_of(draw: st.DrawFn, model: Model, message: MessageLayout, count: int) 
     numbers: dict[str, Iterator[int | None]] = {}
     for placed in message.lay_out(count):
         slot = placed.slot
-        assert not isinstance(slot, Body)
         if isinstance(slot, Constant):
-            written = slot.data
-        elif slot.role == "length":
+            data[placed.at : placed.end] = slot.data
+            continue
+        assert isinstance(slot, Number)
+        if slot.role == "length":
             written = slot.write(message.formula.at(count))
         elif slot.role == "id":
             written = slot.write(message.id)
         elif slot.role == "count":
             written = slot.write(count)
         else:
-            assert isinstance(slot, Number)
             if slot.name not in numbers:
                 numbers[slot.name] = cycle(draw(values(slot.low, slot.high)))
             value = next(numbers[slot.name])
@@ -113,7 +113,7 @@ def heads(model: Model) -> st.SearchStrategy[bytes]:
     frame = model.frame
     largest = model.largest(model.directions)
     sizes = st.integers(frame.least - 1, frame.least + 12) | st.just(largest)
-    known = [each for way in model.directions for each in model.sent(way)]
+    known = [each.id for way in model.directions for each in model.sent(way)]
     codes = st.sampled_from(known) | st.integers(frame.id.low, frame.id.high)
     ends = st.integers(1, frame.body_at) | st.just(frame.body_at)
 

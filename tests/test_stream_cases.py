@@ -78,7 +78,7 @@ def test_every_kind_of_event_occurs_in_each_direction(spec: Path) -> None:
             for event in events_of(model, case)
         ]
         assert {event.kind for event in events if event} == {"message", "unknown", "noise"}
-        messages = model.sent(direction).values()
+        messages = model.sent(direction)
         reasons = {
             *(refusals.BAD_HEADER, refusals.TOO_SHORT),
             *(refusals.UNKNOWN_COMMAND, refusals.LENGTH_MISMATCH),
@@ -131,7 +131,7 @@ def test_an_id_that_is_free_in_both_directions_is_preferred() -> None:
     model = layout_of(data)
     here, there, *_ = model.directions
     assert unknown_id(model, here) == unknown_id(model, there) == 255
-    data["messages"][next(iter(model.sent(there).values())).name]["id"] = 255
+    data["messages"][model.sent(there)[0].name]["id"] = 255
     taken = compiled_of(data).derived
     assert taken is not None
     assert unknown_id(taken, here) == unknown_id(taken, there) == 254

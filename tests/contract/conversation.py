@@ -149,7 +149,8 @@ def _reply(made: ModuleType, exchange: Exchange, layout: MessageLayout, request:
         elif not inner:
             values[outer] = list(value)
         elif layout.items is not None:
-            blank = {field.name: field.low for field in layout.items.fields}
+            numbers = (each for each in layout.items.fields if isinstance(each, Number))
+            blank = {field.name: field.low for field in numbers}
             items = values[outer] if isinstance(values[outer], list) else []
             elements = value if isinstance(value, tuple) else (value,)
             values[outer] = [

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 from framegen.language.number_types import NUMBER_TYPES
 from framegen.model.codec import Unencodable, encode
-from framegen.model.slots import Number
+from framegen.model.slots import Items, Number, Slot
 from framegen.reading.yamltree import Unusable
 
 from tests.factories import Data, compiled_of
@@ -64,6 +64,7 @@ def _values(message: MessageLayout, number: int) -> dict[str, Any]:
         if isinstance(slot, Number):
             values[slot.name] = _shown(slot, number)
             continue
+        assert isinstance(slot, Items)
         many = slot.low if number == 1 else min(slot.high, max(slot.low, 2))
         values[slot.name] = [
             {field.name: _shown(field, number + at) for field in slot.fields}
@@ -74,7 +75,8 @@ def _values(message: MessageLayout, number: int) -> dict[str, Any]:
     return values
 
 
-def _shown(field: Number, number: int) -> int:
+def _shown(field: Slot, number: int) -> int:
+    assert isinstance(field, Number)
     found = _all_of(field)
     return found[number % len(found)]
 

@@ -239,18 +239,18 @@ def _element(items: Items, index: int, item: Any) -> dict[str, object]:
 
 
 def _checked(number: Number, path: str, value: object) -> float:
-    if isinstance(value, bool) or not isinstance(value, int | float):
-        raise Unencodable(f"{path}: {value!r} is not a number")
     if number.is_float:
         return _floating(number, path, value)
-    if not isinstance(value, int):
+    if not isinstance(value, int) or isinstance(value, bool):
         raise Unencodable(f"{path}: {value!r} is not a whole number")
     if not number.holds(value):
         raise Unencodable(f"{path}: {value} is outside {number.low}..{number.high}")
     return value
 
 
-def _floating(number: Number, path: str, value: float) -> float:
+def _floating(number: Number, path: str, value: object) -> float:
+    if isinstance(value, bool) or not isinstance(value, int | float):
+        raise Unencodable(f"{path}: {value!r} is not a number")
     try:
         number.write(value)
     except OverflowError:
