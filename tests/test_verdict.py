@@ -168,7 +168,7 @@ def test_a_part_behind_the_fields_is_a_slot_like_any_other() -> None:
     assert encode(move, values) == frame
     assert decode(model, HOST, frame).values == values
     wrong = weigh(model, [HOST], frame[:-1] + b"\x0b")
-    assert (wrong.reason, wrong.offset) == ("bad header", 11)
+    assert (wrong.reason, wrong.offset) == ("bad trailer", 11)
     assert weigh(model, [HOST], frame[:-1]).undecided
     events = ReferenceDecoder(model, [HOST]).decode(b"\x55" + frame + frame[:-1])
     assert [event.kind for event in events] == ["noise", "message", "noise"]

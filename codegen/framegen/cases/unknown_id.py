@@ -19,13 +19,13 @@ def unknown_id(model: Model, direction: Direction) -> int | None:
     that cases stay as they are.
     """
     slot, header = model.frame.id, set(model.frame.header)
-    known = {message.id for message in model.sent(direction)}
-    others = {message.id for way in model.directions for message in model.sent(way)} - known
+    known = model.ids.get(direction, ())
+    others = [ids for way, ids in model.ids.items() if way != direction]
     spare = None
     for number in range(slot.high, max(slot.low - 1, slot.high - _TRIED), -1):
-        if number in known:
+        if (number,) in known:
             continue
-        if not header & set(slot.write(number)) and number not in others:
+        if not header & set(slot.write(number)) and not any((number,) in each for each in others):
             return number
         spare = number if spare is None else spare
     return spare

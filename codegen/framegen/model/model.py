@@ -25,6 +25,27 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True, eq=False)
+class Candidates:
+    """The messages that may come in frames of one envelope, direction by direction."""
+
+    frame: Envelope
+    messages: Sequence[MessageLayout]
+
+    def with_ids(self, ids: tuple[int, ...]) -> Sequence[MessageLayout]:
+        """Return those whose ids begin with these, in the order of the frame."""
+        return self._by_ids.get(ids, ())
+
+    @cached_property
+    def _by_ids(self) -> dict[tuple[int, ...], list[MessageLayout]]:
+        sent = len(self.frame.ids) - len(self.frame.unsent)
+        found: dict[tuple[int, ...], list[MessageLayout]] = {}
+        for message in self.messages:
+            for size in range(sent + 1):
+                found.setdefault(message.ids[:size], []).append(message)
+        return found
+
+
+@dataclass(frozen=True, eq=False)
 class Model:
     """Everything that follows from one spec."""
 
@@ -67,9 +88,10 @@ class Model:
         """Return the messages of one direction, in the order of the spec."""
         return self._sent.get(direction, ())
 
-    def with_ids(self, direction: Direction, ids: tuple[int, ...]) -> list[MessageLayout]:
-        """Return the messages of a direction that have these ids, of any envelope."""
-        return [message for message in self.sent(direction) if message.ids == ids]
+    @cached_property
+    def ids(self) -> dict[Direction, frozenset[tuple[int, ...]]]:
+        """The ids that messages have, by direction."""
+        return {way: frozenset(message.ids for message in sent) for way, sent in self._sent.items()}
 
     @cached_property
     def _sent(self) -> dict[Direction, list[MessageLayout]]:
@@ -78,23 +100,21 @@ class Model:
             found.setdefault(message.direction, []).append(message)
         return found
 
-    def candidates(
-        self, directions: Sequence[Direction]
-    ) -> Sequence[tuple[Envelope, Sequence[MessageLayout]]]:
-        """Return what may be on a line: each envelope, and its messages, direction by direction."""
+    def candidates(self, directions: Sequence[Direction]) -> Sequence[Candidates]:
+        """Return what may be on a line, by envelope; every envelope where nothing is sent."""
         key = tuple(directions)
         if key not in self._candidates:
-            found: dict[str, list[MessageLayout]] = {}
-            for message in (each for way in key for each in self.sent(way)):
-                found.setdefault(message.frame.name, []).append(message)
-            named = self.envelopes.items()
-            self._candidates[key] = [(each, found[name]) for name, each in named if name in found]
+            sent = [message for way in key for message in self.sent(way)]
+            names = {message.frame.name for message in sent} or self.envelopes.keys()
+            self._candidates[key] = [
+                Candidates(frame, [message for message in sent if message.frame is frame])
+                for frame in self.envelopes.values()
+                if frame.name in names
+            ]
         return self._candidates[key]
 
     @cached_property
-    def _candidates(
-        self,
-    ) -> dict[tuple[Direction, ...], list[tuple[Envelope, list[MessageLayout]]]]:
+    def _candidates(self) -> dict[tuple[Direction, ...], list[Candidates]]:
         """What may be on each kind of line, worked out once."""
         return {}
 

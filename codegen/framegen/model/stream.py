@@ -116,7 +116,7 @@ class ReferenceDecoder:
 
     def _is_header(self, data: bytes) -> bool:
         """Tell whether a frame may begin here as far as its header goes."""
-        frames = (frame for frame, _ in self.model.candidates(self.directions))
+        frames = (each.frame for each in self.model.candidates(self.directions))
         return any(
             data.startswith(frame.header) if frame.header else data[0] in frame.first_bytes
             for frame in frames

@@ -29,9 +29,8 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
 
     from framegen.language.values import Direction
-    from framegen.model.envelope import Envelope
     from framegen.model.layout import MessageLayout
-    from framegen.model.model import Model
+    from framegen.model.model import Candidates, Model
     from framegen.model.slots import Placed
 
 
@@ -97,8 +96,8 @@ def weigh(
         return _begins_otherwise(model.opening)
     verdicts = [
         verdict
-        for envelope, messages in model.candidates(directions)
-        for verdict in _Look(model, envelope, messages, directions, data, max_frame).verdicts()
+        for candidates in model.candidates(directions)
+        for verdict in _Look(model, candidates, directions, data, max_frame).verdicts()
     ]
     legal = (verdict for verdict in verdicts if verdict.message is not None)
     proven = (verdict for verdict in verdicts if verdict.proven)
@@ -131,15 +130,14 @@ class _Look:
     def __init__(
         self,
         model: Model,
-        frame: Envelope,
-        messages: Sequence[MessageLayout],
+        candidates: Candidates,
         directions: Sequence[Direction],
         data: bytes,
         max_frame: int | None,
     ) -> None:
         self.model = model
-        self.frame = frame
-        self.messages = messages
+        self.candidates = candidates
+        self.frame = candidates.frame
         self.directions = directions
         self.data = data
         self.max_frame = max_frame
@@ -165,8 +163,9 @@ class _Look:
     def head(self) -> tuple[int | None, Sequence[MessageLayout]]:
         """Read the slots in front of the fields: the length, and the messages that can have it."""
         length: int | None = None
-        candidates = self._short_enough(self.messages)
-        ids_left = sum(slot.role == "id" for slot in self.frame.head)
+        ids: tuple[int, ...] = ()
+        ids_left = len(self.frame.ids) - len(self.frame.unsent)
+        candidates = self._with_ids(ids)
         for placed in self.frame.placed_head:
             slot = placed.slot
             if isinstance(slot, Constant):
@@ -178,7 +177,8 @@ class _Look:
                     case "length":
                         length = self._length(number)
                     case "id":
-                        candidates = self._with_id(candidates, slot, number)
+                        ids = (*ids, number)
+                        candidates = self._with_ids(ids, slot)
                         ids_left -= 1
                     case "address":
                         if not slot.holds(number):
@@ -293,14 +293,16 @@ class _Look:
             return messages
         return [message for message in messages if message.least <= self.max_frame]
 
-    def _with_id(
-        self, candidates: Sequence[MessageLayout], part: Number, number: int
+    def _with_ids(
+        self, ids: tuple[int, ...], part: Number | None = None
     ) -> Sequence[MessageLayout]:
-        found = [message for message in candidates if message.id_of(part) == number]
-        if not found:
+        """Return the messages whose ids begin with these, the last of them in `part`."""
+        found = self._short_enough(self.candidates.with_ids(ids))
+        if part is not None and not found:
             self.likely = None
             raise _Refused(UNKNOWN_COMMAND, part.at)
-        self.likely = found[0]
+        if ids or len(found) == 1:
+            self.likely = found[0]
         return found
 
     def _fitting(self, candidates: Sequence[MessageLayout], length: int) -> Sequence[MessageLayout]:
