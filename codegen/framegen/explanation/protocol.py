@@ -83,11 +83,6 @@ class Slot:
         return bool(self.said.get("fixed"))
 
     @property
-    def is_sized(self) -> bool:
-        """Whether the counter of a list says how many bytes it has, not how many elements."""
-        return bool(self.said.get("sized"))
-
-    @property
     def order(self) -> str:
         """The byte order of a number, its own or that of the protocol."""
         return str(self.said.get("byte_order", self.byte_order))
@@ -331,8 +326,8 @@ class Message:
         """The length rule: `3 * count + 5`, or a number, or several."""
         if self.items is None:
             return ", ".join(map(str, self.lengths))
-        count, size = self.items.said.get("counter", self.items.name), self.items.size
-        count = self.items.name if self.items.is_sized else count
+        said, size = self.items.said, self.items.size
+        count = said.get("variable") or said.get("counter", self.items.name)
         term = count if size == 1 else f"{size} * {count}"
         return f"{term} + {self._fixed}" if self._fixed else term
 
@@ -377,7 +372,7 @@ class Message:
             if not counter.is_in(data):
                 return None
             count, rest = counter.read_in(data), 0
-            if self.items.is_sized:
+            if counter.role == "size":
                 count, rest = divmod(count, self.items.size)
             length = None if rest else self._fixed + self.items.size * count
         return length if length in self.lengths else None

@@ -219,7 +219,9 @@ def _items(items: Items) -> dict[str, Any]:
     said: dict[str, Any] = {"size": items.size, "low": items.low, "high": items.high}
     if items.counter is not None:
         said["counter"] = items.counter.name
-    said |= _filled(sized=items.variable == items.name, fixed=items.is_fixed, text=items.text)
+    named = None if items.counter is None else items.counter.name
+    said |= _filled(fixed=items.is_fixed, text=items.text)
+    said |= {} if items.variable == named else _filled(variable=items.variable)
     fields = {"fields": [_slot(slot) for slot in items.slots]}
     if items.element is None:  # the list and its numbers are declared as one
         return said | fields

@@ -16,7 +16,7 @@ from framegen.language.spec import ListField
 from framegen.model.slots import Body, Constant, Items, Number, Packed, Text, lay_out
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Iterator, Mapping
+    from collections.abc import Iterable, Iterator, Mapping, Sequence
 
     from framegen.language.formula import LengthRule
     from framegen.language.spec import Limits, Link, Message, NumberField, Spec
@@ -293,7 +293,8 @@ def _list(
     at: int,
     numbers: Mapping[str, Number],
 ) -> Items | Packed:
-    counter = numbers.get(field.counted_by or field.sized_by or "")
+    named = (field.counted_by, field.sized_by)
+    counters = tuple(number for name, number in numbers.items() if name in named)
     if not isinstance(field, ListField):
         number_type = ALL_TYPES[field.type]
         if number_type.is_packed:
@@ -303,8 +304,8 @@ def _list(
     element = field.element if isinstance(field, ListField) else None
     slots = tuple(_element(spec, name, field))
     size = sum(each.size for each in slots)
-    low, high = _count_bounds(frame, field, counter, at + frame.tail_size, size)
-    return Items(name, at, element, slots, counter, low, high, field)
+    low, high = _count_bounds(frame, field, counters, at + frame.tail_size, size)
+    return Items(name, at, element, slots, counters, low, high, field)
 
 
 def _element(
@@ -324,7 +325,7 @@ def _element(
 def _count_bounds(
     frame: Envelope,
     field: ListField | NumberField,
-    counter: Number | None,
+    counters: Sequence[Number],
     fixed: int,
     size: int,
 ) -> tuple[int, int]:
@@ -333,11 +334,11 @@ def _count_bounds(
     A list without a counter has the number declared, unless the length of the frame says more.
     """
     declared = field.count
-    if counter is None and field.sized_by is None:
+    if not counters and field.sized_by is None:
         return (0, 0) if declared is None else (declared.low, declared.low)
     longest = LONGEST if frame.longest is None else frame.longest
     room = (longest - fixed) // size
-    if counter is not None:
+    for counter in counters:
         room = min(room, counter.high // (size if counter.role == "size" else 1))
     if declared is None:
         return 0, room

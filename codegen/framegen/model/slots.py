@@ -193,9 +193,9 @@ class Text:
 class Items:
     """A list: elements each with the same slots, as many as `low` to `high`.
 
-    `element` is the name of an element with several fields, None for bare numbers. `counter` is the
-    field that says how many there are, or how many bytes they have; where there is none, the list
-    is of a fixed size, or whatever the length of the frame leaves. `text` is its character set, if
+    `element` is the name of an element with several fields, None for bare numbers. `counters` are
+    the fields that say how many there are, or how many bytes they have; where there is none, the
+    list is of a fixed size, or whatever the length of the frame leaves. `text` is its character set, if
     it is text of a size that varies.
     """
 
@@ -205,7 +205,7 @@ class Items:
     at: int
     element: str | None
     slots: tuple[Number | Text | Constant, ...]
-    counter: Number | None
+    counters: tuple[Number, ...]
     low: int
     high: int
     field: ListField | NumberField
@@ -221,9 +221,14 @@ class Items:
         return tuple(slot for slot in self.slots if not isinstance(slot, Constant))
 
     @property
+    def counter(self) -> Number | None:
+        """The field that says first how long it is, if there is one."""
+        return self.counters[0] if self.counters else None
+
+    @property
     def is_fixed(self) -> bool:
         """Whether it always has the same number of elements."""
-        return self.counter is None and self.low == self.high
+        return not self.counters and self.low == self.high
 
     @property
     def text(self) -> str | None:
@@ -235,9 +240,7 @@ class Items:
         """The name by which a length rule depends on it; None for a fixed size."""
         if self.is_fixed:
             return None
-        if self.counter is None or self.counter.role == "size":
-            return self.name
-        return self.counter.name
+        return next((each.name for each in self.counters if each.role == "count"), self.name)
 
     def counted(self, counter: Number, count: int) -> int:
         """Return the value of a counter for so many elements: their number, or their bytes."""

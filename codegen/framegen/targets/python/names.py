@@ -304,8 +304,8 @@ class Names:
             items,
             name=name,
             element=items.element and self.of("element", items.element),
-            fields=tuple(fields),
-            counter=numbers[items.counter.name],
+            slots=tuple(fields),
+            counters=tuple(numbers[each.name] for each in items.counters),
             field=field,
         )
 
