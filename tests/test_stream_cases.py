@@ -5,9 +5,8 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 import pytest
-from framegen.cases.sender import Sender
 from framegen.cases.stream_case import chunks, single_bytes
-from framegen.cases.streams import streams
+from framegen.cases.streams import senders_of, streams
 from framegen.cases.unknown_id import unknown_id
 from framegen.compile import compile_spec
 from framegen.explanation import refusals
@@ -20,6 +19,7 @@ if TYPE_CHECKING:
     from pathlib import Path
 
     from framegen.cases.stream_case import StreamCase
+    from framegen.language.values import Direction
     from framegen.model.model import Model
     from framegen.model.stream import Event
 
@@ -89,7 +89,8 @@ def test_every_kind_of_event_occurs_in_each_direction(spec: Path) -> None:
             reasons.add(refusals.OUT_OF_RANGE)
         assert {event.reason for event in events if event and event.reason} >= reasons
         names = {event.message.name for event in events if event and event.message}
-        assert names == set(Sender(model, direction).small_frames)
+        senders = senders_of(model, direction)
+        assert names == {name for sender in senders for name in sender.small_frames}
 
 
 @each_spec
@@ -126,15 +127,19 @@ def test_more_messages_make_no_more_lines() -> None:
     assert few == more
 
 
+def free_id(model: Model, direction: Direction) -> int | None:
+    return unknown_id(model, direction, model.frame, model.frame.id)
+
+
 def test_an_id_that_is_free_in_both_directions_is_preferred() -> None:
     data = data_of(DEMO)
     model = layout_of(data)
     here, there, *_ = model.directions
-    assert unknown_id(model, here) == unknown_id(model, there) == 255
+    assert free_id(model, here) == free_id(model, there) == 255
     data["messages"][model.sent(there)[0].name]["id"] = 255
     taken = compiled_of(data).derived
     assert taken is not None
-    assert unknown_id(taken, here) == unknown_id(taken, there) == 254
+    assert free_id(taken, here) == free_id(taken, there) == 254
 
 
 def test_a_stream_is_cut_into_single_bytes_or_chunks() -> None:

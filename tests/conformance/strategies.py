@@ -5,7 +5,9 @@ from __future__ import annotations
 from functools import cache
 from typing import TYPE_CHECKING
 
+from framegen.cases.sealed import sealed
 from framegen.cases.sender import LONGEST, Sender
+from framegen.cases.streams import senders_of
 from hypothesis import strategies as st
 
 if TYPE_CHECKING:
@@ -16,13 +18,20 @@ if TYPE_CHECKING:
 @cache
 def lines_of(model: Model, way: Direction) -> st.SearchStrategy[bytes]:
     """Return a strategy for the bytes that one direction may carry."""
-    sender = Sender(model, way)
-    header = sender.header
+    pieces = st.one_of(*(_pieces(sender) for sender in senders_of(model, way)))
+    return st.lists(pieces, max_size=5).map(b"".join)
+
+
+def _pieces(sender: Sender) -> st.SearchStrategy[bytes]:
+    """Return a strategy for frames of one kind, and bytes like them."""
+    header, frame = sender.header, sender.frame
     large = [frame for frame in sender.frames_around(LONGEST) if frame is not None]
     # A header of equal bytes begins with its first byte in two places.
     false_starts = [header[:1] + frame for frame in large]
-    frames = st.sampled_from([*sender.small_frames.values(), *large, *false_starts])
-    near = [*header, *header, *model.sent(way), *range(8), 99, 255]
+    whole = [*sender.small_frames.values(), *large, *false_starts] or [b""]
+    frames = st.sampled_from(whole)
+    ids = [id_ for message in sender.messages for id_ in message.ids]
+    near = [*header, *header, *ids, *range(8), 99, 255]
     alike = st.lists(st.sampled_from([each & 0xFF for each in near]), max_size=12).map(bytes)
     heads = alike.map(lambda rest: header + rest)
 
@@ -30,15 +39,19 @@ def lines_of(model: Model, way: Direction) -> st.SearchStrategy[bytes]:
         wrapped = inner.map(sender.unknown)
         return st.builds(lambda frame, more: (frame or header) + more, wrapped, inner)
 
+    def right(data: bytes) -> bytes:
+        """Give damaged bytes the checksums of a frame, where they are enough for one."""
+        return data if len(data) < frame.least else sealed(frame, sender.known_ids, data)
+
     nested = st.recursive(alike | frames | st.binary(max_size=3), unknown, max_leaves=6)
-    pieces = st.one_of(frames, frames.flatmap(_damaged), heads, alike, nested)
-    return st.lists(pieces, max_size=5).map(b"".join)
+    damaged = frames.flatmap(_damaged)
+    return st.one_of(frames, damaged, damaged.map(right), heads, alike, nested)
 
 
 @st.composite
 def _damaged(draw: st.DrawFn, frame: bytes) -> bytes:
     """Return a frame with bytes lost, changed or repeated."""
-    start = draw(st.integers(0, len(frame) - 1))
+    start = draw(st.integers(0, max(len(frame) - 1, 0)))
     end = draw(st.integers(start, min(start + 3, len(frame))))
     return frame[:start] + draw(st.binary(max_size=2)) + frame[end:]
 

@@ -5,8 +5,11 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+from framegen.cases.sealed import sealed
 from framegen.cases.unknown_id import unknown_id
-from framegen.model.slots import Constant, Number
+from framegen.cases.valid import range_ends
+from framegen.model.codec import encode
+from framegen.model.slots import Constant, Number, Packed, Text
 from framegen.model.verdict import weigh_whole
 
 if TYPE_CHECKING:
@@ -16,6 +19,9 @@ if TYPE_CHECKING:
     from framegen.model.layout import MessageLayout
     from framegen.model.model import Model
     from framegen.model.slots import Placed
+
+# A character that no text has, as a byte.
+_FOREIGN = 0xE9
 
 
 @dataclass(frozen=True, slots=True)
@@ -30,12 +36,15 @@ class InvalidFrame:
 
 
 def invalid_frames(model: Model) -> Iterator[InvalidFrame]:
-    """Yield every example of the spec, spoilt in every way; no bytes twice."""
+    """Yield every example of the spec, spoilt in every way; no bytes twice.
+
+    A message without examples is shown at the lower ends of its ranges.
+    """
     for direction in model.directions:
         seen: set[bytes] = set()
         for message in model.sent(direction):
-            for example in message.message.examples:
-                for title, data in spoilt(model, message, example.hex):
+            for frame in _frames(message):
+                for title, data in spoilt(model, message, frame):
                     if data in seen:
                         continue
                     seen.add(data)
@@ -45,10 +54,20 @@ def invalid_frames(model: Model) -> Iterator[InvalidFrame]:
                         yield InvalidFrame(what, direction, data, said.reason, said.offset)
 
 
+def _frames(message: MessageLayout) -> Iterator[bytes]:
+    examples = message.message.examples
+    yield from (example.hex for example in examples)
+    if not examples:
+        yield from (encode(message, values) for _, values in [*range_ends(message)][:1])
+
+
 def spoilt(model: Model, message: MessageLayout, frame: bytes) -> Iterator[tuple[str, bytes]]:
     """Yield copies of a frame with one thing wrong in each; some may still be legal frames."""
-    envelope = model.frame
-    for size in sorted({0, 1, len(envelope.header), envelope.body_at - 1, len(frame) - 1}):
+    envelope = message.frame
+    ends = {0, 1, len(envelope.header), envelope.body_at - 1, len(frame) - 1}
+    if envelope.tail:
+        ends.add(len(frame) - envelope.tail_size)
+    for size in sorted(ends):
         yield f"only the first {size} bytes", frame[:size]
     yield "a byte too many", frame + b"\x00"
     for placed in slots_once(message, frame):
@@ -57,6 +76,30 @@ def spoilt(model: Model, message: MessageLayout, frame: bytes) -> Iterator[tuple
             yield title, wrong + frame[placed.end :]
             if placed.at >= envelope.body_at and placed.end < len(frame):
                 yield f"{title}, and nothing behind it", wrong
+            if envelope.checksums and placed.slot.role != "checksum":
+                right = resealed(message, wrong + frame[placed.end :])
+                yield f"{title}, and the checksum of that", right
+    if envelope.checksums:
+        yield from _changed(message, frame)
+
+
+def _changed(message: MessageLayout, frame: bytes) -> Iterator[tuple[str, bytes]]:
+    """Yield copies of a frame of which a covered slot is another, but no checksum is."""
+    for placed in slots_once(message, frame):
+        slot = placed.slot
+        if isinstance(slot, Number | Packed | Text) and slot.role not in ("checksum", "length"):
+            data = placed.of(frame)
+            # Of a number, the lowest bit: as a rule, it stays in its range.
+            at = 0 if getattr(slot, "order", "little") == "little" else len(data) - 1
+            other = data[:at] + bytes([data[at] ^ 1]) + data[at + 1 :]
+            wrong = frame[: placed.at] + other + frame[placed.end :]
+            yield f"{placed.path} with a bit flipped", wrong
+
+
+def resealed(message: MessageLayout, frame: bytes) -> bytes:
+    """Return a whole frame that was changed with the checksums that it should have."""
+    ids = zip(message.frame.ids, message.ids, strict=True)
+    return sealed(message.frame, {part.name: number for part, number in ids}, frame)
 
 
 def slots_once(message: MessageLayout, frame: bytes) -> Iterator[Placed]:
@@ -73,21 +116,40 @@ def spoilt_slot(
 ) -> Iterator[tuple[str, bytes]]:
     """Yield the bytes of one slot, wrong in every way that its role allows."""
     slot = placed.slot
-    if isinstance(slot, Constant):
-        yield "a header byte flipped", data[:-1] + bytes([data[-1] ^ 0xFF])
-    if not isinstance(slot, Number):
-        return
+    match slot:
+        case Constant(role="constant"):
+            what = "a header byte" if placed.at < message.frame.body_at else placed.path
+            yield f"{what} flipped", data[:-1] + bytes([data[-1] ^ 0xFF])
+        case Text():
+            yield f"{placed.path} with a foreign character", bytes([_FOREIGN]) + data[1:]
+        case Packed():
+            for word, value in ("high", slot.high + 1), ("low", slot.low - 1):
+                if 0 <= value <= slot.number_type.high:
+                    values = [value, *slot.values(data)[1:]]
+                    yield f"{placed.path} too {word}", slot.write(values)
+        case Number():
+            yield from _spoilt_number(model, message, placed, slot, data)
+
+
+def _spoilt_number(
+    model: Model, message: MessageLayout, placed: Placed, slot: Number, data: bytes
+) -> Iterator[tuple[str, bytes]]:
     match slot.role:
-        case "length" | "count":
+        case "length" | "count" | "size":
             for step in -1, 1:
                 value = (slot.read(data) + step) % (slot.number_type.high + 1)
                 yield f"the {slot.role} off by {step:+}", slot.write(value)
         case "id":
-            unknown = unknown_id(model, message.direction)
+            unknown = unknown_id(model, message.direction, message.frame, slot)
             if unknown is not None:
                 yield "an unknown command", slot.write(unknown)
+        case "checksum":
+            for step in -1, 1:
+                value = (slot.read(data) + step) % (slot.number_type.high + 1)
+                yield f"the {placed.path} off by {step:+}", slot.write(value)
+            yield f"the {placed.path} in the other byte order", data[::-1]
         case _:
-            if slot.high < slot.number_type.high:
-                yield f"{placed.path} too high", slot.write(slot.high + 1)
-            if slot.low > slot.number_type.low:
-                yield f"{placed.path} too low", slot.write(slot.low - 1)
+            for word, value in ("high", slot.high + 1), ("low", slot.low - 1):
+                typed = slot.number_type.low <= value <= slot.number_type.high
+                if typed and not slot.holds(value):
+                    yield f"{placed.path} too {word}", slot.write(value)

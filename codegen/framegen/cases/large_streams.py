@@ -25,7 +25,7 @@ def large_streams(sender: Sender) -> Iterator[StreamCase]:
     for title, parts in _largest(sender, frames[0]):
         yield StreamCase(title, sender.direction, parts)
     limit = min(_REPORT, sender.largest - 1)
-    if limit >= sender.model.frame.least:
+    if limit >= sender.frame.least:
         bound = f"at most {limit} bytes"
         for title, parts in _bounded(sender, frames[0], limit):
             yield StreamCase(f"{bound}: {title}", sender.direction, parts, limit)
@@ -53,7 +53,7 @@ def _bounded(sender: Sender, frame: bytes, limit: int) -> Iterator[tuple[str, Pa
     if beyond is not None:
         yield f"a frame of {len(beyond)}, then another", (beyond + frame, QUIET)
         yield f"a frame of {len(beyond)} in pieces", (*chunks(beyond + frame, limit), QUIET)
-    least = sender.model.frame.least
+    least = sender.frame.least
     for size in (limit, limit + 1):
         unknown = sender.unknown(sender.noise(size - least))
         if unknown is not None:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from framegen.cases.invalid import slots_once, spoilt_slot
+from framegen.cases.invalid import resealed, slots_once, spoilt_slot
 from framegen.cases.stream_case import QUIET, StreamCase, single_bytes
 
 if TYPE_CHECKING:
@@ -13,6 +13,7 @@ if TYPE_CHECKING:
     from framegen.cases.sender import Sender
     from framegen.cases.stream_case import Parts
     from framegen.model.layout import MessageLayout
+    from framegen.model.slots import Placed
 
 
 def message_streams(sender: Sender) -> Iterator[StreamCase]:
@@ -35,11 +36,29 @@ def _lines(sender: Sender, message: MessageLayout, frame: bytes) -> Iterator[tup
     for placed in slots_once(message, frame):
         if message.frame.body_at < placed.end < len(frame):
             yield f"cut behind {placed.path}, then whole", (frame[: placed.end] + frame, QUIET)
-        if placed.slot.role in _OWN:
-            for title, data in spoilt_slot(sender.model, message, placed, placed.of(frame)):
-                wrong = frame[: placed.at] + data + frame[placed.end :]
-                yield f"{title}, then whole", (wrong + frame, QUIET)
+        if placed.slot.role == "reserved":
+            other = bytes(byte ^ 0xFF for byte in placed.of(frame))
+            data = resealed(message, frame[: placed.at] + other + frame[placed.end :])
+            yield f"with another {placed.path}, then as usual", (data + frame, QUIET)
+        if _is_own(message, placed):
+            yield from _spoilt(sender, message, frame, placed)
 
 
-# What stands in front of all fields is looked at once for all messages, save how long they are.
-_OWN = ("length", "count", "field")
+def _spoilt(
+    sender: Sender, message: MessageLayout, frame: bytes, placed: Placed
+) -> Iterator[tuple[str, Parts]]:
+    proven = message.frame.proven and placed.slot.role != "checksum"
+    for title, data in spoilt_slot(sender.model, message, placed, placed.of(frame)):
+        wrong = frame[: placed.at] + data + frame[placed.end :]
+        yield f"{title}, then whole", (wrong + frame, QUIET)
+        if proven:
+            right = resealed(message, wrong)
+            yield f"{title} and the checksum of that, then whole", (right + frame, QUIET)
+
+
+def _is_own(message: MessageLayout, placed: Placed) -> bool:
+    """Tell whether a slot is looked at for each message anew.
+
+    What stands in front of all fields is looked at once for all, save how long they are.
+    """
+    return placed.at >= message.frame.body_at or placed.slot.role == "length"

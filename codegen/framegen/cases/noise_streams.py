@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from framegen.cases.invalid import resealed, slots_once, spoilt_slot
 from framegen.cases.stream_case import QUIET, StreamCase, chunks, single_bytes
 
 if TYPE_CHECKING:
@@ -24,6 +25,7 @@ def noise_streams(sender: Sender) -> Iterator[StreamCase]:
             *_headers(sender, frames[0]),
             *_cuts(sender, frames[0], other),
             *_lengths(sender, frames[0]),
+            *_addresses(sender, frames[0]),
             *_together(frames),
             *_mixed(sender, frames[0], other),
         ]
@@ -57,8 +59,8 @@ def _headers(sender: Sender, frame: bytes) -> Iterator[tuple[str, Parts]]:
 
 
 def _cuts(sender: Sender, frame: bytes, other: bytes) -> Iterator[tuple[str, Parts]]:
-    for slot in sender.model.frame.head:
-        end = slot.at + slot.size
+    for slot in sender.frame.head + sender.frame.tail:
+        end = slot.at + slot.size if slot.at >= 0 else len(frame) + slot.at + slot.size
         if end < len(frame):
             cut = f"a frame cut behind its {slot.name}"
             yield f"{cut}, then another", (frame[:end] + other, QUIET)
@@ -69,18 +71,29 @@ def _cuts(sender: Sender, frame: bytes, other: bytes) -> Iterator[tuple[str, Par
 
 def _lengths(sender: Sender, frame: bytes) -> Iterator[tuple[str, Parts]]:
     """Yield frames of a known message whose length no frame has."""
-    envelope = sender.model.frame
-    known = sender.model.sent(sender.direction)[0].id
+    envelope = sender.frame
+    if envelope.length_part is None:
+        return
     sizes = {
         "less than a frame has": envelope.least - 1,
         "more than a frame has": sender.largest + 1,
         "all that it can": envelope.length.high + envelope.uncounted,
     }
     for said, size in sizes.items():
-        wrong = sender.enveloped(known, b"", size)
+        wrong = sender.enveloped(sender.known_ids, b"", size)
         if wrong is not None and not envelope.least <= size <= sender.largest:
             yield f"a length that says {said}, then a frame", (wrong + frame, QUIET)
             yield f"a length that says {said}, byte by byte", (*single_bytes(wrong + frame), QUIET)
+
+
+def _addresses(sender: Sender, frame: bytes) -> Iterator[tuple[str, Parts]]:
+    """Yield frames from an address that no device has."""
+    name, message = next((name, sender.model.messages[name]) for name in sender.small_frames)
+    for placed in slots_once(message, frame):
+        if placed.slot.role == "address":
+            for title, data in spoilt_slot(sender.model, message, placed, placed.of(frame)):
+                wrong = frame[: placed.at] + data + frame[placed.end :]
+                yield f"{title} in {name}, then a frame", (resealed(message, wrong) + frame, QUIET)
 
 
 def _together(frames: list[bytes]) -> Iterator[tuple[str, Parts]]:

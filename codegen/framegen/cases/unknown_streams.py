@@ -44,7 +44,7 @@ def _whole(
     yield "an unknown frame between frames", (frame + filled + frame, QUIET)
     yield "an unknown frame between noise", (noise(2) + filled + noise(3), QUIET)
     yield "an unknown frame, reported before the line goes quiet", (filled + frame,)
-    known = sender.model.frame.id.at + sender.model.frame.id.size
+    known = sender.frame.id.at + sender.frame.id.size
     held = "held before the line goes quiet"
     yield f"an unknown frame without its last byte, {held}", (frame + filled[:-1],)
     yield f"an unknown frame cut behind its id, {held}", (frame + filled[:known],)
@@ -80,7 +80,7 @@ def _holding(
 
 def _unfinished(sender: Sender, frame: bytes, empty: bytes) -> Iterator[tuple[str, Parts]]:
     """Yield unknown frames whose length claims more than arrives."""
-    calm, least = sender.noise(1), sender.model.frame.least
+    calm, least = sender.noise(1), sender.frame.least
     more = least + 2 * len(frame) + 2 * len(empty) + 4
     claim, larger = sender.unknown(b"", more), sender.unknown(b"", more + 1)
     if claim is None or larger is None:
@@ -100,8 +100,8 @@ def _unfinished(sender: Sender, frame: bytes, empty: bytes) -> Iterator[tuple[st
 def _in_a_run(sender: Sender) -> Iterator[tuple[str, Parts]]:
     """Yield unknown frames that begin in a run of one byte, which is also their length."""
     first = sender.header[:1]
-    run = first[0] + sender.model.frame.uncounted + 1
-    if set(sender.header) == {*first} and run <= sender.largest:
+    run = first[0] + sender.frame.uncounted + 1
+    if set(sender.frame.header) == {*first} and run <= sender.largest:
         half = run * 2 // 3
         pieces = half * first, (run - half) * first, bytes(run)
         yield "an unknown frame that begins in a long run of one byte, in pieces", (*pieces, QUIET)

@@ -22,6 +22,7 @@ if TYPE_CHECKING:
     from framegen.model.exchanges import Exchange
     from framegen.model.layout import MessageLayout
     from framegen.model.roles import Kind, Roles
+    from framegen.model.slots import Number
 
 
 @dataclass(frozen=True, eq=False)
@@ -34,6 +35,15 @@ class Candidates:
     def with_ids(self, ids: tuple[int, ...]) -> Sequence[MessageLayout]:
         """Return those whose ids begin with these, in the order of the frame."""
         return self._by_ids.get(ids, ())
+
+    def taken(self, part: Number) -> frozenset[int]:
+        """Return what they have in a part that is sent, one of their ids."""
+        return self._taken[self.frame.ids.index(part)]
+
+    @cached_property
+    def _taken(self) -> list[frozenset[int]]:
+        parts = range(len(self.frame.ids))
+        return [frozenset(message.ids[part] for message in self.messages) for part in parts]
 
     @cached_property
     def _by_ids(self) -> dict[tuple[int, ...], list[MessageLayout]]:
@@ -87,11 +97,6 @@ class Model:
     def sent(self, direction: Direction) -> Sequence[MessageLayout]:
         """Return the messages of one direction, in the order of the spec."""
         return self._sent.get(direction, ())
-
-    @cached_property
-    def ids(self) -> dict[Direction, frozenset[tuple[int, ...]]]:
-        """The ids that messages have, by direction."""
-        return {way: frozenset(message.ids for message in sent) for way, sent in self._sent.items()}
 
     @cached_property
     def _sent(self) -> dict[Direction, list[MessageLayout]]:
