@@ -192,7 +192,7 @@ def test_an_incomplete_case_is_reported(case: dict[str, Any], why: str) -> None:
 
 
 def test_a_spec_that_yaml_readers_disagree_on_is_not_read_further() -> None:
-    compiled = compile_spec(bad_spec("yaml-ambiguous-float").source)
+    compiled = compile_spec(bad_spec("yaml-ambiguous-hex").source)
     assert compiled.read is None
     assert [finding.rule for finding in compiled.findings] == ["yaml-ambiguous"]
 

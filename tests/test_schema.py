@@ -58,7 +58,10 @@ def test_the_schema_is_a_schema() -> None:
 
 def test_the_number_types_are_named_in_a_description() -> None:
     description = SCHEMA["$defs"]["NumberField"]["properties"]["type"]["description"]
-    assert description == "The number type: u8, u16, u32, i8, i16, i32."
+    assert description == (
+        "The number type: u8, u16, u24, u32, u64, i8, i16, i24, i32, i64, f32, f64; "
+        "and u1 to u63, for packed numbers in a list of a fixed `count`."
+    )
 
 
 def test_the_text_is_json_with_one_line_end_after_it() -> None:
@@ -95,9 +98,21 @@ SLIPS: list[tuple[str, Change, str]] = [
     ),
     ("a misspelt part", lambda d: d["frame"]["length"].update({"is": "lenght"}), "frame/length"),
     (
-        "a message without an id",
-        lambda d: d["messages"]["ServoMove"].pop("id"),
+        "a message without a length",
+        lambda d: d["messages"]["ServoMove"].pop("length"),
         "messages/ServoMove",
+    ),
+    (
+        "a signed type in the frame",
+        lambda d: d["frame"]["command"].update(type="i8"),
+        "frame/command",
+    ),
+    (
+        "a misspelt checksum",
+        lambda d: d["frame"].update(
+            check={"is": "checksum", "type": "u8", "method": "inverted sumn", "covers": ["length"]}
+        ),
+        "frame/check",
     ),
     (
         "a negative id",
@@ -106,7 +121,7 @@ SLIPS: list[tuple[str, Change, str]] = [
     ),
     (
         "a misspelt type in a field",
-        lambda d: d["messages"]["ServoMove"]["fields"]["time_ms"].update(type="u17"),
+        lambda d: d["messages"]["ServoMove"]["fields"]["time_ms"].update(type="u116"),
         "messages/ServoMove/fields/time_ms",
     ),
     (
@@ -153,15 +168,24 @@ def test_a_slip_is_refused_at_its_place(change: Change, place: str) -> None:
 
 
 def test_every_number_type_is_offered() -> None:
-    typed = [model for model in SCHEMA["$defs"].values() if "type" in model["properties"]]
-    assert len(typed) == 5
-    for model in typed:
-        assert model["properties"]["type"]["enum"] == list(NUMBER_TYPES)
+    offered = {
+        name: model["properties"]["type"]["enum"]
+        for name, model in SCHEMA["$defs"].items()
+        if "type" in model["properties"]
+    }
+    parts = ["u8", "u16", "u24", "u32", "u64"]
+    packed = [f"u{bits}" for bits in range(1, 64) if bits % 8]
+    assert offered.pop("NumberField") == [*NUMBER_TYPES, *packed]
+    named = ["AddressPart", "ChecksumPart", "CounterPart", "IdPart", "LengthPart"]
+    assert offered == dict.fromkeys(named, parts)
 
 
 def test_every_signed_type_is_offered_to_read_a_number_as() -> None:
     offered, nothing = SCHEMA["$defs"]["NumberField"]["properties"]["signed_as"]["anyOf"]
-    assert (offered["enum"], nothing) == (["i8", "i16", "i32"], {"type": "null"})
+    assert (offered["enum"], nothing) == (
+        ["i8", "i16", "i24", "i32", "i64"],
+        {"type": "null"},
+    )
 
 
 def test_an_editor_has_something_to_say_of_every_key() -> None:

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 from framegen.checks.rule import ModelRule, Problem
 from framegen.language.values import to_hex
 from framegen.model.codec import NotAFrame, Unencodable, decode, encode
-from framegen.model.slots import Number
+from framegen.model.slots import Constant, Number
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -36,15 +36,24 @@ def _executed(
         yield Problem((*path, "hex"), what, partial(_other_order, model, message, example))
         return
     if decoded.layout is not message:
-        at, found = message.frame.id.at, decoded.layout
-        text = f"this is a frame of {found.name}: byte {at} is {found.id}, not {message.id}"
-        yield Problem((*path, "hex"), text)
+        yield Problem((*path, "hex"), _other(message, decoded.layout))
         return
     differences = list(_differences((*path, "values"), decoded.values, example.values, message))
     yield from differences
     again = encode(message, decoded.values, example.hex)
     if again != example.hex:
         yield Problem((*path, "hex"), f"its values encode to {to_hex(again)}, which is not this")
+
+
+def _other(message: MessageLayout, found: MessageLayout) -> str:
+    """Say which other message an example is a frame of, and what tells so."""
+    what = f"this is a frame of {found.name}"
+    if message.frame is found.frame:
+        for part in message.frame.ids:
+            ours, theirs = message.id_of(part), found.id_of(part)
+            if ours != theirs and part not in message.frame.unsent:
+                return f"{what}: byte {part.at} is {theirs}, not {ours}"
+    return what
 
 
 def _other_order(model: Model, message: MessageLayout, example: Example) -> str:
@@ -71,9 +80,8 @@ def _differences(path: KeyPath, frame: Any, said: Any, message: MessageLayout) -
             if key in frame:
                 yield from _differences((*path, key), frame[key], value, message)
             else:
-                counts = message.items is not None and key == message.items.counter.name
-                hint = "leave it out: it follows from the list" if counts else "leave it out"
-                yield Problem((*path, key), f"the frame has no `{key}`", hint, on_key=True)
+                what = f"the frame has no `{key}`"
+                yield Problem((*path, key), what, _left_out(message, key), on_key=True)
     elif isinstance(frame, list) and isinstance(said, list):
         if len(frame) != len(said):
             yield Problem(path, f"{len(said)} are listed, and the frame has {len(frame)}")
@@ -82,6 +90,18 @@ def _differences(path: KeyPath, frame: Any, said: Any, message: MessageLayout) -
     elif frame != said or type(frame) is not type(said):
         hint = "bytes swapped?" if _swapped(path, frame, said, message) else ""
         yield Problem(path, f"the frame has {_shown(frame)}, not {_shown(said)}", hint)
+
+
+def _left_out(message: MessageLayout, key: str) -> str:
+    """Say why a value is not listed."""
+    for slot in message.slots:
+        if slot.name == key and isinstance(slot, Number) and slot.counts:
+            return "leave it out: it follows from the list"
+        if slot.name == key and isinstance(slot, Constant):
+            return "leave it out: it never changes"
+        if slot.name == key:
+            return "leave it out: it follows from the rest of the frame"
+    return "leave it out"
 
 
 def _swapped(path: KeyPath, frame: Any, said: Any, message: MessageLayout) -> bool:

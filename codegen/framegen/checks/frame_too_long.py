@@ -5,6 +5,8 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from framegen.checks.rule import ModelRule, Problem
+from framegen.model.layout import LONGEST
+from framegen.model.slots import Number
 from framegen.pluralize import pluralize
 
 if TYPE_CHECKING:
@@ -15,23 +17,35 @@ if TYPE_CHECKING:
     from framegen.model.slots import Items
     from framegen.reading.yamltree import KeyPath
 
-# What a length of two bytes can say. A decoder holds the longest legal frame, whatever arrives: of
-# a length of four bytes, one false header would have it wait for gigabytes.
-LONGEST = 0xFFFF
 _OF_ANY = f"and no frame may have more than {LONGEST}"
 
 
 def _look(model: Model) -> Iterator[Problem]:
     for name, message in model.messages.items():
-        frame, fixed = message.frame, message.formula.constant
+        fixed = _fixed(message)
+        part = message.frame.length_part
         path: KeyPath = ("messages", name)
-        if fixed > min(frame.length.high, LONGEST):
-            ends = f"and a {frame.length.number_type.name} ends at {frame.length.high}"
-            bound = ends if frame.length.high <= LONGEST else _OF_ANY
-            what = f"{name} needs a {frame.length.name} of {fixed}, {bound}"
-            yield Problem(path, what, on_key=True)
+        longest = LONGEST if part is None else min(part.high, LONGEST)
+        if fixed > longest:
+            needs = f"{name} needs a {_length(message)} of {fixed}"
+            bound = _OF_ANY
+            if part is not None and part.high <= LONGEST:
+                bound = f"and a {part.number_type.name} ends at {part.high}"
+            yield Problem(path, f"{needs}, {bound}", on_key=True)
         elif message.items is not None:
             yield from _list((*path, "fields", message.items.name), message, message.items)
+
+
+def _fixed(message: MessageLayout) -> int:
+    """Return the length without the list, and with all that may be absent."""
+    if message.optional:
+        return message.formula.at(message.counts[-1])
+    return message.formula.constant
+
+
+def _length(message: MessageLayout) -> str:
+    part = message.frame.length_part
+    return "size" if part is None else part.name
 
 
 def _list(path: KeyPath, message: MessageLayout, items: Items) -> Iterator[Problem]:
@@ -42,7 +56,7 @@ def _list(path: KeyPath, message: MessageLayout, items: Items) -> Iterator[Probl
     fits = (LONGEST - fixed) // items.size
     if most > fits and room > fits:
         length = fixed + most * items.size
-        what = f"with {most} elements, {message.name} has a {message.frame.length.name} of {length}"
+        what = f"with {most} elements, {message.name} has a {_length(message)} of {length}"
         hint = f"write `count: {items.low}..{fits}`" if items.low <= fits else ""
         yield Problem(at, f"{what}, {_OF_ANY}", hint, on_key)
     elif max(most, 1) > room:
@@ -52,12 +66,16 @@ def _list(path: KeyPath, message: MessageLayout, items: Items) -> Iterator[Probl
 
 
 def _room(message: MessageLayout, items: Items) -> tuple[int, str]:
-    """Return how many elements length and count have room for, and which of them is the limit."""
-    by_length = (message.frame.length.high - message.formula.constant) // items.size
-    by_count = items.counter.number_type.high
-    if by_count < by_length:
-        return by_count, f"`{items.counter.name}`"
-    return by_length, f"`{message.frame.length.name}`"
+    """Return how many elements length and counts have room for, and which of them is the limit."""
+    part = message.frame.length_part
+    most = LONGEST if part is None else part.high
+    limits = [((most - message.formula.constant) // items.size, _length(message))]
+    for counter in message.fields:
+        if isinstance(counter, Number) and counter.counts:
+            each = items.size if counter.role == "size" else 1
+            limits.append((counter.number_type.high // each, counter.name))
+    room, name = min(limits, key=lambda limit: limit[0])
+    return room, f"`{name}`"
 
 
 RULE = ModelRule(

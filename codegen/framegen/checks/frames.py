@@ -28,10 +28,20 @@ _WITHOUT = {
 
 def envelopes(spec: Spec) -> Iterator[tuple[KeyPath, Frame]]:
     """Yield every kind of frame of the protocol, with its path."""
-    if spec.frame is not None:
+    if not spec.frames:
         yield ("frame",), spec.frame
     for name, frame in spec.frames.items():
         yield ("frames", name), frame
+
+
+def parts(spec: Spec) -> Iterator[tuple[KeyPath, FramePart]]:
+    """Yield every part of every kind of frame, those of look-alikes behind the protocol's own."""
+    for path, frame in envelopes(spec):
+        for name, part in frame.items():
+            yield (*path, name), part
+    for key, other in spec.lookalikes.items():
+        for name, part in (other.frame or {}).items():
+            yield ("lookalikes", key, "frame", name), part
 
 
 def part_problems(path: KeyPath, frame: dict[str, FramePart]) -> Iterator[Problem]:

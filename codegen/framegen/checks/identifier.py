@@ -5,8 +5,9 @@ from __future__ import annotations
 import re
 from typing import TYPE_CHECKING
 
+from framegen.checks.frames import parts
 from framegen.checks.rule import Problem, StructureRule
-from framegen.language.spec import NumberField
+from framegen.language.spec import AddressPart, NumberField
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -22,12 +23,13 @@ _WORD = re.compile(r"[A-Z]+(?![a-z])|[A-Z]?[a-z]+|[0-9]+")
 
 def _look(spec: Spec) -> Iterator[Problem]:
     yield from _snake(("protocol", "name"), spec.protocol.name, on_key=False)
-    for section in ("sources", "endpoints", "frame", "lookalikes"):
+    for section in ("sources", "endpoints", "frames", "lookalikes"):
         for name in getattr(spec, section):
             yield from _snake((section, name), name)
-    for name, lookalike in spec.lookalikes.items():
-        for part in lookalike.frame or {}:
-            yield from _snake(("lookalikes", name, "frame", part), part)
+    for path, part in parts(spec):
+        yield from _snake(path, str(path[-1]))
+        for name in part.values if isinstance(part, AddressPart) else ():
+            yield from _snake((*path, "values", name), name)
     for name, message in spec.messages.items():
         yield from _pascal(("messages", name), name, on_key=True)
         yield from _in_message(("messages", name), message)
@@ -51,8 +53,9 @@ def _in_message(path: KeyPath, message: Message) -> Iterator[Problem]:
 
 
 def _values(path: KeyPath, field: NumberField) -> Iterator[Problem]:
-    for name in field.values:
-        yield from _snake((*path, "values", name), name)
+    for key in ("values", "bits"):
+        for name in getattr(field, key):
+            yield from _snake((*path, key, name), name)
 
 
 def _pascal(path: KeyPath, name: str, *, on_key: bool) -> Iterator[Problem]:

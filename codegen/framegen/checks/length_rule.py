@@ -5,10 +5,12 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from framegen.checks.rule import ModelRule, Problem
+from framegen.language.formula import Sizes
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
+    from framegen.language.formula import LengthRule
     from framegen.model.layout import MessageLayout
     from framegen.model.model import Model
 
@@ -18,11 +20,17 @@ def _look(model: Model) -> Iterator[Problem]:
         fault = _fault(message)
         if fault is not None:
             path = ("messages", message.name, "length")
-            yield Problem(path, fault, f"write {message.formula}")
+            yield Problem(path, fault, f"write `length: {_written(message.formula)}`")
+
+
+def _written(rule: LengthRule) -> str:
+    return f"[{rule}]" if isinstance(rule, Sizes) else str(rule)
 
 
 def _fault(message: MessageLayout) -> str | None:
     declared, derived = message.message.length, message.formula
+    if isinstance(declared, Sizes) or isinstance(derived, Sizes):
+        return _sizes(declared, derived)
     if declared.name is not None and declared.name != derived.name:
         if derived.name is None:
             return f"`{declared.name}` counts nothing in {message.name}, whose length is fixed"
@@ -35,6 +43,18 @@ def _fault(message: MessageLayout) -> str | None:
                 f"the length rule gives {declared.at(count)}{where}, "
                 f"and the fields make {derived.at(count)}"
             )
+    return None
+
+
+def _sizes(declared: LengthRule, derived: LengthRule) -> str | None:
+    """Compare the lengths of a message whose last fields may be absent."""
+    if not isinstance(derived, Sizes):
+        return f"several lengths are listed, and the fields make {derived}"
+    if not isinstance(declared, Sizes):
+        return f"the last fields may be absent, and `{declared}` is one length"
+    for size in declared.sizes:
+        if size not in derived.sizes:
+            return f"{size} is listed, and the fields make {derived}"
     return None
 
 

@@ -1,10 +1,11 @@
-"""Rule: a message has at most one list, and it ends the message."""
+"""Rule: a list of a size that varies ends its message."""
 
 from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
 from framegen.checks.rule import Problem, StructureRule
+from framegen.model.layout import is_varying
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -15,7 +16,7 @@ if TYPE_CHECKING:
 def _look(spec: Spec) -> Iterator[Problem]:
     for name, message in spec.messages.items():
         path = ("messages", name, "fields")
-        lists = [key for key, field in message.fields.items() if field.counted_by is not None]
+        lists = [key for key, field in message.fields.items() if is_varying(field)]
         if not lists:
             continue
         names = list(message.fields)
@@ -31,8 +32,9 @@ def _look(spec: Spec) -> Iterator[Problem]:
 
 RULE = StructureRule(
     id="list-last",
-    title="A message has at most one list, and it ends the message",
-    why="Then every other field has a fixed place, and the count follows from the length.",
+    title="A message has at most one list whose size varies, and it ends the message",
+    why="Then every other field has a fixed place, and the count follows from the length. Lists of "
+    "a fixed size may stand anywhere.",
     bad="fields: {lamp_count: ..., lamps: ..., fade_ms: ...}",
     good="fields: {lamp_count: ..., fade_ms: ..., lamps: ...}",
     look=_look,

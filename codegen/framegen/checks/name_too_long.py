@@ -5,8 +5,9 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from framegen.checks.fields import owned_numbers
+from framegen.checks.frames import parts
 from framegen.checks.rule import Problem, StructureRule
-from framegen.language.spec import ListField
+from framegen.language.spec import AddressPart, ListField
 from framegen.model.exchanges import snake_case
 
 if TYPE_CHECKING:
@@ -30,12 +31,14 @@ def _look(spec: Spec) -> Iterator[Problem]:
     yield from _name(("protocol", "name"), spec.protocol.name, _PROTOCOL, on_key=False)
     for name in spec.endpoints:
         yield from _name(("endpoints", name), name, _ENDPOINT)
-    for section in ("sources", "frame", "lookalikes"):
+    for section in ("sources", "frames", "lookalikes"):
         for name in getattr(spec, section):
             yield from _name((section, name), name, _OTHERS)
-    for name, lookalike in spec.lookalikes.items():
-        for part in lookalike.frame or {}:
-            yield from _name(("lookalikes", name, "frame", part), part, _OTHERS)
+    for path, part in parts(spec):
+        name = str(path[-1])
+        yield from _name(path, name, _OTHERS)
+        for key in part.values if isinstance(part, AddressPart) and len(name) <= _OTHERS else ():
+            yield from _name((*path, "values", key), f"{name}_{key}", _CONSTANT)
     for key in ("hold", "present", "targets") if spec.pose is not None else ():
         yield from _name(("pose", key), getattr(spec.pose, key), _METHOD, on_key=False)
     yield from _messages(spec)
@@ -67,8 +70,9 @@ def _class(path: KeyPath, name: str, *, on_key: bool) -> Iterator[Problem]:
 def _constants(spec: Spec) -> Iterator[Problem]:
     for path, fields in owned_numbers(spec):
         for name, field in fields.items():
-            for key in field.values if len(name) <= _OTHERS else ():
-                yield from _name((*path, name, "values", key), f"{name}_{key}", _CONSTANT)
+            for key in ("values", "bits") if len(name) <= _OTHERS else ():
+                for each in getattr(field, key):
+                    yield from _name((*path, name, key, each), f"{name}_{each}", _CONSTANT)
 
 
 def _name(path: KeyPath, name: str, most: int, *, on_key: bool = True) -> Iterator[Problem]:

@@ -26,7 +26,8 @@ def _look(spec: Spec) -> Iterator[Problem]:
 
 
 def _type(path: KeyPath, field: NumberField, signed_as: str) -> Iterator[Problem]:
-    signed = [type_.name for type_ in NUMBER_TYPES.values() if type_.low < 0]
+    types = NUMBER_TYPES.values()
+    signed = [type_.name for type_ in types if type_.low < 0 and not type_.is_float]
     type_ = NUMBER_TYPES.get(field.type)
     if signed_as not in signed:
         yield Problem(path, f"`{signed_as}` is no signed type", did_you_mean(signed_as, signed))

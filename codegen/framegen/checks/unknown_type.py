@@ -5,7 +5,7 @@ from __future__ import annotations
 from functools import partial
 from typing import TYPE_CHECKING
 
-from framegen.checks.frames import envelopes
+from framegen.checks.frames import parts
 from framegen.checks.rule import Problem, StructureRule
 from framegen.language.number_types import ALL_TYPES, NUMBER_TYPES
 from framegen.language.spec import ListField
@@ -14,7 +14,7 @@ from framegen.reading.findings import did_you_mean
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from framegen.language.spec import FramePart, Spec
+    from framegen.language.spec import Spec
     from framegen.reading.yamltree import KeyPath
 
 
@@ -26,14 +26,10 @@ def _look(spec: Spec) -> Iterator[Problem]:
 
 
 def _types(spec: Spec) -> Iterator[tuple[KeyPath, str]]:
-    frames: dict[KeyPath, dict[str, FramePart]] = dict(envelopes(spec))
-    for key, other in spec.lookalikes.items():
-        frames["lookalikes", key, "frame"] = other.frame or {}
-    for path, frame in frames.items():
-        for name, part in frame.items():
-            type_ = getattr(part, "type", None)
-            if type_ is not None:
-                yield (*path, name, "type"), type_
+    for path, part in parts(spec):
+        type_ = getattr(part, "type", None)
+        if type_ is not None:
+            yield (*path, "type"), type_
     for name, message in spec.messages.items():
         for field_name, field in message.fields.items():
             here = ("messages", name, "fields", field_name)

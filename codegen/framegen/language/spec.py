@@ -545,7 +545,7 @@ class Spec(Part):
     )
     link: Link = Key(description="The serial line.")
     byte_order: Order = Key(description="Which byte of a number comes first.")
-    frame: Frame | None = Key(None, description="The parts of every frame, in order.")
+    frame: Frame = Key({}, description="The parts of every frame, in order.")
     frames: dict[str, Frame] = Key(
         {},
         description="Instead of `frame`, the parts of several kinds of frame by name, where the "
@@ -566,7 +566,7 @@ class Spec(Part):
     @property
     def envelopes(self) -> dict[str, Frame]:
         """Every kind of frame by name; the only one is called `frame`."""
-        return self.frames or {"frame": self.frame or {}}
+        return self.frames or {"frame": self.frame}
 
     def frame_of(self, message: Message) -> str:
         """Return the name of the kind of frame that a message has."""

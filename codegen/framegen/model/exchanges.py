@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 from framegen.language.spec import ListField
 from framegen.language.values import Method
+from framegen.model.layout import is_constant, is_list, is_varying
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -78,15 +79,17 @@ def method_of(name: str, message: Message) -> Method:
     """Return the method that sends a message: declared, or named after it, its list first."""
     if message.method is not None:
         return message.method
-    lists = [key for key, field in message.fields.items() if field.counted_by is not None]
-    numbers = [key for key in arguments_of(message) if key not in lists]
+    given = arguments_of(message)
+    lists = [key for key in given if is_varying(message.fields[key])]
+    numbers = [key for key in given if key not in lists]
     return Method(snake_case(name), (*lists, *numbers), "")
 
 
 def arguments_of(message: Message) -> list[str]:
-    """Return the fields that a user gives: all but counts."""
-    counters = {field.counted_by for field in message.fields.values()}
-    return [name for name in message.fields if name not in counters]
+    """Return the fields that a user gives: all but counts, sizes, and what never changes."""
+    fields = message.fields
+    counters = {each for field in fields.values() for each in (field.counted_by, field.sized_by)}
+    return [name for name in fields if name not in counters and not is_constant(fields[name])]
 
 
 def paths_of(message: Message) -> dict[str, bool]:
@@ -95,9 +98,10 @@ def paths_of(message: Message) -> dict[str, bool]:
     for name in arguments_of(message):
         field = message.fields[name]
         if isinstance(field, ListField):
-            paths |= {f"{name}.{inner}": True for inner in field.fields}
+            given = (inner for inner, number in field.fields.items() if not is_constant(number))
+            paths |= {f"{name}.{inner}": True for inner in given}
         else:
-            paths[name] = field.counted_by is not None
+            paths[name] = is_list(field)
     return paths
 
 

@@ -268,10 +268,21 @@ def is_list(field: ListField | NumberField) -> bool:
     """Tell whether a field is a list, of elements or of bare numbers."""
     if isinstance(field, ListField):
         return True
-    if field.counted_by is not None or field.sized_by is not None:
+    if is_varying(field):
         return True
-    single = field.always is not None or field.reserved is not None or field.text is not None
-    return field.count is not None and not single
+    return field.count is not None and field.text is None and not is_constant(field)
+
+
+def is_varying(field: ListField | NumberField) -> bool:
+    """Tell whether a field is a list whose size varies."""
+    return field.counted_by is not None or field.sized_by is not None
+
+
+def is_constant(field: ListField | NumberField) -> bool:
+    """Tell whether a field never changes, or has no meaning: nobody gives it."""
+    if isinstance(field, ListField):
+        return False
+    return field.always is not None or field.reserved is not None
 
 
 def _roles(message: Message) -> dict[str, NumberRole]:

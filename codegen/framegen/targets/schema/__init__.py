@@ -10,8 +10,9 @@ import json
 from functools import cache
 from typing import TYPE_CHECKING, Any
 
-from framegen.language.number_types import NUMBER_TYPES
+from framegen.language.number_types import ALL_TYPES, NUMBER_TYPES
 from framegen.language.spec import Spec
+from framegen.model.checksums import CHECKSUMS
 from framegen.output import banner
 from framegen.reading.yamltree import Unusable
 from framegen.targets.target import Target
@@ -68,12 +69,18 @@ def schema_text() -> str:
 @cache
 def _schema_text() -> str:
     schema = _tidied(Spec.model_json_schema(by_alias=True, mode="validation"))
+    whole = [each for each in NUMBER_TYPES.values() if not each.is_float]
     for model in schema["$defs"].values():
-        if "type" in model["properties"]:
-            model["properties"]["type"]["enum"] = list(NUMBER_TYPES)
+        if "is" in model["properties"] and "type" in model["properties"]:
+            unsigned = [each.name for each in whole if each.low == 0]
+            model["properties"]["type"]["enum"] = unsigned
+        elif "type" in model["properties"]:
+            model["properties"]["type"]["enum"] = list(ALL_TYPES)
         if "signed_as" in model["properties"]:
-            signed = [name for name, number_type in NUMBER_TYPES.items() if number_type.low < 0]
+            signed = [each.name for each in whole if each.low < 0]
             model["properties"]["signed_as"]["anyOf"][0]["enum"] = signed
+        if "method" in model["properties"] and "covers" in model["properties"]:
+            model["properties"]["method"]["enum"] = list(CHECKSUMS)
     schema["$schema"] = "https://json-schema.org/draft/2020-12/schema"
     schema["$comment"] = banner("")
     schema["title"] = "framegen spec"
