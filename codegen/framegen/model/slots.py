@@ -195,8 +195,8 @@ class Items:
 
     `element` is the name of an element with several fields, None for bare numbers. `counters` are
     the fields that say how many there are, or how many bytes they have; where there is none, the
-    list is of a fixed size, or whatever the length of the frame leaves. `text` is its character set, if
-    it is text of a size that varies.
+    list is of a fixed size, or whatever the length of the frame leaves. `text` is its character
+    set, if it is text of a size that varies.
     """
 
     role: ClassVar = "list"
