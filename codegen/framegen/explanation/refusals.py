@@ -109,8 +109,14 @@ class Refused:
         slot = placed.slot
         if slot.role == "constant":
             return f"{placed.path} is always {slot.data.hex(' ').upper()}"
-        value = slot.value(placed.of(self.data))
-        return f"{placed.path} is {value}, outside {slot.low}..{slot.high}"
+        if slot.role == "text":
+            return f"{placed.path} has the byte {self.data[self.offset]:02X}, which is not ASCII"
+        path, value = placed.path, slot.value(placed.of(self.data))
+        if isinstance(value, list):
+            outside = [each for each in enumerate(value) if not slot.low <= each[1] <= slot.high]
+            (index, value), *_ = outside
+            path = f"{path}[{index}]"
+        return f"{path} is {value}, outside {slot.low}..{slot.high}"
 
     def _checksum(self) -> str:
         placed = self._placed()
