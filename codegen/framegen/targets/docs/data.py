@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 from framegen.explanation import refusals
 from framegen.language.formula import Sizes
-from framegen.model.checksums import CHECKSUMS, Crc, Fletcher, Sum, Xor
+from framegen.model.data import method_terms
 from framegen.model.slots import Body, Constant, Items, Number, Packed, Text
 from framegen.targets.docs.address import message_page
 
@@ -57,7 +57,7 @@ def protocol_data(model: Model) -> dict[str, Any]:
 
 
 def _envelope(frame: Envelope) -> dict[str, Any]:
-    """Return an envelope; `ids` are the slots that identify a message, those not sent among them."""
+    """Return an envelope; `ids` identify a message together, those not sent among them."""
     return {
         "name": frame.name,
         "header": list(frame.header),
@@ -72,7 +72,9 @@ def _envelope(frame: Envelope) -> dict[str, Any]:
 
 def _message(message: MessageLayout) -> dict[str, Any]:
     rule = message.formula
-    sizes = [size + message.frame.uncounted for size in rule.sizes] if isinstance(rule, Sizes) else []
+    sizes = (
+        [size + message.frame.uncounted for size in rule.sizes] if isinstance(rule, Sizes) else []
+    )
     return {
         "name": message.name,
         "page": message_page(message.name),
@@ -134,23 +136,19 @@ def _slot(slot: Slot, frame: Envelope | None = None) -> dict[str, Any]:
     In an element of a list it counts from the first byte of the element.
     """
     placed = {"role": slot.role, "name": slot.name, "at": slot.at}
+    if isinstance(slot, Body):
+        return placed
+    placed["size"] = slot.size
     match slot:
-        case Body():
-            return placed
         case Constant():
-            field = {"field": True} if slot.field is not None else {}
-            return placed | {"size": slot.size, "bytes": list(slot.data)} | field
+            placed["bytes"] = list(slot.data)
+            return placed | ({} if slot.field is None else {"field": True})
         case Text():
-            return placed | {"size": slot.size}
+            return placed
         case Packed():
-            bits = {"size": slot.size, "count": slot.count, "width": slot.number_type.bits}
-            wide = slot.number_type.bits > 8 * _EXACT
-            return placed | bits | {"order": slot.order} | _bounds(slot, wide=wide) | _words(slot)
-        case Number(role="checksum") if frame is not None:
-            covers = {"method": _method(slot), "covers": _covers(frame, slot)}
-            return placed | {"size": slot.size, **_number(slot), **covers}
+            return placed | _packed(slot)
         case Number():
-            return placed | {"size": slot.size, **_number(slot)}
+            return placed | _number(slot) | _sum(slot, frame)
         case Items():
             return placed | _items(slot)
 
@@ -161,7 +159,6 @@ def _items(items: Items) -> dict[str, Any]:
     # Of some lists, any bytes are elements.
     free = {"free": True} if all(map(_holds_anything, items.slots)) else {}
     return {
-        "size": items.size,
         "element": items.element,
         "slots": [_slot(slot) for slot in items.slots],
         **count,
@@ -175,6 +172,25 @@ def _holds_anything(slot: Number | Text | Constant) -> bool:
     if isinstance(slot, Number):
         return slot.is_float or not slot.narrowed
     return slot.role == "reserved"
+
+
+def _packed(packed: Packed) -> dict[str, Any]:
+    bits = packed.number_type.bits
+    bounds = _bounds(packed, wide=bits > 8 * _EXACT)
+    return {
+        "count": packed.count,
+        "width": bits,
+        "order": packed.order,
+        **bounds,
+        **_words(packed),
+    }
+
+
+def _sum(number: Number, frame: Envelope | None) -> dict[str, Any]:
+    """Return how a checksum is worked out, and from what."""
+    if frame is None or number.role != "checksum":
+        return {}
+    return {"method": _method(number), "covers": _covers(frame, number)}
 
 
 def _number(number: Number) -> dict[str, Any]:
@@ -210,7 +226,7 @@ def _words(slot: Number | Packed) -> dict[str, Any]:
 
 
 def _covers(frame: Envelope, checksum: Number) -> list[Any]:
-    """Return pieces of a frame, ends at or below zero from its end; an id that is not sent by number."""
+    """Return pieces of a frame, ends at or below zero from its end; and numbers of unsent ids."""
     unsent = {part.name: number for number, part in enumerate(frame.ids) if part in frame.unsent}
     pieces: list[Any] = []
     for name in checksum.of:
@@ -228,17 +244,8 @@ def _covers(frame: Envelope, checksum: Number) -> list[Any]:
 
 def _method(checksum: Number) -> dict[str, Any]:
     """Return how a checksum is worked out."""
-    method, width = CHECKSUMS[checksum.method], 8 * checksum.size
-    match method:
-        case Crc():
-            terms = {"poly": method.poly, "init": method.init, "xorOut": method.xor_out}
-            exact = {name: str(term) if width > 8 * _EXACT else term for name, term in terms.items()}
-            return {"kind": "crc", "width": width, **exact, "reflected": method.reflected}
-        case Sum():
-            return {"kind": "sum", "width": width, "factor": method.factor, "offset": method.offset}
-        case Xor():
-            return {"kind": "xor", "xorOut": method.xor_out}
-        case Fletcher():
-            said = {"kind": "fletcher", "width": width}
-            return {**said, "modulus": method.modulus, "start": method.start}
-    raise AssertionError(f"no page works out {checksum.method}")
+    width = 8 * checksum.size
+    terms = method_terms(checksum.method)
+    if terms["kind"] == "crc" and width > 8 * _EXACT:
+        terms |= {name: str(terms[name]) for name in ("poly", "init", "xor_out")}
+    return terms | {"width": width}

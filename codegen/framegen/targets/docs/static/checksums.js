@@ -37,11 +37,11 @@ function makeSum({ width, factor, offset }, bytes) {
   };
 }
 
-function makeXor({ xorOut }, bytes) {
+function makeXor({ xor_out: last }, bytes) {
   const xor = makeRegisters(0, bytes, (value, byte) => value ^ byte);
   return (pieces) => pieces.reduce((value, piece) => value ^ (isStretch(piece)
     ? xor(piece[1]) ^ xor(piece[0])
-    : piece.unsent.reduce((all, byte) => all ^ byte, 0)), xorOut);
+    : piece.unsent.reduce((all, byte) => all ^ byte, 0)), last);
 }
 
 // Two sums: of the bytes, and of what the first one was after each.
@@ -66,7 +66,7 @@ function makeFletcher({ width, modulus, start }, bytes) {
 
 // The remainder of a division, with the lowest bit of each byte first; where the method has the
 // highest first, bytes and remainder are turned round. One of 64 bits is a BigInt.
-function makeCrc({ width, poly, init, xorOut, reflected }, bytes) {
+function makeCrc({ width, poly, init, xor_out: last, reflected }, bytes) {
   const isWide = width > 32, number = isWide ? BigInt : Number;
   const right = isWide ? (value, bits) => value >> BigInt(bits) : (value, bits) => value >>> bits;
   const whole = isWide ? (value) => value : (value) => value >>> 0;
@@ -125,6 +125,6 @@ function makeCrc({ width, poly, init, xorOut, reflected }, bytes) {
         value = piece.unsent.reduce(next, value);
       }
     }
-    return whole((reflected ? value : turned(value, width)) ^ number(xorOut));
+    return whole((reflected ? value : turned(value, width)) ^ number(last));
   };
 }
