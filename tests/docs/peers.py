@@ -51,9 +51,11 @@ def noisy_lines(model: Model, seed: int, number: int) -> list[bytes]:
         for message in messages
         for example in message.message.examples
     ]
-    near = [*model.frame.header, *(message.id for message in messages), 0, 1, 2, 3, 5, 99, 255]
+    headers = [frame.header for frame in model.envelopes.values()]
+    ids = [number for message in messages for number in message.ids if number < 0x100]
+    near = [*b"".join(headers), *ids, 0, 1, 2, 3, 5, 99, 255]
     many = number * settings().max_examples // 100
-    return [_line(chance, frames, model.frame.header, near) for _ in range(many)]
+    return [_line(chance, frames, chance.choice(headers), near) for _ in range(many)]
 
 
 def _line(chance: random.Random, frames: list[bytes], header: bytes, near: list[int]) -> bytes:
@@ -68,9 +70,9 @@ def _line(chance: random.Random, frames: list[bytes], header: bytes, near: list[
             case 2:
                 at = chance.randrange(len(frame))
                 line += frame[:at] + bytes([chance.randrange(256)]) + frame[at + 1 :]
-            case 3:
+            case 3 if header:
                 line += header[: chance.randrange(1, len(header) + 1)] * chance.randrange(1, 4)
-            case 4 | 5 | 6:
+            case 3 | 4 | 5 | 6:
                 line += header + bytes(chance.choices(near, k=chance.randrange(12)))
             case _:
                 line += frame

@@ -7,6 +7,8 @@ from dataclasses import dataclass
 from decimal import Decimal
 from functools import cached_property
 
+from .checksum import checksum
+
 TYPE_CHECKING = False
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator, Mapping, Sequence
@@ -129,6 +131,11 @@ class Slot:
         data = value.to_bytes(self.size, "big", signed=bool(self.said.get("signed")))
         return data if self.order == "big" else data[::-1]
 
+    def checksum(self, data: bytes) -> int:
+        """Work out a checksum of `data`."""
+        found: int = checksum(self.said["terms"], 8 * self.size, data)
+        return found
+
     def read_in(self, frame: bytes) -> int:
         """Read a number from `frame`, which holds all of it."""
         at = _from_front(self.at, len(frame))
@@ -189,10 +196,14 @@ class Placed:
 
 @dataclass(frozen=True)
 class Envelope:
-    """The slots of a frame of any message, the body among them."""
+    """The slots of a frame of any message, the body among them.
+
+    `unsent` are ids that no frame holds: both ends know them, and a checksum covers them.
+    """
 
     slots: tuple[Slot, ...]
     name: str = "frame"
+    unsent: tuple[Slot, ...] = ()
 
     @cached_property
     def header(self) -> bytes:
@@ -208,8 +219,10 @@ class Envelope:
     def opening(self) -> str:
         """The beginning of a frame, in words."""
         if self.header:
-            return f"a frame begins {self.header.hex(' ').upper()}"
-        return f"a frame begins with its {self.slots[0].name}"
+            return self.header.hex(" ").upper()
+        first = self.slots[0]
+        bounds = f", {first.low}..{first.high}" if first.role == "address" else ""
+        return f"with its {first.name}{bounds}"
 
     @cached_property
     def length(self) -> Slot | None:
@@ -225,6 +238,26 @@ class Envelope:
     def id(self) -> Slot | None:
         """The last of them, if there is one."""
         return self.ids[-1] if self.ids else None
+
+    @cached_property
+    def checksums(self) -> tuple[Slot, ...]:
+        """The numbers worked out from other parts."""
+        return tuple(slot for slot in self.slots if slot.role == "checksum")
+
+    def right(self, part: Slot, frame: bytes, unsent: Sequence[int] = ()) -> bytes:
+        """Return a checksum as a whole frame should have it; `unsent` are the ids not in it."""
+        hidden = zip(self.unsent, unsent, strict=False)
+        pieces = {slot.name: slot.write(number) for slot, number in hidden}
+        pieces |= {placed.path: placed.of(frame) for placed in lay_out(self.slots, len(frame))}
+        return part.write(part.checksum(b"".join(pieces.get(name, b"") for name in part.of)))
+
+    def sealed(self, frame: bytes, unsent: Sequence[int] = ()) -> bytes:
+        """Return a whole frame with the checksums that it should have."""
+        mended = bytearray(frame)
+        for part in self.checksums:
+            at = _from_front(part.at, len(frame))
+            mended[at : at + part.size] = self.right(part, frame, unsent)
+        return bytes(mended)
 
     def length_of(self, data: bytes) -> int:
         """Return the length of a frame that `data` begins; without a length part, its size."""
@@ -282,6 +315,11 @@ class Message:
     def seen_ids(self) -> tuple[int, ...]:
         """Those ids that a frame holds."""
         return self.ids[: len(self.frame.ids)]
+
+    @property
+    def unsent_ids(self) -> tuple[int, ...]:
+        """Those ids that no frame holds."""
+        return self.ids[len(self.frame.ids) :]
 
     @property
     def direction(self) -> str:
@@ -457,6 +495,8 @@ class Protocol:
             return None
         ids = tuple(part.read_in(data) for part in frame.ids)
         found = [message for message in self.sent(direction, frame) if message.seen_ids == ids]
+        if len(found) > 1 and frame.length is not None and frame.length.is_in(data):
+            found = [message for message in found if message.length_of(data) is not None]
         return found[0] if len(found) == 1 else None
 
     @cached_property
@@ -469,7 +509,18 @@ class Protocol:
 
     def _envelope(self, slots: Iterable[Mapping[str, Any]], name: str = "frame") -> Envelope:
         order = self.said["byte_order"]
-        return Envelope(tuple(Slot(slot, order) for slot in slots if slot.get("sent", True)), name)
+        made = [Slot(slot, order) for slot in slots]
+        unsent = [slot for slot in made if not slot.said.get("sent", True)]
+        return Envelope(tuple(slot for slot in made if slot not in unsent), name, tuple(unsent))
+
+    def opening(self, directions: Iterable[str]) -> str:
+        """Return the beginning of a frame of these directions, in words."""
+        ways = list(directions)
+        found = (
+            each for each in self.envelopes.values() if any(self.sent(way, each) for way in ways)
+        )
+        openings = list(dict.fromkeys(each.opening for each in found)) or [self.frame.opening]
+        return f"a frame begins {listed(openings, 'or')}"
 
     def largest(self, directions: Iterable[str]) -> int:
         """Return the size of the largest legal frame of these directions; 0 for no messages."""
@@ -500,6 +551,12 @@ def lay_out(slots: Iterable[Slot], size: int, count: int = 0) -> Iterator[Placed
             yield Placed(slot.name, at, size - sum(each.size for each in slots), slot)
         else:
             yield Placed(slot.name, at, slot.size, slot)
+
+
+def listed(names: Sequence[str], last: str = "and") -> str:
+    """Return names as a list in a sentence: `command, length and parameters`."""
+    *others, end = names
+    return f"{', '.join(others)} {last} {end}" if others else end
 
 
 def _from_front(at: int, size: int) -> int:

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 from framegen.language.formula import Formula
 from framegen.language.values import to_hex
+from framegen.model.checksums import CHECKSUMS, Crc, Fletcher, Sum, Xor
 from framegen.model.slots import Body, Constant, Items, Number, Packed, Text
 
 if TYPE_CHECKING:
@@ -179,6 +180,7 @@ def _number(number: Number) -> dict[str, Any]:
         optional=number.optional,
         of=list(number.of),
         method=number.method,
+        terms=method_terms(number.method) if number.method else {},
         silent=sorted(number.silent),
         unit=field.unit,
         scale=_scale(field),
@@ -193,6 +195,22 @@ def _number(number: Number) -> dict[str, Any]:
         signed_as=field.signed_as,
         **_evidence(field),
     )
+
+
+def method_terms(name: str) -> dict[str, Any]:
+    """Return how a checksum of a method is worked out."""
+    method = CHECKSUMS[name]
+    match method:
+        case Crc():
+            terms = {"poly": method.poly, "init": method.init, "reflected": method.reflected}
+            return {"kind": "crc", **terms, "xor_out": method.xor_out}
+        case Sum():
+            return {"kind": "sum", "factor": method.factor, "offset": method.offset}
+        case Xor():
+            return {"kind": "xor", "xor_out": method.xor_out}
+        case Fletcher():
+            return {"kind": "fletcher", "modulus": method.modulus, "start": method.start}
+    raise AssertionError(f"nothing explains {name}")
 
 
 def _scale(field: NumberField) -> list[str]:

@@ -60,13 +60,6 @@ class Envelope:
         return frozenset(first.write(address)[0] for address in addresses)
 
     @cached_property
-    def opening(self) -> str:
-        """The beginning of a frame, in words."""
-        if self.header:
-            return f"a frame begins {self.header.hex(' ').upper()}"
-        return f"a frame begins with its {self.slots[0].name}"
-
-    @cached_property
     def shortest(self) -> str:
         """The size of the shortest frame, in words."""
         return f"the shortest frame has {self.least} bytes"
@@ -240,7 +233,11 @@ def derive_envelope(parts: Frame, order: ByteOrder, name: str = "frame") -> Enve
 def _number(name: str, part: NumberPart, at: int, order: ByteOrder) -> Number:
     of: tuple[str, ...] = ()
     method, silent = "", frozenset[int]()
-    said: Mapping[str, object] = {"type": part.type, "about": part.about}
+    said: Mapping[str, object] = {
+        "type": part.type,
+        "about": part.about,
+        "byte_order": part.byte_order,
+    }
     match part:
         case LengthPart():
             of = tuple(part.counts)

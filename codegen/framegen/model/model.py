@@ -128,10 +128,9 @@ class Model:
         """The bytes with which a frame may begin."""
         return frozenset[int]().union(*(each.first_bytes for each in self.envelopes.values()))
 
-    @cached_property
-    def opening(self) -> str:
-        """The beginning of a frame, in words."""
-        return " or ".join(dict.fromkeys(each.opening for each in self.envelopes.values()))
+    def opening(self, directions: Iterable[Direction]) -> str:
+        """Return the beginning of a frame of these directions, in words."""
+        return self.plain.opening(map(str, directions))
 
     def largest(self, directions: Iterable[Direction]) -> int:
         """Return the size of the largest legal frame of these directions; 0 for no messages."""

@@ -93,7 +93,7 @@ def weigh(
     largest offset is given.
     """
     if data and data[0] not in model.first_bytes:
-        return _begins_otherwise(model.opening)
+        return _begins_otherwise(model, tuple(directions))
     verdicts = [
         verdict
         for candidates in model.candidates(directions)
@@ -119,9 +119,9 @@ _NOTHING = Verdict(None, BAD_HEADER, 0, partial(str, "no message goes this way")
 
 
 @lru_cache
-def _begins_otherwise(opening: str) -> Verdict:
+def _begins_otherwise(model: Model, directions: tuple[Direction, ...]) -> Verdict:
     """Return the verdict on most offsets of a line, made once."""
-    return Verdict(None, BAD_HEADER, 0, partial(str, opening), (), None)
+    return Verdict(None, BAD_HEADER, 0, partial(model.opening, directions), (), None)
 
 
 class _Look:

@@ -9,7 +9,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from .lookalikes import recognise
-from .refusals import UNKNOWN_COMMAND, Refused
+from .protocol import listed
+from .refusals import BAD_CHECKSUM, TRAILING_BYTES, UNKNOWN_COMMAND, Refused
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
@@ -125,9 +126,10 @@ def _row(placed: Placed, data: bytes, message: Message | None) -> Row:
     if slot.role == "length" and message is not None:
         meaning = message.formula if message.varies else f"always {message.formula}"
     elif slot.role == "checksum":
-        meaning = f"{slot.said['method']} of {', '.join(slot.of)}"
+        meaning = f"{slot.said['method']} of {listed(slot.of)}"
     elif slot.role == "id":
-        meaning = "" if message is None else _named(message)
+        is_last = message is not None and slot is message.frame.id
+        meaning = _named(message) if message is not None and is_last else ""
     return Row(*where, value, str(value), meaning)
 
 
@@ -221,29 +223,51 @@ class _Explainer:
         within = list(self._frames_within())
         if not within:
             yield from self._command_hints(refusals)
-        yield from self._length_hints(refusals)
+        for frame in self._envelopes_of(refusals):
+            yield from self._length_hints(frame, refusals)
+            yield from self._checksum_hints(frame, refusals)
         yield from within
+
+    def _envelopes_of(self, refusals: Sequence[Refusal]) -> list[Envelope]:
+        """Return the envelopes that frames of these directions have."""
+        ways = {refusal.direction for refusal in refusals}
+        found = (each.frame for each in self.protocol.messages.values() if each.direction in ways)
+        return list({frame.name: frame for frame in found}.values())
 
     def _command_hints(self, refusals: Sequence[Refusal]) -> Iterator[Hint]:
         """Say what an unknown command means elsewhere, or why it is reserved."""
         unknown = [each.direction for each in refusals if each.reason == UNKNOWN_COMMAND]
-        if not unknown:
-            return
-        part = self.protocol.frame.id
-        if part is None or not part.is_in(self.data):
-            return
-        number = part.read_in(self.data)
+        for frame in self._envelopes_of(refusals) if unknown else ():
+            part = frame.id
+            if part is None or not part.is_in(self.data):
+                continue
+            hints = [*self._meanings(part.read_in(self.data), unknown)]
+            if frame.checksums and self._is_proven(frame):
+                hints.append(Hint("the checksum is right: a frame that this spec does not have"))
+            if hints:
+                yield from hints
+                return
+
+    def _meanings(self, number: int, directions: Sequence[str]) -> Iterator[Hint]:
         for lookalike in self.protocol.lookalikes.values():
             if "frame" not in lookalike.said and number in lookalike.commands:
                 yield Hint(f"in {_the(lookalike.title)}, {number} {lookalike.commands[number]}")
                 return
         for reserved in self.protocol.said["reserved"]:
-            if reserved.get("id") == number and reserved.get("direction", unknown[0]) in unknown:
+            way = reserved.get("direction", directions[0])
+            if reserved.get("id") == number and way in directions:
                 yield Hint(f"{number} is reserved: {reserved['why']}")
 
-    def _length_hints(self, refusals: Sequence[Refusal]) -> Iterator[Hint]:
-        """Try the length that so many bytes should have."""
-        frame, size = self.protocol.frame, len(self.data)
+    def _is_proven(self, frame: Envelope) -> bool:
+        """Tell whether the bytes are as long as they say, with the right checksums."""
+        if frame.length is None or frame.unsent or len(self.data) < frame.least:
+            return False
+        size = frame.length.read_in(self.data) + frame.uncounted
+        return size == len(self.data) and frame.sealed(self.data) == self.data
+
+    def _length_hints(self, frame: Envelope, refusals: Sequence[Refusal]) -> Iterator[Hint]:
+        """Try the length that so many bytes should have, also with the checksum made to fit."""
+        size = len(self.data)
         length = size - frame.uncounted
         if frame.length is None or length not in range(frame.length.high + 1):
             return
@@ -251,29 +275,64 @@ class _Explainer:
             return
         at, end = frame.length.at, frame.length.at + frame.length.size
         mended = self.data[:at] + frame.length.write(length) + self.data[end:]
+        if mended == self.data:
+            return
+        has = f"{size} bytes have a {frame.length.name} of {length}"
         names = self._names([refusal.direction for refusal in refusals], mended)
         if names:
-            yield Hint(
-                f"{size} bytes have a {frame.length.name} of {length}; with that they are {names}",
-                mended,
-            )
+            yield Hint(f"{has}; with that they are {names}", mended)
+            return
+        for sealed, names in self._sealed(frame, mended, refusals):
+            yield Hint(f"{has}; with that and {_its(frame)} they would be {names}", sealed)
+
+    def _checksum_hints(self, frame: Envelope, refusals: Sequence[Refusal]) -> Iterator[Hint]:
+        """Make the checksum fit, where that alone is wrong."""
+        if any(each.reason == BAD_CHECKSUM for each in refusals):
+            for sealed, names in self._sealed(frame, self.data, refusals):
+                yield Hint(f"with {_its(frame)} they would be {names}", sealed)
+
+    def _sealed(
+        self, frame: Envelope, data: bytes, refusals: Sequence[Refusal]
+    ) -> Iterator[tuple[bytes, str]]:
+        """Return frames with the right checksums, and which messages they are."""
+        if not frame.checksums or len(data) < frame.least:
+            return
+        unsent = (
+            each.unsent_ids for each in self.protocol.messages.values() if each.frame is frame
+        )
+        for hidden in dict.fromkeys(unsent):
+            sealed = frame.sealed(data, hidden)
+            names = self._names([refusal.direction for refusal in refusals], sealed)
+            if names and sealed != data:
+                yield sealed, names
 
     def _frames_within(self) -> Iterator[Hint]:
         """Find whole frames among the bytes, from the first byte on."""
-        frame, found, at = self.protocol.frame, 0, 0
-        while frame.length is not None and at + frame.body_at <= len(self.data):
-            size = frame.uncounted + frame.length.read_in(self.data[at:])
-            piece = self.data[at : at + size]
-            names = self._names(self.protocol.directions, piece)
-            if not names:
+        directions = self.protocol.directions
+        # A byte more than any frame has shows where one ends.
+        enough = self.protocol.largest(directions) + 1
+        found, at = 0, 0
+        while at < len(self.data):
+            piece = self._frame_in(self.data[at : at + enough])
+            if not piece:
                 at += 1
                 continue
             found += 1
             if found > _MOST_WITHIN:
                 yield Hint(f"more frames follow, from byte {at} on")
                 return
-            yield Hint(f"a frame begins at byte {at}: {names}", piece)
-            at += size
+            yield Hint(f"a frame begins at byte {at}: {self._names(directions, piece)}", piece)
+            at += len(piece)
+
+    def _frame_in(self, data: bytes) -> bytes:
+        """Return the whole frame that some bytes begin with; none where there is none."""
+        for direction in self.protocol.directions:
+            judgement = self.judge(direction, data)
+            if judgement.message is not None:
+                return data
+            if judgement.reason == TRAILING_BYTES:
+                return data[: judgement.offset]
+        return b""
 
     def _names(self, directions: Sequence[str], data: bytes) -> str:
         """Name the messages that `data` is, at most one for each direction; empty for none."""
@@ -283,3 +342,8 @@ class _Explainer:
 
 def _the(title: str) -> str:
     return f"the {title.removeprefix('The ')}"
+
+
+def _its(frame: Envelope) -> str:
+    """Name the right checksums of a frame."""
+    return f"the right {listed([part.name for part in frame.checksums])}"

@@ -6,6 +6,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from .._frame.pluralize import describe_range
+from .protocol import listed
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
@@ -58,7 +59,7 @@ class Refused:
     def _more(self) -> str:
         """Say how much more there should be."""
         placed = self._placed()
-        if placed.slot.role == "constant" and placed.slot.at >= 0:
+        if placed.slot.role == "constant" and placed.slot.at >= 0 and not placed.slot.is_field:
             return self._opening()
         if placed.at < self.frame.body_at or self._length() is None:
             return f"the shortest frame has {self._least()} bytes"
@@ -83,8 +84,7 @@ class Refused:
         return "a message" if self.likely is None else self.likely.name
 
     def _opening(self) -> str:
-        openings = (each.opening for each in self.protocol.envelopes.values())
-        return " or ".join(dict.fromkeys(openings))
+        return self.protocol.opening(map(str, self.directions))
 
     def _count(self) -> str:
         placed, length = self._placed(), self._length()
@@ -110,18 +110,28 @@ class Refused:
         slot = placed.slot
         if slot.role == "constant":
             return f"{placed.path} is always {slot.data.hex(' ').upper()}"
-        value = slot.value(placed.of(self.data))
-        return f"{placed.path} is {value}, outside {slot.low}..{slot.high}"
+        if slot.role == "text":
+            return f"{placed.path} has the byte {self.data[self.offset]:02X}, which is not ASCII"
+        path, value = placed.path, slot.value(placed.of(self.data))
+        if isinstance(value, list):
+            outside = [each for each in enumerate(value) if not slot.low <= each[1] <= slot.high]
+            (index, value), *_ = outside
+            path = f"{path}[{index}]"
+        return f"{path} is {value}, outside {slot.low}..{slot.high}"
 
     def _checksum(self) -> str:
         placed = self._placed()
+        slot, unsent = placed.slot, () if self.likely is None else self.likely.unsent_ids
+        whole = self.data[: (self._length() or 0) + self.frame.uncounted]
+        right = self.frame.right(slot, whole, unsent).hex(" ").upper()
         found = placed.of(self.data).hex(" ").upper()
-        covered = ", ".join(placed.slot.of)
-        return f"{placed.path} is {found}, not the {placed.slot.said['method']} of {covered}"
+        return (
+            f"{placed.path} is {found}; the {slot.said['method']} of {listed(slot.of)} is {right}"
+        )
 
     def _trailer(self) -> str:
         slot = self._placed().slot
-        return f"{slot.name} is {slot.data.hex(' ').upper()}"
+        return f"{slot.name} is always {slot.data.hex(' ').upper()}"
 
     def _length(self) -> int | None:
         """Return the length that the bytes claim, or that a message has with them."""

@@ -1,35 +1,46 @@
-"""The protocol as data for the decoder page: slots as plain values, without prose."""
+"""The protocol as data for the decoder page: slots as plain values, without prose.
+
+Numbers of eight bytes are written as text: those of JSON in a browser have fewer digits.
+"""
 
 from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
 from framegen.explanation import refusals
-from framegen.model.slots import Body, Constant, Items, Number
+from framegen.language.formula import Sizes
+from framegen.model.data import method_terms
+from framegen.model.slots import Body, Constant, Items, Number, Packed, Text
 from framegen.targets.docs.address import message_page
 
 if TYPE_CHECKING:
+    from framegen.model.envelope import Envelope
     from framegen.model.layout import MessageLayout
     from framegen.model.model import Model
-    from framegen.model.slots import Slot
+    from framegen.model.slots import Field, Slot
 
 # The reasons for which bytes are no frame, by what the script calls them.
 _REASONS = {
     "tooShort": refusals.TOO_SHORT,
     "trailing": refusals.TRAILING_BYTES,
     "header": refusals.BAD_HEADER,
+    "trailer": refusals.BAD_TRAILER,
     "length": refusals.LENGTH_MISMATCH,
     "count": refusals.COUNT_MISMATCH,
     "unknown": refusals.UNKNOWN_COMMAND,
     "range": refusals.OUT_OF_RANGE,
+    "checksum": refusals.BAD_CHECKSUM,
 }
+# Numbers of so many bytes are exact in a browser.
+_EXACT = 6
+_ANY_BYTE = 0x100
 
 
 def protocol_data(model: Model) -> dict[str, Any]:
     """Return all that decoding and encoding need.
 
-    The slots of a message are those of `frame`, with its fields where the body is. Its frame has
-    `size` bytes and those of as many elements as `counts` allows.
+    The slots of a message are those of its envelope, with its fields where the body is. Its frame
+    has `size` bytes and those of as many elements as `counts` allows, or one of its `sizes`.
     """
     return {
         "name": model.spec.protocol.name,
@@ -38,65 +49,203 @@ def protocol_data(model: Model) -> dict[str, Any]:
             {"key": way.key, "sender": way.sender, "text": f"{way.sender} to {way.receiver}"}
             for way in model.directions
         ],
-        "frame": {
-            "least": model.frame.least,
-            "uncounted": model.frame.uncounted,
-            "slots": [_slot(slot) for slot in model.frame.slots],
-        },
+        # Empty where any byte may begin a frame.
+        "begins": sorted(model.first_bytes) if len(model.first_bytes) < _ANY_BYTE else [],
+        "frames": [_envelope(frame) for frame in model.envelopes.values()],
         "messages": [_message(message) for message in model.messages.values()],
     }
 
 
+def _envelope(frame: Envelope) -> dict[str, Any]:
+    """Return an envelope; `ids` identify a message together, those not sent among them."""
+    return {
+        "name": frame.name,
+        "header": list(frame.header),
+        "begins": sorted(frame.first_bytes) if len(frame.first_bytes) < _ANY_BYTE else [],
+        "least": frame.least,
+        "uncounted": frame.uncounted,
+        "proves": frame.proves_unknown,
+        "slots": [_slot(slot, frame) for slot in frame.slots],
+        "ids": [_slot(slot) for slot in frame.ids],
+    }
+
+
 def _message(message: MessageLayout) -> dict[str, Any]:
+    rule = message.formula
+    sizes = (
+        [size + message.frame.uncounted for size in rule.sizes] if isinstance(rule, Sizes) else []
+    )
     return {
         "name": message.name,
         "page": message_page(message.name),
-        "id": message.id,
+        "frame": message.frame.name,
+        "ids": list(message.ids),
         "direction": message.direction.key,
         "summary": message.message.summary,
         "example": _example(message),
-        "fields": [_slot(slot) for slot in message.fields],
+        "fields": [_slot(slot) for slot in message.body],
+        "given": [slot.name for slot in message.arguments],
         "counts": {"low": message.counts[0], "high": message.counts[-1]},
         "size": message.size_at(0),
+        **({"sizes": sizes} if sizes else {}),
     }
 
 
 def _example(message: MessageLayout) -> dict[str, Any]:
     """Return values to begin with: those of the first example, or else the lowest."""
-    if message.message.examples:
-        return dict(message.message.examples[0].values)
+    said = message.message.examples[0].values if message.message.examples else {}
     return {
-        argument.name: [] if isinstance(argument, Items) else argument.low
-        for argument in message.arguments
+        slot.name: _exact(slot, said[slot.name] if slot.name in said else _lowest(slot))
+        for slot in message.arguments
     }
 
 
-def _slot(slot: Slot) -> dict[str, Any]:
+def _lowest(slot: Field) -> Any:
+    match slot:
+        case Number():
+            return 0 if slot.is_float else slot.low
+        case Text():
+            return ""
+        case Packed():
+            return [slot.low] * slot.count
+        case Items():
+            return "" if slot.text else []
+
+
+def _exact(slot: Field, value: Any) -> Any:
+    """Return a value as a browser has it."""
+    match slot:
+        case Number() if slot.size > _EXACT and not slot.is_float and value is not None:
+            return str(value)
+        case Items() if slot.element is None and not slot.text:
+            return [_exact(field, each) for each in value for field in slot.fields]
+        case Items() if slot.element is not None:
+            return [
+                {field.name: _exact(field, each[field.name]) for field in slot.fields}
+                for each in value
+            ]
+        case Packed() if slot.number_type.bits > 8 * _EXACT:
+            return [str(each) for each in value]
+        case _:
+            return value
+
+
+def _slot(slot: Slot, frame: Envelope | None = None) -> dict[str, Any]:
     """Return a slot; `at` counts from the first byte of the frame or, below zero, from its end.
 
     In an element of a list it counts from the first byte of the element.
     """
     placed = {"role": slot.role, "name": slot.name, "at": slot.at}
+    if isinstance(slot, Body):
+        return placed
+    placed["size"] = slot.size
     match slot:
-        case Body():
-            return placed
         case Constant():
-            return placed | {"size": slot.size, "bytes": list(slot.data)}
+            placed["bytes"] = list(slot.data)
+            return placed | ({} if slot.field is None else {"field": True})
+        case Text():
+            return placed
+        case Packed():
+            return placed | _packed(slot)
         case Number():
-            return placed | {"size": slot.size, **_number(slot)}
+            return placed | _number(slot) | _sum(slot, frame)
         case Items():
-            fields = [_slot(field) for field in slot.fields]
-            return placed | {"size": slot.size, "element": slot.element, "fields": fields}
+            return placed | _items(slot)
+
+
+def _items(items: Items) -> dict[str, Any]:
+    count = {"count": items.low} if items.is_fixed else {}
+    counter = {} if items.counter is None else {"counter": items.counter.name}
+    # Of some lists, any bytes are elements.
+    free = {"free": True} if all(map(_holds_anything, items.slots)) else {}
+    return {
+        "element": items.element,
+        "slots": [_slot(slot) for slot in items.slots],
+        **count,
+        **counter,
+        **({"text": True} if items.text else {}),
+        **free,
+    }
+
+
+def _holds_anything(slot: Number | Text | Constant) -> bool:
+    if isinstance(slot, Number):
+        return slot.is_float or not slot.narrowed
+    return slot.role == "reserved"
+
+
+def _packed(packed: Packed) -> dict[str, Any]:
+    bits = packed.number_type.bits
+    bounds = _bounds(packed, wide=bits > 8 * _EXACT)
+    return {
+        "count": packed.count,
+        "width": bits,
+        "order": packed.order,
+        **bounds,
+        **_words(packed),
+    }
+
+
+def _sum(number: Number, frame: Envelope | None) -> dict[str, Any]:
+    """Return how a checksum is worked out, and from what."""
+    if frame is None or number.role != "checksum":
+        return {}
+    return {"method": _method(number), "covers": _covers(frame, number)}
 
 
 def _number(number: Number) -> dict[str, Any]:
-    said, scale = number.field, number.field.scale
+    wide = number.size > _EXACT and not number.is_float
+    beyond = sorted(each for each in number.named if not number.low <= each <= number.high)
     return {
         "order": number.order,
         "signed": number.number_type.low < 0,
-        "low": number.low,
-        "high": number.high,
-        "unit": said.unit,
-        "scale": scale and {"step": f"{scale.step:f}", "unit": scale.unit},
-        "names": {name: value.value for name, value in said.values.items()},
+        **({"float": True} if number.is_float else _bounds(number, wide=wide)),
+        **({"beyond": beyond} if beyond else {}),
+        **({"optional": True} if number.optional else {}),
+        **_words(number),
     }
+
+
+def _bounds(slot: Number | Packed, *, wide: bool) -> dict[str, Any]:
+    if wide:
+        return {"wide": True, "low": str(slot.low), "high": str(slot.high)}
+    return {"low": slot.low, "high": slot.high}
+
+
+def _words(slot: Number | Packed) -> dict[str, Any]:
+    """Return what a value is called."""
+    said, scale = slot.field, slot.field.scale
+    offset = {"offset": f"{scale.offset:f}"} if scale and scale.offset else {}
+    bits = {name: [each.at.low, each.at.high] for name, each in said.bits.items()}
+    return {
+        "unit": said.unit,
+        "scale": scale and {"step": f"{scale.step:f}", "unit": scale.unit, **offset},
+        "names": {name: value.value for name, value in said.values.items()},
+        **({"bits": bits} if bits else {}),
+    }
+
+
+def _covers(frame: Envelope, checksum: Number) -> list[Any]:
+    """Return pieces of a frame, ends at or below zero from its end; and numbers of unsent ids."""
+    unsent = {part.name: number for number, part in enumerate(frame.ids) if part in frame.unsent}
+    pieces: list[Any] = []
+    for name in checksum.of:
+        if name in unsent:
+            pieces.append(unsent[name])
+            continue
+        (slot,) = (slot for slot in frame.slots if slot.name == name)
+        end = -frame.tail_size if isinstance(slot, Body) else slot.at + slot.size
+        if pieces and isinstance(pieces[-1], list) and pieces[-1][1] == slot.at:
+            pieces[-1][1] = end
+        else:
+            pieces.append([slot.at, end])
+    return pieces
+
+
+def _method(checksum: Number) -> dict[str, Any]:
+    """Return how a checksum is worked out."""
+    width = 8 * checksum.size
+    terms = method_terms(checksum.method)
+    if terms["kind"] == "crc" and width > 8 * _EXACT:
+        terms |= {name: str(terms[name]) for name in ("poly", "init", "xor_out")}
+    return terms | {"width": width}

@@ -49,7 +49,7 @@ def _pages(site: SiteView) -> dict[str, str]:
     style = _static("style.css")
     files: dict[str, str] = {}
     for page in [*site.pages, *site.message_pages]:
-        scripts = [_static(f"{name}.js") for name in page.scripts]
+        scripts = [_static(*(f"{name}.js" for name in names)) for names in page.scripts]
         files[page.html] = templates.get_template(f"{page.template}.html.jinja").render(
             site=site,
             page=page,
@@ -70,9 +70,10 @@ def _environment() -> Environment:
     return made
 
 
-def _static(name: str) -> Markup:
-    """Return a file that goes into pages as it is."""
-    return Markup((_HERE / "static" / name).read_text(encoding="utf-8"))  # noqa: S704 - our own
+def _static(*names: str) -> Markup:
+    """Return files that go into pages as they are, as one."""
+    texts = [(_HERE / "static" / name).read_text(encoding="utf-8") for name in names]
+    return Markup("\n".join(texts))  # noqa: S704 - our own
 
 
 def _allowed(style: str, scripts: list[Markup]) -> dict[str, str]:

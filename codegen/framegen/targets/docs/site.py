@@ -37,13 +37,16 @@ _TO_ROOT = "../../../"
 
 @dataclass(frozen=True, slots=True)
 class PageView:
-    """One page: its name below the root, its template, title, link text and scripts."""
+    """One page: its name below the root, its template, title, link text and scripts.
+
+    Each script is made of files.
+    """
 
     name: str
     template: str
     title: str
     label: str
-    scripts: tuple[str, ...] = ("page",)
+    scripts: tuple[tuple[str, ...], ...] = (("page",),)
     in_markdown: bool = True
     message: MessagePage | None = None
 
@@ -275,7 +278,9 @@ class SiteView:
     def pages(self) -> list[PageView]:
         """The pages in the navigation."""
         # The decoder needs a script, the cheat sheet paper, and the spec is YAML: HTML alone.
-        decoder = ("codec", "page", "decoder")
+        proven = any(frame.checksums for frame in self.model.envelopes.values())
+        codec = ("checksums", "codec") if proven else ("codec",)
+        decoder = (codec, ("page",), ("decoder",))
         return [
             PageView("index", "index", self.protocol.title, "Frames"),
             PageView("examples", "examples", "Examples, byte by byte", "Examples"),

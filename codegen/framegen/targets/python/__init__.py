@@ -37,7 +37,15 @@ _SHARED = {
     "_frame/pluralize.py": "pluralize.py",
     **{
         f"_explanation/{name}.py": f"explanation/{name}.py"
-        for name in ("__init__", "explanation", "lookalikes", "protocol", "refusals", "text")
+        for name in (
+            "__init__",
+            "checksum",
+            "explanation",
+            "lookalikes",
+            "protocol",
+            "refusals",
+            "text",
+        )
     },
 }
 # What a shared file imports has another place in a library.

@@ -27,153 +27,338 @@ function toHex(bytes) {
   return bytes.map((byte) => byte.toString(16).toUpperCase().padStart(2, "0")).join(" ");
 }
 
-// The number of a slot whose bytes begin at `at`.
-function readNumber({ size, order, signed }, bytes, at) {
-  let value = 0;
-  for (let i = 0; i < size; i++) {
-    value = value * 256 + bytes[at + (order === "little" ? size - 1 - i : i)];
+// The number of a slot whose bytes begin at `at`; a BigInt where a number has too few digits.
+function readNumber({ size, order, signed, float, wide }, bytes, at) {
+  const own = bytes.slice(at, at + size);
+  if (order === "little") own.reverse();
+  if (float) {
+    const view = new DataView(Uint8Array.from(own).buffer);
+    return size === 4 ? view.getFloat32(0) : view.getFloat64(0);
   }
+  if (wide) {
+    const value = own.reduce((so, byte) => so * 256n + BigInt(byte), 0n);
+    return signed ? BigInt.asIntN(8 * size, value) : value;
+  }
+  const value = own.reduce((so, byte) => so * 256 + byte, 0);
   return signed && value >= 2 ** (8 * size - 1) ? value - 2 ** (8 * size) : value;
 }
 
 // The bytes that stand for `value` in a slot.
-function writeNumber({ size, order }, value) {
-  let rest = value < 0 ? value + 2 ** (8 * size) : value;
-  const bytes = [];
-  for (let i = 0; i < size; i++, rest = Math.floor(rest / 256)) bytes.push(rest % 256);
-  return order === "little" ? bytes : bytes.reverse();
+function writeNumber({ size, order, float }, value) {
+  const view = new DataView(new ArrayBuffer(8));
+  if (float) view[size === 4 ? "setFloat32" : "setFloat64"](8 - size, value);
+  else view.setBigInt64(0, BigInt.asIntN(64, BigInt(value)));
+  const bytes = [...new Uint8Array(view.buffer)].slice(8 - size);
+  return order === "little" ? bytes.reverse() : bytes;
 }
+
+// Numbers of `width` bits that stand behind each other, and back.
+function readPacked({ size, order, width, count, wide }, bytes, at) {
+  const whole = readNumber({ size, order, wide: true }, bytes, at);
+  const values = Array.from({ length: count }, (_, i) => BigInt.asUintN(width, whole >> BigInt(i * width)));
+  if (order === "big") values.reverse();
+  return wide ? values : values.map(Number);
+}
+
+function writePacked({ size, order, width }, values) {
+  const lowestFirst = order === "big" ? [...values].reverse() : values;
+  const whole = lowestFirst.reduceRight((so, value) => (so << BigInt(width)) | BigInt(value), 0n);
+  const bytes = Array.from({ length: size }, (_, i) => Number((whole >> BigInt(8 * i)) & 255n));
+  return order === "big" ? bytes.reverse() : bytes;
+}
+
+// Text without the zeros at its end, and back; those of a list are all of it.
+const textOf = (bytes) => String.fromCharCode(...bytes);
+const bytesOf = (text) => [...text].map((character) => character.codePointAt(0));
 
 // A number of an element: `targets[0].position`, or `ids[0]`.
 function pathOf(list, index, field) {
   return `${list.name}[${index}]` + (list.element === null ? "" : `.${field.name}`);
 }
 
-// What stands where in a frame of `size` bytes with `count` elements, in its order.
-function layOut(slots, size, count) {
-  return slots.flatMap((slot) => {
-    const at = slot.at < 0 ? size + slot.at : slot.at;
-    if (slot.role !== "list") return { path: slot.name, at, slot };
-    return Array.from({ length: count }, (_, index) => slot.fields.map((field) => (
-      { path: pathOf(slot, index, field), at: at + index * slot.size + field.at, slot: field }
-    ))).flat();
-  });
-}
-
 function makeCodec(protocol) {
-  const { reasons: Reason, frame: { least, uncounted, slots: envelope } } = protocol;
-  const bodyIndex = envelope.findIndex((slot) => slot.role === "body");
-  const head = envelope.slice(0, bodyIndex), tail = envelope.slice(bodyIndex + 1);
-  const bodyAt = envelope[bodyIndex].at;
-  const headerSize = envelope.find((slot) => slot.role !== "constant").at;
-  const lengthSlot = envelope.find((slot) => slot.role === "length");
+  const Reason = protocol.reasons, begins = new Set(protocol.begins);
+  const isNumber = (slot) => "order" in slot && slot.role !== "packed";
+  const fixed = (slot) => (slot.role === "constant" ? slot.bytes : []);
+  const countsList = ({ role }) => role === "count" || role === "size";
+
+  // Numbers with more digits than those of a browser come as text.
+  function prepared(slot) {
+    if (slot.wide) Object.assign(slot, { low: BigInt(slot.low), high: BigInt(slot.high) });
+    (slot.slots || []).forEach(prepared);
+    return slot;
+  }
+
+  const envelopes = new Map(protocol.frames.map((frame) => {
+    const slots = frame.slots.map(prepared), body = slots.findIndex(({ role }) => role === "body");
+    const head = slots.slice(0, body), tail = slots.slice(body + 1);
+    return [frame.name, {
+      ...frame, head, tail, bodyAt: slots[body].at, begins: new Set(frame.begins),
+      tailSize: tail.reduce((sum, { size }) => sum + size, 0),
+      lengthSlot: slots.find(({ role }) => role === "length"),
+      checksums: slots.filter(({ role }) => role === "checksum"),
+    }];
+  }));
   const kinds = protocol.messages.map((message) => {
-    const list = message.fields.find((slot) => slot.role === "list");
-    const given = message.fields.filter((slot) => slot.role !== "count");
-    return { ...message, slots: [...head, ...message.fields, ...tail], list, given, frames: new Map() };
+    const envelope = envelopes.get(message.frame), fields = message.fields.map(prepared);
+    const list = fields.find((slot) => slot.role === "list" && !("count" in slot));
+    const slots = [...envelope.head, ...fields, ...envelope.tail];
+    return {
+      ...message, envelope, slots, list,
+      given: message.given.map((name) => slots.find((slot) => slot.name === name)),
+      optional: fields.filter((slot) => slot.optional),
+      counter: list && fields.find((slot) => slot.name === list.counter),
+    };
   });
 
   // ---- What frames there are
 
+  // How many elements a list has, or how many of the fields that may be absent are there.
   function sizeOf(kind, count) {
+    if (kind.sizes) return kind.sizes[count];
     return kind.size + (kind.list ? count * kind.list.size : 0);
   }
 
-  // The frame of `size` bytes that a message has, and what stands where in it; null where it has none.
-  function frameOf(kind, size) {
-    const count = kind.list ? (size - kind.size) / kind.list.size : 0;
+  // The frame of a message with such a count; null where it has none.
+  function frameWith(kind, count) {
     const { low, high } = kind.counts;
-    if (!Number.isInteger(count) || count < low || count > high || size !== sizeOf(kind, count)) {
-      return null;
-    }
-    if (!kind.frames.has(size)) {
-      const placed = layOut(kind.slots, size, count)
-        .map((each) => ({ ...each, due: due(each.slot, kind, size, count) }));
-      kind.frames.set(size, { kind, size, count, placed, inner: placed.slice(head.length) });
-    }
-    return kind.frames.get(size);
+    if (!Number.isInteger(count) || count < low || count > high) return null;
+    return { kind, count, size: sizeOf(kind, count) };
+  }
+
+  function frameOf(kind, size) {
+    if (kind.sizes) return frameWith(kind, kind.sizes.indexOf(size));
+    const count = kind.list ? (size - kind.size) / kind.list.size : 0;
+    return sizeOf(kind, count) === size ? frameWith(kind, count) : null;
+  }
+
+  // The slots that a frame has, with its lists whole, and where they stand.
+  function slotsIn({ kind, size }) {
+    const end = size - kind.envelope.tailSize;
+    return kind.slots.filter((slot) => !slot.optional || slot.at < end)
+      .map((slot) => ({ path: slot.name, at: slot.at < 0 ? size + slot.at : slot.at, slot }));
+  }
+
+  // What stands where in a frame, number by number.
+  function layOut(frame) {
+    return slotsIn(frame).flatMap((placed) => {
+      const { slot: list, at } = placed;
+      if (list.role !== "list") return [placed];
+      return Array.from({ length: list.count ?? frame.count }, (_, index) => list.slots.map((slot) => (
+        { path: pathOf(list, index, slot), at: at + index * list.size + slot.at, slot }
+      ))).flat();
+    });
   }
 
   // The bytes that follow from the rest of the frame; none where a user gives them.
-  function due(slot, kind, size, count) {
+  function due(slot, { kind, size, count }) {
     switch (slot.role) {
-      case "constant": return slot.bytes;
-      case "length": return writeNumber(slot, size - uncounted);
-      case "id": return writeNumber(slot, kind.id);
+      case "constant": case "reserved": return slot.bytes;
+      case "length": return writeNumber(slot, size - kind.envelope.uncounted);
+      case "id": return writeNumber(slot, kind.ids[idNumber(kind.envelope, slot)]);
       case "count": return writeNumber(slot, count);
+      case "size": return writeNumber(slot, count * kind.list.size);
       default: return [];
     }
   }
 
-  // What a line may carry: the messages of one direction by id, or of all where it is null; and how
-  // large their frames can be there.
+  const idNumber = ({ ids }, slot) => ids.findIndex(({ name }) => name === slot.name);
+
+  // What a line may carry: the messages of one direction, or of all where it is null, by envelope;
+  // and how large their frames can be there.
   function listenTo(direction, maxFrame) {
     const ways = protocol.directions.filter(({ key }) => direction === null || key === direction);
     const carried = ways.flatMap(({ key }) => kinds.filter((kind) => kind.direction === key));
-    const named = new Map(carried.map(({ id }) => [id, carried.filter((kind) => kind.id === id)]));
     const sizes = carried.map((kind) => sizeOf(kind, kind.counts.high));
-    return { named, largest: Math.min(maxFrame, Math.max(0, ...sizes)) };
+    const known = [...envelopes.values()].filter((envelope) => carried.some((kind) => kind.envelope === envelope));
+    return {
+      largest: Math.min(maxFrame, Math.max(0, ...sizes)),
+      envelopes: known.map((envelope) => [envelope, carried.filter((kind) => kind.envelope === envelope
+        && (envelope.lengthSlot || sizeOf(kind, kind.counts.low) <= maxFrame))]),
+    };
   }
 
   // ---- Why bytes are no frame
 
   const refused = (reason, offset) => ({ frame: null, reason, offset });
 
+  // Some bytes that are looked at, with what is remembered of them: so that nothing is worked out
+  // again at each of the headers in a run.
+  function lookAt(bytes) {
+    return { bytes, checksums: new Map(), fitting: new Map() };
+  }
+
   // Why the bytes `offset` bytes into a frame at `at` are not those of a slot; null where they are.
   // Those that it must have are `expected`; nothing from `limit` on is looked at.
-  function misfit(slot, offset, expected, bytes, at, limit) {
+  function misfit(slot, offset, expected, { bytes }, at, limit) {
     const start = at + offset;
     const wrong = expected.findIndex((byte, i) => start + i < limit && bytes[start + i] !== byte);
-    if (wrong >= 0 && slot.role === "constant") return refused(Reason.header, offset + wrong);
-    if (wrong >= 0) return refused(Reason.count, offset);
+    if (wrong >= 0 && slot.role === "constant") {
+      const outside = slot.at < 0 ? Reason.trailer : Reason.header;
+      return refused(slot.field ? Reason.range : outside, offset + wrong);
+    }
+    if (wrong >= 0 && countsList(slot)) return refused(Reason.count, offset);
     if (start + slot.size > limit) return refused(Reason.tooShort, limit - at);
-    if (slot.role === "constant") return null;
-    const value = readNumber(slot, bytes, start);
-    return value < slot.low || value > slot.high ? refused(Reason.range, offset) : null;
+    if (slot.role === "text") {
+      const strange = bytes.slice(start, start + slot.size).findIndex((byte) => byte > 0x7f);
+      return strange < 0 ? null : refused(Reason.range, offset + strange);
+    }
+    return holds(slot, bytes, start) ? null : refused(Reason.range, offset);
+  }
+
+  function holds(slot, bytes, start) {
+    if (slot.role === "packed") return readPacked(slot, bytes, start).every((value) => inside(slot, value));
+    return !isNumber(slot) || slot.float || inside(slot, readNumber(slot, bytes, start));
+  }
+
+  function inside({ low, high, beyond = [] }, value) {
+    return (value >= low && value <= high) || beyond.includes(Number(value));
+  }
+
+  // The same of a list: elements that were found to fit before are not looked at again.
+  function misfitOfList(list, offset, count, look, at, limit) {
+    const start = at + offset, end = start + count * list.size;
+    if (list.free) return end > limit ? refused(Reason.tooShort, limit - at) : null;
+    const known = fittingFrom(list, start, look);
+    for (let element = known.to; element < end; element += list.size) {
+      for (const slot of list.slots) {
+        const wrong = misfit(slot, element + slot.at - at, fixed(slot), look, at, limit);
+        if (wrong) return wrong;
+      }
+      known.to = element + list.size;
+    }
+    return end > limit ? refused(Reason.tooShort, limit - at) : null;
+  }
+
+  // Up to where elements are known to fit that begin at `start`.
+  function fittingFrom(list, start, { fitting }) {
+    if (!fitting.has(list)) fitting.set(list, []);
+    const known = fitting.get(list), phase = start % list.size;
+    const { from, to } = known[phase] || { from: start, to: start };
+    if (start < from || start > to || !known[phase]) known[phase] = { from: start, to: start };
+    return known[phase];
   }
 
   // What the bytes from `at` to `limit` begin: a frame; or none, for which reason, and at which
   // offset that shows. They are tested in the order in which they come, and the first that no frame
-  // can have decides. "Too short" is what may become a frame.
-  function weigh(line, bytes, at, limit) {
-    let size = null, named = null, frames = [];
-    for (const slot of head) {
-      const wrong = misfit(slot, slot.at, slot.bytes || [], bytes, at, limit);
-      if (wrong) return wrong;
+  // can have decides. "Too short" is what may become a frame. A frame of an id that no message has
+  // has a `claim`, the size that it says it has, and a checksum may prove it.
+  function weigh(line, look, at, limit) {
+    if (begins.size && at < limit && !begins.has(look.bytes[at])) return refused(Reason.header, 0);
+    const verdicts = line.envelopes.flatMap(([envelope, known]) =>
+      weighIn(envelope, known, line, look, at, limit));
+    const furthest = Math.max(...verdicts.map(({ offset }) => offset));
+    return verdicts.find(({ frame }) => frame) || verdicts.find(({ proven }) => proven)
+      || verdicts.find(({ offset }) => offset === furthest) || refused(Reason.header, 0);
+  }
+
+  // The same for frames of one envelope: a verdict for each message that may be meant.
+  function weighIn(envelope, known, line, look, at, limit) {
+    let size = null, meant = known;
+    let idsLeft = envelope.head.filter(({ role }) => role === "id").length;
+    for (const slot of envelope.head) {
+      const wrong = misfit(slot, slot.at, fixed(slot), look, at, limit);
+      if (wrong) return [wrong];
       if (slot.role === "length") {
-        size = readNumber(slot, bytes, at + slot.at) + uncounted;
-        if (size < least || size > line.largest) return refused(Reason.length, slot.at);
+        size = Number(readNumber(slot, look.bytes, at + slot.at)) + envelope.uncounted;
+        if (size < envelope.least || size > line.largest) return [refused(Reason.length, slot.at)];
       }
       if (slot.role === "id") {
-        named = line.named.get(readNumber(slot, bytes, at + slot.at));
-        if (!named) return refused(Reason.unknown, slot.at);
+        const id = Number(readNumber(slot, look.bytes, at + slot.at));
+        meant = meant.filter((kind) => kind.ids[idNumber(envelope, slot)] === id);
+        if (!meant.length) return [weighUnknown(envelope, slot.at, line, look, at, limit)];
+        idsLeft--;
       }
-      if (size !== null && named) {
-        frames = named.map((kind) => frameOf(kind, size)).filter((frame) => frame);
-        if (!frames.length) return refused(Reason.length, lengthSlot.at);
+      if (size !== null && !idsLeft) {
+        meant = meant.filter((kind) => frameOf(kind, size));
+        if (!meant.length) return [refused(Reason.length, envelope.lengthSlot.at)];
       }
     }
-    return best(frames.map((frame) => weighFields(frame, bytes, at, limit)));
+    return meant.map((kind) => {
+      const frame = size === null ? frameAt(kind, line, look, at, limit) : frameOf(kind, size);
+      return frame.reason ? frame : weighFields(frame, look, at, limit);
+    });
   }
 
-  // What follows the head, as the rest of one frame.
-  function weighFields(frame, bytes, at, limit) {
-    for (const placed of frame.inner) {
-      const wrong = misfit(placed.slot, placed.at, placed.due, bytes, at, limit);
+  // The frame of a message that says nothing of its length, but perhaps of its list; or why not.
+  function frameAt(kind, line, look, at, limit) {
+    const least = frameWith(kind, kind.counts.low);
+    if (!kind.counter) return least;
+    for (const { slot, at: offset } of slotsIn(least).slice(kind.envelope.head.length)) {
+      if (slot !== kind.counter) {
+        const wrong = misfitOf(slot, offset, least, look, at, limit);
+        if (wrong) return wrong;
+        continue;
+      }
+      const wrong = misfit({ ...slot, low: -Infinity, high: Infinity }, offset, [], look, at, limit);
+      if (wrong) return wrong;
+      const value = Number(readNumber(slot, look.bytes, at + offset));
+      const frame = frameWith(kind, slot.role === "size" ? value / kind.list.size : value);
+      return frame && frame.size <= line.largest ? frame : refused(Reason.count, offset);
+    }
+    return least;
+  }
+
+  function misfitOf(slot, offset, frame, look, at, limit) {
+    if (slot.role === "list") {
+      return misfitOfList(slot, offset, slot.count ?? frame.count, look, at, limit);
+    }
+    return misfit(slot, offset, countsList(slot) ? due(slot, frame) : fixed(slot), look, at, limit);
+  }
+
+  // What follows the head, as the rest of one frame. The checksums are the last test.
+  function weighFields(frame, look, at, limit) {
+    for (const { slot, at: offset } of slotsIn(frame).slice(frame.kind.envelope.head.length)) {
+      const wrong = misfitOf(slot, offset, frame, look, at, limit);
       if (wrong) return wrong;
     }
-    return { frame, reason: null, offset: frame.size };
+    const { kind, size } = frame;
+    return misproof(kind.envelope, kind.ids, size, look, at) || { frame, reason: null, offset: size };
   }
 
-  // Of what several directions say, the first frame; or else the first of those that came furthest.
-  function best(verdicts) {
-    const furthest = Math.max(...verdicts.map(({ offset }) => offset));
-    return verdicts.find(({ frame }) => frame) || verdicts.find(({ offset }) => offset === furthest);
+  // Why the checksums of a whole frame are not right; null where they are.
+  function misproof(envelope, ids, size, look, at) {
+    for (const slot of envelope.checksums) {
+      const offset = slot.at < 0 ? size + slot.at : slot.at;
+      const value = readNumber(slot, look.bytes, at + offset);
+      if (BigInt(value) !== BigInt(checksumOf(envelope, slot, ids, size, look, at))) {
+        return refused(Reason.checksum, offset);
+      }
+    }
+    return null;
+  }
+
+  // The checksum that a frame should have.
+  function checksumOf(envelope, slot, ids, size, look, at) {
+    if (!look.checksums.has(slot)) look.checksums.set(slot, makeChecksum(slot.method, look.bytes));
+    const fromEnd = (place) => at + (place > 0 ? place : size + place);
+    return look.checksums.get(slot)(slot.covers.map((piece) => (Array.isArray(piece)
+      ? [piece[0] < 0 ? fromEnd(piece[0]) : at + piece[0], fromEnd(piece[1])]
+      : { unsent: writeNumber(envelope.ids[piece], ids[piece]) })));
+  }
+
+  // A frame of an id that no message has, which is seen at `offset`.
+  function weighUnknown(envelope, offset, line, look, at, limit) {
+    const claim = claimOf(envelope, line, look, at, limit), provable = envelope.proves && claim > 0;
+    const isWhole = envelope.bodyAt <= claim && at + claim <= limit;
+    const proven = provable && isWhole && !envelope.tail.some((slot) => slot.role === "constant"
+      && misfit(slot, claim + slot.at, slot.bytes, look, at, limit))
+      && !misproof(envelope, [], claim, look, at);
+    return { ...refused(Reason.unknown, offset), claim, provable, proven };
+  }
+
+  // How many bytes a frame of unknown id says that it has, at the least; 0 where no frame has them.
+  function claimOf({ bodyAt, least, lengthSlot, uncounted }, line, { bytes }, at, limit) {
+    if (at + bodyAt > limit) return least;
+    if (!lengthSlot) return 0;
+    const size = Number(readNumber(lengthSlot, bytes, at + lengthSlot.at)) + uncounted;
+    return size < least || size > line.largest ? 0 : size;
   }
 
   // One frame, whole and with nothing after it: its message, or the reason and byte where not.
   function decodeFrame(bytes, direction) {
-    const { frame, reason, offset } = weigh(listenTo(direction, Infinity), bytes, 0, bytes.length);
+    const line = listenTo(direction, Infinity);
+    const { frame, reason, offset } = weigh(line, lookAt(bytes), 0, bytes.length);
     if (!frame) return { reason, offset };
     return frame.size < bytes.length ? { reason: Reason.trailing, offset } : messageOf(frame, bytes);
   }
@@ -182,29 +367,24 @@ function makeCodec(protocol) {
 
   // What stands at `at`: a "message", an "unknown" frame, "noise", or something "begun" that the
   // bytes to come decide; and how many bytes go with it.
-  function judge(line, bytes, at) {
-    const verdict = weigh(line, bytes, at, bytes.length);
-    if (verdict.frame) return { type: "message", size: verdict.frame.size, ...verdict };
-    if (verdict.reason === Reason.tooShort) return { type: "begun", size: 1, ...verdict };
-    const claimed = verdict.reason === Reason.unknown ? claimOf(line, bytes, at) : 0;
-    const type = claimed ? fateOf(line, bytes, at, at + claimed) : "noise";
-    return { type, size: type === "unknown" ? claimed : 1, ...verdict };
+  function judge(line, look, at) {
+    const left = look.bytes.length - at, verdict = weigh(line, look, at, look.bytes.length);
+    const { frame, reason, claim = 0, provable, proven } = verdict;
+    const as = (type, size) => ({ ...verdict, type, size });
+    if (frame) return as("message", frame.size);
+    if (provable) return claim > left ? as("begun", 1) : as(proven ? "unknown" : "noise", proven ? claim : 1);
+    if (reason === Reason.tooShort) return as("begun", 1);
+    const type = claim ? fateOf(line, look, at, at + claim) : "noise";
+    return as(type, type === "unknown" ? claim : 1);
   }
 
-  // How many bytes a frame of unknown id says that it has, at the least; 0 where no frame has them.
-  function claimOf(line, bytes, at) {
-    if (at + bodyAt > bytes.length) return least;
-    const size = readNumber(lengthSlot, bytes, at + lengthSlot.at) + uncounted;
-    return size < least || size > line.largest ? 0 : size;
-  }
-
-  // What becomes of a frame of unknown id, from `at` to `end`. Nothing proves it: a message that
+  // What becomes of a frame of unknown id, from `at` to `end`, that nothing proves: a message that
   // begins, or may begin, among its own bytes is worth more. Looked for from the end, where a begun
   // header is found at once.
-  function fateOf(line, bytes, at, end) {
-    const whole = end <= bytes.length, limit = whole ? end : bytes.length;
+  function fateOf(line, look, at, end) {
+    const whole = end <= look.bytes.length, limit = whole ? end : look.bytes.length;
     for (let inside = limit - 1; inside > at; inside--) {
-      const { frame, reason } = weigh(line, bytes, inside, limit);
+      const { frame, reason } = weigh(line, look, inside, limit);
       if (frame || (whole && reason === Reason.tooShort)) return "noise";
     }
     return whole ? "unknown" : "begun";
@@ -214,6 +394,13 @@ function makeCodec(protocol) {
   function eventOf({ type, frame, reason, offset }, at, bytes) {
     const said = frame ? messageOf(frame, bytes) : { reason, refusedAt: at + offset };
     return { type, at, bytes, ...said };
+  }
+
+  // Whether a frame begins at `at`, as far as its header goes.
+  function isHeader(line, bytes, at) {
+    return line.envelopes.some(([{ header, begins: first }]) => (header.length
+      ? header.every((byte, i) => bytes[at + i] === byte)
+      : !first.size || first.has(bytes[at])));
   }
 
   // A decoder of what arrives on one line. `feed` and `flush` return events: messages, unknown
@@ -227,27 +414,26 @@ function makeCodec(protocol) {
     // the one before and is refused alike, as in a run of header bytes.
     let noise = null;
 
-    function noiseWith({ reason, offset }, at) {
-      const isHeader = offset >= headerSize;
-      if (noise && !isHeader) return noise;
+    function noiseWith({ reason, offset }, at, header) {
+      if (noise && !header) return noise;
       if (noise?.header === at - 1 && noise.reason === reason) return Object.assign(noise, { header: at });
-      const why = isHeader ? { reason, header: at } : { reason: Reason.header };
+      const why = header ? { reason, header: at } : { reason: Reason.header };
       return { type: "noise", at, bytes: [], refusedAt: at + offset, ...why };
     }
 
     function search(arrived, quiet) {
       held = [...held, ...arrived];
-      const events = [];
+      const events = [], look = lookAt(held);
       let at = 0;
       while (at < held.length) {
-        const found = judge(line, held, at);
+        const found = judge(line, look, at);
         if (found.type === "begun" && !quiet) break;
         const bytes = held.slice(at, at + found.size);
         if (found.type === "message" || found.type === "unknown") {
           noise = null;
           events.push(eventOf(found, base + at, bytes));
         } else {
-          noise = noiseWith(found, base + at);
+          noise = noiseWith(found, base + at, isHeader(line, held, at));
           if (events.at(-1) !== noise) events.push(noise);
           noise.bytes.push(...bytes);
         }
@@ -269,52 +455,123 @@ function makeCodec(protocol) {
 
   // ---- Values
 
+  // What stands in a slot at `at`; null in one that says nothing.
+  function valueAt(slot, bytes, at) {
+    if (slot.role === "packed") return readPacked(slot, bytes, at);
+    if (slot.role === "text") return textOf(bytes.slice(at, at + slot.size)).replace(/\0+$/, "");
+    return isNumber(slot) ? readNumber(slot, bytes, at) : null;
+  }
+
   // The message in a whole frame. Its `rows` are the slots with what stands in them.
   function messageOf(frame, bytes) {
     const { kind } = frame;
-    const rows = frame.placed.map((placed) => ({
+    const rows = layOut(frame).map((placed) => ({
       ...placed,
       bytes: bytes.slice(placed.at, placed.at + placed.slot.size),
-      value: placed.slot.role === "constant" ? null : readNumber(placed.slot, bytes, placed.at),
+      value: valueAt(placed.slot, bytes, placed.at),
     }));
     const values = new Map(rows.map(({ path, value }) => [path, value]));
     const fields = kind.given.map((slot) => [slot.name, slot.role !== "list"
-      ? values.get(slot.name)
-      : Array.from({ length: frame.count }, (_, index) => itemOf(slot, index, values))]);
+      ? values.get(slot.name) ?? null
+      : itemsOf(slot, slot.count ?? frame.count, values)]);
     return { kind, message: kind.name, fields: Object.fromEntries(fields), rows };
   }
 
-  function itemOf(list, index, values) {
-    const numbers = list.fields.map((field) => [field.name, values.get(pathOf(list, index, field))]);
-    return list.element === null ? numbers[0][1] : Object.fromEntries(numbers);
+  function itemsOf(list, count, values) {
+    const named = list.slots.filter((slot) => !("bytes" in slot));
+    const items = Array.from({ length: count }, (_, index) => {
+      const numbers = named.map((field) => [field.name, values.get(pathOf(list, index, field))]);
+      return list.element === null ? numbers[0][1] : Object.fromEntries(numbers);
+    });
+    return list.text ? textOf(items) : items;
   }
 
   // The frame that carries `fields`, as decodeFrame gives them. Throws Unusable.
   function encode(name, fields) {
     const kind = kinds.find((each) => each.name === name);
-    const count = kind.list ? fields[kind.list.name].length : 0;
-    const frame = frameOf(kind, sizeOf(kind, count));
+    const values = valuesOf(kind, fields), frame = frameWith(kind, countOf(kind, fields));
     if (!frame) {
       const { low, high } = kind.counts;
-      throw new Unusable(`${kind.list.name}: ${count} items is outside ${low}..${high}`);
+      throw new Unusable(`${kind.list.name}: ${fields[kind.list.name].length} items is outside ${low}..${high}`);
     }
-    const values = valuesOf(kind, fields);
-    return frame.placed.flatMap(({ path, slot, due: known }) =>
-      known.length ? known : writeNumber(slot, checked(path, values.get(path), slot)));
+    const placed = layOut(frame);
+    const bytes = placed.flatMap(({ path, slot }) => {
+      const known = due(slot, frame);
+      if (known.length) return countsList(slot) ? checkedCount(slot, known, frame) : known;
+      return slot.role === "checksum" ? Array(slot.size).fill(0) : written(path, slot, values.get(path));
+    });
+    for (const { at, slot } of placed.filter((each) => each.slot.role === "checksum")) {
+      const value = checksumOf(kind.envelope, slot, kind.ids, frame.size, lookAt(bytes), 0);
+      bytes.splice(at, slot.size, ...writeNumber(slot, value));
+    }
+    return bytes;
   }
 
-  // The numbers that are given, by path.
+  // The count that values have: of their list, or of those that may be absent.
+  function countOf(kind, fields) {
+    if (kind.list) return fields[kind.list.name].length;
+    if (!kind.optional.length) return 0;
+    const isGiven = ({ name }) => fields[name] !== null && fields[name] !== undefined;
+    const given = kind.optional.filter(isGiven);
+    const fitting = kind.sizes.findIndex((_, count) => {
+      const there = slotsIn(frameWith(kind, count)).filter(({ slot }) => slot.optional);
+      return there.length === given.length && there.every(({ slot }, i) => slot === given[i]);
+    });
+    if (fitting < 0) {
+      const names = given.map(({ name }) => name).join(", ") || "none of them";
+      throw new Unusable(`${kind.optional[0].name}: no frame has ${names} of the fields that may be absent`);
+    }
+    return fitting;
+  }
+
+  // What is given, by path.
   function valuesOf(kind, fields) {
-    return new Map(kind.given.flatMap((slot) => slot.role !== "list"
-      ? [[slot.name, fields[slot.name]]]
-      : fields[slot.name].flatMap((item, index) => slot.fields.map((field) =>
-        [pathOf(slot, index, field), slot.element === null ? item : item[field.name]]))));
+    return new Map(kind.given.flatMap((slot) => {
+      const value = slot.role === "counter" ? fields[slot.name] ?? 0 : fields[slot.name];
+      if (slot.role !== "list") return [[slot.name, value]];
+      const items = slot.text ? bytesOf(checkedText(slot.name, value)) : value;
+      const { count = items.length } = slot;
+      if (items.length !== count) {
+        throw new Unusable(`${slot.name}: ${items.length} items, and it has ${count}`);
+      }
+      return items.flatMap((item, index) => slot.slots.map((field) =>
+        [pathOf(slot, index, field), slot.element === null ? item : item[field.name]]));
+    }));
   }
 
-  function checked(path, value, { low, high }) {
-    if (!Number.isInteger(value)) throw new Unusable(`${path}: a whole number is due`);
-    if (value < low || value > high) throw new Unusable(`${path}: ${value} is outside ${low}..${high}`);
+  function written(path, slot, value) {
+    if (slot.role === "text") {
+      const bytes = bytesOf(checkedText(path, value));
+      if (bytes.length <= slot.size) return [...bytes, ...Array(slot.size - bytes.length).fill(0)];
+      throw new Unusable(`${path}: ${bytes.length} characters, and it has room for ${slot.size}`);
+    }
+    if (slot.role !== "packed") return writeNumber(slot, checked(path, value, slot));
+    if (value.length !== slot.count) {
+      throw new Unusable(`${path}: ${value.length} numbers, and it has ${slot.count}`);
+    }
+    return writePacked(slot, value.map((each, i) => checked(`${path}[${i}]`, each, slot)));
+  }
+
+  function checkedText(path, value) {
+    const strange = [...value].find((character) => character.codePointAt(0) > 0x7f);
+    if (strange) throw new Unusable(`${path}: “${strange}” is not ASCII`);
     return value;
+  }
+
+  function checked(path, value, slot) {
+    if (slot.float) {
+      if (typeof value !== "number") throw new Unusable(`${path}: a number is due`);
+      if (slot.size > 4 || !Number.isFinite(value) || Number.isFinite(Math.fround(value))) return value;
+      throw new Unusable(`${path}: ${value} does not fit`);
+    }
+    if (typeof value !== "bigint" && !Number.isInteger(value)) throw new Unusable(`${path}: a whole number is due`);
+    if (inside(slot, value)) return value;
+    throw new Unusable(`${path}: ${value} is outside ${slot.low}..${slot.high}`);
+  }
+
+  function checkedCount(slot, known, { kind, count }) {
+    checked(slot.name, slot.role === "size" ? count * kind.list.size : count, slot);
+    return known;
   }
 
   return { kinds, makeStream, decodeFrame, encode };

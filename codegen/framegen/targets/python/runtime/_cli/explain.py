@@ -53,14 +53,14 @@ def run(arguments: Namespace) -> int:
 def explained(model: Protocol, data: bytes, sender: str | None = None) -> Explanation:
     """Explain bytes as this library decodes them; as sent by one end alone, if it is given."""
     ways = {text: Direction(model.said["members"][text]) for text in model.directions}
+    names = {each.said.get("class", name): name for name, each in model.messages.items()}
 
     def judge(direction: str, frame: bytes) -> Judgement:
         try:
             message = decode(frame, ways[direction])
         except DecodeError as error:
             return Judgement(None, error.reason.value, error.offset)
-        found = model.message(direction, message.COMMAND)
-        return Judgement(None if found is None else found.name)
+        return Judgement(names[type(message).__name__])
 
     chosen = [text for text, way in ways.items() if sender in (None, way.sender)]
     return explain(model, judge, data, chosen)

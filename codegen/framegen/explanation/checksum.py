@@ -1,0 +1,50 @@
+"""Checksums worked out from what the data of a protocol says of their method, slow and plain."""
+
+from __future__ import annotations
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+    from typing import Any
+
+
+def checksum(terms: Mapping[str, Any], width: int, data: bytes) -> int:
+    """Return the checksum of `data` in so many bits, by the terms of its method."""
+    return _KINDS[terms["kind"]](terms, width, data)
+
+
+def _sum(terms: Mapping[str, Any], width: int, data: bytes) -> int:
+    return int((terms["factor"] * sum(data) + terms["offset"]) % (1 << width))
+
+
+def _xor(terms: Mapping[str, Any], width: int, data: bytes) -> int:
+    value = int(terms["xor_out"])
+    for byte in data:
+        value ^= byte
+    return value % (1 << width)
+
+
+def _fletcher(terms: Mapping[str, Any], width: int, data: bytes) -> int:
+    first, second = int(terms["start"]), 0
+    for byte in data:
+        first = (first + byte) % int(terms["modulus"])
+        second = (second + first) % int(terms["modulus"])
+    return second << width // 2 | first
+
+
+def _crc(terms: Mapping[str, Any], width: int, data: bytes) -> int:
+    register, top, is_reflected = int(terms["init"]), 1 << width - 1, terms["reflected"]
+    for byte in data:
+        register ^= (_turned(byte, 8) if is_reflected else byte) << width - 8
+        for _ in range(8):
+            carry = register & top
+            register = (register << 1) % (top << 1) ^ (int(terms["poly"]) if carry else 0)
+    value = _turned(register, width) if is_reflected else register
+    return value ^ int(terms["xor_out"])
+
+
+def _turned(value: int, width: int) -> int:
+    return int(f"{value:0{width}b}"[::-1], 2)
+
+
+_KINDS = {"sum": _sum, "xor": _xor, "fletcher": _fletcher, "crc": _crc}
