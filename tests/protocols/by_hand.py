@@ -81,6 +81,24 @@ def _sbus(values: Values) -> bytes:
     return b"\x0f" + _channels(values["channels"]) + bytes([values["flags"], 0])
 
 
+def _sensor(command: int, data: bytes) -> bytes:
+    checked = bytes([1, command]) + data.ljust(5, b"\0")
+    return b"\xff" + checked + bytes([-sum(checked) % 256])
+
+
+def _concentration(values: Values) -> bytes:
+    checked = b"\x86" + _pack(">HB", values) + bytes(3)
+    return b"\xff" + checked + bytes([-sum(checked) % 256])
+
+
+def _bus(source: int, destination: int, command: int, data: bytes) -> bytes:
+    frame = bytes([source, len(data) + 3, destination, command]) + data
+    total = 0
+    for byte in frame:
+        total ^= byte
+    return frame + bytes([total])
+
+
 def _altitude(values: Values) -> bytes:
     tail = b"" if values["barometer"] is None else struct.pack("<i", values["barometer"])
     return _pack("<ih", values, "altitude", "climb") + tail
@@ -146,6 +164,20 @@ BY_HAND: dict[str, dict[str, Callable[[Values], bytes]]] = {
         "Channels": lambda values: _crsf(0x16, _channels(values["channels"])),
     },
     "sbus": {"Channels": _sbus},
+    "mhz19": {
+        "ConcentrationRead": lambda _: _sensor(0x86, b""),
+        "Concentration": _concentration,
+        "AutomaticCalibrationSet": lambda values: _sensor(0x79, _pack("B", values)),
+        "RangeSet": lambda values: _sensor(0x99, b"\0" + _pack(">I", values)),
+    },
+    "ibus": {
+        "Poll": lambda _: _bus(0x68, 0x18, 0x01, b""),
+        "Control": lambda values: _bus(0x68, 0x18, 0x38, _pack("BB", values)),
+        "Ready": lambda values: _bus(0x18, 0xFF, 0x02, _pack("B", values)),
+        "Status": lambda values: _bus(
+            *(0x18, 0x68, 0x39), struct.pack("BBxBxBB", *values.values())
+        ),
+    },
     "tfmini": {"Measurement": _tfmini},
     "mavlink1": {
         "Heartbeat": lambda values: _mavlink(

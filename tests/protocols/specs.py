@@ -8,11 +8,11 @@ from functools import cache
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from framegen.language.load import load, read_source
 from framegen.model.codec import encode
-from framegen.model.model import derive
 from framegen.model.slots import Items, Number, Packed, Text
 from hypothesis import strategies as st
+
+from tests.factories import compiled_file
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -29,12 +29,9 @@ FILES = {file.stem: file for file in sorted(FOLDER.glob("*.yaml"))}
 FEW = 5
 
 
-@cache
 def model_of(name: str) -> Model:
     """Return the model of a protocol, by the name of its file."""
-    spec = load(read_source(FILES[name])).spec
-    assert spec is not None
-    return derive(spec)
+    return compiled_file(FILES[name]).model
 
 
 @cache
