@@ -1,0 +1,217 @@
+"""Frames of protocols without a peer on the package index, written by hand with `struct` alone."""
+
+from __future__ import annotations
+
+import struct
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterable, Sequence
+
+    from tests.protocols.peer import Values
+
+
+def _pack(layout: str, values: Values, *names: str) -> bytes:
+    return struct.pack(layout, *(values[name] for name in names or values))
+
+
+def _each(layout: str, items: Iterable[Values]) -> bytes:
+    return b"".join(struct.pack(layout, *item.values()) for item in items)
+
+
+def _channels(values: Sequence[int]) -> bytes:
+    """Pack sixteen channels of eleven bits, bit by bit, the lowest first."""
+    bits = [value >> place & 1 for value in values for place in range(11)]
+    octets = [bits[at : at + 8] for at in range(0, len(bits), 8)]
+    return bytes(sum(bit << place for place, bit in enumerate(octet)) for octet in octets)
+
+
+def _crc8_dvb_s2(data: bytes) -> int:
+    crc = 0
+    for byte in data:
+        crc ^= byte
+        for _ in range(8):
+            crc = (crc << 1 ^ 0xD5) & 0xFF if crc & 0x80 else crc << 1
+    return crc
+
+
+def _crc_x25_without_inversion(data: bytes) -> int:
+    """As MAVLink's own header works it out, a byte at a time."""
+    crc = 0xFFFF
+    for byte in data:
+        step = (byte ^ crc) & 0xFF
+        step = (step ^ step << 4) & 0xFF
+        crc = crc >> 8 ^ step << 8 ^ step << 3 ^ step >> 4
+    return crc
+
+
+# --- Frames --------------------------------------------------------------------------------------
+
+
+def _learm(command: int, parameters: bytes) -> bytes:
+    return bytes([0x55, 0x55, len(parameters) + 2, command]) + parameters
+
+
+def _msp(direction: bytes, command: int, payload: bytes) -> bytes:
+    checked = bytes([len(payload), command]) + payload
+    total = 0
+    for byte in checked:
+        total ^= byte
+    return b"$M" + direction + checked + bytes([total])
+
+
+def _crsf(kind: int, payload: bytes) -> bytes:
+    checked = bytes([kind]) + payload
+    return bytes([0xC8, len(checked) + 1]) + checked + bytes([_crc8_dvb_s2(checked)])
+
+
+def _mavlink(values: Values, message: int, extra: int, payload: bytes) -> bytes:
+    sender = struct.pack("<H", values["sender"])
+    checked = bytes([len(payload), values["sequence"]]) + sender + bytes([message]) + payload
+    crc = _crc_x25_without_inversion(checked + bytes([extra]))
+    return b"\xfe" + checked + struct.pack("<H", crc)
+
+
+def _tfmini(values: Values) -> bytes:
+    frame = b"YY" + _pack("<HHH", values)
+    return frame + bytes([sum(frame) % 256])
+
+
+def _sbus(values: Values) -> bytes:
+    return b"\x0f" + _channels(values["channels"]) + bytes([values["flags"], 0])
+
+
+def _sensor(command: int, data: bytes) -> bytes:
+    checked = bytes([1, command]) + data.ljust(5, b"\0")
+    return b"\xff" + checked + bytes([-sum(checked) % 256])
+
+
+def _concentration(values: Values) -> bytes:
+    checked = b"\x86" + _pack(">HB", values) + bytes(3)
+    return b"\xff" + checked + bytes([-sum(checked) % 256])
+
+
+def _bus(source: int, destination: int, command: int, data: bytes) -> bytes:
+    frame = bytes([source, len(data) + 3, destination, command]) + data
+    total = 0
+    for byte in frame:
+        total ^= byte
+    return frame + bytes([total])
+
+
+def _altitude(values: Values) -> bytes:
+    tail = b"" if values["barometer"] is None else struct.pack("<i", values["barometer"])
+    return _pack("<ih", values, "altitude", "climb") + tail
+
+
+def _name(text: str, size: int) -> bytes:
+    return text.encode("ascii").ljust(size, b"\0")
+
+
+# What writes a frame, by protocol and message.
+BY_HAND: dict[str, dict[str, Callable[[Values], bytes]]] = {
+    "learm": {
+        "VersionRead": lambda _: _learm(1, b""),
+        "OffsetsRead": lambda _: _learm(2, b""),
+        "ServoMove": lambda values: _learm(
+            3,
+            struct.pack("<BH", len(values["targets"]), values["time_ms"])
+            + _each("<BH", values["targets"]),
+        ),
+        "CoordinateStep": lambda values: _learm(4, _pack("<bbb", values)),
+        "ActionGroupRun": lambda values: _learm(6, _pack("<BH", values)),
+        "ActionGroupStop": lambda _: _learm(7, b""),
+        "ActionGroupsErase": lambda _: _learm(8, b""),
+        "OffsetSet": lambda values: _learm(10, _pack("<Bb", values)),
+        "OffsetsSave": lambda _: _learm(11, b""),
+        "PoseReset": lambda _: _learm(12, b""),
+        "PositionsRead": lambda _: _learm(13, b""),
+        "Version": lambda values: _learm(1, _pack("<BB", values)),
+        "Offsets": lambda values: _learm(2, _each("<Bb", values["offsets"])),
+        "ActionGroupsErased": lambda _: _learm(8, b""),
+        "OffsetsSaved": lambda _: _learm(11, b""),
+        "Positions": lambda values: _learm(13, _each("<BH", values["positions"])),
+    },
+    "msp": {
+        "ApiVersionRead": lambda _: _msp(b"<", 1, b""),
+        "ApiVersion": lambda values: _msp(b">", 1, _pack("<BBB", values)),
+        "ApiVersionRefused": lambda _: _msp(b"!", 1, b""),
+        "VariantRead": lambda _: _msp(b"<", 4, b""),
+        "Variant": lambda values: _msp(b">", 4, _name(values["name"], 4)),
+        "AttitudeRead": lambda _: _msp(b"<", 108, b""),
+        "Attitude": lambda values: _msp(b">", 108, _pack("<hhh", values)),
+        "AltitudeRead": lambda _: _msp(b"<", 109, b""),
+        "Altitude": lambda values: _msp(b">", 109, _altitude(values)),
+        "RawRcSet": lambda values: _msp(
+            b"<", 200, struct.pack(f"<{len(values['channels'])}H", *values["channels"])
+        ),
+        "RawRcTaken": lambda _: _msp(b">", 200, b""),
+    },
+    "crsf": {
+        "Gps": lambda values: _crsf(0x02, _pack(">iiHHHB", values)),
+        "Battery": lambda values: _crsf(
+            0x08,
+            _pack(">hh", values, "voltage", "current")
+            + struct.pack(">I", values["used"])[1:]
+            + _pack(">b", values, "remaining"),
+        ),
+        "Attitude": lambda values: _crsf(0x1E, _pack(">hhh", values)),
+        "FlightMode": lambda values: _crsf(0x21, bytes(values["letters"])),
+        "LinkStatistics": lambda values: _crsf(
+            0x14,
+            bytes(values["uplink_rssi"]) + struct.pack(">BbBBBBBb", *list(values.values())[1:]),
+        ),
+        "Channels": lambda values: _crsf(0x16, _channels(values["channels"])),
+    },
+    "sbus": {"Channels": _sbus},
+    "mhz19": {
+        "ConcentrationRead": lambda _: _sensor(0x86, b""),
+        "Concentration": _concentration,
+        "AutomaticCalibrationSet": lambda values: _sensor(0x79, _pack("B", values)),
+        "RangeSet": lambda values: _sensor(0x99, b"\0" + _pack(">I", values)),
+    },
+    "ibus": {
+        "Poll": lambda _: _bus(0x68, 0x18, 0x01, b""),
+        "Control": lambda values: _bus(0x68, 0x18, 0x38, _pack("BB", values)),
+        "Ready": lambda values: _bus(0x18, 0xFF, 0x02, _pack("B", values)),
+        "Status": lambda values: _bus(
+            *(0x18, 0x68, 0x39), struct.pack("BBxBxBB", *values.values())
+        ),
+    },
+    "tfmini": {"Measurement": _tfmini},
+    "mavlink1": {
+        "Heartbeat": lambda values: _mavlink(
+            values,
+            *(0, 50),
+            _pack(
+                "<IBBBBB",
+                values,
+                *("custom_mode", "type", "autopilot", "base_mode", "system_status", "version"),
+            ),
+        ),
+        "SystemTime": lambda values: _mavlink(
+            values, 2, 137, _pack("<QI", values, "unix_us", "boot_ms")
+        ),
+        "ParameterRead": lambda values: _mavlink(
+            values,
+            *(20, 214),
+            _pack("<hBB", values, "index", "target_system", "target_component")
+            + _name(values["name"], 16),
+        ),
+        "Parameter": lambda values: _mavlink(
+            values,
+            *(22, 220),
+            _pack("<fHH", values, "value", "count", "index")
+            + _name(values["name"], 16)
+            + _pack("<B", values, "type"),
+        ),
+        "Attitude": lambda values: _mavlink(
+            values,
+            *(30, 39),
+            struct.pack("<I6f", values["boot_ms"], *values["angles"], *values["rates"]),
+        ),
+        "Timesync": lambda values: _mavlink(
+            values, 111, 34, _pack("<qq", values, "answered_ns", "asked_ns")
+        ),
+    },
+}

@@ -1,0 +1,254 @@
+"""Clients of the LX-16A servo bus, from the package index: `lewansoul-lx16a` and `lewanlib`."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Any, TypeAlias
+
+import pytest
+
+from tests.protocols.peer import Peer, Values, as_is, with_values
+from tests.protocols.specs import messages_of
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterable
+
+# What tells a servo something, and what asks it; a client, the servo, and values by their names.
+Tell: TypeAlias = "Callable[[Any, int, Values], object]"
+Ask: TypeAlias = "Callable[[Any, int], Values]"
+
+
+@dataclass
+class Wire:
+    """A line for clients that write and read: `reply` comes back to whatever is written."""
+
+    reply: bytes = b""
+    timeout: float | None = None
+    written: bytes = b""
+    waiting: bytes = field(default=b"", repr=False)
+
+    def write(self, data: bytes) -> int:
+        """Take what is written, and have the reply ready."""
+        self.written, self.waiting = bytes(data), self.reply
+        return len(data)
+
+    def read(self, size: int = 1) -> bytes:
+        """Return what has come."""
+        found, self.waiting = self.waiting[:size], self.waiting[size:]
+        return found
+
+    def reset_input_buffer(self) -> None:
+        """Forget what has come."""
+        self.waiting = b""
+
+
+def _to_one(values: Values) -> Values:
+    """Return the values, from a single servo."""
+    return values | {"servo_id": min(values["servo_id"], 253)}
+
+
+def _mode(values: Values) -> Values:
+    """Return values with a speed for a motor alone: clients tell no other."""
+    mode = values["mode"] & 1
+    return values | {"mode": mode, "speed": values["speed"] if mode else 0}
+
+
+_TORQUE = with_values(torque=lambda value: value & 1)
+_LED = with_values(led=lambda value: value & 1)
+
+
+# --- lewansoul-lx16a -----------------------------------------------------------------------------
+
+_TELLS: dict[str, Tell] = {
+    "Move": lambda servos, to, told: servos.move(to, told["position"], told["time_ms"]),
+    "MovePrepare": lambda servos, to, told: servos.move_prepare(
+        to, told["position"], told["time_ms"]
+    ),
+    "MoveStart": lambda servos, to, _: servos.move_start(to),
+    "MoveStop": lambda servos, to, _: servos.move_stop(to),
+    "ServoIdWrite": lambda servos, to, told: servos.set_servo_id(to, told["new_id"]),
+    "OffsetAdjust": lambda servos, to, told: servos.set_position_offset(to, told["offset"]),
+    "OffsetSave": lambda servos, to, _: servos.save_position_offset(to),
+    "PositionLimitsWrite": lambda servos, to, told: servos.set_position_limits(
+        to, told["lowest"], told["highest"]
+    ),
+    "VoltageLimitsWrite": lambda servos, to, told: servos.set_voltage_limits(
+        to, told["lowest_mv"], told["highest_mv"]
+    ),
+    "TemperatureLimitWrite": lambda servos, to, told: servos.set_max_temperature_limit(
+        to, told["highest"]
+    ),
+    "ModeWrite": lambda servos, to, told: (
+        servos.set_motor_mode(to, told["speed"]) if told["mode"] else servos.set_servo_mode(to)
+    ),
+    "TorqueWrite": lambda servos, to, told: (
+        servos.motor_on(to) if told["torque"] else servos.motor_off(to)
+    ),
+    "LedWrite": lambda servos, to, told: servos.led_off(to) if told["led"] else servos.led_on(to),
+    "LedErrorsWrite": lambda servos, to, told: servos.set_led_errors(to, told["errors"]),
+}
+# By the message that replies.
+_ASKS: dict[str, Ask] = {
+    "PreparedMove": lambda servos, to: _two("position", "time_ms", servos.get_prepared_move(to)),
+    "ServoId": lambda servos, to: {"own_id": servos.get_servo_id(to)},
+    "Offset": lambda servos, to: {"offset": servos.get_position_offset(to)},
+    "PositionLimits": lambda servos, to: _two("lowest", "highest", servos.get_position_limits(to)),
+    "VoltageLimits": lambda servos, to: _two(
+        "lowest_mv", "highest_mv", servos.get_voltage_limits(to)
+    ),
+    "TemperatureLimit": lambda servos, to: {"highest": servos.get_max_temperature_limit(to)},
+    "Temperature": lambda servos, to: {"temperature": servos.get_temperature(to)},
+    "Voltage": lambda servos, to: {"voltage_mv": servos.get_voltage(to)},
+    "Position": lambda servos, to: {"position": servos.get_position(to)},
+    "Mode": lambda servos, to: {
+        "mode": servos.get_mode(to),
+        "speed": servos.get_motor_speed(to),
+    },
+    "Torque": lambda servos, to: {"torque": int(servos.is_motor_on(to))},
+    "Led": lambda servos, to: {"led": 1 - servos.is_led_on(to)},
+    "LedErrors": lambda servos, to: {"errors": servos.get_led_errors(to)},
+}
+
+
+def _two(first: str, second: str, values: Iterable[object]) -> Values:
+    return dict(zip((first, second), values, strict=True))
+
+
+def _questions() -> dict[str, str]:
+    """Return the messages to which there is a reply, with the reply."""
+    messages = messages_of("lx16a").values()
+    return {each.name: str(each.message.reply) for each in messages if each.message.reply}
+
+
+class LewansoulLx16a(Peer):
+    """The client `lewansoul-lx16a`."""
+
+    protocol = "lx16a"
+    package = "lewansoul_lx16a"
+    writes = (
+        dict.fromkeys(_TELLS, as_is)
+        | {name: as_is for name, reply in _questions().items() if reply in _ASKS}
+        | {"ModeWrite": _mode}
+    )
+    reads = dict.fromkeys(_ASKS, _to_one) | {
+        "Mode": lambda values: _to_one(_mode(values)),
+        "Torque": lambda values: _to_one(_TORQUE(values)),
+        "Led": lambda values: _to_one(_LED(values)),
+    }
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.wire = Wire()
+        self.servos = self.module.ServoController(self.wire, timeout=0.001)
+
+    def write(self, message: str, values: Values) -> bytes:
+        to = values["servo_id"]
+        if message in _TELLS:
+            _TELLS[message](self.servos, to, values)
+        else:
+            with pytest.raises(self.module.TimeoutError):
+                _ASKS[_questions()[message]](self.servos, to)
+        return self.wire.written
+
+    def read(self, message: str, frame: bytes) -> Values:
+        self.wire.reply = frame
+        return {"servo_id": frame[2], **_ASKS[message](self.servos, frame[2])}
+
+
+# --- lewanlib ------------------------------------------------------------------------------------
+
+
+def _degrees(position: int) -> float:
+    """Return an angle of half a step more: it cuts off what is no whole step."""
+    return min((position + 0.5) * 0.24, 240)
+
+
+def _steps(degrees: float) -> int:
+    return round(degrees / 0.24)
+
+
+def _thousandths(value: float) -> int:
+    return round(1000 * value)
+
+
+_TELLS_IN_DEGREES: dict[str, Tell] = {
+    "Move": lambda bus, to, told: bus.move_time_write(
+        to, _degrees(told["position"]), told["time_ms"] / 1000
+    ),
+    "MovePrepare": lambda bus, to, told: bus.move_time_wait_write(
+        to, _degrees(told["position"]), told["time_ms"] / 1000
+    ),
+    "MoveStart": lambda bus, to, _: bus.move_start(to),
+    "MoveStop": lambda bus, to, _: bus.move_stop(to),
+    "OffsetSave": lambda bus, to, _: bus.angle_offset_write(to),
+    "OffsetAdjust": lambda bus, to, told: bus.angle_offset_adjust(
+        to, told["offset"] * 0.24, write=False
+    ),
+    "TemperatureLimitWrite": lambda bus, to, told: bus.temp_max_limit_write(
+        to, told["highest"], "C"
+    ),
+    "ModeWrite": lambda bus, to, told: bus.mode_write(
+        to, "motor" if told["mode"] else "servo", told["speed"]
+    ),
+    "TorqueWrite": lambda bus, to, told: bus.set_powered(to, bool(told["torque"])),
+    "LedWrite": lambda bus, to, told: bus.led_ctrl_write(to, not told["led"]),
+    "LedErrorsWrite": lambda bus, to, told: bus.led_error_write(
+        to, *(bool(told["errors"] & bit) for bit in (4, 2, 1))
+    ),
+}
+_ASKS_IN_DEGREES: dict[str, Ask] = {
+    "LastMove": lambda bus, to: _move(*bus.move_time_read(to)),
+    "PreparedMove": lambda bus, to: _move(*bus.move_time_wait_read(to)),
+    "Offset": lambda bus, to: {"offset": _steps(bus.angle_offset_read(to))},
+    "PositionLimits": lambda bus, to: _two(
+        "lowest", "highest", map(_steps, bus.angle_limit_read(to))
+    ),
+    "VoltageLimits": lambda bus, to: _two(
+        "lowest_mv", "highest_mv", map(_thousandths, bus.vin_limit_read(to))
+    ),
+    "TemperatureLimit": lambda bus, to: {"highest": bus.temp_max_limit_read(to, "C")},
+    "Temperature": lambda bus, to: {"temperature": bus.temp_read(to, "C")},
+    "Voltage": lambda bus, to: {"voltage_mv": _thousandths(bus.vin_read(to))},
+    "Position": lambda bus, to: {"position": _steps(bus.pos_read(to))},
+    "Torque": lambda bus, to: {"torque": int(bus.is_powered(to))},
+    "Led": lambda bus, to: {"led": int(not bus.led_ctrl_read(to))},
+    "LedErrors": lambda bus, to: _errors(*bus.led_error_read(to)),
+}
+
+
+def _move(degrees: float, seconds: float) -> Values:
+    return {"position": _steps(degrees), "time_ms": _thousandths(seconds)}
+
+
+def _errors(locked: bool, voltage: bool, temperature: bool) -> Values:
+    return {"errors": locked << 2 | voltage << 1 | temperature}
+
+
+class Lewanlib(Peer):
+    """The client `lewanlib`: degrees and seconds, cut down to steps and rounded to milliseconds."""
+
+    protocol = "lx16a"
+    package = "lewanlib.bus"
+    writes = dict.fromkeys(_TELLS_IN_DEGREES, as_is) | {"ModeWrite": _mode}
+    reads = dict.fromkeys(_ASKS_IN_DEGREES, _to_one) | {
+        # To it, a voltage is a signed number.
+        "Voltage": lambda values: _to_one(values | {"voltage_mv": values["voltage_mv"] & 0x7FFF}),
+        "Torque": lambda values: _to_one(_TORQUE(values)),
+        "Led": lambda values: _to_one(_LED(values)),
+        "LedErrors": lambda values: _to_one(values | {"errors": values["errors"] & 7}),
+    }
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.wire = Wire()
+        self.bus = self.module.ServoBus(
+            serial_conn=self.wire, discard_echo=False, retry_count=0, on_exit_power_off=False
+        )
+
+    def write(self, message: str, values: Values) -> bytes:
+        _TELLS_IN_DEGREES[message](self.bus, values["servo_id"], values)
+        return self.wire.written
+
+    def read(self, message: str, frame: bytes) -> Values:
+        self.wire.reply = frame
+        return {"servo_id": frame[2], **_ASKS_IN_DEGREES[message](self.bus, frame[2])}

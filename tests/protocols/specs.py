@@ -1,0 +1,152 @@
+"""The protocols that are written down here, and what their messages may carry."""
+
+from __future__ import annotations
+
+import math
+import random
+from functools import cache
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from framegen.model.codec import encode
+from framegen.model.slots import Items, Number, Packed, Text
+from hypothesis import strategies as st
+
+from tests.factories import compiled_file
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from framegen.model.layout import MessageLayout
+    from framegen.model.model import Model
+    from framegen.model.slots import Field
+
+    from tests.protocols.peer import Values
+
+FOLDER = Path(__file__).parent
+FILES = {file.stem: file for file in sorted(FOLDER.glob("*.yaml"))}
+# Elements of a list that is drawn; one of the largest size is drawn apart.
+FEW = 5
+
+
+def model_of(name: str) -> Model:
+    """Return the model of a protocol, by the name of its file."""
+    return compiled_file(FILES[name]).model
+
+
+@cache
+def messages_of(name: str) -> dict[str, MessageLayout]:
+    """Return the layouts of a protocol, by name."""
+    return model_of(name).messages
+
+
+def all_messages() -> list[tuple[str, str]]:
+    """Return every message of every protocol: the protocol and its own name."""
+    return [(name, message) for name in FILES for message in messages_of(name)]
+
+
+@cache
+def values_of(name: str, message: str) -> st.SearchStrategy[Values]:
+    """Return a strategy for values that a frame of a message can carry."""
+    layout = messages_of(name)[message]
+    whole = _in_order({slot.name: _values(slot) for slot in layout.arguments})
+    if not layout.optional:
+        return whole
+    absent = [
+        {slot.name: None for slot in layout.optional if slot not in layout.there(count)}
+        for count in layout.counts
+    ]
+    return st.builds(lambda values, gone: values | gone, whole, st.sampled_from(absent))
+
+
+def _values(slot: Field) -> st.SearchStrategy[Any]:
+    match slot:
+        case Number():
+            return _numbers(slot)
+        case Text():
+            return _texts(slot.size)
+        case Packed():
+            number = st.integers(slot.low, slot.high)
+            return st.lists(number, min_size=slot.count, max_size=slot.count)
+        case Items():
+            return _lists(slot)
+
+
+def _in_order(drawn: dict[str, st.SearchStrategy[Any]]) -> st.SearchStrategy[Values]:
+    """Return a strategy for values in the order of the frame, which Hypothesis shuffles."""
+    return st.fixed_dictionaries(drawn).map(lambda values: {name: values[name] for name in drawn})
+
+
+def _lists(items: Items) -> st.SearchStrategy[Any]:
+    few = max(items.low, min(items.high, FEW))
+    if items.text is not None:
+        return _texts(few).filter(lambda text: len(text) >= items.low)
+    element: st.SearchStrategy[Any] = (
+        _values(items.fields[0])
+        if items.element is None
+        else _in_order({field.name: _values(field) for field in items.fields})
+    )
+    full = st.builds(lambda one: [one] * items.high, element)
+    return st.lists(element, min_size=items.low, max_size=few) | full
+
+
+def _numbers(number: Number) -> st.SearchStrategy[Any]:
+    if number.is_float:
+        return st.floats(width=32 if number.size == 4 else 64, allow_nan=False)
+    return st.integers(number.low, number.high)
+
+
+def _texts(longest: int) -> st.SearchStrategy[str]:
+    """Return texts that do not end with a zero, which is padding where the size is fixed."""
+    characters = st.characters(min_codepoint=0, max_codepoint=127)
+    return st.text(characters, max_size=longest).filter(lambda text: not text.endswith("\0"))
+
+
+def frames_of(name: str, count: int, seed: int = 0) -> Iterator[bytes]:
+    """Yield so many frames of a protocol, every message among them, the same for each seed."""
+    chance = random.Random(f"{name} {seed}")  # noqa: S311 - no secret
+    messages = list(messages_of(name).values())
+    for number in range(count):
+        message = messages[number] if number < len(messages) else chance.choice(messages)
+        yield encode(message, _any_values(message, chance))
+
+
+def _any_values(message: MessageLayout, chance: random.Random) -> Values:
+    values = {slot.name: _any_value(slot, chance) for slot in message.arguments}
+    if message.optional:
+        there = message.there(chance.choice(list(message.counts)))
+        values |= {slot.name: None for slot in message.optional if slot not in there}
+    return values
+
+
+def _any_value(slot: Field, chance: random.Random) -> Any:
+    match slot:
+        case Number():
+            return _any_number(slot, chance)
+        case Text():
+            return _any_text(chance, slot.size)
+        case Packed():
+            return [chance.randint(slot.low, slot.high) for _ in range(slot.count)]
+        case Items():
+            count = chance.randint(slot.low, max(slot.low, min(slot.high, FEW)))
+            return _any_items(slot, count, chance)
+
+
+def _any_number(number: Number, chance: random.Random) -> float:
+    if number.is_float:
+        # Few enough digits for four bytes, too.
+        return math.ldexp(chance.randrange(-1000, 1000), -3)
+    low, high = number.low, number.high
+    return chance.choice([low, high, *[chance.randint(low, high)] * 8])
+
+
+def _any_items(items: Items, count: int, chance: random.Random) -> Any:
+    if items.text is not None:
+        return _any_text(chance, count)
+    if items.element is None:
+        return [_any_value(items.fields[0], chance) for _ in range(count)]
+    return [{field.name: _any_value(field, chance) for field in items.fields} for _ in range(count)]
+
+
+def _any_text(chance: random.Random, size: int) -> str:
+    return "".join(chance.choices("ABCDEFGH 0123456789=.;", k=size))

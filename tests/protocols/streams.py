@@ -1,0 +1,74 @@
+"""Lines of any protocol: its frames, damaged and cut off ones, and noise that looks like them."""
+
+from __future__ import annotations
+
+from functools import cache, partial
+from typing import TYPE_CHECKING
+
+from framegen.model.codec import encode
+from hypothesis import strategies as st
+
+from tests.protocols.specs import FILES, messages_of, model_of, values_of
+
+if TYPE_CHECKING:
+    from framegen.language.values import Direction
+    from framegen.model.layout import MessageLayout
+
+# A frame that is larger makes a line slow to judge, and says nothing that a smaller does not.
+LARGE = 100
+
+
+def sent(name: str, way: Direction) -> list[MessageLayout]:
+    """Return the messages that go one way."""
+    return [message for message in messages_of(name).values() if message.direction == way]
+
+
+@cache
+def frames(name: str, way: Direction) -> st.SearchStrategy[bytes]:
+    """Return a strategy for frames of one direction."""
+    drawn = [
+        values_of(name, message.name).map(partial(encode, message)) for message in sent(name, way)
+    ]
+    small = st.one_of(drawn).filter(lambda frame: len(frame) <= LARGE)
+    return st.sampled_from(published(name, way)) | small
+
+
+@cache
+def published(name: str, way: Direction) -> list[bytes]:
+    """Return the frames of the examples of one direction."""
+    found = [each.hex for message in sent(name, way) for each in message.message.examples]
+    return [frame for frame in found if len(frame) <= LARGE]
+
+
+@cache
+def noise(name: str, way: Direction) -> st.SearchStrategy[bytes]:
+    """Return a strategy for what is likely to be taken for the beginning of a frame."""
+    heads = [frame[:size] for frame in published(name, way) for size in (1, 2, 4, 5, 7)]
+    near = st.sampled_from([*{byte for head in heads for byte in head}, 0, 1, 2, 0xFF])
+    return st.sampled_from(heads) | st.lists(near, max_size=8).map(bytes) | st.binary(max_size=4)
+
+
+@st.composite
+def _damaged(draw: st.DrawFn, frame: bytes) -> bytes:
+    """Return a frame with bytes lost, changed or added."""
+    start = draw(st.integers(0, len(frame) - 1))
+    end = draw(st.integers(start, min(start + 3, len(frame))))
+    return frame[:start] + draw(st.binary(max_size=2)) + frame[end:]
+
+
+@cache
+def lines(name: str, way: Direction) -> st.SearchStrategy[bytes]:
+    """Return a strategy for what a line may carry."""
+    frame = frames(name, way)
+    pieces = st.one_of(frame, frame.flatmap(_damaged), noise(name, way))
+    return st.lists(pieces, max_size=5).map(b"".join)
+
+
+def all_ways() -> list[tuple[str, Direction]]:
+    """Return the directions of all protocols."""
+    return [(name, way) for name in FILES for way in model_of(name).directions if sent(name, way)]
+
+
+def proven(name: str) -> bool:
+    """Tell whether every frame of a protocol has a checksum."""
+    return all(message.frame.proven for message in messages_of(name).values())

@@ -1,0 +1,55 @@
+"""Every key of the language is used by a protocol that somebody has, or stands here."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from framegen.language import spec
+from pydantic import BaseModel
+
+from tests.factories import BUSSERVO, compiled_file
+from tests.protocols.specs import FILES
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+# A part that is more than a byte, a citation, and what only a later version of a spec has.
+UNUSED = {
+    ("LengthPart", "byte_order"),
+    ("IdPart", "byte_order"),
+    ("AddressPart", "byte_order"),
+    ("CounterPart", "byte_order"),
+    ("NamedAddress", "cite"),
+    ("NumberField", "cite"),
+    ("ListField", "cite"),
+    ("Message", "since"),
+    ("Message", "deprecated"),
+    ("Reserved", "name"),
+}
+
+
+def keys_in(value: Any) -> Iterator[tuple[str, str]]:
+    """Yield the keys that a spec uses, each with the name of the mapping that has it."""
+    if isinstance(value, BaseModel):
+        for key in value.model_fields_set:
+            yield type(value).__name__, key
+            yield from keys_in(getattr(value, key))
+    elif isinstance(value, dict):
+        for item in value.values():
+            yield from keys_in(item)
+    elif isinstance(value, list):
+        for item in value:
+            yield from keys_in(item)
+
+
+def test_every_key_of_the_language_is_used() -> None:
+    parts = [
+        kind
+        for kind in vars(spec).values()
+        if isinstance(kind, type) and issubclass(kind, spec.Part) and kind is not spec.Part
+    ]
+    keys = {(part.__name__, key) for part in parts for key in part.model_fields}
+    used = {
+        key for file in [BUSSERVO, *FILES.values()] for key in keys_in(compiled_file(file).spec)
+    }
+    assert keys - used == UNUSED

@@ -1,0 +1,93 @@
+"""Protocols that others made: each spec holds what they published, read and write."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import pytest
+from framegen.model.codec import decode, encode
+from hypothesis import given
+from hypothesis import strategies as st
+
+from tests.factories import compiled_file
+from tests.protocols.by_hand import BY_HAND
+from tests.protocols.peers import PEERS
+from tests.protocols.specs import FILES, all_messages, messages_of, model_of, values_of
+
+if TYPE_CHECKING:
+    from tests.protocols.peer import Peer
+
+EXAMPLES = [
+    pytest.param(name, message, number, id=f"{name}-{message}-{number}")
+    for name, message in all_messages()
+    for number in range(len(messages_of(name)[message].message.examples))
+]
+
+# What none of the peers sends or asks.
+UNKNOWN_TO_PEERS = {("lx16a", "MoveRead")}
+
+
+@pytest.mark.parametrize("name", FILES)
+def test_a_spec_has_no_findings(name: str) -> None:
+    compiled = compiled_file(FILES[name])
+    assert [finding.render(compiled.source) for finding in compiled.findings] == []
+
+
+@pytest.mark.parametrize(("name", "message", "number"), EXAMPLES)
+def test_a_published_frame_is_read_and_written_again(name: str, message: str, number: int) -> None:
+    layout = messages_of(name)[message]
+    example = layout.message.examples[number]
+    decoded = decode(model_of(name), layout.direction, example.hex)
+    assert (decoded.layout, decoded.values) == (layout, example.values)
+    # Reserved bytes are kept: receivers leave in them what they like.
+    assert encode(layout, decoded.values, like=example.hex) == example.hex
+
+
+@pytest.mark.parametrize(("name", "message"), all_messages())
+@given(data=st.data())
+def test_what_is_written_is_read(name: str, message: str, data: st.DataObject) -> None:
+    layout = messages_of(name)[message]
+    values = data.draw(values_of(name, message))
+    decoded = decode(model_of(name), layout.direction, encode(layout, values))
+    assert (decoded.layout.name, decoded.values) == (message, values)
+
+
+def _with_peers(what: str) -> list[Any]:
+    return [
+        pytest.param(peer, message, id=f"{peer.package}-{message}")
+        for peer in PEERS
+        for message in getattr(peer, what)
+    ]
+
+
+@pytest.mark.parametrize(("kind", "message"), _with_peers("writes"))
+@given(data=st.data())
+def test_a_peer_writes_the_same_bytes(kind: type[Peer], message: str, data: st.DataObject) -> None:
+    layout = messages_of(kind.protocol)[message]
+    values = kind.writes[message](data.draw(values_of(kind.protocol, message)))
+    assert kind().write(message, values) == encode(layout, values)
+
+
+@pytest.mark.parametrize(("kind", "message"), _with_peers("reads"))
+@given(data=st.data())
+def test_a_peer_reads_the_same_values(kind: type[Peer], message: str, data: st.DataObject) -> None:
+    layout = messages_of(kind.protocol)[message]
+    values = kind.reads[message](data.draw(values_of(kind.protocol, message)))
+    assert kind().read(message, encode(layout, values)) == values
+
+
+@pytest.mark.parametrize(
+    ("name", "message"), [(name, message) for name in BY_HAND for message in BY_HAND[name]]
+)
+@given(data=st.data())
+def test_a_frame_written_by_hand_has_the_same_bytes(
+    name: str, message: str, data: st.DataObject
+) -> None:
+    values = data.draw(values_of(name, message))
+    assert BY_HAND[name][message](values) == encode(messages_of(name)[message], values)
+
+
+def test_every_message_is_held_to_what_others_write_or_read() -> None:
+    held = {(name, message) for name in BY_HAND for message in BY_HAND[name]}
+    held |= {(peer.protocol, name) for peer in PEERS for name in [*peer.writes, *peer.reads]}
+    assert held ^ {*all_messages()} == UNKNOWN_TO_PEERS
