@@ -86,7 +86,7 @@ class StreamDecoder:
 
     def __copy__(self) -> StreamDecoder:
         other = _new(type(self))
-        for name in self.__slots__:
+        for name in StreamDecoder.__slots__:
             setattr(other, name, getattr(self, name))
         other._noise = self._noise.copy()
         return other

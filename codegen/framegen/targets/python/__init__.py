@@ -20,6 +20,8 @@ from framegen.targets.target import Comment, Target
 from framegen.targets.templates import environment
 
 if TYPE_CHECKING:
+    from collections.abc import Iterator
+
     from jinja2 import Environment
 
     from framegen.compile import Compiled
@@ -54,6 +56,15 @@ _IMPORT, _IMPORT_THERE = "from ..pluralize import", "from .._frame.pluralize imp
 _FOR_POSES = {"_cli/play.py", "_cli/posefile.py", "_cli/positions.py", "_cli/teach.py"}
 # What only a protocol with checksums has a use for: each method needs some of it.
 _FOR_CHECKSUMS = {f"_frame/{name}.py" for name in ("byte_sum", "crc", "fletcher", "running")}
+# What takes the place of another file where frames are more than a header, a length and an id.
+_FOR_ENVELOPES = {
+    "_frame/envelope_heads.py": "_frame/heads.py",
+    "_frame/envelope_table.py": "_frame/table.py",
+}
+_FOR_PLAIN = {"_frame/plain_heads.py": "_frame/heads.py"}
+_WITH_ENVELOPES = {"_frame/envelope.py", "_frame/envelopes.py"}
+# And where each of them proves by a checksum that it is one.
+_FOR_PROVEN = {"_codec/certain_decoder.py": "_codec/careful_decoder.py"}
 
 
 def render(compiled: Compiled, _snippets: Snippets) -> dict[str, str]:
@@ -62,11 +73,30 @@ def render(compiled: Compiled, _snippets: Snippets) -> dict[str, str]:
     unneeded = _FOR_CHECKSUMS.difference(*(sums.files for sums in checksums_of(compiled.model)))
     if compiled.model.spec.pose is None:
         unneeded |= _FOR_POSES
-    copied = {name: text for name, text in _runtime().items() if name not in unneeded}
-    explained = {"_explanation/model.json": carried_model(compiled)}
-    files = {**copied, **dict(_from_templates(library)), **explained, "py.typed": ""}
+    if library.plain:
+        unneeded |= _WITH_ENVELOPES
+    if not library.checksums:
+        unneeded.add("_codec/proof.py")
+    files = {**_runtime(), **dict(_from_templates(library))}
+    for name, instead in _others(library):
+        text = files.pop(name)
+        if instead:
+            files[instead] = text
+    files = {name: text for name, text in files.items() if name not in unneeded}
+    files |= {"_explanation/model.json": carried_model(compiled), "py.typed": ""}
     (root,) = folders(compiled.model)
     return {f"{root}/{name}": text for name, text in files.items()}
+
+
+def _others(library: LibraryView) -> Iterator[tuple[str, str]]:
+    """Yield the files that take the place of others, each with that place; "" for nowhere."""
+    for places, wanted in (
+        (_FOR_PLAIN, library.plain),
+        (_FOR_ENVELOPES, not library.plain),
+        (_FOR_PROVEN, library.proven),
+    ):
+        for name, place in places.items():
+            yield name, place if wanted else ""
 
 
 def folders(model: Model) -> tuple[str, ...]:

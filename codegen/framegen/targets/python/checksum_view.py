@@ -5,8 +5,6 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from framegen.language.number_types import NUMBER_TYPES
-from framegen.language.spec import ChecksumPart
 from framegen.model.checksums import CHECKSUMS, Crc, Fletcher, Sum, Xor
 
 if TYPE_CHECKING:
@@ -73,9 +71,9 @@ class ChecksumView:
 
 
 def checksums_of(model: Model) -> list[ChecksumView]:
-    """Return what works out the checksums of a protocol's own frame."""
+    """Return what works out the checksums of a protocol's own frames."""
     return [
-        ChecksumView(part.method, 8 * NUMBER_TYPES[part.type].size)
-        for part in model.spec.frame.values()
-        if isinstance(part, ChecksumPart)
+        ChecksumView(part.method, 8 * part.size)
+        for frame in model.envelopes.values()
+        for part in frame.checksums
     ]

@@ -6,7 +6,9 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from framegen.model.slots import Number
+from framegen.targets.python.checksum_view import checksums_of
 from framegen.targets.python.command_lines import verbs
+from framegen.targets.python.envelope_view import EnvelopeView
 from framegen.targets.python.escape import Bracketed, byte_literal, literal
 from framegen.targets.python.exports import HOMES, export_order, import_order, relative_import
 from framegen.targets.python.list_view import ListView
@@ -62,6 +64,74 @@ class LibraryView:
     @property
     def package(self) -> str:
         return self.model.spec.protocol.name
+
+    @property
+    def plain(self) -> bool:
+        """Whether there is one envelope: a constant, one length and one id in front of the fields.
+
+        Its frames are found and judged by less than those of other protocols.
+        """
+        frames = [*self.model.envelopes.values()]
+        slots = [slot for frame in frames for slot in (*frame.head, *frame.tail, *frame.unsent)]
+        roles = sorted(slot.role for slot in slots[1:])
+        begins = slots[:1] and slots[0].role == "constant"
+        return len(frames) == 1 and bool(begins) and not frames[0].tail and roles == ["id", "length"]
+
+    @property
+    def envelopes(self) -> list[EnvelopeView]:
+        """What stands around the fields of messages."""
+        return [EnvelopeView(frame) for frame in self.model.envelopes.values()]
+
+    @property
+    def every_envelope(self) -> str:
+        """The assignment of all of them."""
+        names = [each.constant for each in self.envelopes]
+        before = "ENVELOPES: tuple[Envelope, ...] = ("
+        return Bracketed(before, names, ")", lone=",").fitted(0)
+
+    @property
+    def import_parts(self) -> str:
+        """The import of the parts that they are made of."""
+        parts = {"Envelope"}.union(*(each.parts for each in self.envelopes))
+        return relative_import("envelope", parts)
+
+    @property
+    def import_checksums(self) -> list[str]:
+        """The imports of what works out checksums."""
+        methods = checksums_of(self.model)
+        return [
+            relative_import(module, {each.name for each in methods if each.module == module})
+            for module in sorted({each.module for each in methods})
+        ]
+
+    @property
+    def checksums(self) -> bool:
+        """Whether any frame has a checksum."""
+        return any(frame.checksums for frame in self.model.envelopes.values())
+
+    @property
+    def proven(self) -> bool:
+        """Whether every frame has a checksum."""
+        return all(frame.checksums for frame in self.model.envelopes.values())
+
+    @property
+    def one_id(self) -> bool:
+        """Whether one number at the most says which message a frame is."""
+        frames = self.model.envelopes.values()
+        return max(len(frame.ids) - len(frame.unsent) for frame in frames) == 1
+
+    @property
+    def address(self) -> bool:
+        """Whether any frame has the number of a device."""
+        return any(frame.address is not None for frame in self.model.envelopes.values())
+
+    @property
+    def measured(self) -> bool:
+        """Whether of some messages only a count says how long they are."""
+        return any(
+            message.items is not None and message.frame.length_part is None
+            for message in self.model.messages.values()
+        )
 
     @property
     def directions(self) -> list[DirectionView]:

@@ -1,0 +1,294 @@
+"""The envelopes of frames: the parts in front of the fields of a message, and those behind them."""
+
+from __future__ import annotations
+
+from functools import cached_property
+
+TYPE_CHECKING = False  # typing alone would double the time that the import takes
+if TYPE_CHECKING:
+    from collections.abc import Callable, Sequence
+    from typing import Literal, Protocol, TypeAlias
+
+    from .running import Piece, Running
+
+    # The bytes of a frame, and the ids of its message.
+    Ids: TypeAlias = Sequence[int]
+
+    class Method(Protocol):
+        """What works a checksum out, at once or along a stream."""
+
+        of: Callable[[bytes], int]
+
+        def running(self) -> Running:
+            """Return what works it out along a stream."""
+
+
+class Part:
+    """Bytes of an envelope: their place counts from the end of the frame, if it is below zero."""
+
+    at = 0
+
+    def __init__(self, name: str, size: int) -> None:
+        self.name = name
+        self.size = size
+
+    @property
+    def place(self) -> slice:
+        """Where it stands in a frame."""
+        return slice(self.at, self.at + self.size or None)
+
+
+class Reserved(Part):
+    """Bytes that mean nothing."""
+
+
+class Constant(Part):
+    """Bytes that never change."""
+
+    def __init__(self, name: str, data: bytes) -> None:
+        super().__init__(name, len(data))
+        self.data = data
+
+
+class NumberPart(Part):
+    """A whole number without a sign."""
+
+    def __init__(self, name: str, size: int, order: Literal["little", "big"]) -> None:
+        super().__init__(name, size)
+        self.order = order
+
+    def read(self, frame: bytes) -> int:
+        """Return the number in a frame."""
+        return int.from_bytes(frame[self.place], self.order)
+
+    def write(self, number: int) -> bytes:
+        """Return the bytes of a number."""
+        return number.to_bytes(self.size, self.order)
+
+
+class Length(NumberPart):
+    """How long the frame is."""
+
+
+class Id(NumberPart):
+    """Which message it is, alone or with others."""
+
+
+class Counter(NumberPart):
+    """A running number."""
+
+
+class Address(NumberPart):
+    """The device: its number, or one with a meaning of its own."""
+
+    def __init__(
+        self,
+        name: str,
+        size: int,
+        order: Literal["little", "big"],
+        numbers: range,
+        named: tuple[int, ...] = (),
+    ) -> None:
+        super().__init__(name, size, order)
+        self.numbers = numbers
+        self.named = named
+
+    def holds(self, number: int) -> bool:
+        """Return whether there may be such a device."""
+        return number in self.numbers or number in self.named
+
+    @property
+    def first_bytes(self) -> frozenset[int]:
+        """The first bytes of such numbers."""
+        named = {self.write(number)[0] for number in self.named}
+        if self.order == "little":
+            return frozenset(named | {number & 0xFF for number in self.numbers[:0x100]})
+        shift = 8 * (self.size - 1)
+        return frozenset(named | {*range(self.numbers[0] >> shift, (self.numbers[-1] >> shift) + 1)})
+
+
+class Checksum(NumberPart):
+    """A number that is worked out from other parts.
+
+    `covers` are stretches of the frame, from and to which byte, and those ids that are not sent, by
+    their number among these.
+    """
+
+    def __init__(
+        self,
+        name: str,
+        size: int,
+        order: Literal["little", "big"],
+        method: Method,
+        covers: tuple[tuple[int, int | None] | int, ...],
+    ) -> None:
+        super().__init__(name, size, order)
+        self.method = method
+        self.covers = covers
+
+    def pieces(self, ids: Ids, hidden: Sequence[NumberPart]) -> list[tuple[int, int | None] | bytes]:
+        """Return what it covers in the frames of a message, by the ids of which some are hidden."""
+        first = len(ids) - len(hidden)
+        return [
+            hidden[each].write(ids[first + each]) if isinstance(each, int) else each
+            for each in self.covers
+        ]
+
+    def prover(self, ids: Ids, hidden: Sequence[NumberPart]) -> Callable[[bytes], bool]:
+        """Return a function that says whether a frame of a message has the right one."""
+        of, expected, pieces = self.method.of, self.maker(ids, hidden), self.pieces(ids, hidden)
+        at, place, order, from_bytes = self.at, self.place, self.order, int.from_bytes
+        if len(pieces) == 1 and isinstance(pieces[0], tuple):
+            # By far the most usual, and in the way of every frame.
+            covered = slice(*pieces[0])
+            if self.size == 1:
+                return lambda frame: of(frame[covered]) == frame[at]
+            return lambda frame: of(frame[covered]) == from_bytes(frame[place], order)
+        return lambda frame: expected(frame) == from_bytes(frame[place], order)
+
+    def maker(self, ids: Ids, hidden: Sequence[NumberPart]) -> Callable[[bytes], int]:
+        """Return a function that works it out for a frame of a message."""
+        of, pieces = self.method.of, self.pieces(ids, hidden)
+        if len(pieces) == 1 and isinstance(pieces[0], tuple):
+            covered = slice(*pieces[0])
+            return lambda frame: of(frame[covered])
+        return lambda frame: of(
+            b"".join(each if isinstance(each, bytes) else frame[slice(*each)] for each in pieces)
+        )
+
+
+class Envelope:
+    """The parts of a frame around the fields of its message: `head` and `tail`.
+
+    Its length does not count `uncounted` bytes; without a length, it is the size of the frame.
+    `hidden` are ids that both ends know, and that no frame holds.
+    """
+
+    def __init__(
+        self,
+        name: str,
+        head: tuple[Part, ...] = (),
+        tail: tuple[Part, ...] = (),
+        uncounted: int = 0,
+        hidden: tuple[NumberPart, ...] = (),
+    ) -> None:
+        self.name = name
+        self.head = head
+        self.tail = tail
+        self.uncounted = uncounted
+        self.hidden = hidden
+        at = 0
+        for part in head:
+            part.at = at
+            at += part.size
+        self.body_at = at
+        self.tail_size = at = sum(part.size for part in tail)
+        for part in tail:
+            part.at = -at
+            at -= part.size
+        self.least = self.body_at + self.tail_size
+        every = (*head, *tail)
+        self.checksums = tuple(part for part in every if isinstance(part, Checksum))
+        self.ids = tuple(part for part in head if isinstance(part, Id))
+        self.length = next((part for part in head if isinstance(part, Length)), None)
+        self.address = next((part for part in every if isinstance(part, Address)), None)
+        self.counter = next((part for part in every if isinstance(part, Counter)), None)
+        # What may be wrong behind the fields, besides checksums: the constants alone, and all.
+        self.ends = tuple(part for part in tail if isinstance(part, Constant))
+        self.judged = tuple(part for part in tail if isinstance(part, (Constant, Address)))
+        self.seal = _sealer(self)
+        """A function that returns a frame, packed with zeros for its checksums, with these."""
+
+    @property
+    def proves_unknown(self) -> bool:
+        """Whether a frame of an id that is not known proves by itself that it is one."""
+        return bool(self.checksums) and self.length is not None and not self.hidden
+
+    @cached_property
+    def header(self) -> bytes:
+        """The bytes with which every frame begins; b"" where there are none."""
+        header = b""
+        for part in self.head:
+            if not isinstance(part, Constant):
+                break
+            header += part.data
+        return header
+
+    @cached_property
+    def first_bytes(self) -> frozenset[int]:
+        """The bytes with which a frame may begin."""
+        if self.header:
+            return frozenset(self.header[:1])
+        first = self.head[0] if self.head else None
+        return first.first_bytes if isinstance(first, Address) else frozenset(range(0x100))
+
+    def begins(self, data: bytes, at: int) -> bool:
+        """Return whether a frame may begin at data[at], as far as its header goes."""
+        if self.header:
+            return data.startswith(self.header, at)
+        return at < len(data) and data[at] in self.first_bytes
+
+    def fits(self, frame: bytes) -> bool:
+        """Return whether a frame of any id may have this envelope, as far as that can be told."""
+        if not self.ids or self.length is None or not self.begins(frame, 0):
+            return False
+        if len(frame) < self.least or self.size(self.length.read(frame)) != len(frame):
+            return False
+        if any(frame[part.place] != part.data for part in self.ends):
+            return False
+        return not self.proves_unknown or self.wrong(frame, ()) is None
+
+    def size(self, length: int) -> int:
+        """Return the size of the frames of a length."""
+        return length + self.uncounted
+
+    def wrong(self, frame: bytes, ids: Ids) -> Checksum | None:
+        """Return the first checksum of a frame that is not right."""
+        for part in self.checksums:
+            if not part.prover(ids, self.hidden)(frame):
+                return part
+        return None
+
+    def prover(self, ids: Ids) -> Callable[[bytes], bool] | None:
+        """Return a function that says whether a frame of a message has the right checksums.
+
+        None where it has none.
+        """
+        provers = [part.prover(ids, self.hidden) for part in self.checksums]
+        if len(provers) < 2:
+            return provers[0] if provers else None
+        return lambda frame: all(proves(frame) for proves in provers)
+
+
+def _sealer(envelope: Envelope) -> Callable[[bytes, Ids], bytes]:
+    """Return a function that puts its checksums into a frame of a message with these ids."""
+    checksums, hidden = envelope.checksums, envelope.hidden
+    if [*checksums] == [*envelope.tail] and len(checksums) == 1 and not hidden:
+        # By far the most usual, and in the way of every message that is made.
+        (part,) = checksums
+        make, size, order = part.maker((), ()), part.size, part.order
+        return lambda frame, _: frame[:-size] + make(frame).to_bytes(size, order)
+
+    def sealed(frame: bytes, ids: Ids) -> bytes:
+        for part in checksums:
+            at = part.at % len(frame)
+            right = part.write(part.maker(ids, hidden)(frame))
+            frame = frame[:at] + right + frame[at + part.size :]
+        return frame
+
+    return sealed
+
+
+def stretches(
+    pieces: Sequence[tuple[int, int | None] | bytes], at: int, size: int
+) -> list[Piece]:
+    """Return pieces of the frame that begins at `at` as those of what it stands in."""
+    found: list[Piece] = []
+    for each in pieces:
+        if isinstance(each, bytes):
+            found.append(each)
+        else:
+            start, end = each
+            begin = at + start % size if start < 0 else at + start
+            found.append((begin, at + size if end is None else at + end + (size if end < 0 else 0)))
+    return found
