@@ -8,7 +8,7 @@ from .._frame.protocol import UNCOUNTED
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator
+    from collections.abc import Iterator
 
     from .._frame.message import Message
 
@@ -32,7 +32,19 @@ class Unaddressed:
         return ""
 
 
+class Unfailing:
+    """Replies that say nothing of a failure, and no message that comes instead of them."""
+
+    __slots__ = ()
+    refusal: type[Message] | None = None
+
+    def error(self, _request: Message, _reply: Message) -> Exception | None:
+        """Return the error that a reply tells of; None where it is as wanted."""
+        return None
+
+
 UNADDRESSED = Unaddressed()
+UNFAILING = Unfailing()
 
 
 class Exchange:
@@ -44,10 +56,9 @@ class Exchange:
     them which acknowledges it. `lasts` is the field that says how long its effect lasts, and how
     many units of it make a second. `echoed` pairs each requested field with the field of the reply
     that repeats it (`ids` with `items.id`); `most` is how many elements of the request fit into one
-    reply, 0 where that does not matter. `address` tells which device it goes to and comes from.
-    `refusal` is the message that comes instead of the reply where the device refuses, `failure` the
-    field of the reply that is not zero where it has failed, and `error` makes the error of either.
-    `counter` is the field with the running number, and how many numbers there are.
+    reply, 0 where that does not matter. `address` tells which device it goes to and comes from,
+    `failures` what it means that the device refuses or fails. `counter` is the field with the
+    running number, and how many numbers there are.
     """
 
     __slots__ = (
@@ -56,13 +67,11 @@ class Exchange:
         "arguments",
         "counter",
         "echoed",
-        "error",
-        "failure",
+        "failures",
         "kinds",
         "lasts",
         "method",
         "most",
-        "refusal",
         "reply",
         "reports",
         "result",
@@ -81,9 +90,7 @@ class Exchange:
         echoed: tuple[tuple[str, str], ...] = (),
         most: int = 0,
         address: Unaddressed = UNADDRESSED,
-        refusal: type[Message] | None = None,
-        failure: str = "",
-        error: Callable[[Exchange, Message, Message], Exception | None] | None = None,
+        failures: Unfailing = UNFAILING,
         counter: tuple[str, int] | None = None,
     ) -> None:
         self.method = method
@@ -96,12 +103,10 @@ class Exchange:
         self.echoed = echoed
         self.most = most
         self.address = address
-        self.refusal = refusal
-        self.failure = failure
-        self.error = error
+        self.failures = failures
         self.counter = counter
         # The messages that answer it, or refuse it.
-        self.kinds = tuple(kind for kind in (reply, refusal) if kind is not None)
+        self.kinds = tuple(kind for kind in (reply, failures.refusal) if kind is not None)
 
     def check(self, request: Message) -> None:
         """Raise EncodeError if no reply has room for the answer to `request`."""
@@ -115,7 +120,7 @@ class Exchange:
         """Return whether `message` can be the reply: it holds nothing that was not requested."""
         if type(message) not in self.kinds or not self._is_from(self.address.of(request), message):
             return False
-        if type(message) is self.refusal:
+        if type(message) is not self.reply:
             return True
         for requested, reported in self.echoed:
             left = column(request, requested)

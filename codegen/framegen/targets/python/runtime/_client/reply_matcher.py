@@ -79,7 +79,9 @@ class ReplyMatcher:
     def may_be_mistaken(self, request: Request, now: float) -> bool:
         """Whether a reply to a question might be confused with one that may yet come."""
         origin = request.answered_by
-        if self.waits_for_reply(now) or any(each.answered_by.meets(origin) for each in self.pending):
+        if self.waits_for_reply(now) or any(
+            each.answered_by.meets(origin) for each in self.pending
+        ):
             return True
         # A further attempt accepts the late reply to an earlier one.
         return not request.attempts and self.late.awaited(origin, now)
