@@ -11,7 +11,6 @@ import time
 import warnings
 from collections.abc import Callable
 from contextlib import suppress
-from math import inf
 from os import PathLike
 
 from .._codec.counters import LineCounters
@@ -54,6 +53,7 @@ REPORT_LIMIT = 1024
 POLL_INTERVAL = 0.02
 # How long draining may take, beyond the calculated time of the bytes.
 DRAIN_TIMEOUT = 1.0
+_ENDLESS = float("inf")
 _NEVER_CLOSED = "use the client in a `with`, or call close()"
 
 
@@ -199,7 +199,7 @@ class BaseClient:
 
     def _gathered(self, message: Message, within: float) -> Steps[list[Message]]:
         """Send a question to all; give what comes back within so many seconds."""
-        if not 0 <= within < inf:
+        if not 0 <= within < _ENDLESS:
             problem = f"within is {within!r}, and must be 0 seconds or more, and not endless"
             raise ValueError(problem)
         request = yield from self._exchange(message, 0, within)

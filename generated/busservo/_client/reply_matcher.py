@@ -26,7 +26,6 @@ question to another, once nobody on this line has ever taken so long.
 
 from __future__ import annotations
 
-from math import inf
 from sys import maxsize
 
 from .._log import log
@@ -51,6 +50,7 @@ if TYPE_CHECKING:
 _ADDRESSES: dict[type[Message], Unaddressed] = {
     kind: each.address for each in EXCHANGES.values() for kind in each.kinds
 }
+_NEVER = float("inf")
 # How much longer a device may take than any has taken so far, before it keeps others waiting no
 # longer: adapters hand on what they have received only every 16 ms.
 _HESITATION = 0.02
@@ -94,13 +94,13 @@ class ReplyMatcher:
     def overdue(self, now: float) -> list[float]:
         """Return when those who may be about to answer will be overdue, as far as is known."""
         times = (self._overdue_at(each) for each in self.pending)
-        return [at for at in times if now < at < inf]
+        return [at for at in times if now < at < _NEVER]
 
     def _overdue_at(self, pending: Request) -> float:
         """Return when an answer is overdue; never, where nobody else could be asked."""
         slowest = self.pace.slowest
         if pending.address is None or not pending.written or slowest is None:
-            return inf
+            return _NEVER
         answer = self._wire_time.seconds(pending.reply_size)
         return pending.left_at + answer + 2 * slowest + _HESITATION
 
