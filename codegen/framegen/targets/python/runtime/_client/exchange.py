@@ -117,7 +117,7 @@ class Exchange:
 
     def answers(self, request: Message, message: Message) -> bool:
         """Return whether `message` can be the reply: it holds nothing that was not requested."""
-        if type(message) not in self.kinds or not self._is_from(self.address.of(request), message):
+        if type(message) not in self.kinds or not self._is_from(request, message):
             return False
         if type(message) is not self.reply:
             return True
@@ -129,12 +129,12 @@ class Exchange:
                 left.remove(value)
         return True
 
-    def _is_from(self, address: int | None, message: Message) -> bool:
-        """Return whether a message may be the reply of this device; of any, if nobody answers."""
-        if address is None:
-            return True
+    def _is_from(self, request: Message, message: Message) -> bool:
+        """Return whether a message comes from the device that was asked, or one of all of them."""
         sender = self.address.sender(message)
-        return sender is None or sender == address
+        if sender is None or sender == self.address.of(request):
+            return True
+        return bool(self.address.silence(request))
 
     def missing(self, request: Message, reply: Message) -> Iterator[tuple[str, int]]:
         """Yield each requested value that is not in the reply, with the field that requested it."""
