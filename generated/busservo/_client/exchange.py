@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 from .._frame.errors import EncodeError
-from .._frame.protocol import UNCOUNTED
+from .._frame.heads import size_of
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
@@ -169,9 +169,9 @@ class Exchange:
                 if reported.partition(".")[0] == items.name:
                     count = len(column(request, requested))
                     if count in items.counts:
-                        size = lengths[items.counts.index(count)] + UNCOUNTED
+                        size = size_of(kind, lengths[items.counts.index(count)])
                         return size, size
-        return lengths[0] + UNCOUNTED, lengths[-1] + UNCOUNTED
+        return size_of(kind, lengths[0]), size_of(kind, lengths[-1])
 
 
 def column(message: Message, path: str) -> list[int]:

@@ -6,8 +6,8 @@ from collections.abc import Callable
 from enum import Enum
 
 from .._frame.errors import EncodeError
+from .._frame.heads import size_of
 from .._frame.message import Message
-from .._frame.protocol import UNCOUNTED
 from .exchange import UNADDRESSED
 from .late_replies import Origin
 
@@ -209,6 +209,7 @@ def check_room(message: Message, largest_frame: int | None) -> None:
     if items is None:
         raise EncodeError(type(message).__name__, message, why)
     lengths = zip(items.counts, message.LENGTHS, strict=True)
-    most = max((n for n, length in lengths if length + UNCOUNTED <= largest_frame), default=0)
+    kind = type(message)
+    most = max((n for n, length in lengths if size_of(kind, length) <= largest_frame), default=0)
     given = getattr(message, items.name)
     raise EncodeError(items.name, given, f"{why}: room for {most} of {len(given)}")
