@@ -195,7 +195,7 @@ class ClientView:
             prefix = base.removesuffix("Client")
             module = f"{prefix.lower()}_devices" if prefix else "devices"
             modules[module] = {f"{prefix}{each}" for each in self._device_classes}
-            modules[".._frame.message"] = {"Message"}
+            modules["._frame.message"] = {"Message"}
         return [
             relative_import(module, names) for module, names in sorted(modules.items()) if names
         ]
