@@ -28,7 +28,8 @@ class Exchange:
 
     `echoed` pairs a field of the request with its place in the reply, such as `servo_ids` with
     `positions.servo_id`. `acknowledged` is the report that confirms the request, and `lasts` the
-    field of the request that says how long a motion goes on.
+    field of the request that says how long a motion goes on. `refusal` comes instead of the reply
+    where the device refuses, and `failure` is the field of the reply that says what has failed.
     """
 
     request: MessageLayout
@@ -38,6 +39,38 @@ class Exchange:
     echoed: tuple[tuple[str, str], ...]
     acknowledged: str | None
     lasts: Number | None
+    refusal: MessageLayout | None
+    failure: Number | None
+
+    @property
+    def answers(self) -> list[MessageLayout]:
+        """The messages that may come back: the reply, and what comes instead of it."""
+        return [each for each in (self.reply, self.refusal) if each is not None]
+
+    @property
+    def address(self) -> Number | None:
+        """The part of the request that says for which device it is."""
+        return self.request.frame.address
+
+    @property
+    def counter(self) -> Number | None:
+        """The part of the request that numbers the frames."""
+        return self.request.frame.counter
+
+    @property
+    def arguments(self) -> tuple[str, ...]:
+        """The arguments of the method: the address, if there is one, and then as it declares."""
+        front = () if self.address is None else (self.address.name,)
+        return (*front, *self.method.arguments)
+
+    @property
+    def silent(self) -> dict[str, int]:
+        """The addresses that nobody answers, by name."""
+        if self.address is None:
+            return {}
+        values = self.address.field.values
+        silent = self.address.silent
+        return {name: each.value for name, each in values.items() if each.value in silent}
 
     @property
     def split(self) -> Items | None:
@@ -112,12 +145,16 @@ def snake_case(name: str) -> str:
 
 def _exchange(messages: Mapping[str, MessageLayout], request: MessageLayout) -> Exchange:
     message = request.message
+    reply = None if message.reply is None else messages[message.reply]
+    failure = "" if reply is None else reply.message.failure or ""
     return Exchange(
         request,
         method_of(request.name, message),
-        None if message.reply is None else messages[message.reply],
+        reply,
         tuple(message.reports),
         tuple(message.echoed.items()),
         message.acknowledged,
         request.numbers_by_path.get(message.lasts or ""),
+        None if message.refusal is None else messages[message.refusal],
+        None if reply is None else reply.numbers_by_path.get(failure),
     )

@@ -7,12 +7,13 @@ import logging
 import math
 import signal
 import sys
+from argparse import BooleanOptionalAction
 from contextlib import contextmanager
 
 from .._client.base_client import REPLY_TIMEOUT
 from .._client.client import Client
 from .._client.exchanges import LIMITS
-from .._frame.protocol import BAUD
+from .._frame.protocol import BAUD, LOCAL_ECHO
 from .._serial.link_errors import ClosedError, DisconnectedError, TransportError, WriteStuckError
 from .._serial.serial_port import open_transport
 from .console import visible
@@ -61,7 +62,8 @@ def add_port(
     if client:
         parser.add_argument(
             "--local-echo",
-            action="store_true",
+            action=BooleanOptionalAction if LOCAL_ECHO else "store_true",
+            default=LOCAL_ECHO,
             help="the line gives back what is sent, as adapters for half-duplex wires do",
         )
 

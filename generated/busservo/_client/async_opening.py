@@ -8,7 +8,7 @@ from os import PathLike
 from types import TracebackType
 from typing import TYPE_CHECKING
 
-from .._frame.protocol import BAUD
+from .._frame.protocol import BAUD, LOCAL_ECHO
 from .._serial.serial_port import open_transport
 from .async_controller import AsyncController
 from .base_client import REPLY_TIMEOUT, REPORT_LIMIT
@@ -81,7 +81,7 @@ def open_async_controller(
     trace: str | PathLike[str] | None = None,
     report_limit: int = REPORT_LIMIT,
     limits: Bounds | None = LIMITS.usual,
-    local_echo: bool = False,
+    local_echo: bool = LOCAL_ECHO,
     settle: float | None = None,
 ) -> Opening:
     """Open the port of a device, to be used in an `async with`.

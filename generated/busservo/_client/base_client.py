@@ -53,6 +53,7 @@ REPORT_LIMIT = 1024
 POLL_INTERVAL = 0.02
 # How long draining may take, beyond the calculated time of the bytes.
 DRAIN_TIMEOUT = 1.0
+_ENDLESS = float("inf")
 _NEVER_CLOSED = "use the client in a `with`, or call close()"
 
 
@@ -151,10 +152,15 @@ class BaseClient:
 
     # ------------------------------------------------------------------ calls, step by step
 
-    def _exchange(self, message: Message, retries: int | None) -> Steps[Request]:
+    def _exchange(
+        self, message: Message, retries: int | None, within: float | None = None
+    ) -> Steps[Request]:
         """Submit a message, a command where `retries` is None, and wait until it is done."""
         self._check()
-        request = self._session.submit(message, question=retries is not None, retries=retries or 0)
+        question = retries is not None
+        request = self._session.submit(
+            message, question=question, retries=retries or 0, within=within
+        )
         yield request
         if request.reply is None and self._failure is not None:
             # A command whose frame the port did not take counts as done, but is not.
@@ -186,7 +192,18 @@ class BaseClient:
         request = yield from self._exchange(message, self._retries if retries is None else retries)
         if request.reply is None:
             raise AssertionError(f"{message!r} ended without an error, and without a reply")
+        error = request.exchange.failures.error(request.message, request.reply)
+        if error is not None:
+            raise error
         return request.reply
+
+    def _gathered(self, message: Message, within: float) -> Steps[list[Message]]:
+        """Send a question to all; give what comes back within so many seconds."""
+        if not 0 <= within < _ENDLESS:
+            problem = f"within is {within!r}, and must be 0 seconds or more, and not endless"
+            raise ValueError(problem)
+        request = yield from self._exchange(message, 0, within)
+        return request.gathered
 
     def _reply(self, message: Message, kind: type[_Reply]) -> Steps[_Reply]:
         reply = yield from self._question(message)

@@ -4,13 +4,47 @@
 from __future__ import annotations
 
 from .._frame.errors import EncodeError
-from .._frame.protocol import UNCOUNTED
+from .._frame.heads import size_of
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from .._frame.message import Message
+
+
+class Unaddressed:
+    """Messages without an address: there is one device, which receives and sends them all."""
+
+    __slots__ = ()
+    field: str = ""
+
+    def of(self, _request: Message) -> int | None:
+        """Return the address that a request goes to; None where there are none."""
+        return None
+
+    def sender(self, _reply: Message) -> int | None:
+        """Return the address that a reply comes from; None where there are none."""
+        return None
+
+    def silence(self, _request: Message) -> str:
+        """Return the name of the address that a request goes to, if nobody answers there."""
+        return ""
+
+
+class Unfailing:
+    """Replies that say nothing of a failure, and no message that comes instead of them."""
+
+    __slots__ = ()
+    refusal: type[Message] | None = None
+
+    def error(self, _request: Message, _reply: Message) -> Exception | None:
+        """Return the error that a reply tells of; None where it is as wanted."""
+        return None
+
+
+UNADDRESSED = Unaddressed()
+UNFAILING = Unfailing()
 
 
 class Exchange:
@@ -22,13 +56,19 @@ class Exchange:
     them which acknowledges it. `lasts` is the field that says how long its effect lasts, and how
     many units of it make a second. `echoed` pairs each requested field with the field of the reply
     that repeats it (`ids` with `items.id`); `most` is how many elements of the request fit into one
-    reply, 0 where that does not matter.
+    reply, 0 where that does not matter. `address` tells which device it goes to and comes from,
+    `failures` what it means that the device refuses or fails. `counter` is the field with the
+    running number, and how many numbers there are.
     """
 
     __slots__ = (
         "acknowledged",
+        "address",
         "arguments",
+        "counter",
         "echoed",
+        "failures",
+        "kinds",
         "lasts",
         "method",
         "most",
@@ -49,6 +89,9 @@ class Exchange:
         lasts: tuple[str, int] | None = None,
         echoed: tuple[tuple[str, str], ...] = (),
         most: int = 0,
+        address: Unaddressed = UNADDRESSED,
+        failures: Unfailing = UNFAILING,
+        counter: tuple[str, int] | None = None,
     ) -> None:
         self.method = method
         self.arguments = arguments
@@ -59,6 +102,11 @@ class Exchange:
         self.lasts = lasts
         self.echoed = echoed
         self.most = most
+        self.address = address
+        self.failures = failures
+        self.counter = counter
+        # The messages that answer it, or refuse it.
+        self.kinds = tuple(kind for kind in (reply, failures.refusal) if kind is not None)
 
     def check(self, request: Message) -> None:
         """Raise EncodeError if no reply has room for the answer to `request`."""
@@ -70,8 +118,10 @@ class Exchange:
 
     def answers(self, request: Message, message: Message) -> bool:
         """Return whether `message` can be the reply: it holds nothing that was not requested."""
-        if self.reply is None or type(message) is not self.reply:
+        if type(message) not in self.kinds or not self._is_from(request, message):
             return False
+        if type(message) is not self.reply:
+            return True
         for requested, reported in self.echoed:
             left = column(request, requested)
             for value in column(message, reported):
@@ -79,6 +129,13 @@ class Exchange:
                     return False
                 left.remove(value)
         return True
+
+    def _is_from(self, request: Message, message: Message) -> bool:
+        """Return whether a message comes from the device that was asked, or one of all of them."""
+        sender = self.address.sender(message)
+        if sender is None or sender == self.address.of(request):
+            return True
+        return bool(self.address.silence(request))
 
     def missing(self, request: Message, reply: Message) -> Iterator[tuple[str, int]]:
         """Yield each requested value that is not in the reply, with the field that requested it."""
@@ -98,17 +155,23 @@ class Exchange:
 
     def reply_size(self, request: Message) -> int:
         """Return the size in bytes of the largest frame that can answer `request`."""
-        if self.reply is None:
-            return 0
-        items = self.reply.SHAPE.items
-        lengths = self.reply.LENGTHS
-        if items is not None:
+        return max((size for kind in self.kinds for size in self._sizes(kind, request)), default=0)
+
+    def reply_least(self, request: Message) -> int:
+        """Return the size in bytes of the smallest frame that answers `request`, if in full."""
+        return min((size for kind in self.kinds for size in self._sizes(kind, request)), default=0)
+
+    def _sizes(self, kind: type[Message], request: Message) -> tuple[int, int]:
+        """Return the least and the largest size of an answer of a class."""
+        items, lengths = kind.SHAPE.items, kind.LENGTHS
+        if items is not None and kind is self.reply:
             for requested, reported in self.echoed:
                 if reported.partition(".")[0] == items.name:
                     count = len(column(request, requested))
                     if count in items.counts:
-                        return lengths[items.counts.index(count)] + UNCOUNTED
-        return lengths[-1] + UNCOUNTED
+                        size = size_of(kind, lengths[items.counts.index(count)])
+                        return size, size
+        return size_of(kind, lengths[0]), size_of(kind, lengths[-1])
 
 
 def column(message: Message, path: str) -> list[int]:

@@ -5,7 +5,7 @@ from __future__ import annotations
 
 from os import PathLike
 
-from .._frame.protocol import BAUD
+from .._frame.protocol import BAUD, LOCAL_ECHO
 from .._serial.serial_port import open_transport
 from .base_client import REPLY_TIMEOUT, REPORT_LIMIT
 from .controller import Controller
@@ -23,7 +23,7 @@ def open_controller(
     trace: str | PathLike[str] | None = None,
     report_limit: int = REPORT_LIMIT,
     limits: Bounds | None = LIMITS.usual,
-    local_echo: bool = False,
+    local_echo: bool = LOCAL_ECHO,
     settle: float | None = None,
 ) -> Controller:
     """Open the port of a device, to be used in a `with`.

@@ -3,7 +3,9 @@
 
 Its driver hands in the bytes that arrive and the time, and takes out the bytes to write. A request
 that has a reply is a question. One question is pending at a time; commands, which nothing answers,
-do not wait for it. A request goes through these states, by these steps and no others (`STATES`):
+do not wait for it. Where devices with addresses share a wire, commands wait as well, and a device
+that is overdue keeps nobody waiting who is for another. A request goes through these states, by
+these steps and no others (`STATES`):
 
     submit ─▶ WAITING ── SEND ──▶ PENDING ── HOLD ──▶ HELD ─┐ HOLD: another reply
                  ▲                 │   ▲               │ ▲  │ takes its place
@@ -20,6 +22,7 @@ from collections import deque
 
 from .._codec.counters import LineCounters
 from .._codec.noise import Noise
+from .._frame.errors import EncodeError
 from .._log import log
 from .._serial.link_errors import NoReplyError
 from .acknowledgements import Acknowledgements
@@ -38,6 +41,7 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from .._frame.message import Message
+    from .exchange import Unaddressed
     from .limits import Bounds
     from .reply_matcher import Answer
     from .trace import Trace
@@ -92,6 +96,7 @@ class Session:
         self._settling = Settling(settle, now)
         self._echo = LocalEcho() if local_echo else None
         self._echo_watch = EchoWatch(name, self.counters)
+        self._frames_sent = 0
         self._reader = FrameReader()
         matcher = ReplyMatcher(self.wire_time, self.counters, self._latency, name)
         self._matcher = matcher
@@ -101,7 +106,7 @@ class Session:
     def idle(self) -> bool:
         """Whether there is nothing left to send, and no reply to wait for."""
         echoing = self._echo is not None and self._echo.due is not None
-        return not self._queue and self._matcher.pending is None and not echoing
+        return not self._queue and not self._matcher.pending and not echoing
 
     # ------------------------------------------------------------------ sending
 
@@ -112,24 +117,29 @@ class Session:
         question: bool | None = None,
         retries: int = 0,
         latest: bool = False,
+        within: float | None = None,
     ) -> Request:
         """Add a message to the queue, and return its request.
 
         Raises EncodeError if no reply could answer it, LimitError if the limits forbid it. With
-        `question`, TypeError is raised if that is not whether it has a reply.
+        `question`, TypeError is raised if that is not whether it has a reply. With `within`, the
+        replies of all who answer in so many seconds are gathered.
         """
         exchange = EXCHANGES.get(type(message))
         if exchange is None:
             raise TypeError(f"{message!r} is nothing that this end sends")
-        if question is False and exchange.reply is not None:
+        silence = exchange.address.silence(message)
+        if question is False and exchange.reply is not None and not silence:
             raise TypeError(f"{message!r} is a question: request() sends it and awaits the reply")
         if question is True and exchange.reply is None:
             raise TypeError(f"{message!r} is a command: send() sends it, and nothing answers")
+        if question is True and silence and within is None:
+            raise _nobody_answers(exchange.address, message)
         exchange.check(message)
         LIMITS.check(message, self._limits)
         check_room(message, self.largest_frame)
-        request = Request(message, exchange, retries=retries, latest=latest)
-        self._settling.submitted(question=exchange.reply is not None)
+        request = Request(message, exchange, retries=retries, latest=latest, within=within)
+        self._settling.submitted(question=request.question)
         for replaced in self._queue.add(request):
             self.counters.replaced += 1
             replaced.finish()
@@ -139,8 +149,8 @@ class Session:
         """Take a request back if it has not been sent, and stop waiting for its reply if it has."""
         if request.done:
             return
-        if request is self._matcher.pending:
-            self._give_up(request.deadline)
+        if request in self._matcher.pending:
+            self._give_up(request, request.deadline)
         elif request in self._queue:
             self._queue.remove(request)
             self._matcher.expect_late(request, request.deadline)
@@ -157,15 +167,14 @@ class Session:
     @property
     def unwritten(self) -> Request | None:
         """The pending question, until `written` says that the port has it."""
-        pending = self._matcher.pending
-        return None if pending is None or pending.written else pending
+        return next((each for each in self._matcher.pending if not each.written), None)
 
     def written(self, request: Request, now: float) -> None:
         """Record that the port has the frame of a question only at `now`, however long it took.
 
         The time that the device has for its reply begins then.
         """
-        if request is not self._matcher.pending or request.written:
+        if request not in self._matcher.pending or request.written:
             return
         request.written = True
         left_at = max(request.left_at, now + self.wire_time.seconds(len(request.message.encode())))
@@ -203,11 +212,11 @@ class Session:
             for request in lost:
                 self._echo_lost(request)
         self._matcher.late.forget(now)
-        if self._matcher.holds and now >= self._held_until():
-            self._answer(self._matcher.decide(now))
-        pending = self._matcher.pending
-        if pending is not None and now >= self._ends_at(pending):
-            self._expire(pending, now)
+        for pending in [*self._matcher.pending]:
+            if pending.held is not None and now >= self._held_until(pending):
+                self._answer(self._matcher.decide(pending, now))
+            if pending in self._matcher.pending and now >= self._ends_at(pending):
+                self._expire(pending, now)
         if not self._reader.pending:
             self.acknowledgements.tick(now)
 
@@ -221,11 +230,10 @@ class Session:
     def tick_at(self) -> float | None:
         """The latest time at which to call `tick` again."""
         times: list[float] = []
-        pending = self._matcher.pending
-        if pending is not None:
+        for pending in self._matcher.pending:
             times.append(self._ends_at(pending))
-            if self._matcher.holds:
-                times.append(self._held_until())
+            if pending.held is not None:
+                times.append(self._held_until(pending))
         acknowledged_by = self.acknowledgements.tick_at
         quiet_at = self._reader.quiet_at
         if quiet_at is not None:
@@ -248,8 +256,9 @@ class Session:
         if quiet_at is None or self._matcher.pace.fast:
             return now
         missing = self._reader.missing
-        if self._matcher.pending is not None:
-            missing = max(missing, self._matcher.pending.reply_size - self._reader.pending)
+        if self._matcher.pending:
+            least = min(each.reply_least for each in self._matcher.pending)
+            missing = max(missing, least - self._reader.pending)
         arriving = self.wire_time.least(missing - 1)
         return max(now, min(self._reader.received_at + arriving, quiet_at))
 
@@ -257,10 +266,10 @@ class Session:
 
     def fail(self, error: Exception) -> None:
         """End everything that is pending or waiting: the line is gone."""
-        pending = self._matcher.pending
-        ended = [*([] if pending is None else [pending]), *self._queue.clear()]
+        pending = [*self._matcher.pending]
+        ended = [*pending, *self._queue.clear()]
         if self._echo is not None:
-            ended += [each for each in self._echo.clear() if each is not pending]
+            ended += [each for each in self._echo.clear() if each not in pending]
         self._matcher.lose()
         for request in ended:
             # The device may answer yet, on the line that is opened next.
@@ -272,9 +281,8 @@ class Session:
 
     def refuse_questions(self, error: Exception) -> None:
         """End all questions, and leave the commands that are still to be sent."""
-        pending = self._matcher.pending
-        questions = [each for each in self._queue if each.exchange.reply is not None]
-        for request in [*([] if pending is None else [pending]), *questions]:
+        questions = [each for each in self._queue if each.question]
+        for request in [*self._matcher.pending, *questions]:
             self.cancel(request, error)
 
     def restart(self, now: float) -> None:
@@ -289,6 +297,8 @@ class Session:
     # ------------------------------------------------------------------ how a request is sent
 
     def _put(self, request: Request, now: float) -> bytes:
+        if request.exchange.counter is not None:
+            self._number(request, *request.exchange.counter)
         frame = request.message.encode()
         starts = self.wire_time.take(len(frame), now)
         request.take(Step.SEND)
@@ -305,7 +315,7 @@ class Session:
             self._echo.sent(request, frame, until)
         else:
             self._echo_watch.sent(frame)
-        if request.exchange.reply is None:
+        if not request.question:
             delay, duration = starts - now, self.wire_time.seconds(len(frame))
             sent = Sent(request.message, delay, duration)
             if request.exchange.acknowledged is not None:
@@ -322,9 +332,16 @@ class Session:
             request.before = self.counters.snapshot()
         answer = self.wire_time.seconds(request.reply_size)
         request.deadline = request.left_at + answer + self._reply_timeout
+        if request.within is not None:
+            request.deadline = request.left_at + request.within
         self._matcher.sent(request)
         self._settling.question_sent()
         return frame
+
+    def _number(self, request: Request, counter: str, numbers: int) -> None:
+        """Give a frame its running number."""
+        request.message = request.message.__replace__(**{counter: self._frames_sent % numbers})
+        self._frames_sent += 1
 
     # ------------------------------------------------------------------ how it ends
 
@@ -334,12 +351,15 @@ class Session:
             pending.deadline + (0.0 if pending.written else _WRITING)
         )
 
-    def _held_until(self) -> float:
+    def _held_until(self, pending: Request) -> float:
         """Return until when another reply may take the place of the one that is held."""
-        return self._reader.unless_arriving(self._matcher.held_until)
+        return self._reader.unless_arriving(self._matcher.held_until(pending))
 
-    def _give_up(self, since: float) -> None:
-        self._matcher.give_up(since, self._held_until())
+    def _give_up(self, pending: Request, since: float) -> None:
+        if pending.within is None:
+            self._matcher.give_up(pending, since, self._held_until(pending))
+        else:
+            self._matcher.end_gathering(pending, since)
 
     def _expire(self, pending: Request, now: float) -> None:
         """End a question whose time is over: by a further attempt, or by an error."""
@@ -347,17 +367,21 @@ class Session:
             hidden = self._reader.look_behind()
             if hidden:
                 self._break_off(hidden)
-            if self._matcher.pending is not pending or self._matcher.holds:
+            if pending not in self._matcher.pending or pending.held is not None:
                 return
+        if pending.within is not None:
+            self._give_up(pending, now)
+            pending.finish()
+            return
         self.counters.timeouts += 1
         if not pending.doubted:
-            self._matcher.pace.not_answered()
+            self._matcher.pace.not_answered(pending.address)
         if pending.attempts <= pending.retries:
             self.counters.retries += 1
-            self._matcher.retry()
+            self._matcher.retry(pending)
             self._queue.put_back(pending)
             return
-        self._give_up(now)
+        self._give_up(pending, now)
         waited = now - pending.sent_at
         kind = "" if pending.exchange.reply is None else pending.exchange.reply.__name__
         noise, reports, unsolicited = (
@@ -384,14 +408,14 @@ class Session:
 
     def _echo_came(self, request: Request) -> None:
         self.counters.echoes += 1
-        if not request.done and request is not self._matcher.pending:
+        if not request.done and request not in self._matcher.pending:
             request.finish(sent=request.sent)
 
     def _echo_lost(self, request: Request) -> None:
         """End a request whose echo has not come."""
         error = echo_error(self._name, "what was sent has not come back", request)
-        if request is self._matcher.pending:
-            self._give_up(request.deadline)
+        if request in self._matcher.pending:
+            self._give_up(request, request.deadline)
         elif request.latest:
             log().warning("%s (%r)", error, request.message)  # nobody waits for it
         if not request.done:
@@ -418,8 +442,8 @@ class Session:
                 self.counters.lost_reports = self.reports.lost
                 self.callback_queue.append(event)
         # Only now, since of several replies the last is the answer.
-        if self._matcher.holds:
-            self._answer(self._matcher.weigh())
+        for answer in self._matcher.weigh():
+            self._answer(answer)
 
     def _flush(self) -> None:
         """End the frame in progress, if there is one."""
@@ -431,3 +455,10 @@ class Session:
         self._take_in(self._reader.received_at, events)
         if self._trace is not None:
             self._trace.quiet()
+
+
+def _nobody_answers(address: Unaddressed, message: Message) -> EncodeError:
+    """Return what tells that a question cannot be put to an address."""
+    silence, value = address.silence(message), address.of(message)
+    why = f"{value} ({silence}) is answered by nobody: ask one device, or gather the replies of all"
+    return EncodeError(address.field, value, f"{why} who answer, with `broadcast()`")

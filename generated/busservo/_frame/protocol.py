@@ -21,6 +21,8 @@ DATA_BITS = 8
 PARITY = "none"
 STOP_BITS = 1
 BITS_PER_BYTE = 10
+# Whether each end receives what it sends itself.
+LOCAL_ECHO = False
 # Devices that are reached by USB HID: vendor and product, and the bytes of a report.
 HID_DEVICES: tuple[tuple[int, int, int], ...] = ((0x0483, 0x5750, 64),)
 

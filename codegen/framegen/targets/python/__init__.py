@@ -65,14 +65,26 @@ _FOR_PLAIN = {"_frame/plain_heads.py": "_frame/heads.py"}
 _WITH_ENVELOPES = {"_frame/envelope.py", "_frame/envelopes.py"}
 # And where each of them proves by a checksum that it is one.
 _FOR_PROVEN = {"_codec/certain_decoder.py": "_codec/careful_decoder.py"}
+# What only a protocol with addresses has a use for, and one whose device says what has failed.
+_FOR_ADDRESSES = {
+    "_client/address.py",
+    "_client/async_devices.py",
+    "_client/devices.py",
+}
+_FOR_FAILURES = {"_client/failures.py"}
 
 
 def render(compiled: Compiled, _snippets: Snippets) -> dict[str, str]:
     """Render the library's files, by path below the project's root."""
     library = LibraryView(names_of(compiled.model).library)
     unneeded = _FOR_CHECKSUMS.difference(*(sums.files for sums in checksums_of(compiled.model)))
+    client = ClientView(library.model)
     if compiled.model.spec.pose is None:
         unneeded |= _FOR_POSES
+    if client.bus is None:
+        unneeded |= _FOR_ADDRESSES
+    if not client.failing:
+        unneeded |= _FOR_FAILURES
     if library.plain:
         unneeded |= _WITH_ENVELOPES
     if not library.checksums:

@@ -5,10 +5,13 @@ Both clients are made of this one description; they differ in `async`, `await` a
 
 from __future__ import annotations
 
+import re
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, ClassVar
+from typing import TYPE_CHECKING, ClassVar, TypeVar
 
 from framegen.model.exchanges import STEPS_PER_SECOND
+from framegen.targets.python.bus_view import BusView
+from framegen.targets.python.errors_view import ErrorsView
 from framegen.targets.python.escape import Bracketed, Part, Text, literal
 from framegen.targets.python.exports import relative_import
 from framegen.targets.python.method_view import Flavour, MethodView
@@ -19,6 +22,8 @@ if TYPE_CHECKING:
     from framegen.language.values import Range
     from framegen.model.exchanges import Exchange
     from framegen.model.model import Model
+
+_View = TypeVar("_View", BusView, ErrorsView)
 
 _SHARED = (
     "Each method sends one message. What they share is explained at {}: {}, deadlines, reports, "
@@ -37,14 +42,24 @@ class ClientView:
     model: Model
 
     FLAVOURS: ClassVar = {
-        "Controller": Flavour("def ", "", "Motion"),
-        "AsyncController": Flavour("async def ", "await ", "AsyncMotion"),
+        "Controller": Flavour("def ", "", "Motion", "Controller"),
+        "AsyncController": Flavour("async def ", "await ", "AsyncMotion", "AsyncController"),
     }
 
     @property
     def about(self) -> list[str]:
         """The docstring of the client for threads."""
-        return [f"A client for threads: {self._title}", self._shared.format("Client", "threads")]
+        shared = self._shared.format("Client", "threads")
+        return [f"A client for threads: {self._title}", shared, *self._about_devices]
+
+    @property
+    def _about_devices(self) -> list[str]:
+        if self.bus is None:
+            return []
+        field = self.bus.field
+        one = f"`{field}` says which device a message is for: `device({field})` has the methods "
+        everyone = ", and `broadcast` those that go to all at once" if self.silent else ""
+        return [f"{one}without it{everyone}."]
 
     @property
     def async_about(self) -> list[str]:
@@ -52,6 +67,7 @@ class ClientView:
         return [
             f"A client for asyncio: {self._title}",
             self._shared.format("AsyncClient", "tasks"),
+            *self._about_devices,
         ]
 
     @property
@@ -118,6 +134,35 @@ class ClientView:
         return [_entry(each) for each in self.model.exchanges]
 
     @property
+    def constants(self) -> list[str]:
+        """What several exchanges share: how addresses are told, and how errors are."""
+        buses = {view.name: view.made for view in self._views(BusView)}
+        errors = {view.name: view.made for view in self._views(ErrorsView)}
+        return [*buses.values(), *errors.values()]
+
+    @property
+    def import_shared(self) -> list[str]:
+        """The imports of their classes."""
+        return [
+            *(["from .address import Address"] if self.bus else []),
+            "from .exchange import Exchange",
+            *(["from .failures import Failures"] if self.failing else []),
+        ]
+
+    @property
+    def failing(self) -> bool:
+        """Whether the device says that it refuses, or fails."""
+        return bool(self._views(ErrorsView))
+
+    def _views(self, kind: type[_View]) -> list[_View]:
+        return [view for view in map(kind, self.model.exchanges) if view.name]
+
+    @property
+    def bus(self) -> BusView | None:
+        """How one device of several is told from others, where there are any."""
+        return next(iter(self._views(BusView)), None)
+
+    @property
     def received(self) -> str:
         """The direction to the client, as a member of the enumeration."""
         return direction_member(self.model.roles.received)
@@ -126,9 +171,8 @@ class ClientView:
     def import_messages(self) -> str:
         """The messages of the exchanges."""
         names = {each.request.name for each in self.model.exchanges}
-        names |= {each.reply.name for each in self.model.exchanges if each.reply is not None}
         for each in self.model.exchanges:
-            names |= set(each.reports)
+            names |= {*each.reports, *(answer.name for answer in each.answers)}
         return relative_import(".messages", names)
 
     @property
@@ -147,9 +191,67 @@ class ClientView:
         modules |= {module: returned.intersection(names) for module, names in _RESULTS.items()}
         if self.pose is not None:
             modules |= {"exchanges": {"POSE"}, "pose": {"HOLD_MS"}}
+        if self.bus is not None:
+            prefix = base.removesuffix("Client")
+            module = f"{prefix.lower()}_devices" if prefix else "devices"
+            modules[module] = {f"{prefix}{each}" for each in self._device_classes}
+            modules["._frame.message"] = {"Message"}
         return [
             relative_import(module, names) for module, names in sorted(modules.items()) if names
         ]
+
+    @property
+    def silent(self) -> dict[str, int]:
+        """The addresses that nobody answers, by name."""
+        found: dict[str, int] = {}
+        for each in self._views(BusView):
+            found |= each.silent
+        return found
+
+    @property
+    def silent_values(self) -> str:
+        """The same as a dict, in the code of a method."""
+        pairs = [f"{literal(name)}: {value}" for name, value in self.silent.items()]
+        return Bracketed("addresses = {", pairs, "}").fitted(8)
+
+    @property
+    def silent_names(self) -> str:
+        """The type of their names."""
+        return f"Literal[{', '.join(map(literal, self.silent))}]"
+
+    @property
+    def _device_classes(self) -> list[str]:
+        return ["OneDevice", *(["AllDevices"] if self.silent else [])]
+
+    @property
+    def device_imports(self) -> list[str]:
+        """The imports of the clients of one device and of all."""
+        return self._device_imports("controller", "Controller", self.methods)
+
+    @property
+    def async_device_imports(self) -> list[str]:
+        """The same for asyncio."""
+        return self._device_imports("async_controller", "AsyncController", self.async_methods)
+
+    def _device_imports(self, module: str, client: str, methods: list[MethodView]) -> list[str]:
+        addressed = [method for method in methods if method.has_address]
+        shown = " ".join(f"{method.returns} {method.signature}" for method in addressed)
+        names = {name for name in self._messages if re.search(rf"\b{name}\b", shown)}
+        names -= self._gathered
+        returned = {method.returns for method in addressed}
+        modules: dict[str, set[str]] = {".messages": names, module: {client}}
+        modules |= {each: returned.intersection(results) for each, results in _RESULTS.items()}
+        return [relative_import(each, found, 4) for each, found in sorted(modules.items()) if found]
+
+    @property
+    def import_gathered(self) -> str:
+        """The import of the questions that are put to all, and of what answers them."""
+        return relative_import(".messages", self._gathered) if self._gathered else ""
+
+    @property
+    def _gathered(self) -> set[str]:
+        asked = [each for each in self.methods if each.has_address and each.reply_name]
+        return {name for each in asked for name in (each.request, each.reply_name) if self.silent}
 
     @property
     def _messages(self) -> set[str]:
@@ -192,6 +294,11 @@ def _entry(each: Exchange) -> str:
     if each.lasts is not None:
         steps = STEPS_PER_SECOND[each.lasts.field.unit]
         items.append(Bracketed("lasts=(", [literal(each.lasts.name), str(steps)], ")"))
+    for view, key in ((BusView(each), "address"), (ErrorsView(each), "failures")):
+        items += [f"{key}={view.name}"] if view.name else []
+    if each.counter is not None:
+        size = str(each.counter.high + 1)
+        items.append(Bracketed("counter=(", [literal(each.counter.name), size], ")"))
     if each.echoed:
         pairs = [Bracketed("(", list(map(literal, pair)), ")") for pair in each.echoed]
         items.append(Bracketed("echoed=(", pairs, ")", lone=","))

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from framegen.model.exchanges import snake_case
-from framegen.targets.python.escape import Bracketed
+from framegen.targets.python.escape import Bracketed, literal
 from framegen.targets.python.exports import relative_import
 from framegen.targets.python.spelling import direction_member
 from framegen.targets.python.union_view import type_alias
@@ -36,10 +36,14 @@ class HandlerView:
     @property
     def signature(self) -> str:
         """The declaration, with a reply where the spec names one."""
-        reply = self.layout.message.reply
-        returns = f"{reply} | None" if reply else "None"
+        returns = " | ".join([*self._answers, "None"])
         given = ["self", f"message: {self.message}"]
         return Bracketed(f"def {self.name}(", given, f") -> {returns}:").fitted(4)
+
+    @property
+    def _answers(self) -> list[str]:
+        message = self.layout.message
+        return [each for each in (message.reply, message.refusal) if each is not None]
 
     @property
     def doc(self) -> list[str]:
@@ -47,7 +51,10 @@ class HandlerView:
         message = self.layout.message
         found = [message.summary]
         if message.reply:
-            found.append(f"Return the {message.reply} as the reply, or None to stay silent.")
+            refusing = f", the {message.refusal} to refuse," if message.refusal else ","
+            found.append(
+                f"Return the {message.reply} as the reply{refusing} or None to stay silent."
+            )
         if message.reports:
             found.append(f"`send` may follow with: {', '.join(message.reports)}.")
         return found
@@ -79,7 +86,48 @@ class DeviceView:
             "Rejected input is counted in `rejects`, by reason."
         )
         what = f"The {roles.device}'s end of the line: override a handler to say what it does."
-        return [what, use]
+        return [what, use, *self._about_addresses]
+
+    @property
+    def _about_addresses(self) -> list[str]:
+        if not self.addresses:
+            return []
+        mine = "It takes only what is for one of the `addresses` that it is made with"
+        found = [f"{mine}, or for any where there are none."]
+        if self.silent:
+            silent = ", ".join(f"{value} ({name})" for name, value in self.silent.items())
+            found.append(
+                f"What goes to {silent} is for every device: its handler is called, and what that "
+                "returns is not sent, since nobody answers there. A handler that does answer calls "
+                "`send`."
+            )
+        return found
+
+    @property
+    def addresses(self) -> list[str]:
+        """The names of the addresses in what it receives."""
+        frames = (message.frame.address for message in self.model.sent(self.incoming))
+        return list(dict.fromkeys(each.name for each in frames if each is not None))
+
+    @property
+    def silent(self) -> dict[str, int]:
+        """The addresses that nobody answers, by name."""
+        found: dict[str, int] = {}
+        for each in self.model.exchanges:
+            found |= each.silent
+        return found
+
+    @property
+    def address_names(self) -> str:
+        """The assignment of the names of the addresses."""
+        names = [literal(name) for name in self.addresses]
+        return Bracketed("_ADDRESSES = (", names, ")", lone=",").fitted(0)
+
+    @property
+    def silent_addresses(self) -> str:
+        """The assignment of the addresses that nobody answers."""
+        values = [str(value) for value in self.silent.values()]
+        return Bracketed("_SILENT = frozenset([", values, "])").fitted(0)
 
     @property
     def handlers(self) -> list[HandlerView]:

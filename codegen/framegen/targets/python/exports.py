@@ -58,6 +58,20 @@ HOMES = {
     "open_controller": "_client.opening",
     "open_transport": "_serial.serial_port",
 }
+# What a library exports beside that whose devices have addresses, or one that nobody answers, and
+# one whose devices say what they refuse, or what has failed.
+OF_ADDRESSES = {
+    "AsyncOneDevice": "_client.async_devices",
+    "OneDevice": "_client.devices",
+}
+OF_BROADCASTS = {
+    "AllDevices": "_client.devices",
+    "AsyncAllDevices": "_client.async_devices",
+}
+OF_FAILURES = {
+    "FailureError": "_client.failures",
+    "RefusedError": "_client.failures",
+}
 
 
 def export_order(name: str) -> _Order:

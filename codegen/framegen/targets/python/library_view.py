@@ -10,7 +10,15 @@ from framegen.targets.python.checksum_view import checksums_of
 from framegen.targets.python.command_lines import verbs
 from framegen.targets.python.envelope_view import EnvelopeView
 from framegen.targets.python.escape import Bracketed, byte_literal, literal
-from framegen.targets.python.exports import HOMES, export_order, import_order, relative_import
+from framegen.targets.python.exports import (
+    HOMES,
+    OF_ADDRESSES,
+    OF_BROADCASTS,
+    OF_FAILURES,
+    export_order,
+    import_order,
+    relative_import,
+)
 from framegen.targets.python.list_view import ListView
 from framegen.targets.python.lookalike_view import LookalikeView
 from framegen.targets.python.message_view import MessageView
@@ -200,7 +208,12 @@ class LibraryView:
         elements = [element.name for element in self.elements]
         classes = [*(message.name for message in self.messages), *elements]
         types = [union.name for union in self.unions]
-        homes = {**HOMES, **dict.fromkeys([*classes, *types], "messages")}
+        exchanges = self.model.exchanges
+        homes = dict(HOMES)
+        homes |= OF_ADDRESSES if any(each.address for each in exchanges) else {}
+        homes |= OF_BROADCASTS if any(each.silent for each in exchanges) else {}
+        homes |= OF_FAILURES if any(each.refusal or each.failure for each in exchanges) else {}
+        homes |= {**dict.fromkeys([*classes, *types], "messages")}
         return {name: homes[name] for name in sorted(homes, key=export_order)}
 
     @property

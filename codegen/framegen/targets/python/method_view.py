@@ -42,12 +42,13 @@ _PARTLY = (
 class Flavour:
     """The style of one of the clients: what precedes a definition, a call and an example.
 
-    `motion` is the result for a message that lasts.
+    `motion` is the result for a message that lasts, `client` the class of the client.
     """
 
     define: str
     wait: str
     motion: str
+    client: str
 
 
 @dataclass(frozen=True, slots=True)
@@ -66,10 +67,17 @@ class MethodView:
     @property
     def signature(self) -> str:
         """The declaration."""
-        given = [self._declared(self._argument(name)) for name in self._names]
-        latest = [] if self.exchange.lasts is None else ["*", "latest: bool = False"]
+        return self._declaration(self._names, self._latest, self.returns)
+
+    def _declaration(self, names: tuple[str, ...], others: list[str], returns: str) -> str:
+        given = [self._declared(self._argument(name)) for name in names]
         before = f"{self.flavour.define}{self.name}("
-        return Bracketed(before, ["self", *given, *latest], f") -> {self.returns}:").fitted(4)
+        keywords = ["*", *others] if others else []
+        return Bracketed(before, ["self", *given, *keywords], f") -> {returns}:").fitted(4)
+
+    @property
+    def _latest(self) -> list[str]:
+        return [] if self.exchange.lasts is None else ["latest: bool = False"]
 
     @property
     def returns(self) -> str:
@@ -137,6 +145,68 @@ class MethodView:
             return [*self._session(call), shown]
         return self._session(f"answer = {call}")
 
+    # The same for one device of several, and for all of them, which has no address.
+
+    @property
+    def has_address(self) -> bool:
+        """Whether it says for which device it is."""
+        return self.exchange.address is not None
+
+    @property
+    def signature_without_address(self) -> str:
+        """The declaration for one device."""
+        return self._declaration(self.exchange.method.arguments, self._latest, self.returns)
+
+    @property
+    def signature_for_all(self) -> str:
+        """The declaration for all devices at once: of a question, whoever answers is heard."""
+        names, reply = self.exchange.method.arguments, self.exchange.reply
+        if reply is None:
+            return self._declaration(names, self._latest, self.returns)
+        return self._declaration(names, ["within: float"], f"list[{reply.name}]")
+
+    @property
+    def call(self) -> str:
+        """The arguments of a call of the method with the address of one device, or of all."""
+        names = self.exchange.method.arguments
+        latest = ["latest"] if self.exchange.lasts is not None else []
+        given = [f"{name}={name}" for name in (*names, *latest)]
+        return self._given("return ", f"_bus.{self.name}", [self._address, *given])
+
+    @property
+    def _address(self) -> str:
+        return f"{self._names[0]}=self.address"
+
+    @property
+    def reply_name(self) -> str:
+        """The class of the reply; empty where nothing answers."""
+        return "" if self.exchange.reply is None else self.exchange.reply.name
+
+    @property
+    def gathered(self) -> str:
+        """The statement that gathers the replies of all."""
+        names = self._names_in_order
+        given = [f"{name}={'self.address' if name == names[0] else name}" for name in names]
+        made = Bracketed(f"{self.request}(", given, ")")
+        call = f"replies = {self.flavour.wait}self._bus.gather("
+        return Bracketed(call, [made, "within=within"], ")").fitted(8)
+
+    @property
+    def brief(self) -> list[str]:
+        """The docstring where all that there is to know is said of the method with an address."""
+        return [self.exchange.request.message.summary, f"See `{self.flavour.client}.{self.name}`."]
+
+    @property
+    def brief_for_all(self) -> list[str]:
+        """The docstring for all devices at once."""
+        if self.exchange.reply is None:
+            return self.brief
+        name = self.exchange.reply.name
+        gathers = (
+            f"Returns each {name} that comes within `within` seconds; with 0, none is awaited."
+        )
+        return [*self.brief, gathers]
+
     @property
     def in_parts(self) -> bool:
         """Whether it may send several requests, whose replies are joined."""
@@ -155,7 +225,7 @@ class MethodView:
             return ""
         if split is not None:
             return self._given(
-                "replies = ", "_ask_in_parts", [self._request, reply.name, split.name]
+                "replies = ", "_ask_in_parts", [self.request, reply.name, split.name]
             )
         before = "reply = " if self.result else "return "
         return self._given(before, "_ask", [self._made, reply.name])
@@ -185,13 +255,14 @@ class MethodView:
         return "send" if self.exchange.acknowledged is None else "_run"
 
     @property
-    def _request(self) -> str:
+    def request(self) -> str:
+        """The class of the message that it sends."""
         return self.exchange.request.name
 
     @property
     def _made(self) -> Bracketed:
-        given = [f"{field.name}={field.name}" for field in self.exchange.request.arguments]
-        return Bracketed(f"{self._request}(", given, ")")
+        given = [f"{name}={name}" for name in self._names_in_order]
+        return Bracketed(f"{self.request}(", given, ")")
 
     def _given(self, before: str, method: str, arguments: list[Part]) -> str:
         """Return the arguments of a call in the body, broken where the line would be too long."""
@@ -200,7 +271,13 @@ class MethodView:
 
     @property
     def _names(self) -> tuple[str, ...]:
-        return self.exchange.method.arguments
+        return self.exchange.arguments
+
+    @property
+    def _names_in_order(self) -> list[str]:
+        """The arguments in the order of the message, without a running number."""
+        names = [field.name for field in self.exchange.request.arguments]
+        return [name for name in names if name in self._names]
 
     @property
     def _result(self) -> Number | Items | None:

@@ -67,20 +67,23 @@ PYTHON_CLASSES = _words(
 # What the library exports or is built of, whatever the protocol.
 LIBRARY_CLASSES = _words(
     """
-    AbsentError AsyncClient AsyncController AsyncMotion Client ClosedError Column Controller
-    Counters Decoded DecodeError Device Direction DisconnectedError EchoError Element EncodeError
-    Event Exchange EXCHANGES Field HEADER I8 I16 I32 I64 IncompleteReplyError Items Kind LimitError
+    AbsentError Address AllDevices AsyncAllDevices AsyncClient AsyncController AsyncMotion
+    AsyncOneDevice Client ClosedError Column Controller Counters Decoded DecodeError Device
+    Direction DisconnectedError EchoError Element EncodeError Event Exchange EXCHANGES
+    FailureError Failures Field HEADER I16 I32 I64 I8 IncompleteReplyError Items Kind LimitError
     Limits LIMITS LineCounters LineError Message MESSAGES Motion Noise NoReplyError NoReportError
-    Number PortAddressError PortBusyError PortNotFoundError PortPermissionError Pose POSE
-    ProtocolError Reason RECEIVED Rejects Report Run SearchStrategy Sent Shape StreamDecoder Table
-    Timed Transport TransportError U8 U16 U32 U64 UNFIT UnknownFrame WriteStuckError
+    Number OneDevice PortAddressError PortBusyError PortNotFoundError PortPermissionError Pose
+    POSE ProtocolError Reason RECEIVED RefusedError Rejects Report Run SearchStrategy Sent Shape
+    StreamDecoder Table Timed Transport TransportError U16 U32 U64 U8 UNFIT UnknownFrame
+    WriteStuckError
     """
 )
 
 # What every client has besides the methods of its messages.
 CLIENT_ATTRIBUTES = _words(
     """
-    close closed counters on_report reconnect reports request send send_latest wait_for
+    address broadcast close closed counters device gather on_report reconnect reports request send
+    send_latest wait_for
     """
 )
 
@@ -89,7 +92,7 @@ MESSAGE_ATTRIBUTES = _words("absent columns decode encode from_dict to_dict")
 ELEMENT_ATTRIBUTES = _words("absent count index")
 
 # What methods have besides the fields of a message: in their declaration, or as a variable.
-ARGUMENTS = _words("cls exchanged kind latest replies reply self timeout")
+ARGUMENTS = _words("cls exchanged kind latest replies reply self timeout within")
 
 # What the constructor of a message has as a variable.
 CONSTRUCTOR = _words("flat")

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections import deque
 
-from .._frame.protocol import UNCOUNTED
+from .._frame.heads import size_of
 from .exchanges import EXCHANGES
 from .request import Run
 
@@ -71,7 +71,7 @@ class Acknowledgements:
         for each in self._pending:
             if each.until is None:
                 left_at = max(self._wire_time.free_at, now + each.run.duration)
-                size = each.kind.LENGTHS[-1] + UNCOUNTED
+                size = size_of(each.kind, each.kind.LENGTHS[-1])
                 each.until = left_at + self._wire_time.seconds(size) + self._reply_timeout
             if each.run is last:
                 return

@@ -11,7 +11,7 @@ from types import TracebackType
 from typing import TYPE_CHECKING, TypeVar, overload
 
 from .._frame.message import Message
-from .._frame.protocol import BAUD
+from .._frame.protocol import BAUD, LOCAL_ECHO
 from .._serial.link_errors import TransportError
 from .._serial.transport import Transport
 from .base_client import DRAIN_TIMEOUT, POLL_INTERVAL, REPLY_TIMEOUT, REPORT_LIMIT
@@ -59,7 +59,7 @@ class AsyncClient(LoopClient):
         limits: Bounds | None = LIMITS.usual,
         background: bool = True,
         clock: Callable[[], float] = time.monotonic,
-        local_echo: bool = False,
+        local_echo: bool = LOCAL_ECHO,
         settle: float | None = None,
     ) -> None:
         super().__init__(

@@ -9,7 +9,7 @@ from os import PathLike
 from types import TracebackType
 
 from .._frame.message import Message
-from .._frame.protocol import BAUD
+from .._frame.protocol import BAUD, LOCAL_ECHO
 from .._log import log
 from .._serial.link_errors import TransportError
 from .._serial.transport import Transport
@@ -69,7 +69,7 @@ class Client(ThreadClient):
         limits: Bounds | None = LIMITS.usual,
         background: bool = True,
         clock: Callable[[], float] = time.monotonic,
-        local_echo: bool = False,
+        local_echo: bool = LOCAL_ECHO,
         settle: float | None = None,
     ) -> None:
         super().__init__(

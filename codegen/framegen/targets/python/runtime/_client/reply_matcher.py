@@ -1,8 +1,9 @@
 """Which of the replies that come is the answer, which is held, late, or unsolicited.
 
-No frame says which request it answers. A reply has the class that answers the pending question, and
-holds nothing that was not requested. A message of such a class that is no reply to it is
-**unsolicited**: it is counted, dropped, and never taken for anything else.
+No frame says which request it answers. A reply has the class that answers a pending question, comes
+from the device that was asked, where frames say whom they are from, and holds nothing that was not
+requested. A message of such a class that is no reply is **unsolicited**: it is counted, dropped,
+and never taken for anything else.
 
 A reply must be possible. It cannot be complete before the question and itself have had their time
 on the wire. A reply that is complete sooner was meant for somebody else, as when the reply before
@@ -18,14 +19,17 @@ After a question has timed out, or was cancelled, or the line was lost, its repl
 unsent, until that reply has come, or until the time that the question was given has passed once
 more. That time begins when the question is given up, which may be long after its deadline if the
 whole machine has paused, and the reply with it. If it has not come by then, it may come yet, so the
-reply to the next is held, too.
+reply to the next is held, too. All that is kept for each device: one that is silent delays no
+question to another, once nobody on this line has ever taken so long.
 """
 
 from __future__ import annotations
 
+from sys import maxsize
+
 from .._log import log
 from .exchanges import EXCHANGES
-from .late_replies import LateReplies
+from .late_replies import LateReplies, Origin
 from .pace import Pace
 from .request import Step
 
@@ -35,18 +39,27 @@ if TYPE_CHECKING:
 
     from .._codec.counters import LineCounters
     from .._frame.message import Message
+    from .exchange import Unaddressed
     from .request import Request
     from .wire_time import WireTime
 
     Answer: TypeAlias = tuple[Request, Message]
 
-_REPLIES = frozenset(each.reply for each in EXCHANGES.values() if each.reply is not None)
+# The messages that answer anything, each with what tells which device it is from.
+_ADDRESSES: dict[type[Message], Unaddressed] = {
+    kind: each.address for each in EXCHANGES.values() for kind in each.kinds
+}
+_NEVER = float("inf")
+# How much longer a device may take than any has taken so far, before it keeps others waiting no
+# longer: adapters hand on what they have received only every 16 ms.
+_HESITATION = 0.02
 
 
 class ReplyMatcher:
-    """Knows the request that is pending, and what has come and may come for it and for others.
+    """Knows the requests that are pending, and what has come and may come for them and for others.
 
-    `latency` is how long a device takes at most until it begins to answer.
+    Only a device that is one of many, and overdue, lets another be asked meanwhile. `latency` is
+    how long a device takes at most until it begins to answer.
     """
 
     def __init__(
@@ -58,111 +71,122 @@ class ReplyMatcher:
         self._name = name
         self.pace = Pace()
         self.late = LateReplies()
-        # The question that has been sent, and is not over.
-        self.pending: Request | None = None
-        # The reply to it that has come last, and when, until it is believed or not.
-        self._held: tuple[Message, float] | None = None
-
-    @property
-    def holds(self) -> bool:
-        """Whether a reply is held."""
-        return self._held is not None
+        # The questions that have been sent, and are not over, in the order in which they were sent.
+        self.pending: list[Request] = []
 
     # ------------------------------------------------------------------ sending
 
     def may_be_mistaken(self, request: Request, now: float) -> bool:
         """Whether a reply to a question might be confused with one that may yet come."""
-        reply = request.exchange.reply
-        if self.pending is not None:
+        origin = request.answered_by
+        if self.waits_for_reply(now) or any(
+            each.answered_by.meets(origin) for each in self.pending
+        ):
             return True
         # A further attempt accepts the late reply to an earlier one.
-        return reply is not None and not request.attempts and self.late.awaited(reply, now)
+        return not request.attempts and self.late.awaited(origin, now)
+
+    def waits_for_reply(self, now: float) -> bool:
+        """Whether a device may be about to answer."""
+        return any(now < self._overdue_at(each) for each in self.pending)
+
+    def overdue(self, now: float) -> list[float]:
+        """Return when those who may be about to answer will be overdue, as far as is known."""
+        times = (self._overdue_at(each) for each in self.pending)
+        return [at for at in times if now < at < _NEVER]
+
+    def _overdue_at(self, pending: Request) -> float:
+        """Return when an answer is overdue; never, where nobody else could be asked."""
+        slowest = self.pace.slowest
+        if pending.address is None or not pending.written or slowest is None:
+            return _NEVER
+        answer = self._wire_time.seconds(pending.reply_size)
+        return pending.left_at + answer + 2 * slowest + _HESITATION
 
     def sent(self, request: Request) -> None:
         """Record that a question has been sent."""
-        if request.attempts == 1 and request.exchange.reply is not None:
-            request.after_lost = self.late.take_missing(request.exchange.reply)
-        self.pending = request
+        if request.attempts == 1:
+            request.after_lost = self.late.take_missing(request.answered_by)
+        self.pending.append(request)
 
     # ------------------------------------------------------------------ receiving
 
     def take(self, message: Message, now: float) -> bool:
         """Take in a message, unless it is a report; whether it was taken."""
-        pending = self.pending
-        # What had come before the question was sent cannot answer it.
-        if (
-            pending is not None
-            and now >= pending.sent_at
-            and pending.exchange.answers(pending.message, message)
-        ):
-            if self._held is not None:
-                self._drop_unsolicited(self._held[0])
-                pending.after_lost = False
-            self._held = message, now
-            pending.take(Step.HOLD)
-        elif type(message) in _REPLIES:
-            self._drop_unsolicited(message)
-        else:
+        for pending in self.pending:
+            # What had come before the question was sent cannot answer it.
+            if now >= pending.sent_at and pending.exchange.answers(pending.message, message):
+                self._hold(pending, message, now)
+                return True
+        if type(message) not in _ADDRESSES:
             return False
+        self._drop_unsolicited(message)
         return True
 
-    def weigh(self) -> Answer | None:
-        """Give the reply that is held, if the wire can have carried it: it is the answer."""
-        pending, held = self.pending, self._held
-        if pending is None or held is None:
-            return None
-        reply, at = held
+    def _hold(self, pending: Request, message: Message, now: float) -> None:
+        """Keep a reply to a question: the latest, or all where those of all are gathered."""
+        if pending.within is not None:
+            self._counters.replies += 1
+            pending.gathered.append(message)
+            return
+        if pending.held is not None:
+            self._drop_unsolicited(pending.held[0])
+            pending.after_lost = False
+        pending.held = message, now
+        pending.take(Step.HOLD)
+
+    def weigh(self) -> list[Answer]:
+        """Give the replies that are held, if the wire can have carried them: they are answers."""
+        answers: list[Answer] = []
+        for pending in [each for each in self.pending if each.held is not None]:
+            if pending.held is not None:
+                answers += self._weighed(pending, *pending.held)
+        return answers
+
+    def _weighed(self, pending: Request, reply: Message, at: float) -> list[Answer]:
         possible = self._delay(pending, reply, at) >= 0
-        if (possible or self.pace.fast) and not pending.after_lost:
+        if (possible or self.pace.is_fast(pending.address)) and not pending.after_lost:
             if possible:
                 self._learn(pending, reply, at)
-            return self._answer(pending, reply, at)
+            return [self._answer(pending, reply, at)]
         if not possible and not pending.doubted:
             pending.doubted = True
             self._counters.impossible += 1
             log().debug("%s: %r came sooner than the wire allows", self._name, reply)
-        return None
+        return []
 
-    @property
-    def held_until(self) -> float:
+    def held_until(self, pending: Request) -> float:
         """Until when another reply may take the place of one that is held."""
-        pending = self.pending
-        if pending is None:
-            return float("-inf")
         return pending.left_at + self._wire_time.seconds(pending.reply_size) + self._latency
 
-    def decide(self, now: float) -> Answer | None:
+    def decide(self, pending: Request, now: float) -> Answer | None:
         """Give the reply that is held where it is to be believed, since no other has come."""
-        pending, held = self.pending, self._held
-        if pending is None or held is None:
+        if pending.held is None:
             return None
-        reply, at = held
+        reply, at = pending.held
         paced = self.pace.paced
         if self._delay(pending, reply, at) >= 0:
             self._learn(pending, reply, at)
             return self._answer(pending, reply, now)
-        self.pace.answered_too_soon()
-        if not paced or self.pace.fast:
+        self.pace.answered_too_soon(pending.address)
+        if not paced or self.pace.is_fast(pending.address):
             return self._answer(pending, reply, now)
-        self._held = None
+        pending.held = None
         pending.take(Step.DROP)
         self._drop(reply, "it came sooner than the wire allows, on a line that keeps its rate")
         return None
 
     # ------------------------------------------------------------------ giving up
 
-    def retry(self) -> None:
-        """Have the pending question wait for a further attempt."""
-        if self.pending is not None:
-            self.pending.take(Step.RETRY)
-            self.pending = None
+    def retry(self, pending: Request) -> None:
+        """Have a pending question wait for a further attempt."""
+        pending.take(Step.RETRY)
+        self.pending.remove(pending)
 
-    def give_up(self, since: float, held_until: float) -> None:
-        """Await no longer the reply to the pending question, which may come all the same."""
-        pending, held = self.pending, self._held
-        self.pending = self._held = None
-        if pending is None:
-            return
+    def give_up(self, pending: Request, since: float, held_until: float) -> None:
+        """Await no longer the reply to a pending question, which may come all the same."""
+        held, pending.held = pending.held, None
+        self.pending.remove(pending)
         if held is None:
             self.expect_late(pending, since)
             return
@@ -170,11 +194,19 @@ class ReplyMatcher:
         # held.
         reply, _ = held
         self._drop(reply, "what it may answer was given up")
-        self.late.expect(type(reply), pending.attempts, held_until, owed=False)
+        self.late.expect(self._origin(reply), pending.attempts, held_until, owed=False)
+
+    def end_gathering(self, pending: Request, since: float) -> None:
+        """End a question to all: whoever has not answered yet may do so for as long once more."""
+        self.pending.remove(pending)
+        until = since + (pending.deadline - pending.left_at)
+        self.late.expect(pending.answered_by, maxsize, until, owed=False)
 
     def lose(self) -> None:
         """Forget what is pending: the line is gone."""
-        self.pending = self._held = None
+        for pending in self.pending:
+            pending.held = None
+        self.pending.clear()
 
     def expect_late(self, request: Request, since: float) -> None:
         """Record that replies may come for as many attempts as a request has had."""
@@ -185,9 +217,9 @@ class ReplyMatcher:
         self.pace = Pace()
 
     def _expect(self, request: Request, count: int, since: float) -> None:
-        reply = request.exchange.reply
-        if count and reply is not None:
-            self.late.expect(reply, count, since + (request.deadline - request.left_at))
+        if count and request.question:
+            until = since + (request.deadline - request.left_at)
+            self.late.expect(request.answered_by, count, until)
 
     def _delay(self, request: Request, reply: Message, at: float) -> float:
         """Return how much later than possible a reply came; below 0 if sooner."""
@@ -196,24 +228,31 @@ class ReplyMatcher:
     def _learn(self, request: Request, reply: Message, at: float) -> None:
         """Learn from the time of a reply; after one that is too early, wait for the right one."""
         step = self._wire_time.seconds(len(request.message.encode())) / 2
-        later = self.pace.answered_in_time(type(reply), self._delay(request, reply, at), step)
+        delay = self._delay(request, reply, at)
+        later = self.pace.answered_in_time(type(reply), request.address, delay, step)
         if later > 0 and step > 0:
             until = at + later + self._wire_time.seconds(len(reply.encode()))
-            self.late.expect(type(reply), 1, until, owed=False)
+            self.late.expect(self._origin(reply), 1, until, owed=False)
 
     def _answer(self, request: Request, reply: Message, now: float) -> Answer:
         self._counters.replies += 1
-        self.pending = self._held = None
+        request.held = None
+        self.pending.remove(request)
         if self._wire_time.free_at == request.left_at:
             self._wire_time.seen_idle(now)
         # Which of the attempts it answers is unknown: the others may be answered yet.
         self._expect(request, request.attempts - 1, request.deadline)
         return request, reply
 
+    def _origin(self, reply: Message) -> Origin:
+        kind = type(reply)
+        return Origin((kind,), _ADDRESSES[kind].sender(reply))
+
     def _drop_unsolicited(self, message: Message) -> None:
-        self.pace.surplus()
+        origin = self._origin(message)
+        self.pace.surplus(origin.address)
         self._drop(message, "it answers nothing that is pending")
-        self.late.came(type(message))
+        self.late.came(origin)
 
     def _drop(self, message: Message, why: str) -> None:
         self._counters.unsolicited += 1

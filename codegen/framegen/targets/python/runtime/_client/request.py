@@ -6,8 +6,10 @@ from collections.abc import Callable
 from enum import Enum
 
 from .._frame.errors import EncodeError
+from .._frame.heads import size_of
 from .._frame.message import Message
-from .._frame.protocol import UNCOUNTED
+from .exchange import UNADDRESSED
+from .late_replies import Origin
 
 TYPE_CHECKING = False  # typing alone would double the time that the import takes
 if TYPE_CHECKING:
@@ -93,34 +95,55 @@ class Request:
     """A message that a session is to send. Once `done`, it has `sent`, a `reply` or an `error`."""
 
     __slots__ = (
+        "address",
         "after_lost",
+        "answered_by",
         "attempts",
         "before",
         "deadline",
         "doubted",
         "error",
         "exchange",
+        "gathered",
+        "held",
         "latest",
         "left_at",
         "left_soonest",
         "message",
         "notify",
+        "question",
         "reply",
+        "reply_least",
         "reply_size",
         "retries",
         "sent",
         "sent_at",
         "state",
+        "within",
         "written",
     )
 
     def __init__(
-        self, message: Message, exchange: Exchange, *, retries: int = 0, latest: bool = False
+        self,
+        message: Message,
+        exchange: Exchange,
+        *,
+        retries: int = 0,
+        latest: bool = False,
+        within: float | None = None,
     ) -> None:
         self.message = message
         self.exchange = exchange
-        # How many bytes its reply can have at most; 0 if there is none.
-        self.reply_size = exchange.reply_size(message)
+        # Whether anybody answers it; for how many seconds the replies of all who do are gathered.
+        silent = bool(exchange.address.silence(message))
+        self.question = exchange.reply is not None and (not silent or bool(within))
+        self.within = within
+        # The device that it is for, None for the only one or all; and what may answer it.
+        self.address = None if silent else exchange.address.of(message)
+        self.answered_by = Origin(exchange.kinds, self.address)
+        # How many bytes its reply can have at most and at the least; 0 if there is none.
+        self.reply_size = exchange.reply_size(message) if self.question else 0
+        self.reply_least = exchange.reply_least(message) if self.question else 0
         self.retries = retries
         # Whether a newer one of its kind replaces it.
         self.latest = latest
@@ -131,6 +154,9 @@ class Request:
         self.sent: Sent | None = None
         self.reply: Message | None = None
         self.error: Exception | None = None
+        # The reply to it that has come last, and when, until it is believed or not.
+        self.held: tuple[Message, float] | None = None
+        self.gathered: list[Message] = []
         # When it was handed over first, when the last byte of it has left, and its deadline.
         self.sent_at = self.left_at = self.deadline = 0.0
         # When the last byte of the first attempt can have left at the soonest.
@@ -141,6 +167,11 @@ class Request:
         self.before: tuple[int, int, int] = (0, 0, 0)
         # A function to call once it is done.
         self.notify: Callable[[], None] | None = None
+
+    @property
+    def shares_wire(self) -> bool:
+        """Whether devices with addresses share the wire that it goes over."""
+        return self.exchange.address is not UNADDRESSED
 
     @property
     def done(self) -> bool:
@@ -178,6 +209,7 @@ def check_room(message: Message, largest_frame: int | None) -> None:
     if items is None:
         raise EncodeError(type(message).__name__, message, why)
     lengths = zip(items.counts, message.LENGTHS, strict=True)
-    most = max((n for n, length in lengths if length + UNCOUNTED <= largest_frame), default=0)
+    kind = type(message)
+    most = max((n for n, length in lengths if size_of(kind, length) <= largest_frame), default=0)
     given = getattr(message, items.name)
     raise EncodeError(items.name, given, f"{why}: room for {most} of {len(given)}")

@@ -8,7 +8,6 @@ TYPE_CHECKING = False
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from .._frame.message import Message
     from .reply_matcher import ReplyMatcher
     from .request import Request
     from .settling import Settling
@@ -23,8 +22,9 @@ class RequestQueue:
     """Requests in the order in which they were submitted.
 
     A command goes as soon as the line is free, a question once no other is pending, no late reply
-    may come that would look like its own, and the line has settled. A newer request may take the
-    place of what it undoes.
+    may come that would look like its own, and the line has settled. Where many devices share the
+    wire, a command waits as well while one of them may be about to answer. A newer request may take
+    the place of what it undoes.
     """
 
     def __init__(
@@ -44,7 +44,7 @@ class RequestQueue:
 
     def add(self, request: Request) -> list[Request]:
         """Put a request last, and return those whose place it has taken, if it is the latest."""
-        replaced = self._undone_by(request.message) if request.latest else []
+        replaced = self._undone_by(request) if request.latest else []
         for each in replaced:
             self._requests.remove(each)
         self._requests.append(request)
@@ -66,15 +66,21 @@ class RequestQueue:
         free = self._wire_time.free_at - _AHEAD
         if self._next(now) is not None:
             return free
+        overdue = self._matcher.overdue(now)
+        if self._matcher.pending and not overdue:
+            # A question waits for the one before it, whose end brings the driver back here anyway.
+            return None
         late = self._matcher.late.ends()
-        times = [*late, *(self._settled_at(request) for request in self._requests)]
+        times = [*overdue, *late, *(self._settled_at(request) for request in self._requests)]
         settled = [at for at in times if at > now]
-        # A question waits for the one before it, whose end brings the driver back here anyway.
-        return max(free, min(settled)) if settled and self._matcher.pending is None else None
+        return max(free, min(settled)) if settled else None
 
     def put_back(self, request: Request) -> None:
-        """Put a request first, for a further attempt."""
-        self._requests.appendleft(request)
+        """Put a request first, for a further attempt; last, where others ask other devices."""
+        if request.address is None:
+            self._requests.appendleft(request)
+        else:
+            self._requests.append(request)
 
     def remove(self, request: Request) -> None:
         """Take a request out."""
@@ -88,7 +94,9 @@ class RequestQueue:
 
     def _next(self, now: float) -> Request | None:
         for request in self._requests:
-            if request.exchange.reply is None:
+            if not request.question:
+                if request.shares_wire and self._matcher.waits_for_reply(now):
+                    continue
                 return request
             if not self._matcher.may_be_mistaken(request, now) and now >= self._settled_at(request):
                 return request
@@ -96,25 +104,29 @@ class RequestQueue:
 
     def _settled_at(self, request: Request) -> float:
         """Return until when a question is held back, because replies to others may come first."""
-        if request.exchange.reply is None:
+        if not request.question:
             return float("-inf")
         size = len(request.message.encode()) + request.reply_size
         return self._settling.until(self._wire_time.seconds(size) + self._latency)
 
-    def _undone_by(self, message: Message) -> list[Request]:
+    def _undone_by(self, request: Request) -> list[Request]:
         """Return the queued commands of the same class, for the same ids or fewer."""
-        covered = _subjects(message)
+        covered = _subjects(request)
         return [
             each
             for each in self._requests
             if each.latest
-            and type(each.message) is type(message)
-            and _subjects(each.message) <= covered
+            and type(each.message) is type(request.message)
+            and _subjects(each) <= covered
         ]
 
 
-def _subjects(message: Message) -> frozenset[int]:
-    """Return the ids in a message: the first number of each list element, or of all it has."""
+def _subjects(request: Request) -> frozenset[int]:
+    """Return the ids in a message: its address, or the first number of each element, or of all."""
+    message = request.message
+    address = request.exchange.address.of(message)
+    if address is not None:
+        return frozenset([address])
     items = message.SHAPE.items
     if items is None:
         return frozenset(getattr(message, name) for name in message.__match_args__[:1])
