@@ -5,7 +5,9 @@ from __future__ import annotations
 from functools import partial
 from typing import TYPE_CHECKING, Any
 
+from framegen.checks.other_checksum import checksum_hint
 from framegen.checks.rule import ModelRule, Problem
+from framegen.explanation.refusals import BAD_CHECKSUM
 from framegen.language.values import to_hex
 from framegen.model.codec import NotAFrame, Unencodable, decode, encode
 from framegen.model.slots import Constant, Number
@@ -33,7 +35,10 @@ def _executed(
         decoded = decode(model, message.direction, example.hex)
     except NotAFrame as error:
         what = f"this is no frame of {message.name}: {error}"
-        yield Problem((*path, "hex"), what, partial(_other_order, model, message, example))
+        hint = partial(_other_order, model, message, example)
+        if error.reason == BAD_CHECKSUM:
+            hint = partial(checksum_hint, model, message, example.hex)
+        yield Problem((*path, "hex"), what, hint)
         return
     if decoded.layout is not message:
         yield Problem((*path, "hex"), _other(message, decoded.layout))

@@ -22,9 +22,9 @@ def _look(spec: Spec) -> Iterator[Problem]:
 RULE = StructureRule(
     id="frame-parts",
     title="The frame is made of parts that fit together",
-    why="A decoder needs a constant to search for, one length that counts the body, and one id "
-    "that says what the body holds.",
-    bad="frame: {length: ..., header: ..., parameters: ...}",
-    good="frame: {header: ..., length: ..., command: ..., parameters: ...}",
+    why="A decoder reads from front to back: it must know the id and the length before the body, "
+    "and where the body ends.",
+    bad="frame: {header: ..., parameters: {is: body}, command: {is: id, type: u8}}",
+    good="frame: {header: ..., command: {is: id, type: u8}, parameters: {is: body}}",
     look=_look,
 )

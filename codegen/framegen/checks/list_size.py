@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from framegen.checks.frames import frame_of
 from framegen.checks.rule import Problem, StructureRule
 from framegen.language.spec import LengthPart, ListField
 from framegen.model.layout import is_varying
@@ -17,7 +18,9 @@ if TYPE_CHECKING:
 
 def _look(spec: Spec) -> Iterator[Problem]:
     for name, message in spec.messages.items():
-        frame = spec.envelopes.get(spec.frame_of(message), {})
+        frame = frame_of(spec, message)
+        if frame is None:
+            continue
         for field_name, field in message.fields.items():
             here = ("messages", name, "fields", field_name)
             if not is_varying(field):

@@ -35,17 +35,18 @@ def _nested(path: KeyPath, name: str, field: NumberField) -> Iterator[Problem]:
         yield Problem((*path, "count"), what, _numbered(name, field), on_key=True)
 
 
-_BYTES = (
-    "elements that differ in size cannot be told apart: describe the whole list as bytes, "
-    "`{type: u8, sized_by: ...}`, and take them apart in your program"
+_WHOLE = (
+    "describe the whole list as bytes, `{type: u8, sized_by: ...}`, and take them apart in your "
+    "program"
 )
+_BYTES = f"elements that differ in size cannot be told apart: {_WHOLE}"
 
 
 def _numbered(name: str, field: NumberField) -> str:
     """Return the fields that say the same as a fixed list."""
     count = field.count
     if count is None or count.low != count.high or not 1 < count.low <= _MOST:
-        return _BYTES
+        return f"if it is text, add `text: ascii`; else {_WHOLE}"
     each = ", ".join(f"{name}_{number}" for number in range(1, count.low + 1))
     return f"give each a field of its own: {each}"
 

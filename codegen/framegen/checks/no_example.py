@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
+from functools import partial
 from typing import TYPE_CHECKING
 
+from framegen.checks.pasted import lowest, pasted
 from framegen.checks.rule import ModelRule, Problem
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
+    from framegen.model.layout import MessageLayout
     from framegen.model.model import Model
 
 
@@ -18,9 +21,15 @@ def _look(model: Model) -> Iterator[Problem]:
             yield Problem(
                 ("messages", name),
                 f"{name} has no example",
-                "give a frame with its source, or one that was `constructed`",
+                partial(_hint, message),
                 on_key=True,
             )
+
+
+def _hint(message: MessageLayout) -> str:
+    example = pasted(message, lowest(message), "A short title")
+    what = "give a frame with its source, or one that was `constructed`"
+    return f"{what}, such as {example}" if example else what
 
 
 RULE = ModelRule(

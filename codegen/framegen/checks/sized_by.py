@@ -5,8 +5,10 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from framegen.checks.counters import counter_problems, plain_before
+from framegen.checks.frames import frame_of
 from framegen.checks.rule import Problem, StructureRule
 from framegen.language.spec import LengthPart
+from framegen.reading.findings import did_you_mean
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -17,7 +19,9 @@ if TYPE_CHECKING:
 
 def _look(spec: Spec) -> Iterator[Problem]:
     for name, message in spec.messages.items():
-        frame = spec.envelopes.get(spec.frame_of(message), {})
+        frame = frame_of(spec, message)
+        if frame is None:
+            continue
         for field_name, field in message.fields.items():
             if field.sized_by is not None:
                 here = ("messages", name, "fields", field_name, "sized_by")
@@ -37,7 +41,9 @@ def _size(
         what = f"{name} has no field `{size}`, and its frame has no length part of that name"
         if not lengths:
             what = f"{name} has no field `{size}`, and its frame has no length part"
-        yield Problem(path, what, _way_out(message, field_name, lengths))
+        way_out = _way_out(message, field_name, lengths)
+        known = [*lengths, *plain_before(message, field_name)]
+        yield Problem(path, what, did_you_mean(size, known, otherwise=way_out))
 
 
 def _way_out(message: Message, field_name: str, lengths: list[str]) -> str:

@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+from functools import partial
 from typing import TYPE_CHECKING
 
 from framegen.checks.fields import numbers_of
+from framegen.checks.pasted import changed, lowest, pasted
 from framegen.checks.rule import ModelRule, Problem
 from framegen.language.number_types import NUMBER_TYPES
 from framegen.model.codec import NotAFrame, decode
+from framegen.model.layout import is_constant
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -15,8 +18,6 @@ if TYPE_CHECKING:
     from framegen.model.layout import MessageLayout
     from framegen.model.model import Model
     from framegen.reading.yamltree import KeyPath
-
-_HINT = "add an example with it; it may be `constructed`"
 
 
 def _look(model: Model) -> Iterator[Problem]:
@@ -27,19 +28,36 @@ def _look(model: Model) -> Iterator[Problem]:
             # The rule `example` speaks of a broken example, which may be the one that shows it.
             continue
         for path, field in numbers_of(("messages", name), message.message):
+            if is_constant(field):
+                continue
             there = shown.get(path[3::2], set())
             for key, named in field.values.items():
                 if named.value not in there:
                     text = f"no example of {name} shows `{key}`, which is {named.value}"
-                    yield Problem((*path, "values", key), text, _HINT, on_key=True)
+                    hint = partial(_hint, model, message, path, named.value)
+                    yield Problem((*path, "values", key), text, hint, on_key=True)
             ends = () if field.range is None else (field.range.low, field.range.high)
             for end in dict.fromkeys(ends):
                 if end is not None and end not in there:
                     text = f"no example of {name} shows {end}, an end of the range"
-                    yield Problem((*path, "range"), text, _HINT)
+                    hint = partial(_hint, model, message, path, end)
+                    yield Problem((*path, "range"), text, hint)
             if field.signed_as and max(there, default=0) <= NUMBER_TYPES[field.signed_as].high:
                 text = f"no example of {name} shows a value that `signed_as` makes negative"
-                yield Problem((*path, "signed_as"), text, _HINT)
+                hint = partial(_hint, model, message, path, NUMBER_TYPES[field.type].high)
+                yield Problem((*path, "signed_as"), text, hint)
+
+
+def _hint(model: Model, message: MessageLayout, path: KeyPath, value: int) -> str:
+    """Return an example that shows the value, made of the first one that the message has."""
+    examples = message.message.examples
+    values = lowest(message)
+    if examples:
+        values = decode(model, message.direction, examples[0].hex).values
+    outer, *inner = map(str, path[3::2])
+    with_it = changed(values, outer, inner[0] if inner else None, value)
+    example = pasted(message, with_it, f"{path[-1]} {value}")
+    return f"add {example}" if example else "add an example with it; it may be `constructed`"
 
 
 def _shown(model: Model, message: MessageLayout) -> dict[KeyPath, set[int]]:
