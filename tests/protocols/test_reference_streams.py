@@ -83,7 +83,7 @@ def test_3_a_frame_that_is_cut_off_costs_the_next_nothing(name: str, way: Direct
             found = overlapping(reference.decode(cut_off[:size] + frame), size, len(frame))
             tried += 1
             if [event.data for event in found] != [frame]:
-                # A checksum of eight bits takes one in 256 for a frame, and `xor` one frame in itself.
+                # Eight bits take one in 256 for a frame, and `xor` what stands there twice.
                 assert found[0].at < size
                 lost.append(cut_off[:size].hex(" "))
     assert len(lost) <= 1 + tried // 8

@@ -1,0 +1,113 @@
+"""The generated libraries: the same frames, values, refusals and streams as the reference."""
+
+from __future__ import annotations
+
+from itertools import pairwise
+from typing import TYPE_CHECKING, Any
+
+import pytest
+from framegen.model.codec import NotAFrame, decode, encode
+from framegen.model.stream import ReferenceDecoder
+from hypothesis import given
+from hypothesis import strategies as st
+
+from tests.protocols.libraries import Libraries, direction_of, made_of, values_in
+from tests.protocols.specs import all_messages, messages_of, model_of, values_of
+from tests.protocols.streams import all_ways, lines
+
+if TYPE_CHECKING:
+    from framegen.language.values import Direction
+
+    from tests.protocols.peer import Values
+
+WAYS = [pytest.param(name, way, id=f"{name}-{way.sender}") for name, way in all_ways()]
+
+
+@pytest.mark.parametrize(("name", "message"), all_messages())
+def test_a_published_frame_is_read_and_written_again(
+    libraries: Libraries, name: str, message: str
+) -> None:
+    made, layout = libraries[name], messages_of(name)[message]
+    for example in layout.message.examples:
+        read = made.decode(example.hex, direction_of(made, layout.direction))
+        assert (type(read).__name__, values_in(layout, read)) == (message, example.values)
+        assert read.encode() == example.hex
+        assert eval(repr(read), vars(made)) == read  # noqa: S307 - it is our own
+
+
+@pytest.mark.parametrize(("name", "message"), all_messages())
+@given(data=st.data())
+def test_what_is_written_is_read(
+    libraries: Libraries, name: str, message: str, data: st.DataObject
+) -> None:
+    made, layout = libraries[name], messages_of(name)[message]
+    values = data.draw(values_of(name, message))
+    frame = made_of(made, layout, values).encode()
+    assert frame == encode(layout, values)
+    read = made.decode(frame, direction_of(made, layout.direction))
+    assert (type(read).__name__, values_in(layout, read)) == (message, values)
+
+
+@pytest.mark.parametrize(("name", "way"), WAYS)
+@given(data=st.data())
+def test_bytes_are_refused_for_the_same_reason(
+    libraries: Libraries, name: str, way: Direction, data: st.DataObject
+) -> None:
+    made, line = libraries[name], data.draw(lines(name, way))
+    expected = _judged(name, way, line)
+    if isinstance(expected, tuple):
+        with pytest.raises(made.DecodeError) as raised:
+            made.decode(line, direction_of(made, way))
+        assert (raised.value.reason.value, raised.value.offset) == expected
+    else:
+        read = made.decode(line, direction_of(made, way))
+        assert values_in(messages_of(name)[type(read).__name__], read) == expected
+
+
+def _judged(name: str, way: Direction, line: bytes) -> Values | tuple[str, int]:
+    """Return the values in a frame; for other bytes, the reason and the offset."""
+    try:
+        return decode(model_of(name), way, line).values
+    except NotAFrame as refused:
+        return refused.reason, refused.offset
+
+
+@pytest.mark.parametrize(("name", "way"), WAYS)
+@given(data=st.data())
+def test_a_stream_is_read_as_the_reference_reads_it(
+    libraries: Libraries, name: str, way: Direction, data: st.DataObject
+) -> None:
+    made, line = libraries[name], data.draw(lines(name, way))
+    cuts = sorted(data.draw(st.lists(st.integers(0, len(line)), max_size=6)))
+    decoder = made.StreamDecoder(direction_of(made, way))
+    read: list[Any] = []
+    for start, end in pairwise([0, *cuts, len(line)]):
+        read += decoder.feed(line[start:end])
+    read += decoder.flush()
+    expected = ReferenceDecoder(model_of(name), [way]).decode(line)
+    assert joined(_told(made, event) for event in read) == joined(
+        (
+            event.message.name if event.message else event.kind,
+            event.data,
+            "" if event.message else event.reason,
+        )
+        for event in expected
+    )
+
+
+def _told(made: Any, event: Any) -> tuple[str, bytes, str]:
+    if isinstance(event, made.Message):
+        return type(event).__name__, event.encode(), ""
+    kind = "unknown" if isinstance(event, made.UnknownFrame) else "noise"
+    return kind, event.data, event.reason.value
+
+
+def joined(events: Any) -> list[tuple[str, bytes, str]]:
+    """Return events with neighbouring noise of one reason joined."""
+    whole: list[tuple[str, bytes, str]] = []
+    for kind, data, reason in events:
+        if whole and kind == "noise" and whole[-1][0] == "noise" and whole[-1][2] == reason:
+            whole[-1] = kind, whole[-1][1] + data, reason
+        else:
+            whole.append((kind, data, reason))
+    return whole
