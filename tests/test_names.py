@@ -156,7 +156,7 @@ def test_what_a_class_of_the_library_has_is_reserved() -> None:
     element = type("Made", (Element, tuple), {"__slots__": ()})
     # No field is in capitals.
     assert public(Client) | public(AsyncClient) <= {*taken("method")}
-    assert public(busservo.Message) <= {*taken("field"), "DEPRECATED", "VENDOR_NAME"}
+    assert public(busservo.Message) <= {*taken("field"), "DEFAULTS", "DEPRECATED", "VENDOR_NAME"}
     assert public(element) <= {*taken("field of an element"), "FIELDS"}
     assert not any(name.startswith("on_") for name in public(busservo.Device) - HANDLERS)
 

@@ -57,8 +57,8 @@ class Items(Field["tuple[Item, ...]"]):
 
     def __init__(self, at: int, of: Any, least: int, most: int, *, count: Number) -> None:
         self.at = at
-        self.element: type[Element] | None = None if isinstance(of, Number) else of
-        self.fields: tuple[Number, ...] = (of,) if isinstance(of, Number) else of.FIELDS
+        self.element: type[Element] | None = of if isinstance(of, type) else None
+        self.fields: tuple[Number, ...] = (of,) if self.element is None else of.FIELDS
         self.width = len(self.fields)
         self.least = least
         self.most = most
@@ -66,6 +66,11 @@ class Items(Field["tuple[Item, ...]"]):
         self.layout = "".join(field.code for field in self.fields)
         self._plain = frozenset([*_LISTS, of])
         self._unpackers: dict[int, Callable[[bytes], tuple[int, ...]]] = {}
+
+    @property
+    def derived(self) -> tuple[str, ...]:
+        """The names of what follows from it, and is not given."""
+        return (self.count.name,)
 
     @property
     def counts(self) -> range:

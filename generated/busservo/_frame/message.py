@@ -45,6 +45,7 @@ class Message:
     COMMAND: typing.ClassVar[int]
     DIRECTION: typing.ClassVar[Direction]
     LENGTHS: typing.ClassVar[range]
+    DEFAULTS: typing.ClassVar[tuple[tuple[str, object], ...]] = ()
     SHAPE: typing.ClassVar[Shape]
 
     _frame: bytes

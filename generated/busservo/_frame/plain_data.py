@@ -6,32 +6,38 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 from .errors import EncodeError
+from .items import Items
 from .number import shown
 
 TYPE_CHECKING = False  # typing alone would double the time that the import takes
 if TYPE_CHECKING:
     from typing import Any
 
-    from .items import Items
     from .message import Message
 
 
 def to_dict(message: Message) -> dict[str, Any]:
     """Return the fields by name; each element of a list as a dict of its own fields."""
-    items = message.SHAPE.items
+    kind = type(message)
     fields: dict[str, Any] = {}
     for name in message.__match_args__:
-        if items is None or items.name != name:
-            fields[name] = getattr(message, name)
-            continue
-        numbers = items.numbers(message.encode())
-        if items.element is None:
-            fields[name] = [*numbers]
+        field = getattr(kind, name)
+        if isinstance(field, Items):
+            fields[name] = _listed(field, message.encode())
         else:
-            names = items.element.__match_args__
-            rows = zip(*[iter(numbers)] * items.width, strict=True)
-            fields[name] = [dict(zip(names, row, strict=True)) for row in rows]
+            value = getattr(message, name)
+            fields[name] = [*value] if type(value) is tuple else value
     return fields
+
+
+def _listed(items: Items[Any], frame: bytes) -> list[Any]:
+    """Return the list of a frame: plain values, or each element as a dict."""
+    values = items.numbers(frame)
+    if items.element is None:
+        return [*values]
+    names = items.element.__match_args__
+    rows = zip(*[iter(values)] * items.width, strict=True)
+    return [dict(zip(names, row, strict=True)) for row in rows]
 
 
 def values_of(kind: type[Message], fields: Mapping[str, Any]) -> dict[str, Any]:
@@ -39,10 +45,12 @@ def values_of(kind: type[Message], fields: Mapping[str, Any]) -> dict[str, Any]:
     if not isinstance(fields, Mapping):
         raise TypeError(f"a mapping of fields expected, such as a dict, not {shown(fields)}")
     values = {**fields}
-    _check(kind.__name__, "", kind.__match_args__, values, kind.SHAPE.items)
-    items = kind.SHAPE.items
-    if items is not None and items.element is not None:
-        values[items.name] = _elements(items, values[items.name])
+    lists = [each for name in kind.__match_args__ if isinstance(each := getattr(kind, name), Items)]
+    derived = {name: each.name for each in lists for name in each.derived}
+    _check(kind.__name__, "", kind.__match_args__, {**dict(kind.DEFAULTS), **values}, derived)
+    for items in lists:
+        if items.element is not None:
+            values[items.name] = _elements(items, values[items.name])
     return values
 
 
@@ -54,7 +62,7 @@ def _elements(items: Items[Any], listed: Any) -> Any:
     found: list[Any] = []
     for position, each in enumerate(listed):
         if isinstance(each, Mapping):
-            _check(element, f"{items.name}[{position}].", names, each, None)
+            _check(element, f"{items.name}[{position}].", names, each, {})
         found.append(tuple(each[name] for name in names) if isinstance(each, Mapping) else each)
     return found
 
@@ -64,13 +72,13 @@ def _check(
     place: str,
     names: tuple[str, ...],
     values: Mapping[str, Any],
-    items: Items[Any] | None,
+    derived: Mapping[str, str],
 ) -> None:
     """Raise EncodeError for a field that is not there, or that nobody gives, or that is missing."""
     has = f"{kind} has {', '.join(names) or 'no fields'}"
     for name, value in values.items():
-        if items is not None and name == items.count.name:
-            problem = f"{shown(value)} is not given: it follows from {items.name}; leave it out"
+        if name in derived:
+            problem = f"{shown(value)} is not given: it follows from {derived[name]}; leave it out"
             raise EncodeError(f"{place}{name}", value, problem)
         if name not in names:
             raise EncodeError(f"{place}{name}", value, f"there is no such field; {has}")

@@ -72,6 +72,20 @@ _FOR_ADDRESSES = {
     "_client/devices.py",
 }
 _FOR_FAILURES = {"_client/failures.py"}
+# What only some kinds of fields have a use for.
+_FOR_FIELDS = {
+    "fixed",
+    "floating",
+    "general_shape",
+    "lists",
+    "mixed_element",
+    "optional",
+    "packed",
+    "shape",
+    "swapped",
+    "text",
+    "three_bytes",
+}
 
 
 def render(compiled: Compiled, _snippets: Snippets) -> dict[str, str]:
@@ -79,6 +93,7 @@ def render(compiled: Compiled, _snippets: Snippets) -> dict[str, str]:
     library = LibraryView(names_of(compiled.model).library)
     unneeded = _FOR_CHECKSUMS.difference(*(sums.files for sums in checksums_of(compiled.model)))
     client = ClientView(library.model)
+    unneeded |= {f"_frame/{name}.py" for name in _FOR_FIELDS - library.modules}
     if compiled.model.spec.pose is None:
         unneeded |= _FOR_POSES
     if client.bus is None:

@@ -7,9 +7,12 @@ from typing import TYPE_CHECKING
 
 from framegen.targets.python.escape import Bracketed, Part, literal
 from framegen.targets.python.number_view import AbsentView, NumberView, absent_view
+from framegen.targets.python.text_view import TextView, constants_call
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
+
+    from framegen.model.slots import Constant as Fixed
 
 
 @dataclass(frozen=True, slots=True)
@@ -18,7 +21,8 @@ class ElementView:
 
     name: str
     listed: str
-    fields: Sequence[NumberView]
+    fields: Sequence[NumberView | TextView]
+    fixed: Sequence[Fixed] = ()
 
     @property
     def doc(self) -> list[str]:
@@ -27,12 +31,27 @@ class ElementView:
     @property
     def types(self) -> list[str]:
         """The types of the parts."""
-        return ["int" for _ in self.fields]
+        return [field.value_type for field in self.fields]
+
+    @property
+    def base(self) -> str:
+        """The class that it is made of."""
+        return "Element" if set(self.types) == {"int"} else "MixedElement"
+
+    @property
+    def numbers(self) -> list[NumberView]:
+        """Those of its fields that are numbers."""
+        return [field for field in self.fields if isinstance(field, NumberView)]
+
+    @property
+    def fixed_bytes(self) -> str:
+        """The assignment of the bytes that nobody gives; empty where it has none."""
+        return constants_call(self.fixed)
 
     @property
     def declared(self) -> str:
         """The declaration of the class."""
-        bases: list[Part] = ["Element", Bracketed("tuple[", self.types, "]")]
+        bases: list[Part] = [self.base, Bracketed("tuple[", self.types, "]")]
         return Bracketed(f"class {self.name}(", bases, "):").fitted(0)
 
     @property
@@ -42,7 +61,7 @@ class ElementView:
 
     @property
     def signature(self) -> str:
-        given = [f"{field.name}: int" for field in self.fields]
+        given = [field.argument for field in self.fields]
         return Bracketed("def __new__(", ["cls", *given], ") -> typing.Self:").fitted(4)
 
     @property
@@ -54,4 +73,4 @@ class ElementView:
     @property
     def absent(self) -> AbsentView | None:
         """The property that tells whether an element is absent, where one can be."""
-        return absent_view([*self.fields])
+        return absent_view(self.numbers)

@@ -22,7 +22,9 @@ from framegen.targets.python.exports import (
 from framegen.targets.python.list_view import ListView
 from framegen.targets.python.lookalike_view import LookalikeView
 from framegen.targets.python.message_view import MessageView
+from framegen.targets.python.plain import is_plain
 from framegen.targets.python.spelling import direction_member, struct_order
+from framegen.targets.python.text_view import PackedView
 from framegen.targets.python.union_view import UnionView, type_alias, unions
 
 if TYPE_CHECKING:
@@ -31,7 +33,6 @@ if TYPE_CHECKING:
     from framegen.model.model import Model
     from framegen.targets.python.command_lines import VerbView
     from framegen.targets.python.element_view import ElementView
-    from framegen.targets.python.number_view import NumberView
 
 
 # So many bytes have room in a line.
@@ -155,9 +156,26 @@ class LibraryView:
         return any(message.deprecated for message in self.messages)
 
     @property
+    def plain(self) -> bool:
+        """Whether it is of the simplest kind, whose library is made of less."""
+        return is_plain(self.model)
+
+    @property
     def lists(self) -> list[ListView]:
         """The lists of all messages."""
-        return [message.items for message in self.messages if message.items is not None]
+        fields = (field for message in self.messages for field in message.fields)
+        return [field for field in fields if isinstance(field, ListView)]
+
+    @property
+    def iterables(self) -> bool:
+        """Whether anything is given as a list."""
+        fields = (field for message in self.messages for field in message.fields)
+        return any(isinstance(field, ListView | PackedView) for field in fields)
+
+    @property
+    def columns(self) -> bool:
+        """Whether any list can be read as columns."""
+        return any(message.columns is not None for message in self.messages)
 
     @property
     def elements(self) -> list[ElementView]:
@@ -165,22 +183,37 @@ class LibraryView:
         return [each.element for each in self.lists if each.element is not None]
 
     @property
-    def _numbers(self) -> list[NumberView]:
-        """All numbers, those of lists included."""
-        numbers: list[NumberView] = []
+    def _field_classes(self) -> dict[str, str]:
+        """The classes of all fields, each with its module."""
+        found: dict[str, str] = {}
         for message in self.messages:
-            for field in message.fields:
-                numbers += field.fields if isinstance(field, ListView) else [field]
-        return numbers
+            found |= message.classes
+        return found
 
     @property
-    def number_types(self) -> set[str]:
-        """The classes of all numbers."""
-        return {number.type for number in self._numbers}
+    def modules(self) -> set[str]:
+        """The modules of the runtime that fields of these kinds need."""
+        if self.plain:
+            return {"shape"}
+        found = {"fixed", "floating", "general_shape", "lists", "optional", "packed", "text"}
+        found |= {_snake(each.base) for each in self.elements}
+        found |= set(self._field_classes.values())
+        return found | ({"three_bytes"} if "swapped" in found else set[str]())
 
     @property
-    def import_numbers(self) -> str:
-        return relative_import("_frame.number", self.number_types)
+    def message_imports(self) -> list[str]:
+        """The imports of the messages' module, in the order that linters want."""
+        homes = {"Direction": "direction", "Message": "message", **self._field_classes}
+        homes |= {"warn_deprecated": "deprecation"} if self.deprecates else {}
+        homes |= {each.base: _snake(each.base) for each in self.elements}
+        if self.plain:
+            homes["HEADER"] = "protocol"
+        else:
+            homes |= {message.envelope: "envelopes" for message in self.messages}
+        return [
+            relative_import(f"_frame.{home}", [name for name in homes if homes[name] == home])
+            for home in sorted(set(homes.values()))
+        ]
 
     @property
     def unions(self) -> list[UnionView]:
@@ -197,6 +230,12 @@ class LibraryView:
         """The import of those types, where they are needed for typing alone."""
         names = ["Decoded", *(union.name for union in self.unions)]
         return relative_import(".messages", names, 4)
+
+    @property
+    def every_message(self) -> str:
+        """The assignment of all messages."""
+        names = [message.name for message in self.messages]
+        return Bracketed("MESSAGES: tuple[type[Message], ...] = (", names, ")", lone=",").fitted(0)
 
     @property
     def import_message_classes(self) -> str:
@@ -299,3 +338,8 @@ class LibraryView:
             for slot in self.model.frame.head
             if isinstance(slot, Number)
         ]
+
+
+def _snake(name: str) -> str:
+    """Return the module of a class of elements."""
+    return {"Element": "element"}.get(name, "mixed_element")

@@ -5,105 +5,160 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from framegen.model.slots import Items, Number
+from framegen.model.slots import Constant as Fixed
+from framegen.model.slots import Items, Packed
+from framegen.model.slots import Text as TextSlot
 from framegen.targets.python.element_view import ElementView
-from framegen.targets.python.escape import WIDTH, Bracketed, Part
+from framegen.targets.python.escape import WIDTH, Bracketed, Part, literal
 from framegen.targets.python.number_view import RETURN, NumberView, bounded
+from framegen.targets.python.text_view import TextView, counters, noted
 
 if TYPE_CHECKING:
     from typing import Any
 
     from framegen.language.spec import Spec
-    from framegen.targets.python.number_view import Constant
+    from framegen.model.slots import Field
+    from framegen.targets.python.number_view import BitsView, Constant, SignedView
 
 _COLUMNS_FOR = "For arrays and plots of a recording: several times as fast as reading"
 
 
-def given(argument: Number | Items, value: Any, before: str = "") -> Part:
+def given(argument: Field, value: Any, before: str = "") -> Part:
     """Return a value of an example as an argument, behind `before`; elements as plain tuples."""
-    if isinstance(argument, Number):
-        return f"{before}{value}"
-    if argument.element is None:
+    if isinstance(value, str) or not isinstance(argument, Items | Packed):
+        return f"{before}{_literal(value)}"
+    if isinstance(argument, Packed) or argument.element is None:
         return Bracketed(f"{before}[", [str(item) for item in value], "]")
     names = [field.name for field in argument.fields]
-    elements = [[str(item[name]) for name in names] for item in value]
+    elements = [[_literal(item[name]) for name in names] for item in value]
     return Bracketed(
         f"{before}[", [Bracketed("(", element, ")", lone=",") for element in elements], "]"
     )
 
 
+def _literal(value: Any) -> str:
+    return literal(value) if isinstance(value, str) else str(value)
+
+
 @dataclass(frozen=True, slots=True)
 class ListView:
-    """The list of a message."""
+    """A list of a message: `tail` bytes stand behind the fields, where its frame is general."""
 
     slot: Items
     spec: Spec
+    tail: int | None = None
 
     @property
     def name(self) -> str:
         return self.slot.name
 
     @property
-    def fields(self) -> list[NumberView]:
-        """The numbers of one element."""
-        return [NumberView(field, self.spec) for field in self.slot.fields]
+    def fields(self) -> list[NumberView | TextView]:
+        """The numbers and texts of one element."""
+        return [
+            TextView(field, self.spec)
+            if isinstance(field, TextSlot)
+            else NumberView(field, self.spec)
+            for field in self.slot.fields
+        ]
+
+    @property
+    def bare(self) -> NumberView | None:
+        """The number that each element is, where it has no fields."""
+        first = self.fields[0]
+        return first if self.slot.element is None and isinstance(first, NumberView) else None
+
+    @property
+    def value_type(self) -> str:
+        """The type of its elements."""
+        return self.slot.element or self.fields[0].value_type
 
     @property
     def element(self) -> ElementView | None:
         """The class of its elements, where they are not bare numbers."""
         name = self.slot.element
-        return None if name is None else ElementView(name, self.name, self.fields)
+        if name is None:
+            return None
+        fixed = [slot for slot in self.slot.slots if isinstance(slot, Fixed)]
+        return ElementView(name, self.name, self.fields, fixed)
 
     @property
     def constants(self) -> list[Constant]:
         """The named values of bare numbers; elements have their own."""
-        return [] if self.element else self.fields[0].constants
+        return [] if self.bare is None else self.bare.constants
+
+    @property
+    def masks(self) -> list[Constant]:
+        """The named bits of bare numbers."""
+        return [] if self.bare is None else self.bare.masks
+
+    @property
+    def bits(self) -> list[BitsView]:
+        """The properties that read named bits: a list has none."""
+        return []
+
+    @property
+    def signed(self) -> SignedView | None:
+        """The property that reads it as signed: a list has none."""
+        return None
 
     @property
     def described(self) -> str:
         """The call that makes the field: its offset, its elements, and its bounds."""
-        of: Part = self.element.name if self.element else self.fields[0].call([])
-        bounds = [str(self.slot.low), str(self.slot.high), f"count={self.count}"]
-        items = [str(self.slot.at), of, *bounds]
-        return Bracketed("Items(", items, ")").fitted(4, last=f"{self.name} = ")
+        of: Part = self.bare.call([]) if self.bare else str(self.slot.element)
+        items = [str(self.slot.at), of, str(self.slot.low), str(self.slot.high)]
+        kind = "Items" if self.tail is None else "List"
+        items += counters(self.slot, self.tail or 0)
+        return Bracketed(f"{kind}(", items, ")").fitted(4, last=f"{self.name} = ")
+
+    @property
+    def classes(self) -> dict[str, str]:
+        """The classes that declare it, each with its module."""
+        own = {"Items": "items"} if self.tail is None else {"List": "lists"}
+        return own | (self.bare.classes if self.bare else {})
 
     @property
     def count(self) -> str:
         """The name of its count."""
-        return self.slot.counter.name
+        return self.slot.counters[0].name
+
+    @property
+    def notation(self) -> str:
+        """What `struct` packs it as, where it is of a fixed size."""
+        return f"{self.slot.low * self.slot.size}s"
+
+    @property
+    def packed(self) -> str:
+        """The expression that `struct` packs, where it is of a fixed size."""
+        return f"cls.{self.name}.packed({self.name})"
 
     @property
     def doc(self) -> list[str]:
         """The description of the list, or of the numbers in it."""
-        if self.element is None:
-            return self.fields[0].doc
-        return [" ".join([self.slot.field.about, *self._notes])]
+        if self.bare is not None:
+            return self.bare.doc
+        return [" ".join([self.slot.field.about, *noted(self.slot.field, self.spec)])]
 
     @property
     def argument_doc(self) -> list[str]:
         """The description as an argument of a method, with the bounds of its count."""
-        about = bounded(self.slot.field.about, f"{self.slot.low}..{self.slot.high} items")
-        return [about, *self._notes]
-
-    @property
-    def _notes(self) -> list[str]:
-        sources = self.spec.sources
-        return [
-            f"{note.text} ({sources[note.cite.source].title})" for note in self.slot.field.notes
-        ]
+        slot = self.slot
+        bounds = str(slot.low) if slot.is_fixed else f"{slot.low}..{slot.high}"
+        about = bounded(slot.field.about, f"{bounds} items")
+        return [about, *noted(slot.field, self.spec)]
 
     @property
     def argument(self) -> Part:
         """The declaration as an argument."""
         if self.element is None:
-            return f"{self.name}: Iterable[int]"
+            return f"{self.name}: Iterable[{self.value_type}]"
         element = Bracketed("tuple[", self.element.types, "]")
         return Bracketed(f"{self.name}: Iterable[", [element], "]", comma="")
 
     @property
     def read_as(self) -> str:
         """The type of its value."""
-        return f"tuple[{self.slot.element or 'int'}, ...]"
+        return f"tuple[{self.value_type}, ...]"
 
     @property
     def taken(self) -> str:

@@ -6,21 +6,39 @@ import re
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from framegen.model.slots import Constant, Items, Number
+from framegen.language.formula import Sizes
+from framegen.model.slots import Constant, Items, Number, Packed, Text
 from framegen.pluralize import describe_range
-from framegen.targets.python.escape import Bracketed, Part, Sum, byte_literal, literal, session
+from framegen.targets.python.escape import (
+    Bracketed,
+    Part,
+    Sum,
+    byte_literal,
+    literal,
+    session,
+)
 from framegen.targets.python.list_view import ListView, given
-from framegen.targets.python.names import strategy_name
+from framegen.targets.python.names import id_name, strategy_name
 from framegen.targets.python.number_view import AbsentView, NumberView, absent_view
+from framegen.targets.python.plain import is_plain
 from framegen.targets.python.spelling import direction_member, range_expression, struct_order
+from framegen.targets.python.text_view import (
+    PackedView,
+    TextView,
+    constant_classes,
+    constants_call,
+)
 
 if TYPE_CHECKING:
-    from typing import Any
+    from typing import Any, TypeAlias
 
     from framegen.language.spec import Example
     from framegen.language.values import Citation
     from framegen.model.layout import MessageLayout
     from framegen.model.model import Model
+    from framegen.model.slots import Field
+
+    FieldView: TypeAlias = NumberView | TextView | PackedView | ListView
 
 
 _WORD = re.compile(r"\w+")
@@ -48,13 +66,14 @@ class MessageView:
             found.append(f"Deprecated: {message.deprecated}")
         if message.reply and message.reply not in _WORD.findall(message.description):
             found.append(f"Answered by {message.reply}.")
-        identity = f"{frame.id.name.capitalize()} {self.layout.id} (0x{self.layout.id:02X})"
-        lengths = f"{frame.length.name} {formula}"
-        if formula.factor:
+        named = zip(frame.ids, self.layout.ids, strict=True)
+        facts = [f"{part.name} {number} (0x{number:02X})" for part, number in named]
+        facts.append(f"{self.layout.direction.sender} to {self.layout.direction.receiver}")
+        lengths = f"{frame.length_part.name if frame.length_part else 'size'} {formula}"
+        if isinstance(self.layout.lengths, range) and formula.factor:
             lengths += f": {describe_range(self.layout.lengths)}"
-        sender, receiver = self.layout.direction.sender, self.layout.direction.receiver
-        source = f"Source: {self.cited(message.cite)}."
-        found.append(f"{identity}, {sender} to {receiver}, {lengths}. {source}")
+        text = ", ".join([*facts, lengths])
+        found.append(f"{text[0].upper()}{text[1:]}. Source: {self.cited(message.cite)}.")
         return found
 
     def cited(self, cite: Citation) -> str:
@@ -70,8 +89,31 @@ class MessageView:
         return self.layout.message.deprecated
 
     @property
-    def command(self) -> int:
-        return self.layout.id
+    def command(self) -> int | None:
+        """Its only id that a frame holds; None where there are several, or none."""
+        sent = len(self.layout.frame.ids) - len(self.layout.frame.unsent)
+        return self.layout.ids[0] if sent == 1 else None
+
+    @property
+    def id_constants(self) -> list[str]:
+        """The assignments of its ids, where there are several."""
+        parts = self.layout.frame.ids
+        if self.command is not None:
+            return []
+        named = zip(parts, self.layout.ids, strict=True)
+        return [f"{id_name(part.name)} = {number}" for part, number in named]
+
+    @property
+    def ids(self) -> str:
+        """All its ids, as a tuple."""
+        return Bracketed("IDS = (", [str(each) for each in self.layout.ids], ")", lone=",").fitted(
+            4
+        )
+
+    @property
+    def envelope(self) -> str:
+        """The constant that is its envelope."""
+        return f"{self.layout.frame.name}_envelope".upper()
 
     @property
     def direction(self) -> str:
@@ -79,22 +121,57 @@ class MessageView:
 
     @property
     def lengths(self) -> str:
-        """The legal lengths, as a range expression."""
-        return range_expression(self.layout.lengths)
+        """The legal lengths, as an expression: a range, or a tuple where they are listed."""
+        lengths = self.layout.lengths
+        if isinstance(lengths, range):
+            return range_expression(lengths)
+        return Bracketed("(", [str(each) for each in lengths], ")", lone=",").fitted(
+            4, last="LENGTHS = "
+        )
 
     @property
-    def fields(self) -> list[NumberView | ListView]:
-        """The fields in the order of the frame, the count among them."""
-        return [self._view(slot) for slot in self.layout.fields]
+    def defaults(self) -> str:
+        """What may be left out, with what it is then; empty where there is nothing."""
+        found = [
+            Bracketed("(", [literal(each.name), "None" if each.slot.optional else "0"], ")")
+            for each in self.numbers
+            if each.slot.optional or each.slot.role == "counter"
+        ]
+        return Bracketed("DEFAULTS = (", found, ")", lone=",").fitted(4) if found else ""
 
     @property
-    def arguments(self) -> list[NumberView | ListView]:
+    def fixed_bytes(self) -> str:
+        """The assignment of the bytes that nobody gives; empty where it has none."""
+        return constants_call(self._fixed)
+
+    @property
+    def _fixed(self) -> list[Constant]:
+        return [slot for slot in self.layout.body if isinstance(slot, Constant)]
+
+    @property
+    def fields(self) -> list[FieldView]:
+        """The fields in the order of the frame, the count among them; address and counter first."""
+        return [self._view(slot) for slot in (*self.layout.frame.given, *self.layout.fields)]
+
+    @property
+    def arguments(self) -> list[FieldView]:
         """The fields that a user gives."""
         return [self._view(slot) for slot in self.layout.arguments]
 
-    def _view(self, slot: Number | Items) -> NumberView | ListView:
-        spec = self.model.spec
-        return ListView(slot, spec) if isinstance(slot, Items) else NumberView(slot, spec)
+    @property
+    def classes(self) -> dict[str, str]:
+        """The classes that declare its fields and constants, each with its module."""
+        found = constant_classes(self._fixed)
+        for field in self.fields:
+            found |= field.classes
+            if isinstance(field, ListView) and field.element is not None:
+                found |= constant_classes(field.element.fixed)
+                for inner in field.fields:
+                    found |= inner.classes
+        return found
+
+    def _view(self, slot: Field) -> FieldView:
+        return field_view(slot, self.model, self.layout)
 
     @property
     def numbers(self) -> list[NumberView]:
@@ -103,9 +180,17 @@ class MessageView:
 
     @property
     def items(self) -> ListView | None:
-        """The list, where it has one."""
-        items = self.layout.items
-        return None if items is None else ListView(items, self.model.spec)
+        """The list of a size that varies, where it has one."""
+        view = None if self.layout.items is None else self._view(self.layout.items)
+        return view if isinstance(view, ListView) else None
+
+    @property
+    def columns(self) -> ListView | None:
+        """The list that can be read as columns: of elements that are all whole numbers."""
+        items = self.items
+        if items is None or items.element is None or items.element.base != "Element":
+            return None
+        return items
 
     @property
     def absent(self) -> AbsentView | None:
@@ -119,12 +204,100 @@ class MessageView:
 
     @property
     def signature(self) -> str:
-        """The declaration of the constructor."""
-        given = [
-            each.argument if isinstance(each, ListView) else f"{each.name}: int"
-            for each in self.arguments
-        ]
-        return Bracketed("def __new__(", ["cls", *given], ") -> typing.Self:").fitted(4)
+        """The declaration of the constructor; a running number is given by its name."""
+        found: list[Part] = ["cls"]
+        for slot, each in zip(self.layout.arguments, self.arguments, strict=True):
+            found += ["*"] if slot is self.layout.frame.counter else []
+            found.append(each.argument)
+        return Bracketed("def __new__(", found, ") -> typing.Self:").fitted(4)
+
+    # How a general frame is packed.
+
+    @property
+    def checked(self) -> str:
+        """The line that checks its numbers; empty where it is given none."""
+        names = [each.name for each in self.numbers if not each.slot.optional]
+        return Bracketed("cls.SHAPE.check(", names, ")").fitted(8) if names else ""
+
+    @property
+    def flat(self) -> str:
+        """The bytes of what varies in size, as an expression; empty where nothing does."""
+        if self.layout.optional:
+            names = [each.name for each in self.layout.optional]
+            return Bracketed("flat = cls.SHAPE.tail(", names, ")").fitted(8)
+        items = self.layout.items
+        return "" if items is None else f"flat = cls.{items.name}.packed({items.name})"
+
+    @property
+    def general_packing(self) -> str:
+        """The arguments of the call that packs its frame: format and values."""
+        layout, values = self._packed_values()
+        text = f"f{literal(layout)}" if "{" in layout else literal(layout)
+        call = "return cls._packed("
+        packed: list[Part] = [text, *values]
+        return Bracketed(call, packed, ")").fitted(8).removeprefix(call).removesuffix(")")
+
+    def _packed_values(self) -> tuple[str, list[str]]:
+        layout, values = struct_order(self.model.spec.byte_order), []
+        flat_at = self.layout.optional[:1] or (self.layout.items,)
+        for slot in self.layout.slots:
+            if slot in self.layout.optional[1:]:
+                continue
+            if slot in flat_at:
+                layout += "{len(flat)}s"
+                values.append("flat")
+                continue
+            notation, value = self._packed_slot(slot)
+            layout += notation
+            values += [value] if value else []
+        return layout, values
+
+    def _packed_slot(self, slot: Any) -> tuple[str, str]:
+        """Return what `struct` packs a slot as, and the expression; for zeros there is none."""
+        if isinstance(slot, Constant):
+            if not any(slot.data):
+                return _zeros(slot.size), ""
+            return f"{slot.size}s", byte_literal(slot.data)
+        if not isinstance(slot, Number) or slot.given:
+            view = self._view(slot)
+            return view.notation, view.packed
+        if slot.role == "checksum":
+            return _zeros(slot.size), ""
+        view = NumberView(slot, self.model.spec)
+        if slot.role == "id":
+            return self._known(slot, view, str(self.layout.id_of(slot)), self.layout.id_of(slot))
+        return self._known(slot, view, self._derived(slot), self._constant(slot))
+
+    def _derived(self, slot: Number) -> str:
+        """Return the expression of a length or a count."""
+        items, formula = self.layout.items, self.layout.formula
+        if slot.role == "length":
+            if isinstance(formula, Sizes):
+                there = self.layout.size_at(0) - self.layout.frame.tail_size
+                return _plus("len(flat)", formula.constant - there + self.layout.optional[0].at)
+            return _plus("len(flat)", formula.constant) if formula.factor else str(formula)
+        size = 1 if items is None else items.size
+        return "len(flat)" if slot.role == "size" or size == 1 else f"len(flat) // {size}"
+
+    def _constant(self, slot: Number) -> int | None:
+        """Return the value of a length that is always the same."""
+        formula = self.layout.formula
+        is_fixed = slot.role == "length" and not isinstance(formula, Sizes) and not formula.factor
+        return formula.constant if is_fixed else None
+
+    def _known(
+        self, slot: Number, view: NumberView, expression: str, value: int | None
+    ) -> tuple[str, str]:
+        """Return the notation and the expression of a number that is derived."""
+        if view.notation == slot.number_type.code:
+            return view.notation, expression
+        if value is not None:
+            return f"{slot.size}s", byte_literal(slot.write(value))
+        signed = ", signed=True" if slot.number_type.low < 0 else ""
+        brackets = (
+            expression if expression.endswith(")") and " " not in expression else f"({expression})"
+        )
+        return f"{slot.size}s", f'{brackets}.to_bytes({slot.size}, "{slot.order}"{signed})'
 
     @property
     def packing(self) -> str:
@@ -149,9 +322,10 @@ class MessageView:
                 fixed += f"{slot.size}s"
             elif isinstance(slot, Number):
                 fixed += slot.number_type.code
-            else:
-                codes = "".join(field.number_type.code for field in slot.fields)
-                listed = [f"{slot.counter.name} * {literal(codes)}"]
+            elif isinstance(slot, Items):
+                numbers = (each for each in slot.fields if isinstance(each, Number))
+                codes = "".join(each.number_type.code for each in numbers)
+                listed = [f"{slot.counters[0].name} * {literal(codes)}"]
         return [literal(fixed), *listed]
 
     def _in_front(self, slot: Constant | Number) -> str:
@@ -176,14 +350,22 @@ class MessageView:
 
     def given_values(self, values: dict[str, Any]) -> list[Part]:
         """Return the arguments that make the message of an example."""
-        return [given(each, values[each.name], f"{each.name}=") for each in self.layout.arguments]
+        return [
+            given(each, values[each.name], f"{each.name}=")
+            for each in self.layout.arguments
+            if values[each.name] is not None and (each.role != "counter" or values[each.name])
+        ]
 
     def command_words(self, values: dict[str, Any]) -> list[str]:
         """Return the fields of an example as the command accepts them: `targets=1:800,9:800`."""
         words: list[str] = []
         for argument in self.layout.arguments:
             value = values[argument.name]
-            if isinstance(argument, Items):
+            if value is None:
+                continue
+            if isinstance(argument, Packed):
+                value = ",".join(map(str, value))
+            elif isinstance(argument, Items) and not argument.text:
                 names = [field.name for field in argument.fields]
                 parts = [
                     [str(item)] if argument.element is None else [str(item[name]) for name in names]
@@ -203,3 +385,28 @@ class MessageView:
         """The declaration of its strategy."""
         before = f"def {self.function}() -> SearchStrategy["
         return Bracketed(before, [self.name], "]:", comma="").fitted(0)
+
+
+def field_view(slot: Field, model: Model, layout: MessageLayout) -> FieldView:
+    """Return a field of a message as the templates show it."""
+    spec, tail = model.spec, layout.frame.tail_size
+    match slot:
+        case Items() if slot.text:
+            return TextView(slot, spec, tail)
+        case Items():
+            return ListView(slot, spec, None if is_plain(model) else tail)
+        case Text():
+            return TextView(slot, spec)
+        case Packed():
+            return PackedView(slot, spec)
+        case Number():
+            return NumberView(slot, spec, tail)
+
+
+def _zeros(size: int) -> str:
+    """Return the notation of so many zeros."""
+    return "x" if size == 1 else f"{size}x"
+
+
+def _plus(expression: str, constant: int) -> str:
+    return f"{expression} + {constant}" if constant else expression

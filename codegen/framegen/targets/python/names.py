@@ -8,13 +8,13 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from functools import cached_property, lru_cache
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, TypeVar
 
 from framegen.language.spec import ListField
 from framegen.language.values import Direction, Method
 from framegen.model.exchanges import arguments_of, method_of, snake_case
 from framegen.model.roles import Roles
-from framegen.model.slots import Items, Number
+from framegen.model.slots import Constant, Items, Number, Packed, Text
 from framegen.targets.python.reserved import RESERVED
 from framegen.targets.target import BentName
 
@@ -22,13 +22,15 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
     from typing import Any
 
-    from framegen.language.spec import AnyField, Message, Pose, Spec
+    from framegen.language.spec import AnyField, Frame, Message, NumberField, Pose, Spec
+    from framegen.model.envelope import Envelope
     from framegen.model.layout import MessageLayout
     from framegen.model.model import Model
-    from framegen.model.slots import MessageSlot
+    from framegen.model.slots import Body, MessageSlot
     from framegen.reading.yamltree import KeyPath
     from framegen.targets.target import Reserved
 
+_Named = TypeVar("_Named", bound="Number | Text | Packed")
 _TAKEN = {(row.kind, word): row for row in reversed(RESERVED) for word in row.words}
 _CLASSES = ("message", "element")
 
@@ -58,6 +60,23 @@ def strategy_name(message: str) -> str:
 def constant_name(field: str, value: str) -> str:
     """Return the constant of a named value: `TIMES_UNLIMITED`."""
     name = f"{_plain(field)}_{value}".upper()
+    return _behind(_TAKEN.get(("constant", name)), name)
+
+
+def bit_name(field: str, bit: str) -> str:
+    """Return the property that reads named bits of a field: `error_voltage`."""
+    return f"{_plain(field)}_{bit}"
+
+
+def mask_name(field: NumberField, name: str, bit: str) -> str:
+    """Return the constant that has just these bits set: `ERROR_VOLTAGE`, unless a value has it."""
+    found = constant_name(name, bit)
+    return f"{found}_MASK" if bit in field.values else found
+
+
+def id_name(part: str) -> str:
+    """Return the constant of one of several ids: `CLASS`."""
+    name = part.upper()
     return _behind(_TAKEN.get(("constant", name)), name)
 
 
@@ -105,18 +124,22 @@ class Names:
             return "is where another library looks for its simulator", "_protocol"
         if kind in _CLASSES and name in self._unions:
             return "is whatever one end sends", kind.capitalize()
-        if kind.startswith("field"):
-            if name in self._signed:
-                return f"is where `{name.removeprefix('signed_')}` is read as signed", "_"
-            if name in self._posed:
-                return "is a variable of the client's methods", "_"
-        return "", ""
+        why = self._beside(name) if kind.startswith("field") else ""
+        return why, "_" if why else ""
+
+    def _beside(self, field: str) -> str:
+        """Return what stands beside the fields under this name; empty where nothing does."""
+        if field in self._signed:
+            return f"is where `{field.removeprefix('signed_')}` is read as signed"
+        if field in self._bits:
+            return "is where bits of another field are read"
+        return "is a variable of the client's methods" if field in self._posed else ""
 
     @cached_property
     def _classes(self) -> frozenset[str]:
         """The classes in lower case: those that differ only in capitals clash as functions."""
-        lists = (message.items for message in self.model.messages.values())
-        elements = [items.element for items in lists if items is not None and items.element]
+        slots = (slot for message in self.model.messages.values() for slot in message.fields)
+        elements = [slot.element for slot in slots if isinstance(slot, Items) and slot.element]
         return frozenset(name.lower() for name in (*self.model.messages, *elements))
 
     @cached_property
@@ -132,6 +155,16 @@ class Names:
             for message in self.model.messages.values()
             for number in message.numbers_by_path.values()
             if number.field.signed_as is not None
+        )
+
+    @cached_property
+    def _bits(self) -> frozenset[str]:
+        """The properties that read named bits of a field, of any message."""
+        return frozenset(
+            bit_name(number.name, bit)
+            for message in self.model.messages.values()
+            for number in message.numbers_by_path.values()
+            for bit in number.field.bits
         )
 
     @cached_property
@@ -164,6 +197,10 @@ class Names:
         yield ("protocol", "name"), "package", spec.protocol.name
         for name in spec.endpoints:
             yield ("endpoints", name), "endpoint", name
+        for path, parts in _frames(spec):
+            for name, part in parts.items():
+                if part.is_ in _GIVEN:
+                    yield (*path, name), "field", name
         for name, message in spec.messages.items():
             here: KeyPath = ("messages", name)
             yield here, "message", name
@@ -185,13 +222,13 @@ class Names:
         spec = self._spec()
         roles = self.model.roles
         ends = Roles(*(self.of("endpoint", end) for end in (roles.client, roles.device)))
+        frames = {name: self._envelope(each) for name, each in self.model.envelopes.items()}
         layouts = [
-            self._layout(layout, spec.messages[self.of("message", name)])
+            self._layout(layout, spec.messages[self.of("message", name)], frames)
             for name, layout in self.model.messages.items()
         ]
-        return replace(
-            self.model, spec=spec, roles=ends, messages={each.name: each for each in layouts}
-        )
+        messages = {each.name: each for each in layouts}
+        return replace(self.model, spec=spec, roles=ends, envelopes=frames, messages=messages)
 
     def message(self, name: str) -> MessageLayout:
         """Return a message of the spec, in the names of the library."""
@@ -205,7 +242,7 @@ class Names:
                 {self.of("field of an element", inner): number for inner, number in item.items()}
                 for item in value
             ]
-            if isinstance(fields[name], ListField)
+            if isinstance(fields.get(name), ListField)
             else value
             for name, value in values.items()
         }
@@ -240,6 +277,8 @@ class Names:
             update={
                 "direction": self._direction(message.direction),
                 "reply": message.reply and self.of("message", message.reply),
+                "refusal": message.refusal and self.of("message", message.refusal),
+                "failure": message.failure and self.of("field", message.failure),
                 "reports": [self.of("message", each) for each in message.reports],
                 "acknowledged": message.acknowledged and self.of("message", message.acknowledged),
                 "lasts": message.lasts and self.of("field", message.lasts),
@@ -269,53 +308,86 @@ class Names:
         return f"{self.of('field', name)}{dot}{self.of('field of an element', inner)}"
 
     def _field(self, field: AnyField) -> AnyField:
-        counted_by = field.counted_by and self.of("field", field.counted_by)
+        counters = {
+            key: self.of("field", name)
+            for key in ("counted_by", "sized_by")
+            if (name := getattr(field, key)) is not None
+        }
         if not isinstance(field, ListField):
-            return field.model_copy(update={"counted_by": counted_by})
+            return field.model_copy(update=counters)
         inner = {self.of("field of an element", name): each for name, each in field.fields.items()}
         element = self.of("element", field.element)
-        return field.model_copy(
-            update={"counted_by": counted_by, "element": element, "fields": inner}
-        )
+        return field.model_copy(update={**counters, "element": element, "fields": inner})
 
-    def _layout(self, layout: MessageLayout, message: Message) -> MessageLayout:
+    def _envelope(self, envelope: Envelope) -> Envelope:
+        """Return an envelope whose address and running number have these names."""
+        given = {slot.name: self.of("field", slot.name) for slot in envelope.given}
+        slots: list[Constant | Number | Body] = []
+        for slot in envelope.slots:
+            name = given.get(slot.name, slot.name)
+            if isinstance(slot, Number):
+                of = tuple(given.get(each, each) for each in slot.of)
+                slots.append(replace(slot, name=name, of=of))
+            else:
+                slots.append(slot)
+        return replace(envelope, slots=tuple(slots))
+
+    def _layout(
+        self, layout: MessageLayout, message: Message, frames: dict[str, Envelope]
+    ) -> MessageLayout:
         """Return the layout of a message in these names; no slot moves."""
+        frame = frames[layout.frame.name]
+        fields = {slot.name: slot for slot in layout.body}
         numbers: dict[str, Number] = {}
         slots: list[MessageSlot] = []
-        for slot in layout.slots:
+        for slot in (*frame.head, *layout.body, *frame.tail):
             if isinstance(slot, Items):
                 slots.append(self._items(slot, numbers, message))
-            elif isinstance(slot, Number) and slot.is_field:
+            elif slot is not fields.get(slot.name) or isinstance(slot, Constant):
+                slots.append(slot)
+            elif isinstance(slot, Number):
                 numbers[slot.name] = self._number("field", slot, message.fields)
                 slots.append(numbers[slot.name])
             else:
-                slots.append(slot)
+                slots.append(self._number("field", slot, message.fields))
         name = self.of("message", layout.name)
-        return replace(layout, name=name, message=message, slots=tuple(slots))
+        return replace(layout, name=name, message=message, frame=frame, slots=tuple(slots))
 
     def _items(self, items: Items, numbers: dict[str, Number], message: Message) -> Items:
         name = self.of("field", items.name)
         field = message.fields[name]
-        if isinstance(field, ListField):
-            fields = [self._number("field of an element", f, field.fields) for f in items.fields]
-        else:
-            fields = [self._number("field", each, message.fields) for each in items.fields]
+        inside = isinstance(field, ListField)
+        kind = "field of an element" if inside else "field"
+        fields: Any = field.fields if isinstance(field, ListField) else message.fields
         return replace(
             items,
             name=name,
             element=items.element and self.of("element", items.element),
-            slots=tuple(fields),
+            slots=tuple(
+                each if isinstance(each, Constant) else self._number(kind, each, fields)
+                for each in items.slots
+            ),
             counters=tuple(numbers[each.name] for each in items.counters),
             field=field,
         )
 
-    def _number(self, kind: str, number: Number, fields: Any) -> Number:
+    def _number(self, kind: str, number: _Named, fields: Any) -> _Named:
         name = self.of(kind, number.name)
         return replace(number, name=name, field=fields[name])
 
 
+# The parts of a frame that a user gives.
+_GIVEN = ("address", "counter")
 _POSED = ("read", "move", "release")
 _POSE_METHODS = ("hold", "present", "targets")
+
+
+def _frames(spec: Spec) -> Iterator[tuple[KeyPath, Frame]]:
+    """Yield the parts of each kind of frame with their place."""
+    if not spec.frames:
+        yield ("frame",), spec.frame or {}
+    for name, parts in spec.frames.items():
+        yield ("frames", name), parts
 
 
 def _field_names(path: KeyPath, name: str, field: AnyField) -> Iterator[tuple[KeyPath, str, str]]:

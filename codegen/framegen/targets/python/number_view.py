@@ -7,10 +7,10 @@ from typing import TYPE_CHECKING
 
 from framegen.language.number_types import NUMBER_TYPES
 from framegen.targets.python.escape import WIDTH, Bracketed, Part, Text, literal
-from framegen.targets.python.names import constant_name, signed_name
+from framegen.targets.python.names import bit_name, constant_name, mask_name, signed_name
 
 if TYPE_CHECKING:
-    from framegen.language.spec import Spec
+    from framegen.language.spec import Bits, Spec
     from framegen.model.slots import Number
 
 
@@ -23,8 +23,18 @@ class Constant:
     """A named value, as a class attribute: `TIMES_UNLIMITED = 0`."""
 
     name: str
-    value: int
+    value: int | str
     about: str
+
+
+@dataclass(frozen=True, slots=True)
+class BitsView:
+    """Named bits of a number, as a property beside it."""
+
+    name: str
+    doc: list[str]
+    type: str
+    read: str
 
 
 @dataclass(frozen=True, slots=True)
@@ -50,6 +60,7 @@ class NumberView:
 
     slot: Number
     spec: Spec
+    tail: int = 0
 
     @property
     def name(self) -> str:
@@ -68,7 +79,8 @@ class NumberView:
         field = self.slot.field
         unit = f" {field.unit}" if field.unit else ""
         scale = f", in steps of {field.scale}" if field.scale else ""
-        about = bounded(field.about, f"{self.slot.low}..{self.slot.high}{unit}{scale}")
+        bounds = "any number" if self.slot.is_float else f"{self.slot.low}..{self.slot.high}"
+        about = bounded(field.about, f"{bounds}{unit}{scale}")
         named = [f"{value.value} ({name}): {value.about}" for name, value in field.values.items()]
         return [about, *self._sent, *named, *self._notes]
 
@@ -92,25 +104,89 @@ class NumberView:
     @property
     def type(self) -> str:
         """The class of the field: `U16`."""
-        return self.slot.number_type.name.upper()
+        slot = self.slot
+        swapped = slot.order != self.spec.byte_order and slot.size > 1
+        return f"{'Swapped' if swapped else ''}{slot.number_type.name.upper()}"
+
+    @property
+    def value_type(self) -> str:
+        """The type of its value."""
+        value = "float" if self.slot.is_float else "int"
+        return f"{value} | None" if self.slot.optional else value
+
+    @property
+    def argument(self) -> str:
+        """The declaration as an argument."""
+        default = " = None" if self.slot.optional else " = 0" if self._is_counter else ""
+        return f"{self.name}: {self.value_type}{default}"
+
+    @property
+    def _is_counter(self) -> bool:
+        return self.slot.role == "counter"
+
+    @property
+    def modules(self) -> set[str]:
+        """The modules of the runtime that it needs."""
+        found = {"optional"} if self.slot.optional else set[str]()
+        if self.type.startswith("Swapped"):
+            return {*found, "swapped", "three_bytes", "floating"}
+        if self.slot.is_float:
+            return {*found, "floating"}
+        return {*found, "three_bytes"} if self.slot.size == 3 else found
+
+    @property
+    def classes(self) -> dict[str, str]:
+        """The classes that declare it, each with its module."""
+        home = "number"
+        for module in ("three_bytes", "floating", "swapped"):
+            home = module if module in self.modules else home
+        return {self.type: home} | ({"Optional": "optional"} if self.slot.optional else {})
 
     @property
     def described(self) -> str:
         """The call that makes the field."""
-        return self.call([str(self.slot.at)]).fitted(4, last=f"{self.name} = ")
+        call = self.call([str(self.slot.at)])
+        if self.slot.optional:
+            tail = [f"tail={self.tail}"] if self.tail else []
+            call = Bracketed("Optional(", [call, *tail], ")")
+        return call.fitted(4, last=f"{self.name} = ")
+
+    @property
+    def notation(self) -> str:
+        """What `struct` packs it as."""
+        return self.slot.number_type.code if self._is_plain else f"{self.slot.size}s"
+
+    @property
+    def packed(self) -> str:
+        """The expression that `struct` packs."""
+        return self.name if self._is_plain else f"cls.{self.name}.struct.pack({self.name})"
+
+    @property
+    def _is_plain(self) -> bool:
+        """Whether `struct` knows it, in the order of all others."""
+        return not self.type.startswith("Swapped") and self.slot.number_type.code != ""
 
     def call(self, place: list[str]) -> Bracketed:
         """Return that call, with the arguments that the type does not imply."""
         slot, field = self.slot, self.slot.field
         items: list[Part] = [*place]
-        items += [f"low={slot.low}"] if slot.low != slot.number_type.low else []
-        items += [f"high={slot.high}"] if slot.high != slot.number_type.high else []
+        if not slot.is_float:
+            items += [f"low={slot.low}"] if slot.low != slot.number_type.low else []
+            items += [f"high={slot.high}"] if slot.high != slot.number_type.high else []
         items += [Text(field.unit, before="unit=")] if field.unit else []
         names = [
             f"{literal(name)}: {constant.name}"
             for name, constant in zip(field.values, self.constants, strict=True)
         ]
         items += [Bracketed("names={", names, "}")] if names else []
+        bits = [f"{literal(name)}: {mask_name(field, self.name, name)}" for name in field.bits]
+        items += [Bracketed("bits={", bits, "}")] if bits else []
+        others = [
+            constant.name
+            for constant in self.constants
+            if slot.role == "address" and not slot.low <= int(constant.value) <= slot.high
+        ]
+        items += [Bracketed("others=(", others, ")", lone=",")] if others else []
         return Bracketed(f"{self.type}(", items, ")")
 
     @property
@@ -119,6 +195,41 @@ class NumberView:
             Constant(constant_name(self.name, name), value.value, value.about)
             for name, value in self.slot.field.values.items()
         ]
+
+    @property
+    def masks(self) -> list[Constant]:
+        """A constant for all named bits: `ERROR_VOLTAGE = 0x01`."""
+        field = self.slot.field
+        return [
+            Constant(
+                mask_name(field, self.name, name),
+                f"0x{_mask(bits):0{2 * self.slot.size}X}",
+                bits.about or f"The bits of `{self.name}` for {name}.",
+            )
+            for name, bits in field.bits.items()
+        ]
+
+    @property
+    def bits(self) -> list[BitsView]:
+        """A property for all named bits: a truth value for one, a number for several."""
+        return [self._bits(name, bits) for name, bits in self.slot.field.bits.items()]
+
+    def _bits(self, name: str, bits: Bits) -> BitsView:
+        whole, shift = f"self.{self.name}", bits.at.low
+        mask = f"0x{_mask(bits) >> shift:X}"
+        type_, read = "bool", f"{whole} & 0x{_mask(bits):X} != 0"
+        if bits.at.high != shift:
+            type_, read = "int", f"{whole} >> {shift} & {mask}" if shift else f"{whole} & {mask}"
+        if self.slot.optional:
+            type_, read = f"{type_} | None", f"None if {whole} is None else {read}"
+        where = f"bit {shift}" if bits.at.high == shift else f"bits {bits.at}"
+        if len(f"        return {read}") > WIDTH:
+            read = f"(\n            {read}\n        )"
+        doc = [
+            bits.about or f"What `{self.name}` says of {name}.",
+            f"It is {where} of `{self.name}`.",
+        ]
+        return BitsView(bit_name(self.name, name), doc, type_, read)
 
     @property
     def signed(self) -> SignedView | None:
@@ -137,6 +248,11 @@ class NumberView:
     def absent_values(self) -> list[int]:
         """The values that mark absence."""
         return [each.value for each in self.slot.field.values.values() if each.absent]
+
+
+def _mask(bits: Bits) -> int:
+    high = bits.at.low if bits.at.high is None else bits.at.high
+    return (1 << high + 1) - (1 << bits.at.low)
 
 
 def bounded(about: str, bounds: str) -> str:

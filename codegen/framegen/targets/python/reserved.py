@@ -67,15 +67,16 @@ PYTHON_CLASSES = _words(
 # What the library exports or is built of, whatever the protocol.
 LIBRARY_CLASSES = _words(
     """
-    AbsentError Address AllDevices AsyncAllDevices AsyncClient AsyncController AsyncMotion
+    AbsentError Address AllDevices Always AsyncAllDevices AsyncClient AsyncController AsyncMotion
     AsyncOneDevice Client ClosedError Column Controller Counters Decoded DecodeError Device
-    Direction DisconnectedError EchoError Element EncodeError Event Exchange EXCHANGES
-    FailureError Failures Field HEADER I16 I32 I64 I8 IncompleteReplyError Items Kind LimitError
-    Limits LIMITS LineCounters LineError Message MESSAGES Motion Noise NoReplyError NoReportError
-    Number OneDevice PortAddressError PortBusyError PortNotFoundError PortPermissionError Pose
-    POSE ProtocolError Reason RECEIVED RefusedError Rejects Report Run SearchStrategy Sent Shape
-    StreamDecoder Table Timed Transport TransportError U16 U32 U64 U8 UNFIT UnknownFrame
-    WriteStuckError
+    Direction DisconnectedError EchoError Element EncodeError Event Exchange EXCHANGES F32 F64
+    FailureError Failures Field HEADER I16 I24 I32 I64 I8 IncompleteReplyError Items Kind LimitError
+    LIMITS Limits LineCounters LineError List Message MESSAGES MixedElement Motion Noise
+    NoReplyError NoReportError Number OneDevice Optional Packed PortAddressError PortBusyError
+    PortNotFoundError PortPermissionError POSE Pose ProtocolError Reason RECEIVED RefusedError
+    Rejects Report Reserved Run SearchStrategy Sent Shape StreamDecoder SwappedF32 SwappedF64
+    SwappedI16 SwappedI24 SwappedI32 SwappedI64 SwappedU16 SwappedU24 SwappedU32 SwappedU64 Table
+    Text Timed Transport TransportError U16 U24 U32 U64 U8 UNFIT UnknownFrame WriteStuckError
     """
 )
 
@@ -104,7 +105,9 @@ STRATEGIES = _words("annotations messages noise noisy_streams st")
 SENDERS = _words("any either noise unknown")
 
 # What every message class has besides its named values.
-CONSTANTS = _words("VENDOR_NAME")
+CONSTANTS = _words(
+    "CONSTANTS DEFAULTS DEPRECATED DIRECTION FRAME IDS LENGTHS SHAPE VENDOR_NAME"
+)
 
 MODULES = _words(
     """

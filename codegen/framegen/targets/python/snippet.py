@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from framegen.language.values import to_hex
-from framegen.model.slots import Number
+from framegen.model.slots import Items, Packed
 from framegen.targets.python.escape import Bracketed
 from framegen.targets.python.message_view import MessageView
 from framegen.targets.python.names import names_of
@@ -57,9 +57,12 @@ def _from_hex(before: str, example: Example) -> str:
 def _shown(message: MessageLayout, example: Example) -> list[str]:
     lines: list[str] = []
     for field in message.arguments:
-        if isinstance(field, Number):
-            lines.append(f"print(event.{field.name})  # {example.values[field.name]}")
-        elif field.element is None:
+        value = example.values[field.name]
+        if isinstance(value, str):
+            lines.append(f"print(event.{field.name})")
+        elif not isinstance(field, Items | Packed):
+            lines.append(f"print(event.{field.name})  # {value}")
+        elif isinstance(field, Packed) or field.element is None:
             lines.append(f"print(*event.{field.name})")
         else:
             names = ", ".join(each.name for each in field.fields)

@@ -22,11 +22,12 @@ if TYPE_CHECKING:
 class Number(Field["int"]):
     """A whole number at its place: the offset of its first byte, in the frame or in its element.
 
-    From `low` to `high`, if its type would hold more; in a `unit`, if it has one. `names` maps the
-    names of values to these values, such as `{"off": 0}`.
+    From `low` to `high`, if its type would hold more, or one of `others`; in a `unit`, if it has
+    one. `names` maps the names of values to these values, such as `{"off": 0}`, and `bits` those of
+    bits to a number that has just these set.
     """
 
-    __slots__ = ("at", "high", "low", "names", "unit")
+    __slots__ = ("at", "bits", "high", "low", "names", "others", "unit")
 
     code: ClassVar[str]
     """Its letter in `struct`."""
@@ -45,16 +46,20 @@ class Number(Field["int"]):
         high: int | None = None,
         unit: str = "",
         names: Mapping[str, int] | None = None,
+        bits: Mapping[str, int] | None = None,
+        others: tuple[int, ...] = (),
     ) -> None:
         self.at = at
         self.low = self.lowest if low is None else low
         self.high = self.highest if high is None else high
         self.unit = unit
         self.names: Mapping[str, int] = names or {}
+        self.bits: Mapping[str, int] = bits or {}
+        self.others = others
 
-    def __init_subclass__(cls, *, code: str) -> None:
+    def __init_subclass__(cls, *, code: str, order: str = STRUCT_ORDER) -> None:
         super().__init_subclass__()
-        cls.code, cls.struct = code, Struct(STRUCT_ORDER + code)
+        cls.code, cls.struct = code, Struct(order + code)
         values = 1 << 8 * cls.struct.size
         cls.lowest = -values // 2 if code.islower() else 0
         cls.highest = cls.lowest + values - 1
@@ -63,6 +68,10 @@ class Number(Field["int"]):
     def narrowed(self) -> bool:
         """Whether its type holds more than its range."""
         return self.low > self.lowest or self.high < self.highest
+
+    def holds(self, number: int) -> bool:
+        """Return whether a frame may hold this number."""
+        return self.low <= number <= self.high or number in self.others
 
     def reader(self) -> Callable[[Any], int]:
         """Return a function that reads it from the bytes of a message, or from an element."""
@@ -83,9 +92,9 @@ class Number(Field["int"]):
         try:
             number = index(value)
         except TypeError:
-            problem = f"{shown(value)} is not a whole number, but {_kind(value)}"
+            problem = f"{shown(value)} is not a whole number, but {kind_of(value)}"
             raise EncodeError(path, value, problem) from None
-        if not self.low <= number <= self.high:
+        if not self.holds(number):
             raise EncodeError(path, value, f"{shown(number)} is outside {self.low}..{self.high}")
         return number
 
@@ -145,10 +154,11 @@ def shown(value: object) -> str:
     try:
         text = repr(value)
     except ValueError:  # Python refuses to write out integers of thousands of digits
-        return _kind(value)
+        return kind_of(value)
     return text if len(text) <= 60 else text[:57] + "..."
 
 
-def _kind(value: object) -> str:
+def kind_of(value: object) -> str:
+    """Return what a value is, for an error message: `a str`, `nothing`."""
     name = type(value).__name__
     return "nothing" if value is None else f"{'an' if name[0] in 'aeiou' else 'a'} {name}"

@@ -1,0 +1,265 @@
+"""The properties that the fields of a message give to all of its frames, whatever they are."""
+
+from __future__ import annotations
+
+from .errors import EncodeError, Reason
+from .field import Field
+from .floating import Float
+from .lists import List, places_of
+from .number import Number
+from .optional import Optional
+from .packed import Packed
+from .text import Text, misspelt
+
+TYPE_CHECKING = False  # typing alone would double the time that the import takes
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterator, Sequence
+    from typing import Any, TypeAlias
+
+    Due: TypeAlias = "bytes | Callable[[bytes], int | None]"
+    # From where to where it stands, why it would be refused, and what must be there, or what tells
+    # where its bytes are wrong, None for nowhere.
+    Judged: TypeAlias = "tuple[int, int, Reason, Due]"
+
+
+class Shape:
+    """The fields of a class of messages, in the order of the frame, and the rules for its frames.
+
+    `given` are the numbers that its constructor checks; `items` is the list of a size that varies,
+    if there is one; `lengths` are the legal ones, one for each of `counts`. `counter` is from where
+    to where the number stands that says how long the list is; None where there is none. All that
+    can be wrong is told by `places`; a frame is `certain` where nothing can, but that number.
+    """
+
+    __slots__ = (
+        "_bounds",
+        "_counters",
+        "_kind",
+        "_parts",
+        "_quick",
+        "_varying",
+        "counter",
+        "counts",
+        "given",
+        "items",
+        "lengths",
+        "optional",
+    )
+
+    def __init__(self, kind: Any, lengths: Sequence[int]) -> None:
+        self._kind = kind
+        self.lengths = lengths
+        fields = [
+            each
+            for base in reversed(kind.__mro__)
+            for each in vars(base).values()
+            if isinstance(each, Field)
+        ]
+        frame = kind.FRAME
+        outside = [part.name for part in (frame.address, frame.counter) if part is not None]
+        self.given: list[Number | Float] = [
+            each
+            for name in kind.__match_args__
+            if isinstance(each := vars(kind)[name], (Number, Float))
+        ]
+        self.optional = [each for each in fields if isinstance(each, Optional)]
+        lists = [each for each in fields if isinstance(each, (List, Text))]
+        varying = [each for each in lists if _varies(each)]
+        self._varying: List[Any] | Text | None = varying[0] if varying else None
+        self.items = self._varying if isinstance(self._varying, List) else None
+        self._counters = self._counted()
+        self.counts = range(len(lengths)) if self._varying is None else self._varying.counts
+        first = min((number for number, _ in self._counters), key=_at, default=None)
+        self.counter = None if first is None else (first.at, first.at + first.struct.size)
+        body = [each for each in fields if each.name not in outside]
+        self._parts: list[Any] = sorted([*body, *kind.CONSTANTS], key=_at)
+        self._bounds: list[tuple[type, float, float]] | None = None
+        self._quick: list[tuple[int, int, Due]] | None = None
+
+    def _counted(self) -> list[tuple[Number, int]]:
+        """Return the numbers that say how long the list is, each with its value of one element."""
+        varying = self._varying
+        if isinstance(varying, List):
+            return [*varying.counters]
+        if varying is None:
+            return []
+        return [(each, 1) for each in (varying.count, varying.size) if each is not None]
+
+    # What a frame must be.
+
+    @property
+    def certain(self) -> bool:
+        """Whether a frame of legal length, with the right count, is always legal."""
+        if len(self._counters) > 1:
+            return False
+        varying = self._varying
+        return not (
+            isinstance(varying, Text)
+            or (varying is not None and varying.places)
+            or any(self._fixed())
+        )
+
+    def count_of(self, data: bytes) -> int | None:
+        """Return the count that these bytes of the counter mean; None where no frame has it."""
+        number, factor = min(self._counters, key=lambda each: each[0].at)
+        count, rest = divmod(number.struct.unpack(data)[0], factor)
+        return None if rest or count not in self.counts else count
+
+    def places(self, count: int, since: int = 0) -> Iterator[Judged]:
+        """Yield all that can be wrong in the fields of a frame with this count, in its order.
+
+        What ends at `since` or before it is left out.
+        """
+        until = self._end(count)
+        for part in map(_there, self._parts):
+            if part.at >= until or part is self._varying:
+                continue
+            for number, factor in self._counters:
+                if part is number and number.at + number.struct.size > since:
+                    due = number.struct.pack(count * factor)
+                    yield number.at, number.at + len(due), Reason.COUNT_MISMATCH, due
+            for at, end, wrong in _places(part):
+                if end > since:
+                    yield at, end, Reason.OUT_OF_RANGE, wrong
+        if self._varying is not None:
+            for at, end, wrong in _elements(self._varying, count, since):
+                yield at, end, Reason.OUT_OF_RANGE, wrong
+
+    def holds(self, frame: bytes) -> bool:
+        """Return whether the fields of a frame of legal length are legal, its first count aside."""
+        if self._quick is None:
+            self._quick = [*self._fixed()]
+        size = len(frame)
+        for at, end, due in self._quick:
+            if end > size:  # it is absent, with all behind it
+                break
+            found = frame[at:end]
+            if found != due if isinstance(due, bytes) else due(found) is not None:
+                return False
+        if self._varying is None:
+            return True
+        return self._list_holds(self._varying, frame)
+
+    def _list_holds(self, varying: List[Any] | Text, frame: bytes) -> bool:
+        """Return whether the counts of a list are right, and all that is in it."""
+        at, end = varying.at, len(frame) - varying.tail
+        data = frame[at:end]
+        count = len(data) // (1 if isinstance(varying, Text) else varying.unit_size)
+        for number, factor in self._counters:
+            if number.struct.unpack_from(frame, number.at)[0] != count * factor:
+                return False
+        if isinstance(varying, Text):
+            return data.isascii()
+        if varying.element is None and varying.places:
+            (number,) = varying.fields
+            values = varying.numbers(frame)
+            return not values or (number.low <= min(values) and max(values) <= number.high)
+        size = varying.unit_size
+        for base in range(0, len(data), size):
+            for start, until, due in varying.places:
+                found = data[base + start : base + until]
+                if found != due if isinstance(due, bytes) else due(found) is not None:
+                    return False
+        return True
+
+    def _fixed(self) -> Iterator[tuple[int, int, Due]]:
+        """Yield what can be wrong at the same place in every frame, save for counts."""
+        for part in map(_there, self._parts):
+            if part is not self._varying:
+                yield from _places(part)
+
+    def _end(self, count: int) -> int:
+        """Return where the fields of a frame with this count end, if some may be absent."""
+        if not self.optional:
+            return 1 << 62
+        frame, length = self._kind.FRAME, self.lengths[count]
+        end: int = frame.size(length) - frame.tail_size
+        return end
+
+    # What is given.
+
+    def check(self, *numbers: Any) -> None:
+        """Raise EncodeError for the first wrong one of the numbers that are given.
+
+        Good ones are passed over; any others are looked at one by one, and are either whole numbers
+        of another kind, such as NumPy's, or explained.
+        """
+        if self._bounds is None:
+            self._bounds = [
+                (float if isinstance(each, Float) else int, each.low, each.high)
+                for each in self.given
+            ]
+        for number, (kind, low, high) in zip(numbers, self._bounds, strict=False):
+            if type(number) is not kind or not low <= number <= high:
+                for field, value in zip(self.given, numbers, strict=True):
+                    field.checked(value, field.name)
+                return
+
+    def tail(self, *values: Any) -> bytes:
+        """Return the bytes of the fields that may be absent. Raises EncodeError for bad ones."""
+        data, last = b"", ""
+        for field, value in zip(self.optional, values, strict=True):
+            if value is None:
+                last = last or field.name
+                continue
+            if last:
+                problem = f"it is absent, and {field.name} behind it is not: give both, or neither"
+                raise EncodeError(last, None, problem)
+            number = field.number
+            data += number.struct.pack(number.checked(value, field.name))
+        ends = [self._end(count) - self.optional[0].at for count in self.counts]
+        if len(data) in ends:
+            return data
+        return self._no_such_end(len(data), ends)
+
+    def _no_such_end(self, size: int, ends: list[int]) -> bytes:
+        """Raise the error for optional fields of so many bytes, with which no frame ends."""
+        first = self.optional[0].at
+        due = min((end for end in ends if end > size), default=ends[-1])
+        absent = [each for each in self.optional if size <= each.at - first < due]
+        names = " and ".join(each.name for each in absent)
+        problem = f"no frame ends before it: give {names}, or none of them"
+        if not absent:
+            problem = "no frame goes on with it: leave it out"
+        raise EncodeError((absent or self.optional)[0].name, None, problem)
+
+
+def _varies(field: List[Any] | Text) -> bool:
+    """Tell whether a list or a text has a size that varies."""
+    if isinstance(field, Text):
+        return field.least is not None
+    return bool(field.counters) or field.least != field.most
+
+
+def _there(part: Any) -> Any:
+    """Return what a part of a frame is where it is not absent."""
+    return part.number if isinstance(part, Optional) else part
+
+
+def _at(part: Any) -> int:
+    at: int = part.at
+    return at
+
+
+def _places(part: Any) -> Iterator[tuple[int, int, Due]]:
+    """Yield what can be wrong in a part of a fixed size."""
+    if isinstance(part, Packed):
+        if part.narrowed:
+            yield part.at, part.at + part.size, part.wrong
+    elif isinstance(part, List):
+        yield from _elements(part, part.most, 0)
+    else:
+        yield from places_of(part)
+
+
+def _elements(listed: List[Any] | Text, count: int, since: int) -> Iterator[tuple[int, int, Due]]:
+    """Yield what can be wrong in the elements of a list, or the characters of a text."""
+    size = 1 if isinstance(listed, Text) else listed.unit_size
+    places: Any = [(0, 1, misspelt)] if isinstance(listed, Text) else listed.places
+    if not places:
+        return
+    for position in range(max(0, (since - listed.at) // size), count):
+        base = listed.at + position * size
+        for start, end, due in places:
+            if base + end > since:
+                yield base + start, base + end, due

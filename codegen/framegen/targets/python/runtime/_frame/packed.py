@@ -1,0 +1,97 @@
+"""Fields that are a fixed number of whole numbers, whose bits stand behind each other."""
+
+from __future__ import annotations
+
+from .errors import EncodeError
+from .field import Field
+from .items import as_tuple
+from .number import Number, shown
+from .protocol import STRUCT_ORDER
+
+TYPE_CHECKING = False  # typing alone would double the time that the import takes
+if TYPE_CHECKING:
+    from collections.abc import Callable, Mapping
+    from typing import Any, ClassVar, Literal
+
+_ORDERS: dict[str, Literal["little", "big"]] = {"<": "little", ">": "big"}
+
+
+class Packed(Field["tuple[int, ...]"]):
+    """So many numbers of so many `bits` each, at the offset of the first byte in the frame.
+
+    In the order "<", the lowest bit of the first number is the lowest of the first byte; in the
+    order ">", its highest bit is the highest of the first byte.
+    """
+
+    __slots__ = ("at", "bits", "high", "length", "low", "order", "size", "unit")
+
+    names: ClassVar[Mapping[str, int]] = {}
+    """The names of values: it has none."""
+
+    def __init__(
+        self,
+        at: int,
+        bits: int,
+        length: int,
+        *,
+        low: int = 0,
+        high: int | None = None,
+        unit: str = "",
+        order: str = STRUCT_ORDER,
+    ) -> None:
+        self.at = at
+        self.bits = bits
+        self.length = length
+        self.size = length * bits // 8
+        self.low = low
+        self.high = (1 << bits) - 1 if high is None else high
+        self.unit = unit
+        self.order = _ORDERS[order]
+
+    @property
+    def narrowed(self) -> bool:
+        """Whether so many bits hold more than its range."""
+        return self.low > 0 or self.high < (1 << self.bits) - 1
+
+    def reader(self) -> Callable[[Any], tuple[int, ...]]:
+        """Return a function that reads them from the bytes of a message."""
+        at, end = self.at, self.at + self.size
+        return lambda message: self.read(message._frame[at:end])
+
+    def read(self, data: bytes) -> tuple[int, ...]:
+        """Return the numbers that these bytes hold."""
+        whole, bits, mask = int.from_bytes(data, self.order), self.bits, (1 << self.bits) - 1
+        places = range(0, self.length * bits, bits)
+        found = [whole >> place & mask for place in places]
+        return tuple(found if self.order == "little" else found[::-1])
+
+    def packed(self, values: Any) -> bytes:
+        """Return the bytes of these numbers. Raises EncodeError for the first bad one."""
+        whole, bits = 0, self.bits
+        numbers = self.checked(values)
+        for number in reversed(numbers) if self.order == "little" else numbers:
+            whole = whole << bits | number
+        return whole.to_bytes(self.size, self.order)
+
+    def checked(self, values: Any) -> list[int]:
+        """Return these numbers as ints. Raises EncodeError for the first bad one."""
+        items = as_tuple(values)
+        if items is None:
+            problem = f"{shown(values)} is not a list of whole numbers"
+            raise EncodeError(self.name, values, problem)
+        if len(items) != self.length:
+            problem = f"{len(items)} numbers, and there are always {self.length}"
+            raise EncodeError(self.name, values, problem)
+        bound = _Bound(low=self.low, high=self.high)
+        return [bound.checked(item, f"{self.name}[{at}]") for at, item in enumerate(items)]
+
+    def wrong(self, data: bytes) -> int | None:
+        """Return 0 where a number in these bytes is outside the range, otherwise None."""
+        good = all(self.low <= number <= self.high for number in self.read(data))
+        return None if good else 0
+
+
+class _Bound(Number, code="Q"):
+    """A number with these bounds, whatever its place."""
+
+    __slots__ = ()

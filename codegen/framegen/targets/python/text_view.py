@@ -1,0 +1,182 @@
+"""Text and packed numbers as the templates show them, and bytes that nobody gives."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, ClassVar
+
+from framegen.model.slots import Items
+from framegen.targets.python.escape import Bracketed, Part, Text, byte_literal, literal
+from framegen.targets.python.number_view import BitsView, Constant, SignedView, bounded
+from framegen.targets.python.spelling import struct_order
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from framegen.language.spec import ListField, NumberField, Spec
+    from framegen.model.slots import Constant as Fixed
+    from framegen.model.slots import Packed
+    from framegen.model.slots import Text as TextSlot
+
+
+def constants_call(constants: Sequence[Fixed]) -> str:
+    """Return the assignment of bytes that nobody gives; empty where there are none."""
+    made = [
+        Bracketed(
+            f"{'Reserved' if each.role == 'reserved' else 'Always'}(",
+            [literal(each.name), str(each.at), byte_literal(each.data)],
+            ")",
+        )
+        for each in constants
+    ]
+    return Bracketed("CONSTANTS = (", made, ")", lone=",").fitted(4) if made else ""
+
+
+def constant_classes(constants: Sequence[Fixed]) -> dict[str, str]:
+    """Return the classes that declare them, each with its module."""
+    return {"Reserved" if each.role == "reserved" else "Always": "fixed" for each in constants}
+
+
+def noted(field: NumberField | ListField, spec: Spec) -> list[str]:
+    """Return what else is known of a field, each with its source."""
+    return [f"{note.text} ({spec.sources[note.cite.source].title})" for note in field.notes]
+
+
+class _NoNumber:
+    """What is no number has none of these beside it."""
+
+    constants: ClassVar[list[Constant]] = []
+    masks: ClassVar[list[Constant]] = []
+    bits: ClassVar[list[BitsView]] = []
+    signed: ClassVar[SignedView | None] = None
+
+
+@dataclass(frozen=True)
+class TextView(_NoNumber):
+    """A text of a message or of an element, of a fixed size or of one that varies."""
+
+    slot: TextSlot | Items
+    spec: Spec
+    tail: int = 0
+
+    value_type: ClassVar[str] = "str"
+    modules: ClassVar[set[str]] = {"text"}
+    classes: ClassVar[dict[str, str]] = {"Text": "text"}
+
+    @property
+    def name(self) -> str:
+        return self.slot.name
+
+    @property
+    def argument(self) -> str:
+        """The declaration as an argument."""
+        return f"{self.name}: str"
+
+    @property
+    def read_as(self) -> str:
+        """The type of its value."""
+        return self.value_type
+
+    @property
+    def described(self) -> str:
+        """The call that makes the field."""
+        slot = self.slot
+        items: list[Part] = [str(slot.at)]
+        if isinstance(slot, Items):
+            items += [str(slot.high), f"least={slot.low}", *counters(slot, self.tail)]
+        else:
+            items += [str(slot.size)]
+        return Bracketed("Text(", items, ")").fitted(4, last=f"{self.name} = ")
+
+    @property
+    def doc(self) -> list[str]:
+        """The description."""
+        return [" ".join([self.slot.field.about, *noted(self.slot.field, self.spec)])]
+
+    @property
+    def argument_doc(self) -> list[str]:
+        """The description as an argument of a method, with its bounds."""
+        slot = self.slot
+        bounds = f"{slot.low}..{slot.high}" if isinstance(slot, Items) else f"at most {slot.size}"
+        about = bounded(slot.field.about, f"{bounds} characters")
+        return [about, *noted(slot.field, self.spec)]
+
+    @property
+    def notation(self) -> str:
+        """What `struct` packs it as."""
+        return f"{self.slot.size}s"
+
+    @property
+    def packed(self) -> str:
+        """The expression that `struct` packs."""
+        return f"cls.{self.name}.packed({self.name})"
+
+
+@dataclass(frozen=True)
+class PackedView(_NoNumber):
+    """A fixed number of numbers whose bits stand behind each other."""
+
+    slot: Packed
+    spec: Spec
+
+    value_type: ClassVar[str] = "tuple[int, ...]"
+    modules: ClassVar[set[str]] = {"packed"}
+    classes: ClassVar[dict[str, str]] = {"Packed": "packed"}
+
+    @property
+    def name(self) -> str:
+        return self.slot.name
+
+    @property
+    def argument(self) -> str:
+        """The declaration as an argument."""
+        return f"{self.name}: Iterable[int]"
+
+    @property
+    def read_as(self) -> str:
+        """The type of its value."""
+        return self.value_type
+
+    @property
+    def described(self) -> str:
+        """The call that makes the field."""
+        slot = self.slot
+        items: list[Part] = [str(slot.at), str(slot.number_type.bits), str(slot.count)]
+        items += [f"low={slot.low}"] if slot.low else []
+        items += [f"high={slot.high}"] if slot.high != slot.number_type.high else []
+        items += [Text(slot.field.unit, before="unit=")] if slot.field.unit else []
+        if slot.order != self.spec.byte_order:
+            items += [f"order={literal(struct_order(slot.order))}"]
+        return Bracketed("Packed(", items, ")").fitted(4, last=f"{self.name} = ")
+
+    @property
+    def doc(self) -> list[str]:
+        """The description."""
+        field = self.slot.field
+        scale = [f"A step is {field.scale}."] if field.scale else []
+        return [" ".join([field.about, *scale, *noted(field, self.spec)])]
+
+    @property
+    def argument_doc(self) -> list[str]:
+        """The description as an argument of a method, with its bounds."""
+        slot = self.slot
+        unit = f" {slot.field.unit}" if slot.field.unit else ""
+        about = bounded(slot.field.about, f"{slot.count} of {slot.low}..{slot.high}{unit}")
+        return [about, *noted(slot.field, self.spec)]
+
+    @property
+    def notation(self) -> str:
+        """What `struct` packs it as."""
+        return f"{self.slot.size}s"
+
+    @property
+    def packed(self) -> str:
+        """The expression that `struct` packs."""
+        return f"cls.{self.name}.packed({self.name})"
+
+
+def counters(items: Items, tail: int) -> list[Part]:
+    """Return the arguments that say what the size of a list depends on."""
+    keys = {"count": "count", "size": "size"}
+    found: list[Part] = [f"{keys[each.role]}={each.name}" for each in items.counters]
+    return [*found, f"tail={tail}"] if tail and not items.is_fixed else found
