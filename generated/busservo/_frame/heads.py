@@ -3,7 +3,15 @@
 
 from __future__ import annotations
 
-from .protocol import BODY_AT, HEADER, LENGTH_END, UNCOUNTED, read_length
+from .protocol import (
+    BODY_AT,
+    COMMAND_END,
+    HEADER,
+    LENGTH_END,
+    UNCOUNTED,
+    read_command,
+    read_length,
+)
 
 TYPE_CHECKING = False  # typing alone would double the time that the import takes
 if TYPE_CHECKING:
@@ -21,6 +29,11 @@ def begins(data: bytes, at: int = 0) -> bool:
 def size_of(_: type[Message], length: int) -> int:
     """Return the size of the frames of a message that have this length."""
     return length + UNCOUNTED
+
+
+def has_ids(kind: type[Message], data: bytes) -> bool:
+    """Return whether `data` begins as the frames of a message do, as far as its command."""
+    return begins(data) and len(data) >= COMMAND_END and read_command(data) == kind.COMMAND
 
 
 def claimed(data: bytes) -> int:

@@ -18,7 +18,9 @@ from typing import TYPE_CHECKING
 from .._codec.codec import table_for
 from .._frame.bytes_like import format_hex
 from .._frame.direction import RECEIVED
-from .._frame.protocol import BODY_AT, HEADER, HID_DEVICES, LENGTH_END, UNCOUNTED, read_length
+from .._frame.errors import Reason
+from .._frame.heads import claimed
+from .._frame.protocol import HID_DEVICES
 from .._log import log
 from .hid_devices import UNSEEN, hid_devices, hid_library, report_size
 from .link_errors import (
@@ -149,9 +151,11 @@ class HidPort:
     def _unpadded(self, report: bytes) -> bytes:
         """Return a report without its padding."""
         end, self._rest = self._rest, 0
-        if not end and report.startswith(HEADER) and len(report) >= LENGTH_END:
-            end = read_length(report) + UNCOUNTED
-            if end > len(report) and not any(table_for(RECEIVED).entries(report[:BODY_AT])):
+        if not end:
+            verdict = table_for(RECEIVED).weigh(report)
+            begun = verdict.kind is not None or verdict.reason is Reason.TOO_SHORT
+            end = verdict.size if begun else claimed(report)
+            if end > len(report) and not begun:
                 end = 0
         if not end:
             return report.rstrip(b"\x00")

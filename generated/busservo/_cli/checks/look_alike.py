@@ -7,7 +7,7 @@ from ..._codec.lookalikes import recognise
 from ..._codec.noise import Noise, UnknownFrame
 from ..._frame.direction import RECEIVED
 from ..._frame.errors import Reason
-from ..._frame.protocol import BODY_AT, HEADER, UNCOUNTED, read_command, read_length
+from ..._frame.heads import HEAD, claimed, has_ids
 from ...messages import MESSAGES
 from .check import Check
 from .result import failed, passed, unknown
@@ -46,17 +46,12 @@ def _likeness(noise: Noise) -> str:
     if isinstance(noise, UnknownFrame):
         return f"a frame of command {noise.command} came, which is none of this protocol's"
     data = noise.data
-    if noise.reason is not Reason.LENGTH_MISMATCH or not data.startswith(HEADER):
+    if noise.reason is not Reason.LENGTH_MISMATCH or len(data) < (claimed(data) or HEAD):
         return ""
-    if len(data) < BODY_AT:
+    kinds = [kind for kind in MESSAGES if kind.DIRECTION is RECEIVED and has_ids(kind, data)]
+    if not kinds:
         return ""
-    command = read_command(data)
-    kinds = [each for each in MESSAGES if each.DIRECTION is RECEIVED and command == each.COMMAND]
-    if not kinds or len(data) < read_length(data) + UNCOUNTED:
-        return ""
-    return (
-        f"a frame of {kinds[0].__name__} came with a length of {read_length(data)}, which none has"
-    )
+    return f"a frame of {kinds[0].__name__} came with {claimed(data)} bytes, which none has"
 
 
 CHECK = Check("look-alike", "what comes is this protocol", ("opening",), _look)

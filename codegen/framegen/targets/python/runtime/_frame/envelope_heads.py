@@ -52,6 +52,15 @@ def size_of(kind: type[Message], length: int) -> int:
     return kind.FRAME.size(length)
 
 
+def has_ids(kind: type[Message], data: bytes) -> bool:
+    """Return whether `data` begins as the frames of a message do, as far as its ids."""
+    frame = kind.FRAME
+    if not frame.begins(data, 0):
+        return False
+    parts = zip(frame.ids, kind.IDS, strict=False)
+    return all(part.at + part.size <= len(data) and part.read(data) == id_ for part, id_ in parts)
+
+
 def claimed(data: bytes) -> int:
     """Return how large the frame would be that `data` begins; 0 where it does not say so."""
     for envelope in ENVELOPES:
