@@ -74,17 +74,17 @@ _FOR_ADDRESSES = {
 _FOR_FAILURES = {"_client/failures.py"}
 # What only some kinds of fields have a use for.
 _FOR_FIELDS = {
-    "fixed",
-    "floating",
-    "general_shape",
-    "lists",
-    "mixed_element",
-    "optional",
-    "packed",
-    "shape",
-    "swapped",
-    "text",
-    "three_bytes",
+    "_frame/fixed.py",
+    "_frame/floating.py",
+    "_frame/general_shape.py",
+    "_frame/lists.py",
+    "_frame/mixed_element.py",
+    "_frame/optional.py",
+    "_frame/packed.py",
+    "_frame/shape.py",
+    "_frame/swapped.py",
+    "_frame/text.py",
+    "_frame/three_bytes.py",
 }
 
 
@@ -93,7 +93,7 @@ def render(compiled: Compiled, _snippets: Snippets) -> dict[str, str]:
     library = LibraryView(names_of(compiled.model).library)
     unneeded = _FOR_CHECKSUMS.difference(*(sums.files for sums in checksums_of(compiled.model)))
     client = ClientView(library.model)
-    unneeded |= {f"_frame/{name}.py" for name in _FOR_FIELDS - library.modules}
+    unneeded |= _FOR_FIELDS.difference(f"_frame/{name}.py" for name in library.modules)
     if compiled.model.spec.pose is None:
         unneeded |= _FOR_POSES
     if client.bus is None:

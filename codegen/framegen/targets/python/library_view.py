@@ -75,18 +75,6 @@ class LibraryView:
         return self.model.spec.protocol.name
 
     @property
-    def plain(self) -> bool:
-        """Whether there is one envelope: a constant, one length and one id in front of the fields.
-
-        Its frames are found and judged by less than those of other protocols.
-        """
-        frames = [*self.model.envelopes.values()]
-        slots = [slot for frame in frames for slot in (*frame.head, *frame.tail, *frame.unsent)]
-        roles = sorted(slot.role for slot in slots[1:])
-        begins = slots[:1] and slots[0].role == "constant"
-        return len(frames) == 1 and bool(begins) and not frames[0].tail and roles == ["id", "length"]
-
-    @property
     def envelopes(self) -> list[EnvelopeView]:
         """What stands around the fields of messages."""
         return [EnvelopeView(frame) for frame in self.model.envelopes.values()]

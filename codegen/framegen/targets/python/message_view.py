@@ -89,19 +89,14 @@ class MessageView:
         return self.layout.message.deprecated
 
     @property
-    def command(self) -> int | None:
-        """Its only id that a frame holds; None where there are several, or none."""
-        sent = len(self.layout.frame.ids) - len(self.layout.frame.unsent)
-        return self.layout.ids[0] if sent == 1 else None
-
-    @property
     def id_constants(self) -> list[str]:
-        """The assignments of its ids, where there are several."""
-        parts = self.layout.frame.ids
-        if self.command is not None:
-            return []
-        named = zip(parts, self.layout.ids, strict=True)
-        return [f"{id_name(part.name)} = {number}" for part, number in named]
+        """The assignments of its ids: one by itself is its command."""
+        frame, ids = self.layout.frame, self.layout.ids
+        if len(frame.ids) - len(frame.unsent) == 1:
+            return [f"COMMAND = {ids[0]}"]
+        return [
+            f"{id_name(part.name)} = {number}" for part, number in zip(frame.ids, ids, strict=True)
+        ]
 
     @property
     def ids(self) -> str:

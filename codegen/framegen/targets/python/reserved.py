@@ -105,9 +105,7 @@ STRATEGIES = _words("annotations messages noise noisy_streams st")
 SENDERS = _words("any either noise unknown")
 
 # What every message class has besides its named values.
-CONSTANTS = _words(
-    "CONSTANTS DEFAULTS DEPRECATED DIRECTION FRAME IDS LENGTHS SHAPE VENDOR_NAME"
-)
+CONSTANTS = _words("CONSTANTS DEFAULTS DEPRECATED DIRECTION FRAME IDS LENGTHS SHAPE VENDOR_NAME")
 
 MODULES = _words(
     """

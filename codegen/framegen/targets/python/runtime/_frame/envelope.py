@@ -104,7 +104,9 @@ class Address(NumberPart):
         if self.order == "little":
             return frozenset(named | {number & 0xFF for number in self.numbers[:0x100]})
         shift = 8 * (self.size - 1)
-        return frozenset(named | {*range(self.numbers[0] >> shift, (self.numbers[-1] >> shift) + 1)})
+        return frozenset(
+            named | {*range(self.numbers[0] >> shift, (self.numbers[-1] >> shift) + 1)}
+        )
 
 
 class Checksum(NumberPart):
@@ -126,7 +128,9 @@ class Checksum(NumberPart):
         self.method = method
         self.covers = covers
 
-    def pieces(self, ids: Ids, hidden: Sequence[NumberPart]) -> list[tuple[int, int | None] | bytes]:
+    def pieces(
+        self, ids: Ids, hidden: Sequence[NumberPart]
+    ) -> list[tuple[int, int | None] | bytes]:
         """Return what it covers in the frames of a message, by the ids of which some are hidden."""
         first = len(ids) - len(hidden)
         return [
@@ -279,9 +283,7 @@ def _sealer(envelope: Envelope) -> Callable[[bytes, Ids], bytes]:
     return sealed
 
 
-def stretches(
-    pieces: Sequence[tuple[int, int | None] | bytes], at: int, size: int
-) -> list[Piece]:
+def stretches(pieces: Sequence[tuple[int, int | None] | bytes], at: int, size: int) -> list[Piece]:
     """Return pieces of the frame that begins at `at` as those of what it stands in."""
     found: list[Piece] = []
     for each in pieces:

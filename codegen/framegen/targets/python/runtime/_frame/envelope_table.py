@@ -204,9 +204,7 @@ class Table(dict[bytes, "Entry"]):
                 kinds = [kind for kind in kinds if length in kind.LENGTHS]
                 if not kinds:
                     end = max(part.at + part.size, frame.length.at + frame.length.size)
-                    return [
-                        Verdict(None, Reason.LENGTH_MISMATCH, frame.length.at, end)
-                    ]
+                    return [Verdict(None, Reason.LENGTH_MISMATCH, frame.length.at, end)]
         if length is None:
             return [(kind, *_fixed(kind)) for kind in kinds]
         size = frame.size(length)
@@ -321,7 +319,7 @@ class Table(dict[bytes, "Entry"]):
             found = kind.SHAPE.out_of_range(frame)
             return f"{name} has other bytes there" if found is None else found[1]
         if verdict.reason is Reason.COUNT_MISMATCH:
-            return f"no {name} of this size has this count: {format_hex(frame[at:verdict.size])}"
+            return f"no {name} of this size has this count: {format_hex(frame[at : verdict.size])}"
         if verdict.reason is Reason.BAD_TRAILER:
             return f"a frame ends {format_hex(b''.join(part.data for part in envelope.ends))}"
         if verdict.reason is Reason.BAD_CHECKSUM:
@@ -463,9 +461,7 @@ def _proven(frame: Envelope, at_id: int, size: int, data: bytes, at: int, prove:
     return Verdict(None, reason, at_id, size)
 
 
-def _wrong(
-    data: bytes, at: int, size: int, frame: Envelope, ids: Sequence[int]
-) -> Checksum | None:
+def _wrong(data: bytes, at: int, size: int, frame: Envelope, ids: Sequence[int]) -> Checksum | None:
     """Return the first wrong checksum of a frame."""
     return frame.wrong(data[at : at + size], ids)
 
