@@ -11,9 +11,9 @@ on the wire. A reply that is complete sooner was meant for somebody else, as whe
 came twice, or much too late; or the line is no wire of the stated rate, as it must be where that
 device was never asked for such a reply before. Otherwise it is **held** for one reply time. If a
 second one comes, that is the answer, and the first is unsolicited. If none comes, what is known of
-the line decides: see Pace. Of several replies that are read at once, the last is the answer. And after a reply that is possible, but sooner than is usual on this line, the next
-question of its kind waits a moment, so that the right one, if there is another, is not taken for
-the reply to that.
+the line decides: see Pace. Of several replies that are read at once, the last is the answer. And
+after a reply that is possible, but sooner than is usual on this line, the next question of its kind
+waits a moment, so that the right one, if there is another, is not taken for the reply to that.
 
 After a question has timed out, or was cancelled, or the line was lost, its reply may still come
 **late**, and would look like the reply to the next question of the same kind. So the next waits,
