@@ -107,6 +107,7 @@ class Request:
         "exchange",
         "gathered",
         "held",
+        "is_first",
         "latest",
         "left_at",
         "left_soonest",
@@ -165,6 +166,8 @@ class Request:
         # Whether a reply came that is impossible; whether the reply to an earlier one, which never
         # came, may come yet; and what had been counted before it was sent.
         self.doubted = self.after_lost = False
+        # Whether its device was never asked for this before.
+        self.is_first = False
         self.before: tuple[int, int, int] = (0, 0, 0)
         # A function to call once it is done.
         self.notify: Callable[[], None] | None = None

@@ -7,12 +7,12 @@ and never taken for anything else.
 
 A reply must be possible. It cannot be complete before the question and itself have had their time
 on the wire. A reply that is complete sooner was meant for somebody else, as when the reply before
-came twice, or much too late; or the line is no wire of the stated rate. It is **held** for one
-reply time. If a second one comes, that is the answer, and the first is unsolicited. If none comes,
-what is known of the line decides: see Pace. Of several replies that are read at once, the last is
-the answer. And after a reply that is possible, but sooner than is usual on this line, the next
-question of its kind waits a moment, so that the right one, if there is another, is not taken for
-the reply to that.
+came twice, or much too late; or the line is no wire of the stated rate, as it must be where that
+device was never asked for such a reply before. Otherwise it is **held** for one reply time. If a
+second one comes, that is the answer, and the first is unsolicited. If none comes, what is known of
+the line decides: see Pace. Of several replies that are read at once, the last is the answer. And
+after a reply that is possible, but sooner than is usual on this line, the next question of its kind
+waits a moment, so that the right one, if there is another, is not taken for the reply to that.
 
 After a question has timed out, or was cancelled, or the line was lost, its reply may still come
 **late**, and would look like the reply to the next question of the same kind. So the next waits,
@@ -73,6 +73,8 @@ class ReplyMatcher:
         self.late = LateReplies()
         # The questions that have been sent, and are not over, in the order in which they were sent.
         self.pending: list[Request] = []
+        # The classes of what has been asked for so far, and of whom; None for all, or the only one.
+        self._asked: set[tuple[type[Message], int | None]] = set()
 
     # ------------------------------------------------------------------ sending
 
@@ -107,7 +109,14 @@ class ReplyMatcher:
         """Record that a question has been sent."""
         if request.attempts == 1:
             request.after_lost = self.late.take_missing(request.answered_by)
+            request.is_first = request.address is not None and not self._was_asked(request)
+            self._asked.update((kind, request.address) for kind in request.answered_by.kinds)
         self.pending.append(request)
+
+    def _was_asked(self, request: Request) -> bool:
+        """Return whether the same has been asked of the same device before, or of all."""
+        kinds, addresses = request.answered_by.kinds, (request.address, None)
+        return any((kind, address) in self._asked for kind in kinds for address in addresses)
 
     # ------------------------------------------------------------------ receiving
 
@@ -153,6 +162,10 @@ class ReplyMatcher:
             pending.doubted = True
             self._counters.impossible += 1
             log().debug("%s: %r came sooner than the wire allows", self._name, reply)
+        if pending.is_first and reply.encode() != pending.message.encode():
+            # Nobody has asked this device for it before, and it is no echo.
+            self.pace.answered_too_soon(pending.address)
+            return [self._answer(pending, reply, at)]
         return []
 
     def held_until(self, pending: Request) -> float:
@@ -215,6 +228,7 @@ class ReplyMatcher:
     def restart(self) -> None:
         """Begin anew on another line, whose pace nobody knows."""
         self.pace = Pace()
+        self._asked.clear()
 
     def _expect(self, request: Request, count: int, since: float) -> None:
         if count and request.question:

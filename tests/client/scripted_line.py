@@ -1,0 +1,38 @@
+"""A line whose other end is a function, from each frame to what comes back for it, in no time."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+
+class ScriptedLine:
+    """A transport in virtual time; what is written is kept in `written`, a frame each."""
+
+    name = "scripted line"
+
+    def __init__(self, answer: Callable[[bytes], bytes]) -> None:
+        self.now = 0.0
+        self.written: list[bytes] = []
+        self._answer = answer
+        self._arrived = b""
+
+    def clock(self) -> float:
+        return self.now
+
+    def read(self, timeout: float) -> bytes:
+        data, self._arrived = self._arrived, b""
+        self.now += 0.0 if data else max(timeout, 1e-6)
+        return data
+
+    def write(self, data: bytes) -> None:
+        self.written.append(data)
+        self._arrived += self._answer(data)
+
+    def drain(self, _timeout: float) -> None:
+        pass
+
+    def close(self) -> None:
+        pass
