@@ -152,7 +152,8 @@ class Refused:
         name = frame.length_name
         if found:
             has = " or ".join(
-                f"{message.name} has a {name} of {_lengths(message.lengths)}" for message in found
+                f"{message.name} has a {name} of {describe_range(message.lengths)}"
+                for message in found
             )
         else:
             least, most = (each - frame.uncounted for each in (frame.least, self.largest))
@@ -170,8 +171,3 @@ class Refused:
             for message in self.protocol.sent(str(way), self.frame)
             if message.seen_ids == ids
         ]
-
-
-def _lengths(lengths: Sequence[int]) -> str:
-    """Return legal lengths in words."""
-    return describe_range(lengths) if isinstance(lengths, range) else " or ".join(map(str, lengths))

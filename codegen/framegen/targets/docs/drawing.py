@@ -76,6 +76,8 @@ def drawing(model: Model, name: str) -> Drawing | None:
     steps = [(name, "", True)]
     if message.message.reply is not None:
         steps.append((message.message.reply, "reply", True))
+    if message.message.refusal is not None:
+        steps.append((message.message.refusal, "or its refusal", False))
     steps += [(report, "may follow", False) for report in message.message.reports]
     return _drawn(model, name, steps, _caption(model, name))
 
@@ -99,14 +101,15 @@ def interruption(model: Model) -> Drawing | None:
 
 
 def _is_report(model: Model, name: str) -> bool:
-    return model.kind(name) == "report"
+    refusals = {message.refusal for message in model.spec.messages.values()}
+    return model.kind(name) == "report" and name not in refusals
 
 
 def _caption(model: Model, name: str) -> str:
     message = model.messages[name].message
     sender, receiver = message.direction.sender, message.direction.receiver
     if message.reply is not None:
-        return f"The {sender} sends {name}; the {receiver} answers with {message.reply}."
+        return f"{_question(model, name)}{_refusal(model, name)}"
     acknowledged = message.acknowledged
     known = "" if acknowledged is None else f" {acknowledged} says that {name} was taken."
     if message.lasts is not None:
@@ -117,6 +120,27 @@ def _caption(model: Model, name: str) -> str:
         return f"The {sender} sends {name}; {may}{known}"
     silent = "Nothing comes back, whether it was understood or not."
     return f"The {sender} sends {name}. {silent}{known}"
+
+
+def _question(model: Model, name: str) -> str:
+    message = model.messages[name].message
+    sender, receiver = message.direction.sender, message.direction.receiver
+    asked = f"The {sender} sends {name}; the {receiver} answers with {message.reply}."
+    address = model.messages[name].frame.address
+    if address is None or not address.silent:
+        return asked
+    silent = " or ".join(map(str, sorted(address.silent)))
+    return f"{asked} Nobody answers at {address.name} {silent}."
+
+
+def _refusal(model: Model, name: str) -> str:
+    """Say how the reply shows that it was not done."""
+    message = model.messages[name].message
+    reply = model.messages[message.reply or name].message
+    found = f" If it refuses, {message.refusal} comes instead." if message.refusal else ""
+    if reply.failure:
+        found += f" Where {reply.failure} in {message.reply} is not 0, it has failed."
+    return found
 
 
 def _drawn(model: Model, id_: str, steps: list[tuple[str, str, bool]], caption: str) -> Drawing:

@@ -5,18 +5,17 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from framegen.language.spec import NumberField
-from framegen.model.slots import Items
+from framegen.language.spec import ListField, NumberField
+from framegen.model.slots import Constant, Items, Number, Packed, Text
 from framegen.targets.docs.cite import CiteView, Place, cite_view
 from framegen.targets.docs.strip import place_in_each
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from framegen.language.spec import ListField
+    from framegen.language.spec import Spec
     from framegen.model.layout import MessageLayout
     from framegen.model.model import Model
-    from framegen.model.slots import Number
     from framegen.reading.yamltree import KeyPath
 
 
@@ -28,6 +27,15 @@ class ValueView:
     value: int
     about: str
     cite: CiteView | None
+
+
+@dataclass(frozen=True, slots=True)
+class BitsView:
+    """Bits of a number that have a name: `bit 0`, or `bits 1..7`."""
+
+    at: str
+    name: str
+    about: str
 
 
 @dataclass(frozen=True, slots=True)
@@ -49,6 +57,7 @@ class FieldView:
     range: str
     about: str
     values: list[ValueView]
+    bits: list[BitsView]
     notes: list[NoteView]
     beside: list[str]
     cite: CiteView
@@ -65,27 +74,58 @@ def field_views(model: Model, message: MessageLayout) -> list[FieldView]:
     """Return every field in the order of the frame; those of an element follow their list."""
     maker = _Maker(model, message)
     views: list[FieldView] = []
-    for slot in message.fields:
+    for slot in message.body:
         if isinstance(slot, Items):
             views.extend(_list_views(maker, slot))
         else:
-            views.append(maker.number(slot, slot.name, str(slot.at), ("fields", slot.name)))
+            views.append(maker.single(slot, slot.name, str(slot.at), ("fields", slot.name)))
     return views
 
 
 def _list_views(maker: _Maker, items: Items) -> Iterator[FieldView]:
-    count = f"{items.low}..{items.high} of them"
+    what = "characters" if items.text else "of them"
+    count = f"{items.low if items.is_fixed else f'{items.low}..{items.high}'} {what}"
     path: KeyPath = ("fields", items.name)
     if items.element is None:
-        (field,) = items.fields
-        yield maker.number(field, items.path("i", field), place_in_each(items), path, count)
+        (slot,) = items.slots
+        name = items.name if items.text else items.path("i", slot)
+        yield maker.single(slot, name, place_in_each(items), path, count)
         return
     yield maker.view(
         items.field, items.name, str(items.at), path, f"list of {items.element}", count
     )
-    for field in items.fields:
-        offset = place_in_each(items, field.at)
-        yield maker.number(field, items.path("i", field), offset, (*path, "fields", field.name))
+    for slot in items.slots:
+        offset = place_in_each(items, slot.at)
+        yield maker.single(slot, items.path("i", slot), offset, (*path, "fields", slot.name))
+
+
+def _range(slot: Number | Text | Packed | Constant, count: str) -> str:
+    """Return the values that a slot can have, in words."""
+    match slot:
+        case Constant():
+            always = None if slot.field is None else slot.field.always
+            return "anything" if always is None else f"always {always}"
+        case Text():
+            return f"up to {slot.size} characters"
+        case Number() if slot.field.text:
+            return count
+        case Number() if slot.is_float:
+            bounds = "any number"
+        case _:
+            bounds = f"{slot.low}..{slot.high}"
+    return f"{bounds}, {count}" if count else bounds
+
+
+def _type(slot: Number | Text | Packed | Constant) -> str:
+    match slot:
+        case Packed():
+            return f"{slot.count} of {slot.number_type.name}"
+        case Number() if not slot.field.text:
+            return slot.number_type.name
+        case Constant():
+            return slot.field.type if slot.field is not None else ""
+        case _:
+            return "text"
 
 
 @dataclass(frozen=True, slots=True)
@@ -93,19 +133,20 @@ class _Maker:
     model: Model
     message: MessageLayout
 
-    def number(
-        self, field: Number, path: str, offset: str, key: KeyPath, count: str = ""
+    def single(
+        self,
+        slot: Number | Text | Packed | Constant,
+        path: str,
+        offset: str,
+        key: KeyPath,
+        count: str = "",
     ) -> FieldView:
-        bounds = f"{field.low}..{field.high}" + (f", {count}" if count else "")
-        return self.view(
-            field.field,
-            path,
-            offset,
-            key,
-            field.number_type.name,
-            bounds,
-            derived=field.role == "count",
-        )
+        """Return the row of a slot that is no list, or of the numbers in one."""
+        if slot.field is None:
+            raise AssertionError(f"{slot.name} is no field")
+        derived = isinstance(slot, Number) and slot.counts
+        bounds = _range(slot, count)
+        return self.view(slot.field, path, offset, key, _type(slot), bounds, derived=derived)
 
     def view(
         self,
@@ -118,15 +159,14 @@ class _Maker:
         *,
         derived: bool = False,
     ) -> FieldView:
+        """Return the row of a field."""
         spec = self.model.spec
-        unit = getattr(field, "unit", "")
-        scale = getattr(field, "scale", None)
         values = getattr(field, "values", {})
         return FieldView(
             path=path,
             offset=offset,
             type=type_,
-            unit=f"{unit}, one step is {scale}" if scale else unit,
+            unit=_unit(field),
             range=bounds,
             about=field.about,
             values=[
@@ -138,12 +178,51 @@ class _Maker:
                 )
                 for name, value in values.items()
             ],
-            beside=_beside(path.rpartition(".")[2], field),
+            beside=[*_on_the_wire(spec, field), *_beside(path.rpartition(".")[2], field)],
+            bits=_bits(field),
             notes=[NoteView(note.text, cite_view(spec, note.cite)) for note in field.notes],
             cite=cite_view(spec, field.cite or self.message.message.cite),
             place=Place(("messages", self.message.name, *key)),
             derived=derived,
         )
+
+
+def _unit(field: NumberField | ListField) -> str:
+    """Return the unit of a value, and what a step of it is in a larger one."""
+    if isinstance(field, ListField) or field.scale is None:
+        return getattr(field, "unit", "")
+    step, unit, offset = field.scale.step, field.scale.unit, field.scale.offset
+    scaled = f"one step is {step} {unit}" + (f", and 0 is {offset} {unit}" if offset else "")
+    return f"{field.unit}, {scaled}" if field.unit else scaled
+
+
+def _bits(field: NumberField | ListField) -> list[BitsView]:
+    if isinstance(field, ListField):
+        return []
+    return [
+        BitsView(f"bit {at.low}" if at.low == at.high else f"bits {at}", name, each.about)
+        for name, each in field.bits.items()
+        for at in (each.at,)
+    ]
+
+
+def _on_the_wire(spec: Spec, field: NumberField | ListField) -> Iterator[str]:
+    """Say what its bytes are, where that is not as usual."""
+    if isinstance(field, ListField):
+        return
+    if field.always is not None:
+        yield "Never given."
+    if field.reserved is not None:
+        yield f"Reserved: written as {field.reserved}, read as anything, and never given."
+    if field.optional:
+        yield "May be absent, with all that is behind it."
+    if field.byte_order not in (None, spec.byte_order):
+        yield order_in_words(field.byte_order)
+
+
+def order_in_words(order: str | None) -> str:
+    """Say which byte of a number comes first."""
+    return f"Its {'low' if order == 'little' else 'high'} byte comes first."
 
 
 def _beside(name: str, field: NumberField | ListField) -> list[str]:

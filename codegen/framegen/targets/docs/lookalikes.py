@@ -89,9 +89,9 @@ def _commands(model: Model, other: Lookalike) -> list[LookalikeCommand]:
     frame = model.frame
     found: list[LookalikeCommand] = []
     for id_, there in other.commands.items():
-        known = [message.name for message in model.messages.values() if message.id == id_]
+        known = [name for name, each in model.messages.items() if each.ids == (id_,)]
         pattern = ""
-        if other.frame is None and id_ <= frame.id.high:
+        if other.frame is None and frame.id_part is not None and id_ <= frame.id.high:
             pattern = " ".join(_head(slot, id_) for slot in frame.head)
         found.append(LookalikeCommand(id_, pattern, there, known))
     return found

@@ -23,6 +23,20 @@ if TYPE_CHECKING:
     from framegen.targets.target import Snippets
 
 
+# The roles of what a message holds besides its envelope.
+_PARAMETERS = ("field", "count", "size", "text", "packed", "repeated")
+
+
+@dataclass(frozen=True, slots=True)
+class IdView:
+    """One of the ids of a message; `hex` is as wide as in the frame."""
+
+    name: str
+    number: int
+    hex: str
+    is_sent: bool
+
+
 @dataclass(frozen=True)
 class MessagePage:
     """The facts of one message, ready to be shown."""
@@ -46,15 +60,35 @@ class MessagePage:
         """The page, from the root of the reference, without its suffix."""
         return message_page(self.name)
 
-    @property
-    def id(self) -> int:
-        """The id of the message."""
-        return self.layout.id
+    @cached_property
+    def ids(self) -> list[IdView]:
+        """The ids of the message."""
+        frame = self.layout.frame
+        return [
+            IdView(part.name, number, f"0x{number:0{2 * part.size}X}", part not in frame.unsent)
+            for part, number in zip(frame.ids, self.layout.ids, strict=True)
+        ]
 
     @property
     def hex(self) -> str:
-        """The id in hex, as wide as in the frame."""
-        return f"0x{self.id:0{2 * self.layout.frame.id.size}X}"
+        """The ids that a frame holds in hex, as wide as there."""
+        return " ".join(each.hex for each in self.ids if each.is_sent)
+
+    @property
+    def number(self) -> str:
+        """The ids that a frame holds, in decimal."""
+        return ", ".join(str(each.number) for each in self.ids if each.is_sent)
+
+    @property
+    def frame(self) -> str:
+        """The name of its envelope, where there are several."""
+        return self.layout.frame.name if len(self.model.envelopes) > 1 else ""
+
+    @property
+    def address(self) -> str:
+        """The name of the address, if its frames have one."""
+        address = self.layout.frame.address
+        return "" if address is None else address.name
 
     @property
     def direction(self) -> str:
@@ -92,6 +126,13 @@ class MessagePage:
         return self.model.reports_on.get(self.name, [])
 
     @property
+    def refuses(self) -> list[str]:
+        """The requests that it refuses, where it comes instead of their reply."""
+        return [
+            name for name, each in self.model.spec.messages.items() if each.refusal == self.name
+        ]
+
+    @property
     def silent(self) -> bool:
         """Whether nothing ever comes back."""
         asks = self.kind in ("command", "query")
@@ -112,7 +153,19 @@ class MessagePage:
     @property
     def formula(self) -> str:
         """The length rule."""
-        return f"{self.layout.frame.length.name} = {self.layout.formula}"
+        length, rule = self.layout.frame.length_part, self.layout.formula
+        value = self.lengths if self.layout.optional else rule
+        return f"{'size of the frame' if length is None else length.name} = {value}"
+
+    @property
+    def varies(self) -> bool:
+        """Whether its frames have several lengths by a rule."""
+        return self.layout.items is not None
+
+    @property
+    def repeats(self) -> bool:
+        """Whether some of its bytes come again for each item of a list."""
+        return any(cell.role == "repeated" for cell in self.cells)
 
     @property
     def lengths(self) -> str:
@@ -133,7 +186,7 @@ class MessagePage:
     @property
     def parameters(self) -> list[Cell]:
         """The cells between the id and the end."""
-        return [cell for cell in self.cells if cell.role in ("field", "count", "repeated")]
+        return [cell for cell in self.cells if cell.role in _PARAMETERS]
 
     @cached_property
     def fields(self) -> list[FieldView]:
@@ -173,6 +226,9 @@ class MessagePage:
 
     @property
     def id_spellings(self) -> str:
-        """The id as people may write it in a search."""
-        digits = self.hex.removeprefix("0x").lower()
-        return " ".join(dict.fromkeys([str(self.id), digits, f"0x{digits}", f"0x{self.id:x}"]))
+        """The ids as people may write them in a search."""
+        spellings: list[str] = []
+        for each in self.ids:
+            digits = each.hex.removeprefix("0x").lower()
+            spellings += [str(each.number), digits, f"0x{digits}", f"0x{each.number:x}"]
+        return " ".join(dict.fromkeys(spellings))

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 from framegen.targets.docs.cite import CiteView, cite_view
 from framegen.targets.docs.drawing import Drawing, interruption
+from framegen.targets.docs.envelope import EnvelopeView
 from framegen.targets.docs.errata import ErratumView, UnknownView, erratum_views, unknown_views
 from framegen.targets.docs.escape import paragraphs
 from framegen.targets.docs.examples import ExampleSequence, example_sequences
@@ -15,7 +16,7 @@ from framegen.targets.docs.lookalikes import LookalikeEntry, lookalike_views
 from framegen.targets.docs.message import MessagePage
 from framegen.targets.docs.spec_listing import SpecLine, listing
 from framegen.targets.docs.stream_examples import StreamExample, stream_examples
-from framegen.targets.docs.strip import Cell, parts_strip
+from framegen.targets.docs.stream_rules import StreamRules
 from framegen.targets.docs.timing import (
     FrameTiming,
     RoundTrip,
@@ -167,25 +168,32 @@ class SiteView:
         """The byte order: little or big."""
         return self.model.spec.byte_order
 
-    @property
-    def envelope(self) -> list[Cell]:
-        """The parts of every frame."""
-        return parts_strip(self.model.frame)
-
-    @property
-    def parts(self) -> list[tuple[str, str]]:
-        """The parts that the spec describes."""
-        return [(name, part.about) for name, part in self.model.spec.frame.items() if part.about]
-
-    @property
-    def length_name(self) -> str:
-        """The name of the length: `length`, say."""
-        return self.model.frame.length.name
+    @cached_property
+    def envelopes(self) -> list[EnvelopeView]:
+        """Every kind of frame."""
+        return [EnvelopeView(self.model, name) for name in self.model.envelopes]
 
     @property
     def id_name(self) -> str:
-        """The name of the id: `command`, say."""
-        return self.model.frame.id.name
+        """What identifies a message: `command`, say; or its name, where no one number does."""
+        names = {part.name for frame in self.model.envelopes.values() for part in frame.ids}
+        return names.pop() if len(names) == 1 else "id" if names else "name"
+
+    @property
+    def length_name(self) -> str:
+        """What says how long a frame is: `length`, say; or its size."""
+        lengths = (frame.length_part for frame in self.model.envelopes.values())
+        return next((length.name for length in lengths if length is not None), "size")
+
+    @property
+    def has_ids(self) -> bool:
+        """Whether any message has an id."""
+        return any(message.ids for message in self.messages)
+
+    @cached_property
+    def stream(self) -> StreamRules:
+        """How a stream is decoded."""
+        return StreamRules(self.model)
 
     @cached_property
     def messages(self) -> list[MessagePage]:
@@ -198,7 +206,7 @@ class SiteView:
     @cached_property
     def by_id(self) -> list[MessagePage]:
         """Every message, by id; where two share one, in the order of the spec."""
-        return sorted(self.messages, key=lambda message: message.id)
+        return sorted(self.messages, key=lambda message: message.layout.ids)
 
     @cached_property
     def addresses(self) -> dict[str, str]:

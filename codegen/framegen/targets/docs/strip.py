@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from framegen.explain import explain
 from framegen.language.values import to_hex
-from framegen.model.slots import Body, Constant, Items, Number
+from framegen.model.slots import Body, Constant, Items, Number, Packed, Text
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
@@ -21,6 +21,8 @@ if TYPE_CHECKING:
 
 # More elements of a list than this are not shown one by one.
 _MOST_CELLS = 64
+# More bytes of a slot than this are not shown one by one.
+_MOST_DOTS = 8
 
 
 @dataclass(frozen=True, slots=True)
@@ -49,32 +51,53 @@ def pattern_strip(message: MessageLayout) -> list[Cell]:
     cells: list[Cell] = []
     for slot in message.slots:
         if isinstance(slot, Items):
-            cells += [_in_each(slot, field) for field in slot.fields]
+            cells += [_in_each(slot, each) for each in slot.slots]
         else:
-            cells.append(_pattern(message, slot))
+            cells.append(Cell(_place(slot), *_pattern(message, slot), slot.role))
     return cells
 
 
-def _pattern(message: MessageLayout, slot: Constant | Number) -> Cell:
+def _pattern(
+    message: MessageLayout, slot: Constant | Number | Text | Packed
+) -> tuple[str, str, str]:
+    """Return the bytes of a slot as far as they are known, its name, and its value or its type."""
     match slot:
         case Constant():
-            data, value = to_hex(slot.data), ""
+            return to_hex(slot.data), slot.name, "reserved" if slot.role == "reserved" else ""
         case Number(role="id"):
-            data, value = to_hex(slot.write(message.id)), str(message.id)
+            number = message.id_of(slot)
+            return to_hex(slot.write(number)), slot.name, str(number)
         case Number(role="length"):
             fixed = len(message.lengths) == 1
             data = to_hex(slot.write(message.lengths[0])) if fixed else _dots(slot.size)
-            value = str(message.formula)
+            return data, slot.name, str(message.formula)
         case _:
-            data, value = _dots(slot.size), slot.number_type.name
-    return Cell(_place(slot), data, slot.name, value, slot.role)
+            return _dots(slot.size), slot.name, _kind(slot)
 
 
-def _in_each(items: Items, field: Number) -> Cell:
-    offset = place_in_each(items, field.at)
-    return Cell(
-        offset, _dots(field.size), items.path("i", field), field.number_type.name, "repeated"
-    )
+def _kind(slot: Number | Text | Packed) -> str:
+    """Return what a slot holds: its type, or the method of a checksum."""
+    match slot:
+        case Number(role="checksum"):
+            return slot.method
+        case Number():
+            return (
+                f"{slot.number_type.name}, may be absent"
+                if slot.optional
+                else slot.number_type.name
+            )
+        case Packed():
+            return f"{slot.count} of {slot.number_type.name}"
+        case Text():
+            return "text"
+
+
+def _in_each(items: Items, slot: Number | Text | Constant) -> Cell:
+    path, offset = items.path("i", slot), place_in_each(items, slot.at)
+    if isinstance(slot, Constant):
+        value = "reserved" if slot.role == "reserved" else ""
+        return Cell(offset, to_hex(slot.data), path, value, "repeated")
+    return Cell(offset, _dots(slot.size), path, _kind(slot), "repeated")
 
 
 def place_in_each(items: Items, at: int = 0) -> str:
@@ -115,4 +138,6 @@ def given_strip(parts: Iterable[Placed], data: bytes) -> list[Cell]:
 
 
 def _dots(size: int) -> str:
+    if size > _MOST_DOTS:
+        return f"·· … ·· ({size} bytes)"
     return " ".join(["··"] * size)

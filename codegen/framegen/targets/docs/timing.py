@@ -69,7 +69,7 @@ def _trips(model: Model, request: MessageLayout) -> Iterator[RoundTrip]:
         size = request.size_at(count) + reply.size_at(answered)
         seconds = request.wire_seconds(size)
         what = _what(request, count)
-        if answered < count:
+        if request.items is not None and answered < count:
             what += f", {answered} of them answered"
         yield RoundTrip(
             request.name, reply.name, what, size, milliseconds(seconds), _trimmed(1 / seconds)
@@ -87,13 +87,17 @@ def _sizes(message: MessageLayout) -> list[int]:
     """Return the counts worth showing: the fewest, those of the examples, the most."""
     items = message.items
     if items is None:
-        return [0]
+        return [*message.counts]
     shown = [len(example.values[items.name]) for example in message.message.examples]
     return sorted({message.counts[0], *shown, message.counts[-1]})
 
 
 def _what(message: MessageLayout, count: int) -> str:
-    return "" if message.items is None else f"{pluralize(count, 'item')} in {message.items.name}"
+    if message.items is not None:
+        what = "character" if message.items.text else "item"
+        return f"{pluralize(count, what)} in {message.items.name}"
+    absent = [slot.name for slot in message.optional if slot not in message.there(count)]
+    return f"without {', '.join(absent)}" if absent else ""
 
 
 def _trimmed(number: float) -> str:

@@ -20,25 +20,47 @@ function cell(role, offset, bytes, name, value) {
 }
 
 // A value in its larger unit, exactly: 7500 steps of 0.001 V are 7.500 V.
-function scaled(value, { step, unit }) {
-  const [whole, fraction = ""] = step.split(".");
-  const steps = BigInt(value) * BigInt(whole + fraction);
-  const digits = String(steps < 0 ? -steps : steps).padStart(fraction.length + 1, "0");
-  const point = digits.length - fraction.length;
-  const text = fraction ? `${digits.slice(0, point)}.${digits.slice(point)}` : digits;
+function scaled(value, { step, unit, offset = "0" }) {
+  if (!Number.isInteger(value) && typeof value !== "bigint") {
+    return `${value * Number(step) + Number(offset)} ${unit}`;
+  }
+  const places = (text) => (text.split(".")[1] || "").length;
+  const digits = Math.max(places(step), places(offset));
+  const whole = (text) => BigInt(text.replace(".", "") + "0".repeat(digits - places(text)));
+  const steps = BigInt(value) * whole(step) + whole(offset);
+  const shown = String(steps < 0 ? -steps : steps).padStart(digits + 1, "0");
+  const point = shown.length - digits;
+  const text = digits ? `${shown.slice(0, point)}.${shown.slice(point)}` : shown;
   return `${steps < 0 ? "-" : ""}${text} ${unit}`;
 }
 
+// The named bits of a number that are set, those of several bits with their value.
+function setBits(value, bits = {}) {
+  return Object.entries(bits).flatMap(([name, [low, high]]) => {
+    const found = BigInt.asUintN(high - low + 1, BigInt(value) >> BigInt(low));
+    return found ? [low === high ? name : `${name} ${found}`] : [];
+  });
+}
+
 // A value as people say it: `7500 mV = 7.500 V`, `0 (unlimited)`.
-function inWords(value, { unit, scale, names }) {
+function inWords(value, { unit, scale, names, bits }) {
+  if (value === null) return "";
+  if (typeof value === "string") return `“${value}”`;
+  if (Array.isArray(value)) return value.join(" ");
   const larger = scale ? ` = ${scaled(value, scale)}` : "";
-  const name = Object.keys(names).find((key) => names[key] === value);
-  return `${value} ${unit}`.trimEnd() + larger + (name ? ` (${name})` : "");
+  const found = bits ? setBits(value, bits) : [];
+  const name = Object.keys(names).find((key) => BigInt(names[key]) === asWhole(value));
+  return `${value} ${unit}`.trimEnd() + larger + (found.length ? ` (${found.join(", ")})` : "")
+    + (name ? ` (${name})` : "");
+}
+
+function asWhole(value) {
+  return typeof value === "bigint" || Number.isInteger(value) ? BigInt(value) : null;
 }
 
 function strip(event) {
   return make("ol", { class: "strip" }, ...event.rows.map(({ path, at, slot, bytes, value }) =>
-    cell(slot.role, event.at + at, bytes, path, value === null ? "" : inWords(value, slot))));
+    cell(slot.role, event.at + at, bytes, path, inWords(value, slot))));
 }
 
 function shown(event) {
@@ -87,14 +109,30 @@ function summary(events, { message, reason, offset }) {
   return `Frames: ${frames}. Bytes of noise: ${noise}.${single}`;
 }
 
-// A list is typed as `1:800, 9:800`: items apart by commas, their fields by colons.
+// A number as it is typed, for a slot; NaN where the text is none.
+function numberOf(slot, text) {
+  const digits = text.trim();
+  if (slot.float) return /^[-+]?([0-9.]+(e[-+]?[0-9]+)?|Infinity)$/i.test(digits) ? Number(digits) : "";
+  if (!/^[-+]?(0x[0-9a-f]+|[0-9]+)$/i.test(digits)) return NaN;
+  return slot.wide && !/^[-+]0x/i.test(digits) ? BigInt(digits.replace("+", "")) : Number(digits);
+}
+
+// The slots of an element that have a value.
+const named = (list) => list.slots.filter((slot) => !("bytes" in slot));
+
+// A list is typed as `1:800, 9:800`: items apart by commas, their fields by colons. Text is typed as
+// it is, and what may be absent is, if nothing is typed.
 function valueOf(slot, text) {
-  const number = (digits) => (/^\s*[-+]?(0x[0-9a-f]+|[0-9]+)\s*$/i.test(digits) ? Number(digits) : NaN);
-  if (slot.role !== "list") return number(text);
-  return text.split(",").filter((item) => item.trim()).map((item) => {
-    const numbers = item.split(":").map(number);
-    if (slot.element === null) return numbers.length === 1 ? numbers[0] : NaN;
-    return Object.fromEntries(slot.fields.map((field, i) => [field.name, numbers[i]]));
+  if (slot.role === "text" || slot.text) return text;
+  if (slot.optional && !text.trim()) return null;
+  if (slot.role !== "list" && slot.role !== "packed") return numberOf(slot, text);
+  const items = text.split(",").filter((item) => item.trim());
+  if (slot.role === "packed") return items.map((item) => numberOf(slot, item));
+  const fields = named(slot);
+  return items.map((item) => {
+    const values = item.split(":").map((each, i) => (fields[i] ? valueOf(fields[i], each) : NaN));
+    if (slot.element === null) return values.length === 1 ? values[0] : NaN;
+    return Object.fromEntries(fields.map((field, i) => [field.name, values[i]]));
   });
 }
 
@@ -122,10 +160,10 @@ function encode() {
   }
 }
 
-// A list as it is typed, from values as the codec has them.
+// A value as it is typed, from one as the codec has it.
 function typed(value) {
-  if (!Array.isArray(value)) return String(value);
-  const item = (each) => (typeof each === "number" ? each : Object.values(each).join(":"));
+  if (!Array.isArray(value)) return value === null ? "" : String(value);
+  const item = (each) => (typeof each === "object" ? Object.values(each).join(":") : each);
   return value.map(item).join(", ");
 }
 
@@ -141,8 +179,14 @@ function offer() {
 
 // Which values a field takes.
 function hint(slot, counts) {
-  if (slot.role !== "list") return `${slot.low}..${slot.high} ${slot.unit}`.trimEnd();
-  return `${counts.low}..${counts.high} of ${slot.fields.map(({ name }) => name).join(":")}, apart by commas`;
+  if (slot.role === "text") return `up to ${slot.size} characters`;
+  const absent = slot.optional ? ", or nothing" : "";
+  const bounds = slot.float ? "a number" : `${slot.low}..${slot.high}`;
+  if (slot.role === "packed") return `${slot.count} of ${bounds}, apart by commas`;
+  if (slot.role !== "list") return `${bounds} ${slot.unit}`.trimEnd() + absent;
+  const many = slot.count ?? `${counts.low}..${counts.high}`;
+  if (slot.text) return `${many} characters`;
+  return `${many} of ${named(slot).map(({ name }) => name).join(":")}, apart by commas`;
 }
 
 // The direction that an address asks for: by its key, or by its sender where that sends one way.

@@ -1,0 +1,41 @@
+"""How a checksum comes about, byte by byte, in a line."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from framegen.language.values import to_hex
+from framegen.model.checksums import CHECKSUMS, Sum, Xor
+
+if TYPE_CHECKING:
+    from framegen.model.checksums import Checksum
+
+# Of more bytes, only the checksum is shown.
+_MOST = 12
+
+
+def worked_out(name: str, size: int, data: bytes) -> str:
+    """Work out a checksum of so many bytes: `01 + 03 + 1C = 20, inverted DF`."""
+    method = CHECKSUMS[name]
+    value = f"{method.of(data, 8 * size):0{2 * size}X}"
+    if len(data) > _MOST:
+        return f"the {name} of {len(data)} bytes is {value}"
+    match method:
+        case Sum():
+            return _added_up(method, size, data, value)
+        case Xor() if not method.xor_out:
+            return f"{to_hex(data).replace(' ', ' xor ')} = {value}"
+        case _:
+            # After the first byte, after two of them, and so on.
+            each = (method.of(data[: end + 1], 8 * size) for end in range(len(data)))
+            values = ", ".join(f"{number:0{2 * size}X}" for number in each)
+            return f"the {name} of {to_hex(data)} is, from byte to byte, {values}"
+
+
+def _added_up(method: Checksum, size: int, data: bytes, value: str) -> str:
+    total = f"{sum(data):0{2 * size}X}"
+    text = f"{to_hex(data).replace(' ', ' + ')} = {total}"
+    if total != total[-2 * size :]:
+        text += f", of which {total[-2 * size :]}"
+    how = method.name.removesuffix("sum").strip()
+    return f"{text}, {how} {value}" if how else text
