@@ -5,7 +5,6 @@ from __future__ import annotations
 from functools import cache
 from typing import TYPE_CHECKING
 
-from framegen.cases.sealed import sealed
 from framegen.cases.sender import LONGEST, Sender
 from framegen.cases.streams import senders_of
 from hypothesis import strategies as st
@@ -41,7 +40,7 @@ def _pieces(sender: Sender) -> st.SearchStrategy[bytes]:
 
     def right(data: bytes) -> bytes:
         """Give damaged bytes the checksums of a frame, where they are enough for one."""
-        return data if len(data) < frame.least else sealed(frame, sender.known_ids, data)
+        return data if len(data) < frame.least else frame.sealed(data, sender.known_ids)
 
     nested = st.recursive(alike | frames | st.binary(max_size=3), unknown, max_leaves=6)
     damaged = frames.flatmap(_damaged)

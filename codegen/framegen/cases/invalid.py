@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from itertools import islice
 from typing import TYPE_CHECKING
 
-from framegen.cases.sealed import sealed
 from framegen.cases.unknown_id import unknown_id
-from framegen.cases.valid import range_ends
-from framegen.model.codec import encode
+from framegen.cases.valid import frames_of
 from framegen.model.slots import Constant, Number, Packed, Text
 from framegen.model.verdict import weigh_whole
 
@@ -58,7 +57,7 @@ def _frames(message: MessageLayout) -> Iterator[bytes]:
     examples = message.message.examples
     yield from (example.hex for example in examples)
     if not examples:
-        yield from (encode(message, values) for _, values in [*range_ends(message)][:1])
+        yield from (frame.data for frame in islice(frames_of(message), 1))
 
 
 def spoilt(model: Model, message: MessageLayout, frame: bytes) -> Iterator[tuple[str, bytes]]:
@@ -77,7 +76,7 @@ def spoilt(model: Model, message: MessageLayout, frame: bytes) -> Iterator[tuple
             if placed.at >= envelope.body_at and placed.end < len(frame):
                 yield f"{title}, and nothing behind it", wrong
             if envelope.checksums and placed.slot.role != "checksum":
-                right = resealed(message, wrong + frame[placed.end :])
+                right = message.sealed(wrong + frame[placed.end :])
                 yield f"{title}, and the checksum of that", right
     if envelope.checksums:
         yield from _changed(message, frame)
@@ -94,12 +93,6 @@ def _changed(message: MessageLayout, frame: bytes) -> Iterator[tuple[str, bytes]
             other = data[:at] + bytes([data[at] ^ 1]) + data[at + 1 :]
             wrong = frame[: placed.at] + other + frame[placed.end :]
             yield f"{placed.path} with a bit flipped", wrong
-
-
-def resealed(message: MessageLayout, frame: bytes) -> bytes:
-    """Return a whole frame that was changed with the checksums that it should have."""
-    ids = zip(message.frame.ids, message.ids, strict=True)
-    return sealed(message.frame, {part.name: number for part, number in ids}, frame)
 
 
 def slots_once(message: MessageLayout, frame: bytes) -> Iterator[Placed]:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from framegen.cases.invalid import resealed, slots_once, spoilt_slot
+from framegen.cases.invalid import slots_once, spoilt_slot
 from framegen.cases.stream_case import QUIET, StreamCase, single_bytes
 
 if TYPE_CHECKING:
@@ -38,7 +38,7 @@ def _lines(sender: Sender, message: MessageLayout, frame: bytes) -> Iterator[tup
             yield f"cut behind {placed.path}, then whole", (frame[: placed.end] + frame, QUIET)
         if placed.slot.role == "reserved":
             other = bytes(byte ^ 0xFF for byte in placed.of(frame))
-            data = resealed(message, frame[: placed.at] + other + frame[placed.end :])
+            data = message.sealed(frame[: placed.at] + other + frame[placed.end :])
             yield f"with another {placed.path}, then as usual", (data + frame, QUIET)
         if _is_own(message, placed):
             yield from _spoilt(sender, message, frame, placed)
@@ -52,7 +52,7 @@ def _spoilt(
         wrong = frame[: placed.at] + data + frame[placed.end :]
         yield f"{title}, then whole", (wrong + frame, QUIET)
         if proven:
-            right = resealed(message, wrong)
+            right = message.sealed(wrong)
             yield f"{title} and the checksum of that, then whole", (right + frame, QUIET)
 
 

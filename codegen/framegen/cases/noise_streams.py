@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from framegen.cases.invalid import resealed, slots_once, spoilt_slot
+from framegen.cases.invalid import slots_once, spoilt_slot
 from framegen.cases.stream_case import QUIET, StreamCase, chunks, single_bytes
 
 if TYPE_CHECKING:
@@ -93,7 +93,7 @@ def _addresses(sender: Sender, frame: bytes) -> Iterator[tuple[str, Parts]]:
         if placed.slot.role == "address":
             for title, data in spoilt_slot(sender.model, message, placed, placed.of(frame)):
                 wrong = frame[: placed.at] + data + frame[placed.end :]
-                yield f"{title} in {name}, then a frame", (resealed(message, wrong) + frame, QUIET)
+                yield f"{title} in {name}, then a frame", (message.sealed(wrong) + frame, QUIET)
 
 
 def _together(frames: list[bytes]) -> Iterator[tuple[str, Parts]]:

@@ -6,7 +6,6 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING
 
-from framegen.cases.sealed import sealed
 from framegen.cases.unknown_id import unknown_id
 from framegen.cases.valid import frames_of, values_at
 from framegen.model.codec import encode
@@ -111,7 +110,7 @@ class Sender:
                     data += body
         if size is not None and size > true:
             return data[: len(data) - envelope.tail_size]
-        return sealed(envelope, dict(ids), data)
+        return envelope.sealed(data, ids)
 
     @cached_property
     def known_ids(self) -> dict[str, int]:

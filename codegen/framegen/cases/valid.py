@@ -46,13 +46,15 @@ def valid_frames(model: Model) -> Iterator[ValidFrame]:
 
 
 def frames_of(message: MessageLayout) -> Iterator[ValidFrame]:
-    """Yield the examples of one message, then the ends of its ranges."""
+    """Yield the examples of one message, then the ends of its ranges; at least one frame."""
     counter = message.frame.counter
     usual = {} if counter is None else {counter.name: 0}
     for example in message.message.examples:
         yield ValidFrame(example.title, message, usual | example.values)
     for title, values in range_ends(message):
         yield ValidFrame(title, message, values)
+    if not message.arguments and not message.message.examples:
+        yield ValidFrame("the only frame", message, {})
 
 
 def range_ends(message: MessageLayout) -> Iterator[tuple[str, dict[str, Any]]]:

@@ -99,18 +99,12 @@ def encode(message: MessageLayout, values: Mapping[str, Any], like: bytes | None
     """
     count, numbers = _numbers(message, values)
     frame = bytearray(message.size_at(count))
-    checksums: list[Placed] = []
     for placed in message.lay_out(count):
-        if placed.slot.role == "checksum":
-            checksums.append(placed)
-        elif placed.slot.role == "reserved" and like is not None:
+        if placed.slot.role == "reserved" and like is not None:
             frame[placed.at : placed.end] = placed.of(like)
-        else:
+        elif placed.slot.role != "checksum":
             frame[placed.at : placed.end] = _written(message, placed, count, numbers)
-    for placed in checksums:
-        if isinstance(placed.slot, Number):
-            frame[placed.at : placed.end] = message.checksum(placed.slot, bytes(frame))
-    return bytes(frame)
+    return message.sealed(bytes(frame))
 
 
 def _written(

@@ -112,8 +112,14 @@ class Envelope:
 
     @cached_property
     def checksums(self) -> tuple[Number, ...]:
-        """The numbers worked out from other parts."""
-        return tuple(self._of_role("checksum"))
+        """The numbers worked out from other parts, in turn: one that another covers comes first."""
+        left, found = [*self._of_role("checksum")], list[Number]()
+        while left:
+            names = {each.name for each in left}
+            free = (each for each in left if not names & {*each.of} - {each.name})
+            found.append(next(free, left[0]))
+            left.remove(found[-1])
+        return tuple(found)
 
     @property
     def proven(self) -> bool:
@@ -201,6 +207,14 @@ class Envelope:
                     end = -self.tail_size if isinstance(slot, Body) else slot.at + slot.size
                     found = found.then((slot.at, end or None))
         return found
+
+    def sealed(self, data: bytes, ids: Mapping[str, int]) -> bytes:
+        """Return a whole frame with these ids by part, with the checksums that it should have."""
+        for checksum in self.checksums:
+            at = checksum.at if checksum.at >= 0 else len(data) + checksum.at
+            right = self.covered(checksum, ids).checksum(checksum, data)
+            data = data[:at] + right + data[at + checksum.size :]
+        return data
 
     def lay_out(self, size: int) -> Iterator[Placed]:
         """Place the slots of a frame of `size` bytes; its fields are one piece."""

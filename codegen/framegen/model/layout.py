@@ -125,8 +125,16 @@ class MessageLayout:
 
     def covered(self, checksum: Number) -> Covered:
         """Return what a checksum is worked out from."""
-        ids = zip(self.frame.ids, self.ids, strict=True)
-        return self.frame.covered(checksum, {part.name: number for part, number in ids})
+        return self.frame.covered(checksum, self.ids_by_part)
+
+    @property
+    def ids_by_part(self) -> dict[str, int]:
+        """The ids of the message, by the name of their part."""
+        return dict(zip((part.name for part in self.frame.ids), self.ids, strict=True))
+
+    def sealed(self, frame: bytes) -> bytes:
+        """Return a whole frame of the message with the checksums that it should have."""
+        return self.frame.sealed(frame, self.ids_by_part)
 
     def checksum(self, checksum: Number, frame: bytes) -> bytes:
         """Return the checksum that a whole frame of the message should have, as bytes."""

@@ -1,0 +1,417 @@
+"""A second reading of the spec language, by brute force, from the text of a spec alone.
+
+The reference codec derives what stands where, solves length rules and refuses early. This does
+none of that: it tries every message with every number of elements, cuts a frame into pieces, and
+looks whether all of them are right. It shares nothing with the model but the catalogue of
+checksums, which is held to others elsewhere.
+"""
+
+from __future__ import annotations
+
+import struct
+from dataclasses import dataclass
+from itertools import accumulate
+from typing import TYPE_CHECKING, Any, TypeAlias
+
+from framegen.model.checksums import CHECKSUMS
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator, Mapping, Sequence
+
+Data: TypeAlias = dict[str, Any]
+Values: TypeAlias = dict[str, Any]
+Event: TypeAlias = "tuple[str, bytes]"
+
+
+@dataclass(frozen=True)
+class Cell:
+    """Some bytes of a frame: which part or field they are, of which element, and in which part."""
+
+    part: str
+    field: Data
+    size: int
+    name: str = ""
+    index: int | None = None
+    element: str = ""
+
+
+class Reader:
+    """Reads and writes the frames of a spec, given as plain data."""
+
+    def __init__(self, spec: Data) -> None:
+        self.spec = spec
+        self.frames: dict[str, Data] = spec.get("frames") or {"frame": spec["frame"]}
+
+    # ------------------------------------------------------------------ whole frames
+
+    def read(self, name: str, frame: bytes) -> Values | None:
+        """Return the values of a whole frame of this message; None if it is none."""
+        found = [
+            values
+            for cells in self._shapes(name, len(frame))
+            if (values := self._values(name, cells, frame)) is not None
+        ]
+        assert len(found) <= 1, "a frame can be read in one way"
+        return found[0] if found else None
+
+    def names(self, directions: Sequence[str]) -> list[str]:
+        """Return the messages of some directions: those of a kind of frame together, in order."""
+        messages = self.spec["messages"]
+        return [
+            name
+            for kind in self.frames
+            for way in directions
+            for name, message in messages.items()
+            if message["direction"] == way and self._kind(message) == kind
+        ]
+
+    def _kind(self, message: Data) -> str:
+        return str(message.get("frame", next(iter(self.frames))))
+
+    def _shapes(self, name: str, size: int) -> Iterator[list[Cell]]:
+        """Yield the cells of frames of `size` bytes: for each number of elements, or of fields."""
+        message = self.spec["messages"][name]
+        fields: Data = message.get("fields", {})
+        optional = [key for key, field in fields.items() if field.get("optional")]
+        varying = [key for key, field in fields.items() if _varies(field)]
+        for number in range(size + 1) if varying else range(len(optional) + 1):
+            absent = set(optional[number:]) if not varying else set()
+            body = [
+                cell
+                for key, field in fields.items()
+                if key not in absent
+                for cell in self._field(key, field, number)
+            ]
+            cells: list[Cell] = []
+            for part, what in self.frames[self._kind(message)].items():
+                if what["is"] == "body":
+                    cells += [Cell(part, *rest) for rest in body]
+                elif what.get("sent", True):
+                    cells.append(Cell(part, what, _part_size(what)))
+            if sum(cell.size for cell in cells) != size:
+                continue
+            if varying and not self._may_have(fields[varying[0]], number):
+                continue
+            if isinstance(message["length"], list) and not self._listed(message, cells):
+                continue
+            yield cells
+
+    def _may_have(self, field: Data, number: int) -> bool:
+        low, _, high = str(field.get("count", "0..")).partition("..")
+        return int(low) <= number and (not high or number <= int(high))
+
+    def _listed(self, message: Data, cells: Sequence[Cell]) -> bool:
+        return self._length(message, cells) in message["length"]
+
+    def _length(self, message: Data, cells: Sequence[Cell]) -> int:
+        """Return the number of bytes that the length counts; of all, where there is none."""
+        parts = self.frames[self._kind(message)]
+        counted = next((part["counts"] for part in parts.values() if part["is"] == "length"), None)
+        return sum(cell.size for cell in cells if counted is None or cell.part in counted)
+
+    def _field(self, key: str, field: Data, number: int) -> Iterator[tuple[Any, ...]]:
+        """Yield the cells of a field, without their part."""
+        times: int | None = None
+        if _varies(field):
+            times = number
+        elif "count" in field:
+            times = int(field["count"])
+        if "element" in field:
+            for index in range(times or 0):
+                for inner, each in field["fields"].items():
+                    yield each, _size(each) * int(each.get("count", 1)), inner, index, key
+            return
+        single = {"always", "reserved", "text"} & field.keys() and not _varies(field)
+        if times is None or single or _bits(field) % 8:
+            yield field, _bits(field) * (times or 1) // 8, key
+            return
+        for index in range(times):
+            yield field, _size(field), "", index, key
+
+    def _values(self, name: str, cells: Sequence[Cell], frame: bytes) -> Values | None:
+        """Return the values of a frame that is cut into these cells; None if one is wrong."""
+        message = self.spec["messages"][name]
+        parts = self.frames[self._kind(message)]
+        ends = list(accumulate(cell.size for cell in cells))
+        data = [frame[end - cell.size : end] for cell, end in zip(cells, ends, strict=True)]
+        by_part: dict[str, bytes] = dict.fromkeys(parts, b"")
+        for cell, piece in zip(cells, data, strict=True):
+            by_part[cell.part] += piece
+        for part, what in parts.items():
+            if not self._part_holds(message, part, what, by_part):
+                return None
+        values: Values = {
+            key: None if field.get("optional") else []
+            for key, field in message.get("fields", {}).items()
+        }
+        for part, what in parts.items():
+            if what["is"] in ("address", "counter"):
+                values[part] = int.from_bytes(by_part[part], self._order(what))
+        for cell, piece in zip(cells, data, strict=True):
+            if parts[cell.part]["is"] == "body" and not self._take(cell, piece, values):
+                return None
+        return self._derived(message, values)
+
+    def _part_holds(self, message: Data, part: str, what: Data, by_part: dict[str, bytes]) -> bool:
+        piece, order = by_part[part], self._order(what)
+        match what["is"]:
+            case "constant":
+                return piece == bytes.fromhex(what["bytes"])
+            case "length":
+                counted = sum(len(by_part[each]) for each in what["counts"])
+                return int.from_bytes(piece, order) == counted
+            case "id":
+                return not what.get("sent", True) or piece == self._id(message, part)
+            case "address":
+                return self._is_address(what, int.from_bytes(piece, order))
+            case "checksum":
+                return piece == self._checksum(what, self._with_ids(message, by_part))
+        return True
+
+    def _with_ids(self, message: Data, by_part: dict[str, bytes]) -> dict[str, bytes]:
+        parts = self.frames[self._kind(message)]
+        hidden = [part for part, what in parts.items() if not what.get("sent", True)]
+        return by_part | {part: self._id(message, part) for part in hidden}
+
+    def _checksum(self, what: Data, by_part: dict[str, bytes]) -> bytes:
+        size = _part_size(what)
+        covered = b"".join(by_part[each] for each in what["covers"])
+        return CHECKSUMS[what["method"]].of(covered, 8 * size).to_bytes(size, self._order(what))
+
+    def _id(self, message: Data, part: str) -> bytes:
+        what = self.frames[self._kind(message)][part]
+        number = message["id"][part] if isinstance(message["id"], dict) else message["id"]
+        return int(number).to_bytes(_part_size(what), self._order(what))
+
+    @staticmethod
+    def _is_address(what: Data, number: int) -> bool:
+        named = [each["value"] for each in what.get("values", {}).values()]
+        low, _, high = str(what.get("range", "0..")).partition("..")
+        return number in named or (int(low) <= number <= int(high or number))
+
+    def _order(self, what: Data) -> Any:
+        return what.get("byte_order", self.spec["byte_order"])
+
+    # ------------------------------------------------------------------ fields
+
+    def _take(self, cell: Cell, piece: bytes, values: Values) -> bool:
+        """Put the value of a cell where it belongs; tell whether it is one."""
+        field = cell.field
+        if "always" in field:
+            return piece == self._number(field, field["always"]) * int(field.get("count", 1))
+        if "reserved" in field:
+            return True
+        value = self._value(field, cell, piece)
+        if value is None:
+            return False
+        if cell.index is None:
+            values[cell.name] = value
+            return True
+        items = values[cell.element]
+        if not cell.name:
+            items.append(value)
+            return True
+        if len(items) == cell.index:
+            items.append({})
+        items[cell.index][cell.name] = value
+        return True
+
+    def _value(self, field: Data, cell: Cell, piece: bytes) -> Any:
+        if (field.get("text") and cell.index is None) or (cell.name and field.get("text")):
+            text = piece.decode("latin-1").rstrip("\0")
+            return text if text.isascii() else None
+        if field.get("text"):
+            return piece[0] if piece[0] < 0x80 else None
+        bits = _bits(field)
+        if bits % 8:
+            numbers = self._unpacked(field, bits, piece)
+            return numbers if all(_in_range(field, each) for each in numbers) else None
+        order = self._order(field)
+        if field["type"][0] == "f":
+            letter = {4: "f", 8: "d"}[len(piece)]
+            return struct.unpack(("<" if order == "little" else ">") + letter, piece)[0]
+        number = int.from_bytes(piece, order, signed=field["type"][0] == "i")
+        return number if _in_range(field, number) else None
+
+    def _unpacked(self, field: Data, bits: int, piece: bytes) -> list[int]:
+        """Read packed numbers from a string of bits, the lowest first, or the highest."""
+        if self._order(field) == "little":
+            line = "".join(f"{byte:08b}"[::-1] for byte in piece)
+            return [int(line[at : at + bits][::-1], 2) for at in range(0, len(line), bits)]
+        line = "".join(f"{byte:08b}" for byte in piece)
+        return [int(line[at : at + bits], 2) for at in range(0, len(line), bits)]
+
+    def _number(self, field: Data, value: float) -> bytes:
+        order = self._order(field)
+        if field["type"][0] == "f":
+            letter = {32: "f", 64: "d"}[_bits(field)]
+            return struct.pack(("<" if order == "little" else ">") + letter, value)
+        return int(value).to_bytes(_size(field), order, signed=field["type"][0] == "i")
+
+    def _derived(self, message: Data, values: Values) -> Values | None:
+        """Leave out what is no value of its own; None where counts or sizes are wrong."""
+        fields: Data = message.get("fields", {})
+        for key, field in fields.items():
+            if "always" in field or "reserved" in field:
+                del values[key]
+        for key, field in fields.items():
+            if not _varies(field):
+                continue
+            number = len(values[key])
+            if isinstance(field.get("text"), str):
+                values[key] = bytes(values[key]).decode("ascii")
+            size = _element_size(field)
+            due = {"counted_by": number, "sized_by": number * size}
+            for how, right in due.items():
+                counter = field.get(how)
+                if counter in fields and values.pop(counter, right) != right:
+                    return None
+        return values
+
+    # ------------------------------------------------------------------ streams
+
+    def scan(self, directions: Sequence[str], data: bytes) -> list[Event]:
+        """Read a line that has gone quiet: messages, unknown frames that are proven, and noise.
+
+        At each byte, the first message that is legal there, in the order of the spec; else a frame
+        of an unknown id with the right checksum; else the byte is noise.
+        """
+        events: list[Event] = []
+        names, largest = self.names(directions), self.largest(directions)
+        at = 0
+        while at < len(data):
+            found = self._begins(directions, names, largest, data[at:])
+            kind, size = found or ("noise", 1)
+            piece = data[at : at + size]
+            if kind == "noise" and events and events[-1][0] == "noise":
+                events[-1] = ("noise", events[-1][1] + piece)
+            else:
+                events.append((kind, piece))
+            at += size
+        return events
+
+    def _begins(
+        self, directions: Sequence[str], names: Sequence[str], largest: int, data: bytes
+    ) -> tuple[str, int] | None:
+        for name in names:
+            for size in range(1, len(data) + 1):
+                if self.read(name, data[:size]) is not None:
+                    return name, size
+        for kind in self.frames:
+            for size in range(1, min(len(data), largest) + 1):
+                if self._is_unknown(kind, directions, data[:size]):
+                    return "unknown", size
+        return None
+
+    def largest(self, directions: Sequence[str]) -> int:
+        """Return the size of the largest frame of these directions."""
+        return max((self._largest(name) for name in self.names(directions)), default=0)
+
+    def _largest(self, name: str) -> int:
+        message = self.spec["messages"][name]
+        parts, fields = self.frames[self._kind(message)], message.get("fields", {})
+        fixed: int = sum(_part_size(part) for part in parts.values() if part["is"] != "body")
+        fixed -= sum(_part_size(part) for part in parts.values() if not part.get("sent", True))
+        shapes = [
+            sum(
+                cell[1] for key, field in fields.items() for cell in self._field(key, field, number)
+            )
+            for number in range(3)
+        ]
+        if not any(map(_varies, fields.values())):
+            if isinstance(message["length"], list):
+                return fixed + max(self._bodies(message))
+            return int(fixed + shapes[0])
+        field, *_ = (field for field in fields.values() if _varies(field))
+        step = shapes[1] - shapes[0]
+        length = next((part for part in parts.values() if part["is"] == "length"), None)
+        most = 0xFFFF
+        if length is not None:
+            counted = [_part_size(parts[each]) for each in length["counts"]]
+            uncounted = fixed - sum(counted)
+            most = (1 << 8 * _part_size(length)) - 1 + uncounted
+        number: int = (most - fixed - shapes[0]) // step
+        high = str(field.get("count", "0..")).partition("..")[2]
+        number = min(number, int(high)) if high else number
+        for how, unit in (("counted_by", 1), ("sized_by", step)):
+            counter = fields.get(field.get(how))
+            if counter is not None:
+                number = min(number, ((1 << _bits(counter)) - 1) // unit)
+        return int(fixed + shapes[0] + number * step)
+
+    def _bodies(self, message: Data) -> Iterator[int]:
+        """Yield the sizes of the body that the lengths of a message leave."""
+        parts = self.frames[self._kind(message)]
+        (length,) = (part for part in parts.values() if part["is"] == "length")
+        counted = sum(_part_size(parts[each]) for each in length["counts"])
+        for each in message["length"]:
+            yield each - counted
+
+    def _is_unknown(self, kind: str, directions: Sequence[str], frame: bytes) -> bool:
+        parts: Data = self.frames[kind]
+        messages = [
+            message
+            for message in self.spec["messages"].values()
+            if message["direction"] in directions and self._kind(message) == kind
+        ]
+        roles = [what["is"] for what in parts.values()]
+        proven = "checksum" in roles and "length" in roles and "id" in roles
+        if not messages or not proven or not all(what.get("sent", True) for what in parts.values()):
+            return False
+        body = len(frame) - sum(map(_part_size, parts.values()))
+        if body < 0:
+            return False
+        by_part, at = {}, 0
+        for part, what in parts.items():
+            size = body if what["is"] == "body" else _part_size(what)
+            by_part[part] = frame[at : at + size]
+            at += size
+        ids = [part for part, what in parts.items() if what["is"] == "id"]
+        known = any(
+            all(by_part[part] == self._id(message, part) for part in ids) for message in messages
+        )
+        return (
+            not known
+            and all(
+                self._part_holds({}, part, what, by_part)
+                for part, what in parts.items()
+                if what["is"] not in ("id", "checksum")
+            )
+            and all(
+                by_part[part] == self._checksum(what, by_part)
+                for part, what in parts.items()
+                if what["is"] == "checksum"
+            )
+        )
+
+
+def _varies(field: Data) -> bool:
+    return "counted_by" in field or "sized_by" in field
+
+
+def _element_size(field: Data) -> int:
+    """Return the size of one element of a list."""
+    if "element" not in field:
+        return _size(field)
+    return sum(_size(each) * int(each.get("count", 1)) for each in field["fields"].values())
+
+
+def _bits(field: Data) -> int:
+    return int(field["type"][1:])
+
+
+def _size(field: Data) -> int:
+    return _bits(field) // 8
+
+
+def _part_size(part: Data) -> int:
+    if part["is"] == "body":
+        return 0
+    return len(bytes.fromhex(part["bytes"])) if "bytes" in part else _bits(part) // 8
+
+
+def _in_range(field: Mapping[str, Any], number: int) -> bool:
+    if "range" not in field:
+        return True
+    low, _, high = str(field["range"]).partition("..")
+    return int(low) <= number and (not high or number <= int(high))
