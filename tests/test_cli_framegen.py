@@ -21,6 +21,7 @@ from framegen.render import render, render_shared
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from tests.bad_specs import bad_spec
 from tests.factories import BUSSERVO, DEMO, compiled_of, data_of
 from tests.timeouts import GENEROUS
 
@@ -41,7 +42,7 @@ def misspelt(tmp_path: Path) -> Path:
     """Return a spec with one type that does not exist, on a known line."""
     file = tmp_path / "misspelt.yaml"
     text = SPEC.read_text(encoding="utf-8")
-    file.write_text(text.replace("type: u16\n", "type: u17\n", 1), encoding="utf-8")
+    file.write_text(text.replace("type: u16\n", "type: v16\n", 1), encoding="utf-8")
     return file
 
 
@@ -184,10 +185,10 @@ def test_check_says_what_it_looked_at(capsys: Capture) -> None:
 def test_check_shows_a_finding_at_its_place(misspelt: Path, capsys: Capture) -> None:
     assert main(["check", str(misspelt)]) == 1
     printed = capsys.readouterr()
-    line = line_of(misspelt, "u17")
+    line = line_of(misspelt, "v16")
     assert printed.out == (
-        f"{misspelt.as_posix()}:{line}:15: unknown-type: unknown type `u17`\n"
-        f"{line} |         type: u17\n"
+        f"{misspelt.as_posix()}:{line}:15: unknown-type: unknown type `v16`\n"
+        f"{line} |         type: v16\n"
         f"{' ' * len(str(line))} |               ^^^\n"
         f"{' ' * len(str(line))} = at: messages.ServoMove.fields.time_ms.type\n"
         f"{' ' * len(str(line))} = hint: did you mean `u16`?\n\n"
@@ -199,15 +200,59 @@ def test_check_gives_findings_as_lines_of_json(misspelt: Path, capsys: Capture) 
     assert main(["check", "--json", str(misspelt)]) == 1
     assert [json.loads(line) for line in capsys.readouterr().out.splitlines()] == [
         {
+            "severity": "error",
             "rule": "unknown-type",
             "file": misspelt.as_posix(),
-            "line": line_of(misspelt, "u17"),
+            "line": line_of(misspelt, "v16"),
             "column": 15,
             "path": "messages.ServoMove.fields.time_ms.type",
-            "message": "unknown type `u17`",
+            "message": "unknown type `v16`",
             "hint": "did you mean `u16`?",
         }
     ]
+
+
+SLOW = "bytes that only look like the beginning of Note can hold back 51 bytes behind them"
+
+
+def remarked(tmp_path: Path) -> Path:
+    """Return a spec without findings, of which there is a remark."""
+    file = tmp_path / "slow.yaml"
+    text = bad_spec("long-wait-of-text").source.text
+    file.write_text(text, encoding="utf-8")
+    return file
+
+
+def test_check_shows_remarks_that_are_no_findings(tmp_path: Path, capsys: Capture) -> None:
+    file = remarked(tmp_path)
+    assert main(["check", str(file)]) == 0
+    printed = capsys.readouterr()
+    place = f"{file.as_posix()}:{line_of(file, 'words:')}:7"
+    assert printed.out == ""
+    assert printed.err.splitlines() == [
+        f"{place}: note: long-wait: {SLOW}, 1.7 s at 300 baud",
+        "  = hint: if there are never so many, bound them, such as by `count: 0..19`",
+        f"{file.as_posix()}: 5 messages, 5 examples, 0 errata checked: nothing found",
+    ]
+
+
+def test_check_gives_remarks_as_lines_of_json(tmp_path: Path, capsys: Capture) -> None:
+    assert main(["check", "--json", str(remarked(tmp_path))]) == 0
+    [line] = map(json.loads, capsys.readouterr().out.splitlines())
+    assert (line["severity"], line["rule"]) == ("note", "long-wait")
+
+
+def test_check_shows_few_remarks_of_one_rule(tmp_path: Path, capsys: Capture) -> None:
+    text = bad_spec("unshown-value-name").source.text
+    values = ", ".join(f"lit_{value}: {{value: {value}, about: Lit.}}" for value in range(1, 6))
+    file = tmp_path / "many.yaml"
+    file.write_text(text.replace("values: {dark", f"values: {{{values}, dark"), encoding="utf-8")
+    assert main(["check", str(file)]) == 0
+    lines = capsys.readouterr().err.splitlines()
+    assert sum(": note: unshown-value: " in line for line in lines) == 3
+    assert lines[-2] == (
+        "  = and 3 more of `unshown-value`: `framegen check --json` lists them all"
+    )
 
 
 def test_check_says_when_it_did_not_get_past_the_shape(tmp_path: Path, capsys: Capture) -> None:
@@ -254,7 +299,7 @@ def test_a_spec_with_findings_explains_nothing(misspelt: Path, capsys: Capture) 
     lines = capsys.readouterr().err.splitlines()
     name = misspelt.as_posix()
     assert lines[0] == f"framegen: error: {name} has 1 finding; the first is"
-    assert lines[1].endswith("unknown-type: unknown type `u17`")
+    assert lines[1].endswith("unknown-type: unknown type `v16`")
     assert lines[-1] == f"  hint: `framegen check {name}` shows them all"
 
 
@@ -275,7 +320,7 @@ def test_a_rule_says_why_and_shows_both_sides(capsys: Capture) -> None:
         "A type that does not exist has no size, so no later field would have a place.\n"
         "\n"
         "refused:\n"
-        "  time_ms: {type: u17}\n"
+        "  time_ms: {type: v16}\n"
         "\n"
         "accepted:\n"
         "  time_ms: {type: u16}\n"

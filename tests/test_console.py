@@ -288,9 +288,9 @@ def _hostile_files(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     (tmp_path / "pose.json").write_text(pose, encoding="utf-8")
     spec = (ROOT / "spec" / "busservo.yaml").read_text(encoding="utf-8")
     for name, value in {
-        f"{HOSTILE}.yaml": "u17",
-        "raw.yaml": '"u17\x1b[2J"',
-        "escaped.yaml": r'"u17\e[2J\x9b31m\u202e\n"',
+        f"{HOSTILE}.yaml": "v16",
+        "raw.yaml": '"v16\x1b[2J"',
+        "escaped.yaml": r'"v16\e[2J\x9b31m\u202e\n"',
     }.items():
         text = spec.replace("type: u16", f"type: {value}", 1)
         try:

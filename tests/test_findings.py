@@ -23,8 +23,8 @@ def test_a_finding_is_shown_with_its_line_and_a_caret() -> None:
     bad = bad_spec("unknown-type")
     [finding] = compile_spec(bad.source).findings
     assert finding.render(bad.source) == (
-        "unknown-type.yaml:58:21: unknown-type: unknown type `u17`\n"
-        "58 |       level: {type: u17, about: How bright.}\n"
+        "unknown-type.yaml:58:21: unknown-type: unknown type `v16`\n"
+        "58 |       level: {type: v16, about: How bright.}\n"
         "   |                     ^^^\n"
         "   = at: messages.LampState.fields.level.type\n"
         "   = hint: did you mean `u16`?"
@@ -35,7 +35,7 @@ def test_a_finding_in_two_places_is_shown_with_both() -> None:
     bad = bad_spec("duplicate-id")
     [finding] = compile_spec(bad.source).findings
     assert finding.render(bad.source) == (
-        "duplicate-id.yaml:41:9: duplicate-id: LampsSet and LampRead are both 7, host -> lamp\n"
+        "duplicate-id.yaml:41:9: duplicate-id: LampsSet and LampRead are both 7, host -> lamp, and both can have 7 bytes\n"
         "41 |     id: 7\n"
         "   |         ^\n"
         "   = LampsSet has it first, at duplicate-id.yaml:20:5\n"
@@ -139,13 +139,13 @@ def test_only_what_is_shown_is_searched_for_what_it_was_to_be(
 @pytest.mark.parametrize(
     ("line", "column", "length", "shown", "carets"),
     [
-        ("a: u17", 4, 3, "a: u17", "   ^^^"),
-        ("\ta: u17", 5, 3, " a: u17", "    ^^^"),
-        ("a\u200b: u17", 5, 3, "a\N{REPLACEMENT CHARACTER}: u17", "    ^^^"),
-        ("a: u17   ", 4, 3, "a: u17", "   ^^^"),
+        ("a: v16", 4, 3, "a: v16", "   ^^^"),
+        ("\ta: v16", 5, 3, " a: v16", "    ^^^"),
+        ("a\u200b: v16", 5, 3, "a\N{REPLACEMENT CHARACTER}: v16", "    ^^^"),
+        ("a: v16   ", 4, 3, "a: v16", "   ^^^"),
         ("a:", 3, 1, "a:", "  ^"),  # what is missing behind the end of a line
-        ("a: u17", 4, 80, "a: u17", "   ^^^"),
-        ("a: u17", 4, 0, "a: u17", "   ^"),
+        ("a: v16", 4, 80, "a: v16", "   ^^^"),
+        ("a: v16", 4, 0, "a: v16", "   ^"),
         # The 75th character of a long line is shown from its beginning; the next is shown with
         # the 50 characters before it.
         ("0123456789" * 20, 75, 2, "0123456789" * 10, " " * 74 + "^^"),
@@ -168,8 +168,8 @@ def test_a_caret_stands_under_its_place(
 @pytest.mark.parametrize(
     ("word", "known", "otherwise", "hint"),
     [
-        ("u17", ["u8", "u16", "u32"], "", "did you mean `u16`?"),
-        ("u17", ["u16"], "declare it", "did you mean `u16`?"),
+        ("v16", ["u8", "u16", "u32"], "", "did you mean `u16`?"),
+        ("v16", ["u16"], "declare it", "did you mean `u16`?"),
         ("size", ["u8", "u16"], "", "choose one of `u8`, `u16`"),
         ("size", ["u8", "u16"], "declare it", "declare it"),
         (

@@ -121,7 +121,7 @@ SLIPS: list[tuple[str, Change, str]] = [
     ),
     (
         "a misspelt type in a field",
-        lambda d: d["messages"]["ServoMove"]["fields"]["time_ms"].update(type="u116"),
+        lambda d: d["messages"]["ServoMove"]["fields"]["time_ms"].update(type="v16"),
         "messages/ServoMove/fields/time_ms",
     ),
     (

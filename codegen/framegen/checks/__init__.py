@@ -37,6 +37,7 @@ from framegen.checks import (
     limits,
     list_last,
     list_size,
+    long_wait,
     lookalike_example,
     lookalike_frame,
     message_frame,
@@ -59,6 +60,7 @@ from framegen.checks import (
     signed_as,
     sized_by,
     text_field,
+    twin,
     unknown_fact,
     unknown_source,
     unknown_type,
@@ -140,17 +142,23 @@ EVIDENCE_RULES: tuple[ModelRule, ...] = (
     length_rule.RULE,
     example.RULE,
     no_example.RULE,
-    unshown_value.RULE,
     limited_example.RULE,
     unknown_fact.RULE,
     erratum.RULE,
     lookalike_example.RULE,
+)
+# What may be right as it is, and is worth a look.
+REMARKS: tuple[ModelRule, ...] = (
+    unshown_value.RULE,
+    long_wait.RULE,
+    twin.RULE,
 )
 RULES: tuple[AnyRule, ...] = (
     *READING_RULES,
     *STRUCTURE_RULES,
     *MODEL_RULES,
     *EVIDENCE_RULES,
+    *REMARKS,
 )
 
 
@@ -166,6 +174,11 @@ def check_model(model: Model, tree: Tree) -> list[Finding]:
         if found:
             return found
     return []
+
+
+def remarks(model: Model, tree: Tree) -> list[Finding]:
+    """Return the remarks on a spec without findings."""
+    return _placed(((rule.id, each) for rule in REMARKS for each in rule.look(model)), tree)
 
 
 def _placed(problems: Iterable[tuple[str, Problem]], tree: Tree) -> list[Finding]:

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from framegen.checks.fields import numbers
 from framegen.checks.rule import Problem, StructureRule
-from framegen.language.number_types import PACKED_TYPES
+from framegen.language.number_types import NUMBER_TYPES, PACKED_TYPES
 from framegen.model.layout import is_constant, is_varying
 
 if TYPE_CHECKING:
@@ -47,7 +47,7 @@ def _misuse(path: KeyPath, field: NumberField, type_: NumberType) -> Iterator[Pr
     elif field.count is None:
         what = f"`{name}` has {type_.bits} bits, which are no whole bytes"
         hint = f"for bits of one number write {bits}; for a list of them, add `count`"
-        yield Problem(here, what, hint)
+        yield Problem(here, what, f"{_meant(type_)}{hint}")
     elif field.count.low == field.count.high and field.count.low * type_.bits % 8:
         count = field.count.low
         step = 8 // gcd(8, type_.bits)
@@ -58,6 +58,12 @@ def _misuse(path: KeyPath, field: NumberField, type_: NumberType) -> Iterator[Pr
         if getattr(field, other):
             what = f"`{name}` is a list of packed numbers, which have no `{other}`"
             yield Problem((*path, other), what, f"remove `{other}`", on_key=True)
+
+
+def _meant(type_: NumberType) -> str:
+    """Return a type of whole bytes that was probably meant."""
+    near = (f"u{bits}" for bits in (type_.bits - 1, type_.bits + 1) if f"u{bits}" in NUMBER_TYPES)
+    return next((f"did you mean `{name}`? Else " for name in near), "")
 
 
 RULE = StructureRule(

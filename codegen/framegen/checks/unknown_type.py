@@ -44,7 +44,7 @@ RULE = StructureRule(
     id="unknown-type",
     title="Every type is one that the language has",
     why="A type that does not exist has no size, so no later field would have a place.",
-    bad="time_ms: {type: u17}",
+    bad="time_ms: {type: v16}",
     good="time_ms: {type: u16}",
     look=_look,
 )

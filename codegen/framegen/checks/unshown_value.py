@@ -1,4 +1,4 @@
-"""Rule: examples show every named value, both ends of a range, and negative values."""
+"""Remark: examples show every named value, both ends of a range, and negative values."""
 
 from __future__ import annotations
 
@@ -57,7 +57,11 @@ def _hint(model: Model, message: MessageLayout, path: KeyPath, value: int) -> st
     outer, *inner = map(str, path[3::2])
     with_it = changed(values, outer, inner[0] if inner else None, value)
     example = pasted(message, with_it, f"{path[-1]} {value}")
-    return f"add {example}" if example else "add an example with it; it may be `constructed`"
+    return (
+        f"add the example {example}"
+        if example
+        else "add an example with it; it may be `constructed`"
+    )
 
 
 def _shown(model: Model, message: MessageLayout) -> dict[KeyPath, set[int]]:
@@ -77,7 +81,8 @@ def _shown(model: Model, message: MessageLayout) -> dict[KeyPath, set[int]]:
 RULE = ModelRule(
     id="unshown-value",
     title="Examples show every named value, both ends of a range, and negative values",
-    why="Values at the ends of a range show a wrong width or a wrong sign.",
+    why="Values at the ends of a range show a wrong width or a wrong sign. Protocols of many "
+    "values have no frame for each, so this is a remark.",
     bad="level: {type: u8, range: 0..100}  # and examples with 50 alone",
     good="level: {type: u8, range: 0..100}  # and examples with 0 and 100",
     look=_look,

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import sys
+from collections import Counter
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -17,11 +18,13 @@ if TYPE_CHECKING:
     from framegen.reading.findings import Finding
     from framegen.targets.target import BentName
 
+# Of one rule.
+_MOST_REMARKS = 3
 SUMMARY = "Check a spec against all rules, its examples and errata included."
 EXAMPLES = (
     ("framegen check", "every spec/*.yaml, here or in a folder above"),
     ("framegen check spec/busservo.yaml", "this spec"),
-    ("framegen check --json", "one finding a line, for programs"),
+    ("framegen check --json", "one finding or remark a line, for programs"),
     ("framegen rules unknown-type", "why a rule exists, and how to keep it"),
 )
 
@@ -33,20 +36,24 @@ def add_arguments(parser: ArgumentParser) -> None:
 
 
 def run(arguments: Namespace) -> int:
-    """Print the findings; counts and remarks go to the error stream. Return 1 if there are any.
+    """Print the findings; counts and remarks go to the error stream. Return 1 for any finding.
 
     The error stream also names what a target writes otherwise, so that lines of the output are
-    findings.
+    findings; as JSON, remarks are lines of the output, too.
     """
+    from framegen.checks import remarks  # noqa: PLC0415
     from framegen.commands.spec_argument import compiled  # noqa: PLC0415
     from framegen.project import all_specs  # noqa: PLC0415
 
     specs = [compiled(file) for file in arguments.specs or all_specs()]
     for each in specs:
         for finding in each.findings:
-            print(_json(each, finding) if arguments.json else _text(each, finding))
+            print(_json(each, finding, "error") if arguments.json else _text(each, finding))
+        found = [] if each.findings else remarks(each.model, each.tree)
+        for remark in found if arguments.json else ():
+            print(_json(each, remark, "note"))
         sys.stdout.flush()
-        for note in _notes(each):
+        for note in (*_notes(each), *(() if arguments.json else _shown(each, found))):
             print(note, file=sys.stderr)
         print(_summary(each), file=sys.stderr)
     return 1 if any(each.findings for each in specs) else 0
@@ -56,9 +63,10 @@ def _text(each: Compiled, finding: Finding) -> str:
     return finding.render(each.source) + "\n"
 
 
-def _json(each: Compiled, finding: Finding) -> str:
+def _json(each: Compiled, finding: Finding, severity: str) -> str:
     return json.dumps(
         {
+            "severity": severity,
             "rule": finding.rule,
             "file": each.source.name,
             "line": finding.span.line,
@@ -68,6 +76,23 @@ def _json(each: Compiled, finding: Finding) -> str:
             "hint": finding.hint,
         }
     )
+
+
+def _shown(each: Compiled, found: list[Finding]) -> Iterator[str]:
+    """Show the remarks, those of one rule up to a number."""
+    times = Counter(remark.rule for remark in found)
+    shown: Counter[str] = Counter()
+    for remark in found:
+        shown[remark.rule] += 1
+        if shown[remark.rule] > _MOST_REMARKS:
+            continue
+        place = f"{each.source.name}:{remark.span.line}:{remark.span.column}"
+        yield f"{place}: note: {remark.rule}: {remark.message}"
+        if remark.hint:
+            yield f"  = hint: {remark.hint}"
+        more = times[remark.rule] - _MOST_REMARKS
+        if shown[remark.rule] == _MOST_REMARKS and more > 0:
+            yield f"  = and {more} more of `{remark.rule}`: `framegen check --json` lists them all"
 
 
 def _notes(each: Compiled) -> Iterator[str]:
