@@ -17,6 +17,9 @@ TO_TEST := $(VENV)/.ready-test
 TO_LINT := $(VENV)/.ready-lint
 # All of ours in one command, so that pip looks for none of them elsewhere.
 OURS := --editable . --editable ./codegen --editable ./simulator
+# Libraries that are packages of their own, as far as they are generated.
+LIBRARIES := $(patsubst %/pyproject.toml,./%,$(wildcard generated/*/pyproject.toml))
+OURS += $(addprefix --editable ,$(LIBRARIES))
 PINS := --constraint constraints.txt
 BENCH_VENV := .tools/bench
 MUTATION_VENV := .tools/mutation
@@ -124,6 +127,7 @@ wheel: $(TO_BUILD)  ## Build dist/: a wheel and a source distribution of each pa
 	$(IN)/python -m build --no-isolation --outdir dist .
 	$(IN)/python -m build --no-isolation --outdir dist codegen
 	$(IN)/python -m build --no-isolation --outdir dist simulator
+	for library in $(LIBRARIES); do $(IN)/python -m build --no-isolation --outdir dist $$library || exit; done
 
 # Nothing is published: dist/ holds files that can be handed on.
 release: $(TO_TEST)  ## Check all, set the version, tag it, and build dist/: make release VERSION=0.2.0

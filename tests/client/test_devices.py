@@ -24,12 +24,12 @@ TRIP = 14 * 10 / 115200 + 0.001
 @pytest.fixture(scope="module", autouse=True)
 def servos(tmp_path_factory: pytest.TempPathFactory) -> Iterator[None]:
     """Return the library, imported under its own name."""
-    with library(files_of(data_of(FILES["lx16a"])), tmp_path_factory.mktemp("servos")):
+    with library(files_of(data_of(FILES["lxservo"])), tmp_path_factory.mktemp("servos")):
         yield
 
 
 def lib(module: str = "") -> Any:
-    return importlib.import_module(f"lx16a.{module}" if module else "lx16a")
+    return importlib.import_module(f"lxservo.{module}" if module else "lxservo")
 
 
 @contextmanager

@@ -116,14 +116,14 @@ def _two(first: str, second: str, values: Iterable[object]) -> Values:
 
 def _questions() -> dict[str, str]:
     """Return the messages to which there is a reply, with the reply."""
-    messages = messages_of("lx16a").values()
+    messages = messages_of("lxservo").values()
     return {each.name: str(each.message.reply) for each in messages if each.message.reply}
 
 
 class LewansoulLx16a(Peer):
     """The client `lewansoul-lx16a`."""
 
-    protocol = "lx16a"
+    protocol = "lxservo"
     package = "lewansoul_lx16a"
     writes = (
         dict.fromkeys(_TELLS, as_is)
@@ -227,7 +227,7 @@ def _errors(locked: bool, voltage: bool, temperature: bool) -> Values:
 class Lewanlib(Peer):
     """The client `lewanlib`: degrees and seconds, cut down to steps and rounded to milliseconds."""
 
-    protocol = "lx16a"
+    protocol = "lxservo"
     package = "lewanlib.bus"
     writes = dict.fromkeys(_TELLS_IN_DEGREES, as_is) | {"ModeWrite": _mode}
     reads = dict.fromkeys(_ASKS_IN_DEGREES, _to_one) | {

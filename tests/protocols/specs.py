@@ -24,7 +24,8 @@ if TYPE_CHECKING:
     from tests.protocols.peer import Values
 
 FOLDER = Path(__file__).parent
-FILES = {file.stem: file for file in sorted(FOLDER.glob("*.yaml"))}
+SHIPPED = FOLDER.parents[1] / "spec" / "lxservo.yaml"
+FILES = {file.stem: file for file in [*sorted(FOLDER.glob("*.yaml")), SHIPPED]}
 # Elements of a list that is drawn; one of the largest size is drawn apart.
 FEW = 5
 

@@ -24,7 +24,7 @@ EXAMPLES = [
 ]
 
 # What none of the peers sends or asks.
-UNKNOWN_TO_PEERS = {("lx16a", "MoveRead")}
+UNKNOWN_TO_PEERS = {("lxservo", "MoveRead")}
 
 
 @pytest.mark.parametrize("name", FILES)

@@ -57,6 +57,13 @@ class Part(BaseModel):
     )
 
 
+class Distribution(Part):
+    """What the project file of a library says that nothing else in a spec does."""
+
+    license: str = Key("", description="The licence, as an SPDX expression such as MIT.")
+    authors: list[str] = Key([], description="Who made it.")
+
+
 class Protocol(Part):
     """The protocol: its name, title, version and description."""
 
@@ -66,6 +73,11 @@ class Protocol(Part):
     authority: str = Key(description="The source that decides; facts from any other are marked.")
     summary: str = Key(description="What it is for, in one line.")
     description: str = Key("", description="What a newcomer should know, in a paragraph or two.")
+    distribution: Distribution | None = Key(
+        None,
+        description="For a library that is a distribution of its own, with a project file in its "
+        "folder: what that file says. Without it, the file of the whole project packs the library.",
+    )
 
 
 class SourceDocument(Part):

@@ -11,7 +11,7 @@ from framegen.targets.python.checksum_view import checksums_of
 from framegen.targets.python.client_view import ClientView
 from framegen.targets.python.device_view import DeviceView
 from framegen.targets.python.docstring import docstring
-from framegen.targets.python.escape import assigned, literal
+from framegen.targets.python.escape import assigned, literal, quoted
 from framegen.targets.python.library_view import LibraryView
 from framegen.targets.python.names import bent, names_of, package_of
 from framegen.targets.python.reserved import RESERVED
@@ -52,6 +52,8 @@ _SHARED = {
 }
 # What a shared file imports has another place in a library.
 _IMPORT, _IMPORT_THERE = "from ..pluralize import", "from .._frame.pluralize import"
+# What only a library has that is a distribution of its own.
+_FOR_DISTRIBUTIONS = {"README.md", "pyproject.toml"}
 # What only a protocol with poses has a use for.
 _FOR_POSES = {"_cli/play.py", "_cli/posefile.py", "_cli/positions.py", "_cli/teach.py"}
 # What only a protocol with checksums has a use for: each method needs some of it.
@@ -94,6 +96,8 @@ def render(compiled: Compiled, _snippets: Snippets) -> dict[str, str]:
     unneeded = _FOR_CHECKSUMS.difference(*(sums.files for sums in checksums_of(compiled.model)))
     client = ClientView(library.model)
     unneeded |= _FOR_FIELDS.difference(f"_frame/{name}.py" for name in library.modules)
+    if compiled.model.spec.protocol.distribution is None:
+        unneeded |= _FOR_DISTRIBUTIONS
     if compiled.model.spec.pose is None:
         unneeded |= _FOR_POSES
     if client.bus is None:
@@ -164,7 +168,7 @@ def _from_templates(library: LibraryView) -> list[tuple[str, str]]:
 def _environment() -> Environment:
     # This is Python, not HTML: the filters escape.
     made = environment(_HERE / "templates", "python", autoescape=False)
-    made.filters.update(assigned=assigned, docstring=docstring, literal=literal)
+    made.filters.update(assigned=assigned, docstring=docstring, literal=literal, quoted=quoted)
     return made
 
 
@@ -173,7 +177,12 @@ TARGET = Target(
     about="The Python library: messages, codec, clients, device and command.",
     render=render,
     folders=folders,
-    comments={".py": Comment("# "), ".pyi": Comment("# ")},
+    comments={
+        ".py": Comment("# "),
+        ".pyi": Comment("# "),
+        ".toml": Comment("# "),
+        ".md": Comment("<!-- ", " -->"),
+    },
     reserved=RESERVED,
     bent=bent,
     snippet=snippet,

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import re
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, TypeAlias
@@ -146,3 +147,8 @@ def session(call: Bracketed, indent: int) -> list[str]:
 def _inside(text: str, quote: str) -> str:
     safe = text.replace("\\", "\\\\").replace(quote, f"\\{quote}").replace("\n", "\\n")
     return shown(safe)
+
+
+def quoted(text: str) -> str:
+    """Return text as a basic string of TOML, which escapes characters as JSON does."""
+    return json.dumps(" ".join(text.split()), ensure_ascii=False)

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import textwrap
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+from framegen.language.spec import Distribution
 from framegen.model.slots import Number
 from framegen.targets.python.checksum_view import checksums_of
 from framegen.targets.python.command_lines import verbs
@@ -264,6 +266,18 @@ class LibraryView:
         """The docstring of the package."""
         protocol = self.model.spec.protocol
         return [protocol.title, protocol.summary, protocol.description]
+
+    @property
+    def distribution(self) -> Distribution:
+        """What its project file says, where it has one."""
+        return self.model.spec.protocol.distribution or Distribution()
+
+    @property
+    def about(self) -> list[str]:
+        """What the protocol is, in lines of a fenced block."""
+        protocol = self.model.spec.protocol
+        text = f"{protocol.title}\n\n{protocol.summary}".replace("`" * 3, "'" * 3)
+        return [line for each in text.split("\n") for line in textwrap.wrap(each, 99) or [""]]
 
     @property
     def command_summary(self) -> str:
