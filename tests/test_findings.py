@@ -35,7 +35,8 @@ def test_a_finding_in_two_places_is_shown_with_both() -> None:
     bad = bad_spec("duplicate-id")
     [finding] = compile_spec(bad.source).findings
     assert finding.render(bad.source) == (
-        "duplicate-id.yaml:41:9: duplicate-id: LampsSet and LampRead are both 7, host -> lamp, and both can have 7 bytes\n"
+        "duplicate-id.yaml:41:9: duplicate-id: LampsSet and LampRead are both 7, host -> lamp, "
+        "and both can have 7 bytes\n"
         "41 |     id: 7\n"
         "   |         ^\n"
         "   = LampsSet has it first, at duplicate-id.yaml:20:5\n"

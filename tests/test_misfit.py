@@ -2,13 +2,29 @@
 
 from __future__ import annotations
 
+import re
 from typing import TYPE_CHECKING, Any
 
 import pytest
+from framegen.language.misfit import _keys
+from framegen.language.number_types import NUMBER_TYPES
+from framegen.language.other_words import (
+    _BY_MODEL,
+    _KINDS,
+    _TYPES,
+    kind_of,
+    other_key,
+    other_kind,
+    other_type,
+)
 
 from tests.factories import DEMO, compiled_of, data_of
 
 if TYPE_CHECKING:
+    from collections.abc import Iterator, Mapping
+
+    from pydantic import BaseModel
+
     from tests.factories import Steps
 
 ANGLE = ("messages", "VentsOpen", "fields", "vents", "fields", "angle")
@@ -82,3 +98,57 @@ def test_a_key_that_is_no_number_is_reported_once_whatever_its_value() -> None:
     path = "lookalikes.old_stations.commands.lit"
     assert found[0] == (path, "a whole number is expected here, not `lit`")
     assert {each for each, _ in found} == {path}
+
+
+# ------------------------------------------------------------------ other words
+
+
+def _each(table: Mapping[str, str]) -> Iterator[tuple[str, str]]:
+    return ((word, meant) for words, meant in table.items() for word in words.split())
+
+
+MEANT = [(model, word, hint) for model, words in _BY_MODEL.items() for word, hint in _each(words)]
+
+
+@pytest.mark.parametrize(("model", "word", "hint"), MEANT, ids=lambda each: str(each)[:30])
+def test_another_word_is_no_key_and_its_hint_names_keys(
+    model: type[BaseModel], word: str, hint: str
+) -> None:
+    known = _keys(model)
+    assert word not in known
+    assert other_key(model, word) == hint
+    written = re.findall(r"write `([a-z_]+)", hint)
+    assert set(written) <= {*known, "big", "little"}
+
+
+@pytest.mark.parametrize("word", [word for words in _KINDS for word in words.split()])
+def test_another_word_for_a_part_is_none_and_its_hint_is_one(word: str) -> None:
+    kinds = ["constant", "reserved", "body", "length", "id", "address", "counter", "checksum"]
+    assert word not in kinds
+    [kind] = re.findall("^write `is: ([a-z]+)`", other_kind(word))
+    assert kind in kinds
+
+
+@pytest.mark.parametrize(
+    ("word", "type_"), [(word, type_) for word, type_ in _each(_TYPES) if word not in NUMBER_TYPES]
+)
+def test_another_word_for_a_type_is_none_and_its_hint_is_one(word: str, type_: str) -> None:
+    assert type_ in NUMBER_TYPES
+    assert other_type(word) == f"write `type: {type_}`"
+    if type_ not in ("u8", "i8"):
+        assert other_type(f"{word}_le") == f"write `type: {type_}, byte_order: little`"
+
+
+@pytest.mark.parametrize(
+    ("keys", "kind"),
+    [
+        ({"bytes": "AA"}, "constant"),
+        ({"type": "u8", "counts": []}, "length"),
+        ({"type": "u8", "method": "sum", "covers": []}, "checksum"),
+        ({"type": "u8", "values": {}}, "address"),
+        ({"type": "u8"}, "id"),
+        ({"about": "The fields."}, ""),
+    ],
+)
+def test_a_part_without_a_kind_is_told_by_its_keys(keys: dict[str, object], kind: str) -> None:
+    assert kind_of(keys) == kind

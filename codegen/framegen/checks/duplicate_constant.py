@@ -30,16 +30,22 @@ def _look(model: Model) -> Iterator[Problem]:
 
 
 def _clashes(path: KeyPath, fields: dict[str, NumberField]) -> Iterator[Problem]:
-    """Find named values of one class that would become the same constant."""
+    """Find named values and bits of one class that would have the same name."""
     first: dict[str, KeyPath] = {}
     for field_name, field in fields.items():
-        for value_name in field.values:
-            here = (*path, field_name, "values", value_name)
-            constant = f"{field_name}_{value_name}".upper()
+        named = [(key, name) for key in ("values", "bits") for name in getattr(field, key)]
+        for key, name in named:
+            here = (*path, field_name, key, name)
+            constant = f"{field_name}_{name}".upper()
             also = (first.setdefault(constant, here), "the first is here")
             if also[0] != here:
-                what = f"`{value_name}` of `{field_name}` becomes the constant {constant}"
+                what = f"`{name}` of `{field_name}` becomes the constant {constant}"
                 yield Problem(here, f"{what}, as another does", "rename one", True, also)
+        for name in field.bits:
+            here, own = (*path, field_name, "bits", name), f"{field_name}_{name}"
+            if own in fields:
+                what = f"`{name}` of `{field_name}` becomes the property `{own}`, as a field does"
+                yield Problem(here, what, "rename one", True, ((*path, own), "the field is here"))
 
 
 def _directions(model: Model) -> Iterator[Problem]:

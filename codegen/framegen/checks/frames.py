@@ -200,14 +200,25 @@ def _method(path: KeyPath, part: ChecksumPart) -> Iterator[Problem]:
 
 
 def _covers(path: KeyPath, name: str, part: ChecksumPart, frame: Frame) -> Iterator[Problem]:
-    behind = list(frame)[list(frame).index(name) :]
     for index, covered in enumerate(part.covers):
         here = (*path, "covers", index)
         if covered == name:
             yield Problem(here, f"the checksum `{name}` covers itself", "leave it out")
-        elif covered in behind and isinstance(frame[covered], ChecksumPart):
-            what = f"the checksum `{name}` covers `{covered}`, a checksum behind it"
-            yield Problem(here, what, "leave it out: the last checksum may cover the others")
+        elif name in _reached(frame, covered):
+            what = f"the checksums `{name}` and `{covered}` cover each other"
+            yield Problem(here, what, "leave it out of one: that one is worked out first")
+
+
+def _reached(frame: Frame, name: str) -> set[str]:
+    """Return what a checksum covers, directly or by way of other checksums."""
+    found: set[str] = set()
+    left = [name]
+    while left:
+        part = frame.get(left.pop())
+        new = set(part.covers) - found if isinstance(part, ChecksumPart) else set()
+        found |= new
+        left += new
+    return found
 
 
 def _address(path: KeyPath, part: AddressPart) -> Iterator[Problem]:

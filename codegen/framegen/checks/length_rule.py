@@ -20,17 +20,27 @@ def _look(model: Model) -> Iterator[Problem]:
         fault = _fault(message)
         if fault is not None:
             path = ("messages", message.name, "length")
-            yield Problem(path, fault, f"write `length: {_written(message.formula)}`")
+            yield Problem(path, fault, f"write `length: {_written(message)}`{_or(message)}")
 
 
-def _written(rule: LengthRule) -> str:
-    return f"[{rule}]" if isinstance(rule, Sizes) else str(rule)
+def _written(message: MessageLayout) -> str:
+    """Return the rule that follows from the fields."""
+    if message.optional:
+        return f"[{', '.join(map(str, message.possible))}]"
+    return str(message.formula)
+
+
+def _or(message: MessageLayout) -> str:
+    """Return what else may have been meant."""
+    if message.optional or not isinstance(message.message.length, Sizes):
+        return ""
+    return ", or mark the last fields `optional: true`"
 
 
 def _fault(message: MessageLayout) -> str | None:
     declared, derived = message.message.length, message.formula
-    if isinstance(declared, Sizes) or isinstance(derived, Sizes):
-        return _sizes(declared, derived)
+    if isinstance(declared, Sizes) or message.optional:
+        return _sizes(message, declared)
     if declared.name is not None and declared.name != derived.name:
         if derived.name is None:
             return f"`{declared.name}` counts nothing in {message.name}, whose length is fixed"
@@ -46,15 +56,19 @@ def _fault(message: MessageLayout) -> str | None:
     return None
 
 
-def _sizes(declared: LengthRule, derived: LengthRule) -> str | None:
-    """Compare the lengths of a message whose last fields may be absent."""
-    if not isinstance(derived, Sizes):
-        return f"several lengths are listed, and the fields make {derived}"
+def _sizes(message: MessageLayout, declared: LengthRule) -> str | None:
+    """Compare the lengths of a message whose last fields may be absent, in two ways at least."""
+    if not message.optional:
+        return f"several lengths are listed, and the fields make {message.formula}"
     if not isinstance(declared, Sizes):
         return f"the last fields may be absent, and `{declared}` is one length"
+    possible = message.possible
     for size in declared.sizes:
-        if size not in derived.sizes:
-            return f"{size} is listed, and the fields make {derived}"
+        if size not in possible:
+            return f"{size} is listed, and the fields make {' or '.join(map(str, possible))}"
+    for size, what in ((possible[0], "without"), (possible[-1], "with")):
+        if size not in declared.sizes:
+            return f"the length {what} all optional fields, {size}, is not listed"
     return None
 
 

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 from framegen.checks.frames import parts
 from framegen.checks.rule import Problem, StructureRule
 from framegen.language.number_types import ALL_TYPES, NUMBER_TYPES
+from framegen.language.other_words import other_type
 from framegen.language.spec import ListField
 from framegen.reading.findings import did_you_mean
 
@@ -21,7 +22,7 @@ if TYPE_CHECKING:
 def _look(spec: Spec) -> Iterator[Problem]:
     for path, type_ in _types(spec):
         if type_ not in ALL_TYPES:
-            hint = partial(did_you_mean, type_, NUMBER_TYPES)
+            hint = other_type(type_) or partial(did_you_mean, type_, NUMBER_TYPES)
             yield Problem(path, f"unknown type `{type_}`", hint)
 
 

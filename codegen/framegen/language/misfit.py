@@ -10,7 +10,8 @@ from pydantic import BaseModel
 
 from framegen.hextext import is_hex, read_hex
 from framegen.language.edition import LATEST
-from framegen.language.spec import Spec
+from framegen.language.other_words import kind_of, other_key, other_kind
+from framegen.language.spec import ListField, NumberField, Spec
 from framegen.language.values import to_hex
 from framegen.reading.findings import MOST_FINDINGS, Finding, did_you_mean
 from framegen.reading.scalars import Ambiguous, resolve
@@ -73,10 +74,10 @@ class _Misfit:
         kind, last = self.problem["type"], str(self.problem["loc"][-1])
         path = dotted(self.path)
         if kind == "missing":
-            hint = _described(self.path, last) if hinted else ""
+            hint = _missing(tree, self.path, last) if hinted else ""
             return Finding("missing-key", self.span, path, f"the key `{last}` is missing", hint)
         if kind == "extra_forbidden":
-            hint = did_you_mean(last, _keys_at(tree, self.path[:-1])) if hinted else ""
+            hint = _meant(tree, self.path, last) if hinted else ""
             return Finding("unknown-key", self.span, path, f"there is no key `{last}` here", hint)
         context = {"found": _kind(self.problem["input"]), **self.problem.get("ctx", {})}
         message = _MESSAGES.get(kind, self.problem["msg"]).format_map(context)
@@ -86,6 +87,8 @@ class _Misfit:
     def _hint(self, source: Source) -> str:
         if self.path == ("framegen",):
             return f"write `framegen: {LATEST}`"
+        if self.problem["type"].startswith("union_tag"):
+            return self._kind_of_part()
         if self.problem["type"] not in ("string_type", "notation_type"):
             return ""
         if not isinstance(self.problem["input"], bool | int | float):
@@ -97,6 +100,13 @@ class _Misfit:
                 return ""
             text = to_hex(read_hex(text))
         return f'put it in quotes: "{text}"'
+
+    def _kind_of_part(self) -> str:
+        """Say what kind of part it was meant to be."""
+        if self.problem["type"] == "union_tag_invalid":
+            return other_kind(str(self.problem["ctx"]["tag"]))
+        kind = kind_of(self.problem["input"])
+        return f"add `is: {kind}`" if kind else ""
 
 
 def _kind(value: object) -> str:
@@ -147,27 +157,72 @@ def _steps_in(tree: Tree, steps: tuple[str | int, ...]) -> Iterator[str | int]:
             yield step
 
 
-def _keys_at(tree: Tree, path: KeyPath) -> list[str]:
-    """List the keys that the language has at `path`; of a union, those of the best match."""
+def _meant(tree: Tree, path: KeyPath, key: str) -> str:
+    """Say what a key that there is not was meant to be."""
+    model = _model_at(tree, path[:-1])
+    if model is None:
+        return ""
+    known = _keys(model)
+    hint = other_key(model, key)
+    if "`covers`" in hint and "covers" not in _at(tree, path[:-1]):
+        return f"write {_names_of_parts(tree, path, 'covers')}"
+    if "`counts`" in hint and "counts" not in _at(tree, path[:-1]):
+        return f"write {_names_of_parts(tree, path, 'counts')}"
+    return hint or did_you_mean(key, known)
+
+
+def _missing(tree: Tree, path: KeyPath, key: str) -> str:
+    """Describe a missing key, with the description that editors show, or a line to paste."""
+    model = _model_at(tree, path[:-1])
+    if model is None:
+        return ""
+    if key in ("covers", "counts"):
+        return f"add {_names_of_parts(tree, path, key)}"
+    described = (
+        info.description
+        for name, info in model.model_fields.items()
+        if key in (name, info.alias) and info.description
+    )
+    return next(described, "")
+
+
+def _names_of_parts(tree: Tree, path: KeyPath, key: str) -> str:
+    """Return a line that names the parts which a length or a checksum mostly has."""
+    *around, own, _ = path
+    parts: dict[str, Any] = _at(tree, tuple(around))
+    kinds = {name: part.get("is") for name, part in parts.items() if isinstance(part, dict)}
+    left_out = {"constant"} if key == "counts" else {"constant", "checksum"}
+    named = [name for name, kind in kinds.items() if name != own and kind not in left_out]
+    if key == "counts" and own in kinds:
+        behind = list(kinds)[list(kinds).index(str(own)) + 1 :]
+        named = [name for name in behind if parts[name].get("sent") is not False]
+    return f"`{key}: [{', '.join(named)}]`, or those of them that the document says"
+
+
+def _at(tree: Tree, path: KeyPath) -> Any:
     here: Any = tree.data
     for step in path:
         here = here[step]
-    known = [
-        [info.alias or name for name, info in model.model_fields.items()]
-        for model in _models_at(path)
-    ]
-    return max(known, key=lambda keys: len(here.keys() & keys), default=[])
+    return here
 
 
-def _described(path: KeyPath, key: str) -> str:
-    """Describe a missing key, with the description that editors show."""
-    descriptions = [
-        info.description
-        for model in _models_at(path[:-1])
-        for name, info in model.model_fields.items()
-        if key in (name, info.alias)
-    ]
-    return next(filter(None, descriptions), "")
+def _keys(model: type[BaseModel]) -> list[str]:
+    return [info.alias or name for name, info in model.model_fields.items()]
+
+
+def _model_at(tree: Tree, path: KeyPath) -> type[BaseModel] | None:
+    """Find the model of the mapping at `path`; of a union, the member that it is meant to be."""
+    models, here = _models_at(path), _at(tree, path)
+    if not isinstance(here, dict):
+        return models[0] if models else None
+    if ListField in models and NumberField in models:
+        return ListField if {"element", "fields"} & here.keys() else NumberField
+    kind = here.get("is")
+    for model in models:
+        tag = model.model_fields.get("is_")
+        if tag is not None and kind in get_args(tag.annotation):
+            return model
+    return max(models, key=lambda model: len(here.keys() & {*_keys(model)}), default=None)
 
 
 def _models_at(path: KeyPath) -> list[type[BaseModel]]:

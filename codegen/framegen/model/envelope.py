@@ -56,8 +56,10 @@ class Envelope:
             return frozenset(self.header[:1])
         if not isinstance(first, Number) or first.role != "address":
             return frozenset(range(0x100))
-        addresses = {*range(first.low, first.high + 1), *first.named}
-        return frozenset(first.write(address)[0] for address in addresses)
+        shift = 8 * (first.size - 1) if first.order == "big" else 0
+        low, high = first.low >> shift, first.high >> shift
+        begun = {each & 0xFF for each in range(low, min(high, low + 0xFF) + 1)}
+        return frozenset({*begun, *(first.write(named)[0] for named in first.named)})
 
     @cached_property
     def shortest(self) -> str:

@@ -146,22 +146,30 @@ class MessageLayout:
     @cached_property
     def formula(self) -> LengthRule:
         """The length rule that follows from the slots."""
-        optional = self.optional
-        absent = sum(slot.size for slot in optional)
+        if self.optional:
+            possible, declared = self.possible, self.message.length
+            listed = declared.sizes if isinstance(declared, Sizes) else possible
+            return Sizes(tuple(size for size in possible if size in listed) or possible)
+        if self.items is None:
+            return Formula(self._constant)
+        return Formula(self._constant, self.items.size, self.items.variable)
+
+    @cached_property
+    def possible(self) -> tuple[int, ...]:
+        """The length with none of the optional fields, with the first, and so on to all."""
+        there = (self.optional[:number] for number in range(len(self.optional) + 1))
+        return tuple(self._constant + sum(slot.size for slot in each) for each in there)
+
+    @cached_property
+    def _constant(self) -> int:
+        """The length without the list, and without all that may be absent."""
+        absent = sum(slot.size for slot in self.optional)
         sizes = (slot.size for slot in self.slots if slot is not self.items)
         constant = sum(sizes) - absent - self.frame.uncounted
         for slot in self.slots:
             if isinstance(slot, Items) and slot is not self.items:
                 constant += (slot.low - 1) * slot.size
-        if optional:
-            there = (sum(slot.size for slot in optional[:n]) for n in range(len(optional) + 1))
-            possible = [constant + size for size in there]
-            declared = self.message.length
-            listed = declared.sizes if isinstance(declared, Sizes) else possible
-            return Sizes(tuple(size for size in possible if size in listed) or tuple(possible))
-        if self.items is None:
-            return Formula(constant)
-        return Formula(constant, self.items.size, self.items.variable)
+        return constant
 
     @property
     def counts(self) -> range:
