@@ -12,8 +12,12 @@ from warnings import catch_warnings, simplefilter
 
 from hypothesis import strategies as st
 
-from ._frame.number import Number
-from ._frame.protocol import HEADER
+from ._frame.envelopes import ENVELOPES
+from ._frame.floating import Float
+from ._frame.items import Items
+from ._frame.optional import Optional
+from ._frame.packed import Packed
+from ._frame.text import Text
 from .messages import (
     MESSAGES,
     LastMove,
@@ -67,7 +71,6 @@ if TYPE_CHECKING:
     from hypothesis.strategies import SearchStrategy
 
     from ._frame.direction import Direction
-    from ._frame.items import Items
     from ._frame.message import Message
 
     Kind = TypeVar("Kind", bound=Message)
@@ -292,8 +295,14 @@ def messages(direction: Direction | None = None) -> SearchStrategy[Message]:
 
 
 def noise(*, max_size: int = 40) -> SearchStrategy[bytes]:
-    """Generate bytes without a complete header, though the beginning of one may end them."""
-    return st.binary(min_size=1, max_size=max_size).filter(lambda data: HEADER not in data)
+    """Generate bytes without a complete header, though the beginning of one may end them.
+
+    Of frames without a header, they may hold the beginning, too.
+    """
+    headers = [envelope.header for envelope in ENVELOPES if envelope.header]
+    return st.binary(min_size=1, max_size=max_size).filter(
+        lambda data: not any(header in data for header in headers)
+    )
 
 
 @st.composite
@@ -314,11 +323,24 @@ def noisy_streams(
     return data + draw(st.just(b"") | noise()), sent
 
 
-def _any_of(kind: type[Kind]) -> SearchStrategy[Kind]:
+def _any_of(kind: type[Kind], *, allow_nan: bool = False) -> SearchStrategy[Kind]:
     """Generate any message of a class, with any legal values of its fields."""
     fields = {name: getattr(kind, name) for name in kind.__match_args__}
     make: Callable[..., Kind] = partial(_quietly, kind) if kind.DEPRECATED else kind
-    return st.builds(make, **{name: _value(field) for name, field in fields.items()})
+    absent = [each.name for each in kind.SHAPE.optional]
+    return st.one_of(
+        [
+            st.builds(
+                make,
+                **{
+                    name: _value(field, allow_nan=allow_nan)
+                    for name, field in fields.items()
+                    if name not in absent[present:]
+                },
+            )
+            for present in kind.SHAPE.present or [0]
+        ]
+    )
 
 
 def _quietly(kind: type[Kind], **fields: Any) -> Kind:
@@ -328,10 +350,24 @@ def _quietly(kind: type[Kind], **fields: Any) -> Kind:
         return kind(**fields)
 
 
-def _value(field: Number | Items[Any]) -> SearchStrategy[Any]:
-    """Generate any value of a field: a number in its range, or a list of legal length."""
-    if isinstance(field, Number):
-        return st.integers(field.low, field.high)
-    numbers = [_value(number) for number in field.fields]
-    elements = st.tuples(*numbers) if field.element else numbers[0]
-    return st.lists(elements, min_size=field.counts[0], max_size=field.counts[-1])
+def _value(field: Any, *, allow_nan: bool) -> SearchStrategy[Any]:
+    """Generate any value of a field: what its type and its range allow."""
+    if isinstance(field, Optional):
+        return _value(field.number, allow_nan=allow_nan)
+    if isinstance(field, Float):
+        width: Any = 8 * field.struct.size
+        return st.floats(width=width, allow_nan=allow_nan)
+    if isinstance(field, Text):
+        # Zeros at the end are no part of a text with room for more.
+        lowest = 1 if field.least is None else 0
+        characters = st.characters(min_codepoint=lowest, max_codepoint=0x7F)
+        return st.text(characters, min_size=field.least or 0, max_size=field.most)
+    if isinstance(field, Packed):
+        numbers = st.integers(field.low, field.high)
+        return st.lists(numbers, min_size=field.length, max_size=field.length)
+    if isinstance(field, Items):
+        values = [_value(each, allow_nan=allow_nan) for each in field.fields]
+        elements = st.tuples(*values) if field.element else values[0]
+        return st.lists(elements, min_size=field.counts[0], max_size=field.counts[-1])
+    whole = st.integers(field.low, field.high)
+    return whole | st.sampled_from(field.others) if field.others else whole

@@ -57,7 +57,8 @@ def origin_of(event: Message | Noise, direction: Direction | None) -> tuple[str,
 def in_words(event: Message | Noise, direction: Direction | None) -> str:
     """Return the name and the fields with their units; for noise, why it is noise."""
     if isinstance(event, UnknownFrame):
-        return f"command={event.command} parameters={format_hex(event.parameters) or 'none'}"
+        said = {**event.numbers, "parameters": format_hex(event.parameters) or "none"}
+        return " ".join(f"{name}={value}" for name, value in said.items())
     if isinstance(event, Noise):
         return _why(event, direction)
     name = " or ".join(names_of(event, direction))
@@ -71,7 +72,7 @@ def in_json(event: Message | Noise, direction: Direction | None) -> str:
         record: dict[str, Any] = {"from": sender, "noise": format_hex(event.data)}
         record["reason"] = event.reason.value
         if isinstance(event, UnknownFrame):
-            record |= {"command": event.command, "parameters": format_hex(event.parameters)}
+            record |= {**event.numbers, "parameters": format_hex(event.parameters)}
         return json.dumps(record)
     name, *others = names
     way, fields = event.DIRECTION.value, fields_in_json(event)

@@ -62,6 +62,11 @@ class UnknownFrame(Noise):
         return read_command(self._data)
 
     @property
+    def numbers(self) -> dict[str, int]:
+        """What says who it is from and which message it is, by name."""
+        return {"command": self.command}
+
+    @property
     def parameters(self) -> bytes:
         """The bytes that would be its parameters."""
         return self._data[BODY_AT:]

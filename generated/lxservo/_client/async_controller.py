@@ -213,7 +213,7 @@ class AsyncController(AsyncClient):
         Raises EncodeError for values that no frame can carry, NoReplyError if no reply comes in
         time, and TransportError.
 
-        >>> await controller.read_servo_id(254)
+        >>> await controller.read_servo_id(1)
         3
         """
         reply = await self._ask(ServoIdRead(servo_id=servo_id), ServoId)

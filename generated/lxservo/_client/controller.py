@@ -206,7 +206,7 @@ class Controller(Client):
         Raises EncodeError for values that no frame can carry, NoReplyError if no reply comes in
         time, and TransportError.
 
-        >>> controller.read_servo_id(254)
+        >>> controller.read_servo_id(1)
         3
         """
         reply = self._ask(ServoIdRead(servo_id=servo_id), ServoId)

@@ -61,6 +61,13 @@ class UnknownFrame(Noise):
     __slots__ = ()
 
     @property
+    def numbers(self) -> dict[str, int]:
+        """What says who it is from and which message it is, by name."""
+        envelope = self._envelope
+        parts = [envelope.address, *envelope.ids]
+        return {part.name: part.read(self._data) for part in parts if part is not None}
+
+    @property
     def ids(self) -> tuple[int, ...]:
         """The numbers that say which message it is."""
         return tuple(part.read(self._data) for part in self._envelope.ids)

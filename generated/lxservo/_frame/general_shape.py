@@ -28,15 +28,15 @@ class Shape:
 
     `given` are the numbers that its constructor checks; `items` is the list of a size that varies,
     if there is one; `lengths` are the legal ones, one for each of `counts`. `counter` is from where
-    to where the number stands that says how long the list is; None where there is none. All that
-    can be wrong is told by `places`; a frame is `certain` where nothing can, but that number.
+    to where the number stands that says how long the list is; None where there is none. `parts` are
+    all fields and constants between head and tail. All that can be wrong is told by `places`; a
+    frame is `certain` where nothing can, but that number.
     """
 
     __slots__ = (
         "_bounds",
         "_counters",
         "_kind",
-        "_parts",
         "_quick",
         "_varying",
         "counter",
@@ -45,6 +45,7 @@ class Shape:
         "items",
         "lengths",
         "optional",
+        "parts",
     )
 
     def __init__(self, kind: Any, lengths: Sequence[int]) -> None:
@@ -73,8 +74,8 @@ class Shape:
         first = min((number for number, _ in self._counters), key=_at, default=None)
         self.counter = None if first is None else (first.at, first.at + first.struct.size)
         body = [each for each in fields if each.name not in outside]
-        self._parts: list[Any] = sorted([*body, *kind.CONSTANTS], key=_at)
-        self._bounds: list[tuple[type, float, float]] | None = None
+        self.parts: list[Any] = sorted([*body, *kind.CONSTANTS], key=_at)
+        self._bounds: list[tuple[type, Any, Any]] | None = None
         self._quick: list[tuple[int, int, Due]] | None = None
 
     def _counted(self) -> list[tuple[Number, int]]:
@@ -112,7 +113,7 @@ class Shape:
         What ends at `since` or before it is left out.
         """
         until = self._end(count)
-        for part in map(_there, self._parts):
+        for part in map(_there, self.parts):
             if part.at >= until or part is self._varying:
                 continue
             for number, factor in self._counters:
@@ -165,9 +166,15 @@ class Shape:
 
     def _fixed(self) -> Iterator[tuple[int, int, Due]]:
         """Yield what can be wrong at the same place in every frame, save for counts."""
-        for part in map(_there, self._parts):
+        for part in map(_there, self.parts):
             if part is not self._varying:
                 yield from _places(part)
+
+    @property
+    def present(self) -> list[int]:
+        """How many of the fields that may be absent are there, in the frames of each count."""
+        ends = [self._end(count) for count in self.counts] if self.optional else []
+        return [sum(each.at < end for each in self.optional) for end in ends]
 
     def _end(self, count: int) -> int:
         """Return where the fields of a frame with this count end, if some may be absent."""

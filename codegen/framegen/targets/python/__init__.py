@@ -61,9 +61,13 @@ _FOR_CHECKSUMS = {f"_frame/{name}.py" for name in ("byte_sum", "crc", "fletcher"
 # What takes the place of another file where frames are more than a header, a length and an id.
 _FOR_ENVELOPES = {
     "_frame/envelope_heads.py": "_frame/heads.py",
+    "_frame/envelope_parts.py": "_frame/parts.py",
     "_frame/envelope_table.py": "_frame/table.py",
 }
-_FOR_PLAIN = {"_frame/plain_heads.py": "_frame/heads.py"}
+_FOR_PLAIN = {
+    "_frame/plain_heads.py": "_frame/heads.py",
+    "_frame/plain_parts.py": "_frame/parts.py",
+}
 _WITH_ENVELOPES = {"_frame/envelope.py", "_frame/envelopes.py"}
 # And where each of them proves by a checksum that it is one.
 _FOR_PROVEN = {"_codec/certain_decoder.py": "_codec/careful_decoder.py"}

@@ -163,6 +163,16 @@ class LibraryView:
         return any(isinstance(field, ListView | PackedView) for field in fields)
 
     @property
+    def floats(self) -> bool:
+        """Whether any number is a floating-point one."""
+        return any(message.floats for message in self.messages)
+
+    @property
+    def passed_nan(self) -> str:
+        """What a strategy passes on, where it may generate what is no number."""
+        return ", allow_nan=allow_nan" if self.floats else ""
+
+    @property
     def columns(self) -> bool:
         """Whether any list can be read as columns."""
         return any(message.columns is not None for message in self.messages)

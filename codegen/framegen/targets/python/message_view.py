@@ -378,8 +378,22 @@ class MessageView:
     @property
     def strategy_declared(self) -> str:
         """The declaration of its strategy."""
-        before = f"def {self.function}() -> SearchStrategy["
-        return Bracketed(before, [self.name], "]:", comma="").fitted(0)
+        if not self.floats:
+            before = f"def {self.function}() -> SearchStrategy["
+            return Bracketed(before, [self.name], "]:", comma="").fitted(0)
+        given: list[Part] = ["*", "allow_nan: bool = False"]
+        after = f") -> SearchStrategy[{self.name}]:"
+        return Bracketed(f"def {self.function}(", given, after).fitted(0)
+
+    @property
+    def floats(self) -> bool:
+        """Whether any of its numbers is a floating-point one."""
+        return any(home == "floating" or "SwappedF" in name for name, home in self.classes.items())
+
+    @property
+    def passed_nan(self) -> str:
+        """What its strategy passes on, where it may generate what is no number."""
+        return ", allow_nan=allow_nan" if self.floats else ""
 
 
 def field_view(slot: Field, model: Model, layout: MessageLayout) -> FieldView:

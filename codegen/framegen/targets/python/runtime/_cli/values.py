@@ -1,46 +1,119 @@
-"""The fields of a message as text: printed with units and names, and read from that notation."""
+"""The fields of a message as text: printed with units and names, and read from that notation.
+
+A list is `items=1,2,3`, or `items=1:20,2:30` where its elements have several fields. In text, `%2C`
+is a comma, and likewise whatever else would end it.
+"""
 
 from __future__ import annotations
 
+import json
+import math
+import re
+from operator import attrgetter
 from warnings import catch_warnings, simplefilter
 
 from .._frame.errors import EncodeError
+from .._frame.items import Items
 from .numerals import whole_in_any_base
 from .usage_error import UsageError
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
-    from typing import Any
+    from collections.abc import Callable
+    from typing import Any, TypeAlias
 
-    from .._frame.items import Items
     from .._frame.message import Message
-    from .._frame.number import Number
+
+    # What returns a field of a message as text; None for one that is absent.
+    Show: TypeAlias = Callable[[Message], "str | None"]
+
+# How the fields of each class of messages are shown, made when it is first seen.
+_IN_JSON: dict[type[Message], list[tuple[str, Show]]] = {}
+_IN_TEXT: dict[type[Message], list[tuple[str, Show]]] = {}
+# What would end a text, or not be seen; and how that is written.
+_SPECIAL = re.compile(r"[^!-~]|[%,:]")
+_ESCAPED = re.compile(r"%([0-9A-Fa-f]{2})")
 
 
 def fields_in_json(message: Message) -> str:
     """Return what `to_dict` gives as the text of a JSON object, many times as fast."""
-    items = message.SHAPE.items
-    shown: list[str] = []
-    for name in message.__match_args__:
-        if items is not None and items.name == name:
-            listed = _listed(items, message, _json_of(items), ", ")
-            shown.append(f'"{name}": [{listed}]')
-        else:
-            shown.append(f'"{name}": {getattr(message, name)}')
+    kind = type(message)
+    shows = _IN_JSON.get(kind)
+    if shows is None:
+        shows = _IN_JSON[kind] = [
+            (name, _json_of(getattr(kind, name))) for name in kind.__match_args__
+        ]
+    shown = [f'"{name}": {show(message)}' for name, show in shows]
     return f"{{{', '.join(shown)}}}"
 
 
 def fields_as_text(message: Message) -> str:
-    """Return the fields as `delay=10 ms items=1:20,2:30`."""
-    items = message.SHAPE.items
-    shown: list[str] = []
-    for name in message.__match_args__:
-        if items is not None and items.name == name:
-            shown.append(f"{name}={_listed(items, message, ':'.join(['%d'] * items.width), ',')}")
-        else:
-            number = getattr(type(message), name)
-            shown.append(f"{name}={_number_as_text(number, getattr(message, name))}")
-    return " ".join(shown)
+    """Return the fields as `delay=10 ms items=1:20,2:30`; those that are absent are left out."""
+    kind = type(message)
+    shows = _IN_TEXT.get(kind)
+    if shows is None:
+        shows = _IN_TEXT[kind] = [
+            (name, _text_of(getattr(kind, name))) for name in kind.__match_args__
+        ]
+    shown = [(name, show(message)) for name, show in shows]
+    return " ".join(f"{name}={text}" for name, text in shown if text is not None)
+
+
+def _json_of(field: Any) -> Show:
+    """Return what shows a field in JSON."""
+    read: Any = attrgetter(field.name)
+    if isinstance(field, Items):
+        return _listed_in_json(field)
+    if _is_whole(field):
+        return lambda message: str(read(message))
+    return lambda message: _in_json(read(message))
+
+
+def _in_json(value: Any) -> str:
+    if isinstance(value, float) and not math.isfinite(value):
+        value = str(value)
+    return json.dumps(value)
+
+
+def _listed_in_json(items: Items[Any]) -> Show:
+    """Return what shows a list in JSON, all of its numbers at once where they are whole ones."""
+    names = [f'"{field.name}": ' for field in items.fields] if items.element else [""]
+    begin, end = ("{", "}") if items.element else ("", "")
+    if all(map(_is_whole, items.fields)):
+        element = f"{begin}{', '.join(f'{name}%d' for name in names)}{end}"
+        return lambda message: f"[{_listed(items, message, element, ', ')}]"
+
+    def shown(message: Message) -> str:
+        values = iter(map(_in_json, items.numbers(message.encode())))
+        rows = zip(*[values] * items.width, strict=True)
+        elements = [
+            ", ".join(f"{name}{value}" for name, value in zip(names, row, strict=True))
+            for row in rows
+        ]
+        return f"[{', '.join(f'{begin}{each}{end}' for each in elements)}]"
+
+    return shown
+
+
+def _text_of(field: Any) -> Show:
+    """Return what shows a field as text."""
+    read: Any = attrgetter(field.name)
+    if not isinstance(field, Items):
+        return lambda message: _as_text(field, read(message))
+    if all(map(_is_whole, field.fields)):
+        element = ":".join(["%d"] * field.width)
+        return lambda message: _listed(field, message, element, ",")
+
+    def shown(message: Message) -> str:
+        values = iter([_word(value) for value in field.numbers(message.encode())])
+        return ",".join(":".join(row) for row in zip(*[values] * field.width, strict=True))
+
+    return shown
+
+
+def _is_whole(field: Any) -> bool:
+    """Tell whether a field is always a whole number."""
+    return isinstance(getattr(field, "highest", None), int)
 
 
 def _listed(items: Items[Any], message: Message, element: str, comma: str) -> str:
@@ -50,20 +123,27 @@ def _listed(items: Items[Any], message: Message, element: str, comma: str) -> st
     return text
 
 
-def _json_of(items: Items[Any]) -> str:
-    """Return the format of an element in JSON."""
-    if items.element is None:
-        return "%d"
-    fields = ", ".join([f'"{field.name}": %d' for field in items.fields])
-    return f"{{{fields}}}"
+def _as_text(field: Any, value: Any) -> str | None:
+    """Return a value with its unit, or with the name that it has; None where it is absent."""
+    field = getattr(field, "number", field)
+    if value is None:
+        return None
+    if isinstance(value, tuple):
+        return ",".join(map(str, value))
+    if isinstance(value, str):
+        return _word(value)
+    unit = f" {field.unit}" if field.unit else ""
+    named = [name for name, known in field.names.items() if known == value]
+    bits = getattr(field, "bits", None) or {}
+    named += [name for name, mask in bits.items() if int(value) & mask]
+    return f"{value}{unit} ({', '.join(named)})" if named else f"{value}{unit}"
 
 
-def _number_as_text(number: Number, value: int) -> str:
-    unit = f" {number.unit}" if number.unit else ""
-    if not number.names:
-        return f"{value}{unit}"
-    named = [f" ({name})" for name, known in number.names.items() if known == value]
-    return f"{value}{unit}{''.join(named)}"
+def _word(value: Any) -> str:
+    """Return a value as one word; of a text, what would end it is escaped."""
+    if not isinstance(value, str):
+        return str(value)
+    return _SPECIAL.sub(lambda found: f"%{ord(found[0]):02X}", value)
 
 
 def message_from_text(kind: type[Message], words: list[str]) -> Message:
@@ -90,53 +170,92 @@ def fields_from_text(kind: type[Message], words: list[str]) -> dict[str, Any]:
         if name in given:
             raise UsageError(f"{name} is given twice")
         given[name] = _read_field(kind, name, text)
-    missing = [name for name in kind.__match_args__ if name not in given]
+    optional = dict(kind.DEFAULTS)
+    missing = [name for name in kind.__match_args__ if name not in given and name not in optional]
     if missing:
         raise UsageError(f"{kind.__name__} needs {' and '.join(missing)}; {_usage(kind)}")
     return given
 
 
 def _usage(kind: type[Message]) -> str:
-    items = kind.SHAPE.items
+    optional = dict(kind.DEFAULTS)
     fields: list[str] = []
     for name in kind.__match_args__:
-        if items is None or items.name != name:
-            fields.append(f"{name}={name.upper()}")
-        else:
-            element = ":".join(field.name.upper() for field in items.fields)
-            fields.append(f"{name}={element},...")
+        word = f"{name}={_written(getattr(kind, name))}"
+        fields.append(f"[{word}]" if name in optional else word)
     return f"it is written {' '.join([kind.__name__, *fields])}"
 
 
+def _written(field: Any) -> str:
+    """Return how a field is written: its name, or those of the fields of an element."""
+    if not isinstance(field, Items):
+        length = getattr(field, "length", None)
+        name: str = field.name.upper()
+        return name if length is None else f"{name},..."
+    return f"{':'.join(each.name.upper() for each in field.fields)},..."
+
+
 def _read_field(kind: type[Message], name: str, text: str) -> Any:
-    items = kind.SHAPE.items
-    if items is None or items.name != name:
-        return _read_number(getattr(kind, name), text, name)
+    field = getattr(kind, name)
     words = text.split(",") if text else []
-    return [_read_element(items, word, f"{name}[{at}]") for at, word in enumerate(words)]
+    if isinstance(field, Items):
+        return [_read_element(field, word, f"{name}[{at}]") for at, word in enumerate(words)]
+    if hasattr(field, "length"):
+        return [_read_whole(field, word, f"{name}[{at}]") for at, word in enumerate(words)]
+    return _read_value(field, text, name)
 
 
 def _read_element(items: Items[Any], word: str, path: str) -> Any:
     if items.element is None:
-        return _read_number(items.fields[0], word, path)
+        return _read_value(items.fields[0], word, path)
     parts = word.split(":")
     if len(parts) != len(items.fields):
         wanted = ":".join(field.name for field in items.fields)
         raise UsageError(f"{path}: {word!r} is not {wanted}")
     return tuple(
-        _read_number(field, part, f"{path}.{field.name}")
+        _read_value(field, part, f"{path}.{field.name}")
         for field, part in zip(items.fields, parts, strict=True)
     )
 
 
-def _read_number(number: Number, text: str, path: str) -> int:
-    named = number.names.get(text)
+def _read_value(field: Any, text: str, path: str) -> Any:
+    field = getattr(field, "number", field)
+    if _is_whole(field):
+        return _read_whole(field, text, path)
+    if hasattr(field, "struct"):
+        return _read_floating(text, path)
+    return _ESCAPED.sub(lambda found: chr(int(found[1], 16)), text)
+
+
+def _read_whole(number: Any, text: str, path: str) -> int:
+    named: int | None = number.names.get(text)
+    if named is None:
+        named = _bits(number, text)
     if named is not None:
         return named
     try:
         return whole_in_any_base(text)
     except ValueError:
-        names = "".join(f", or {name}" for name in number.names)
+        bits = getattr(number, "bits", {})
+        names = "".join(f", or {name}" for name in [*number.names, *bits])
         raise UsageError(
             f"{path}: {text[:40]!r} is no number: write it like 12 or 0x0C{names}"
         ) from None
+
+
+def _bits(number: Any, text: str) -> int | None:
+    """Return the number in which bits of these names are set; None if there is no such name."""
+    bits = getattr(number, "bits", {})
+    found = 0
+    for name in text.split("+"):
+        if name not in bits:
+            return None
+        found |= bits[name]
+    return found
+
+
+def _read_floating(text: str, path: str) -> float:
+    try:
+        return float(text)
+    except ValueError:
+        raise UsageError(f"{path}: {text[:40]!r} is no number: write it like 1.5") from None
