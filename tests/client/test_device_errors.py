@@ -54,16 +54,16 @@ def client(name: str, answer: bytes, **settings: Any) -> Iterator[Any]:
 
 def test_a_refusal_is_an_error_that_carries_it() -> None:
     modbus = lib("modbus")
-    with client("modbus", frame("modbus", "HoldingReadRefused", unit=17, code=2)) as bus:
+    with client("modbus", frame("modbus", "HoldingReadRefused", unit=17, reason=2)) as bus:
         with pytest.raises(modbus.RefusedError) as caught:
             bus.read_holding(17, start=107, quantity=3)
         assert caught.value.request == modbus.HoldingRead(17, start=107, quantity=3)
-        assert caught.value.refusal == modbus.HoldingReadRefused(17, code=2)
+        assert caught.value.refusal == modbus.HoldingReadRefused(17, reason=2)
         assert isinstance(caught.value, modbus.ProtocolError)
         assert not isinstance(caught.value, TimeoutError)
         assert str(caught.value) == (
             "HoldingRead(unit=17, start=107, quantity=3) was refused: "
-            "HoldingReadRefused(unit=17, code=2)"
+            "HoldingReadRefused(unit=17, reason=2) (illegal_address)"
         )
         assert str(pickle.loads(pickle.dumps(caught.value))) == str(caught.value)  # noqa: S301
         with pytest.raises(modbus.RefusedError):
@@ -72,8 +72,8 @@ def test_a_refusal_is_an_error_that_carries_it() -> None:
 
 def test_a_refusal_of_another_device_or_of_something_else_refuses_nothing() -> None:
     modbus = lib("modbus")
-    others = frame("modbus", "HoldingReadRefused", unit=18, code=2)
-    others += frame("modbus", "CoilsReadRefused", unit=17, code=2)
+    others = frame("modbus", "HoldingReadRefused", unit=18, reason=2)
+    others += frame("modbus", "CoilsReadRefused", unit=17, reason=2)
     with client("modbus", others) as bus:
         with pytest.raises(modbus.NoReplyError):
             bus.read_holding(17, start=107, quantity=3)

@@ -7,7 +7,7 @@ from .exchange import Unfailing
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
-    from collections.abc import Mapping
+    from collections.abc import Iterable, Iterator, Mapping
 
     from .._frame.message import Message
 
@@ -15,16 +15,17 @@ if TYPE_CHECKING:
 class RefusedError(ProtocolError):
     """The device has refused a request. `request` is that, and `refusal` the message that says so.
 
-    Nothing was carried out.
+    `named` is what the refusal says, as far as its values have names.
     """
 
     def __init__(self, request: Message, refusal: Message) -> None:
         super().__init__(request, refusal)
         self.request = request
         self.refusal = refusal
+        self.named = tuple(_names_in(refusal))
 
     def __str__(self) -> str:
-        return f"{self.request!r} was refused: {self.refusal!r}"
+        return f"{self.request!r} was refused: {self.refusal!r}{_in_brackets(self.named)}"
 
 
 class FailureError(ProtocolError):
@@ -45,8 +46,8 @@ class FailureError(ProtocolError):
 
     def __str__(self) -> str:
         value = getattr(self.reply, self.field)
-        meaning = f" ({', '.join(self.named)})" if self.named else ""
-        return f"{self.request!r} has failed: {self.field} is {value}{meaning}"
+        failed = f"{self.request!r} has failed: {self.field} is {value}"
+        return f"{failed}{_in_brackets(self.named)}"
 
 
 class Failures(Unfailing):
@@ -84,3 +85,16 @@ class Failures(Unfailing):
     def _meaning(self, value: int) -> tuple[str, ...]:
         named = [name for name, each in self._names.items() if each == value]
         return tuple(named or (name for name, mask in self._bits.items() if value & mask))
+
+
+def _names_in(message: Message) -> Iterator[str]:
+    """Yield the names that the values of a message have."""
+    for field in message.__match_args__:
+        names: Mapping[str, int] = getattr(vars(type(message))[field], "names", {})
+        value = getattr(message, field)
+        yield from (name for name, each in names.items() if each == value)
+
+
+def _in_brackets(named: Iterable[str]) -> str:
+    words = ", ".join(named)
+    return f" ({words})" if words else ""
