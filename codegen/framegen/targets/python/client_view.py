@@ -10,6 +10,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, ClassVar, TypeVar
 
 from framegen.model.exchanges import STEPS_PER_SECOND
+from framegen.model.slots import Items
 from framegen.targets.python.bus_view import BusView
 from framegen.targets.python.errors_view import ErrorsView
 from framegen.targets.python.escape import Bracketed, Part, Text, literal
@@ -195,7 +196,7 @@ class ClientView:
             prefix = base.removesuffix("Client")
             module = f"{prefix.lower()}_devices" if prefix else "devices"
             modules[module] = {f"{prefix}{each}" for each in self._device_classes}
-            modules["._frame.message"] = {"Message"}
+            modules |= {"._frame.message": {"Message"}} if self.silent else {}
         return [
             relative_import(module, names) for module, names in sorted(modules.items()) if names
         ]
@@ -259,8 +260,8 @@ class ClientView:
         names = {each.request.name for each in self.model.exchanges}
         names |= {each.reply.name for each in self.model.exchanges if each.reply is not None}
         shown = " ".join(method.returns for method in self.methods)
-        lists = [each.items for each in self.model.messages.values()]
-        elements = {each.element for each in lists if each is not None and each.element is not None}
+        fields = [field for each in self.model.messages.values() for field in each.fields]
+        elements = {each.element for each in fields if isinstance(each, Items) and each.element}
         names |= {each for each in elements if f"tuple[{each}, ...]" in shown}
         return names | ({self.pose.element} if self.pose else set())
 

@@ -5,14 +5,20 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from framegen.model.slots import Items, Number
+from framegen.model.slots import Number
 from framegen.targets.python.escape import WIDTH, Bracketed, Part, session
-from framegen.targets.python.list_view import ListView, given
+from framegen.targets.python.list_view import given
+from framegen.targets.python.message_view import field_view
 from framegen.targets.python.number_view import NumberView
 
 if TYPE_CHECKING:
+    from typing import Any
+
     from framegen.model.exchanges import Exchange
+    from framegen.model.layout import MessageLayout
     from framegen.model.model import Model
+    from framegen.model.slots import Field
+    from framegen.targets.python.message_view import FieldView
 
 _HANDED_OVER = (
     "Returns once the frame is handed over; `delay` of the result is how many seconds later it is "
@@ -70,7 +76,17 @@ class MethodView:
         return self._declaration(self._names, self._latest, self.returns)
 
     def _declaration(self, names: tuple[str, ...], others: list[str], returns: str) -> str:
-        given = [self._declared(self._argument(name)) for name in names]
+        given: list[Part] = []
+        # What may be left out stands last, in whatever order the spec names it.
+        left_out = True
+        for argument in map(self._argument, reversed(names)):
+            declared = argument.argument
+            if isinstance(declared, str):
+                left_out = left_out and "=" in declared
+                declared = declared if left_out else declared.partition(" =")[0]
+            else:
+                left_out = False
+            given.insert(0, declared)
         before = f"{self.flavour.define}{self.name}("
         keywords = ["*", *others] if others else []
         return Bracketed(before, ["self", *given, *keywords], f") -> {returns}:").fitted(4)
@@ -88,7 +104,8 @@ class MethodView:
         result = self._result
         if result is None:
             return reply.name
-        return "int" if isinstance(result, Number) else self._list(result).read_as
+        shown = self._shown(result, reply)
+        return shown.value_type if isinstance(shown, NumberView) else shown.read_as
 
     @property
     def _sent(self) -> str:
@@ -116,7 +133,7 @@ class MethodView:
             return [*self._handed_over, f"{_REFUSED}, and TransportError."]
         returned = f"Returns the {reply.name}."
         if result is not None:
-            about, *rest = self._shown(result).argument_doc
+            about, *rest = self._shown(result, reply).argument_doc
             returned = " ".join([f"Returns `{result.name}` of the {reply.name}: {about}", *rest])
         lines = [returned]
         if self.exchange.split is not None:
@@ -141,7 +158,7 @@ class MethodView:
         if reply is None:
             return self._session(f"sent = {call}")
         if isinstance(self._result, Number):
-            shown = str(reply.message.examples[0].values[self._result.name])
+            shown = repr(reply.message.examples[0].values[self._result.name])
             return [*self._session(call), shown]
         return self._session(f"answer = {call}")
 
@@ -280,36 +297,38 @@ class MethodView:
         return [name for name in names if name in self._names]
 
     @property
-    def _result(self) -> Number | Items | None:
+    def _result(self) -> Field | None:
         """The field of the reply that it returns."""
         reply, name = self.exchange.reply, self.exchange.method.result
         fields = () if reply is None else reply.arguments
         return next((field for field in fields if field.name == name), None)
 
-    def _argument(self, name: str) -> NumberView | ListView:
-        return self._shown(self._field(name))
+    def _argument(self, name: str) -> FieldView:
+        return self._shown(self._field(name), self.exchange.request)
 
-    def _field(self, name: str) -> Number | Items:
+    def _field(self, name: str) -> Field:
         fields = self.exchange.request.arguments
         return next(field for field in fields if field.name == name)
 
-    def _shown(self, field: Number | Items) -> NumberView | ListView:
-        return self._list(field) if isinstance(field, Items) else self._number(field)
-
-    def _list(self, field: Items) -> ListView:
-        return ListView(field, self.model.spec)
-
-    def _number(self, field: Number) -> NumberView:
-        return NumberView(field, self.model.spec)
-
-    def _declared(self, argument: NumberView | ListView) -> Part:
-        return argument.argument if isinstance(argument, ListView) else f"{argument.name}: int"
+    def _shown(self, field: Field, message: MessageLayout) -> FieldView:
+        return field_view(field, self.model, message)
 
     def _session(self, before: str) -> list[str]:
         """Return a call in an interactive session: the first argument by place, others by name."""
-        values = self.exchange.request.message.examples[0].values
+        values = self._example_values
         shown = [
             given(self._field(name), values[name], f"{name}=" if at else "")
             for at, name in enumerate(self._names)
         ]
         return session(Bracketed(before, shown, ")"), 8)
+
+    @property
+    def _example_values(self) -> dict[str, Any]:
+        """The values of the first example, for a device that answers where an answer is shown."""
+        examples, address = self.exchange.request.message.examples, self.exchange.address
+        if address is None or self.exchange.reply is None:
+            return examples[0].values
+        silent = self.exchange.silent.values()
+        answered = [each.values for each in examples if each.values[address.name] not in silent]
+        one = next(each for each in range(address.low, address.high + 1) if each not in silent)
+        return answered[0] if answered else {**examples[0].values, address.name: one}
