@@ -170,11 +170,14 @@ function makeCodec(protocol) {
     const ways = protocol.directions.filter(({ key }) => direction === null || key === direction);
     const carried = ways.flatMap(({ key }) => kinds.filter((kind) => kind.direction === key));
     const sizes = carried.map((kind) => sizeOf(kind, kind.counts.high));
-    const known = [...envelopes.values()].filter((envelope) => carried.some((kind) => kind.envelope === envelope));
+    const known = new Set(carried.map(({ envelope }) => envelope));
     return {
       largest: Math.min(maxFrame, Math.max(0, ...sizes)),
-      envelopes: known.map((envelope) => [envelope, carried.filter((kind) => kind.envelope === envelope
-        && (envelope.lengthSlot || sizeOf(kind, kind.counts.low) <= maxFrame))]),
+      envelopes: [...envelopes.values()].filter((each) => known.has(each)).map((envelope) => [
+        envelope,
+        carried.filter((kind) => kind.envelope === envelope
+          && (envelope.lengthSlot || sizeOf(kind, kind.counts.low) <= maxFrame)),
+      ]),
     };
   }
 
@@ -564,7 +567,9 @@ function makeCodec(protocol) {
       if (slot.size > 4 || !Number.isFinite(value) || Number.isFinite(Math.fround(value))) return value;
       throw new Unusable(`${path}: ${value} does not fit`);
     }
-    if (typeof value !== "bigint" && !Number.isInteger(value)) throw new Unusable(`${path}: a whole number is due`);
+    if (typeof value !== "bigint" && !Number.isInteger(value)) {
+      throw new Unusable(`${path}: a whole number is due`);
+    }
     if (inside(slot, value)) return value;
     throw new Unusable(`${path}: ${value} is outside ${slot.low}..${slot.high}`);
   }
