@@ -32,10 +32,10 @@ def _judge(model: Model, direction: str, data: bytes) -> Judgement:
 
 def seen_rows(model: Model, verdict: Verdict, data: bytes) -> tuple[Row, ...]:
     """Explain the slots that agreed with the beginning of a frame."""
-    number = len(verdict.seen)
+    end = verdict.seen[-1].end if verdict.seen else 0
     likely = None if verdict.likely is None else model.plain.messages[verdict.likely.name]
     slots = model.plain.envelopes[verdict.frame].head if verdict.frame else ()
-    if likely is not None and number > len(slots):
+    if likely is not None and len(verdict.seen) > len(slots):
         length = likely.length_of(data)
         slots = tuple(likely.lay_out(likely.lengths[0] if length is None else length))
-    return rows_of(data, slots[:number], likely)
+    return rows_of(data, [placed for placed in slots if placed.end <= end], likely)

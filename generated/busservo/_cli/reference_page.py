@@ -19,6 +19,8 @@ if TYPE_CHECKING:
 
 # Elements of a list in an example that are shown one by one.
 _MOST_ROWS = 64
+# More bytes of a slot than this are not shown one by one.
+_MOST_DOTS = 8
 
 
 def message_list(
@@ -29,11 +31,16 @@ def message_list(
         sheet.heading(model.title)
         sheet.paragraph(model.said["summary"])
         sheet.paragraphs(model.said["description"])
-    digits = 2 * model.frame.id.size
+    digits = max((len(hexed(each)) for each in messages), default=0)
+    numbers = max((3, *(len(numbered(each)) for each in messages)))
     width = max(len(message.name) for message in messages)
     for direction in model.directions:
         rows = [
-            (f"{each.id:>3}", f"0x{each.id:0{digits}X}", f"{each.name:<{width}}", _summary(each))
+            (
+                *((f"{numbered(each):>{numbers}}", hexed(each)) if digits else ()),
+                f"{each.name:<{width}}",
+                _summary(each),
+            )
             for each in messages
             if each.direction == direction
         ]
@@ -48,6 +55,17 @@ def message_list(
             f"that speak of something, `{PROGRAM} docs errata` and `{PROGRAM} docs lookalikes` "
             f"say what else is known."
         )
+
+
+def numbered(message: Message) -> str:
+    """Return the ids that a frame of a message holds, in decimal."""
+    return ", ".join(map(str, message.seen_ids))
+
+
+def hexed(message: Message) -> str:
+    """Return the ids that a frame of a message holds, in hex."""
+    ids = zip(message.frame.ids, message.seen_ids, strict=True)
+    return " ".join(f"0x{number:0{2 * part.size}X}" for part, number in ids)
 
 
 def _reserved(sheet: Sheet, model: Protocol) -> None:
@@ -94,15 +112,19 @@ def message_page(sheet: Sheet, model: Protocol, message: Message) -> None:
 
 def _facts(model: Protocol, message: Message) -> Iterator[tuple[str, str]]:
     """Yield what there is to say of a message as a whole."""
-    said, frame = message.said, model.frame
+    said = message.said
     yield "direction:", f"{message.direction} ({said['kind']})"
-    number = f"0x{message.id:0{2 * frame.id.size}X}, {message.id} in decimal"
-    yield f"{frame.id.name}:", number
+    yield from _identity(model, message)
     for label, key in (("vendor's name:", "vendor_name"), ("goes on for:", "lasts")):
         if key in said:
             yield label, said[key]
     if said["kind"] in ("command", "query"):
         yield "reply:", said.get("reply", "none is due")
+    yield from (
+        (label, said[key])
+        for label, key in (("refused by:", "refusal"), ("has failed, unless 0:", "failure"))
+        if key in said
+    )
     for label, key in (
         ("may lead to:", "reports"),
         ("answers:", "answers"),
@@ -125,10 +147,21 @@ def _facts(model: Protocol, message: Message) -> Iterator[tuple[str, str]]:
     yield "source:", _cited(model, said["cite"])
 
 
+def _identity(model: Protocol, message: Message) -> Iterator[tuple[str, str]]:
+    """Yield the ids of a message, and the name of its frame where there are several."""
+    frame = message.frame
+    for part, number in zip((*frame.ids, *frame.unsent), message.ids, strict=True):
+        unsent = ", not sent" if part in frame.unsent else ""
+        yield f"{part.name}:", f"0x{number:0{2 * part.size}X}, {number} in decimal{unsent}"
+    if len(model.envelopes) > 1:
+        yield "frame:", frame.name
+
+
 def _length_rule(message: Message) -> str:
-    name = message.frame.length.name
+    length = message.frame.length
+    name = "size of the frame" if length is None else length.name
     if message.items is None:
-        return f"{name} = {message.formula}"
+        return f"{name} = {describe_range(message.lengths)}"
     return f"{name} = {message.formula}, so it is {describe_range(message.lengths)}"
 
 
@@ -147,23 +180,36 @@ def _pattern(message: Message) -> Iterator[tuple[str, str, str, str]]:
         step = "i" if slot.size == 1 else f"{slot.size}i"
         for field in slot.fields:
             place = f"{slot.at + field.at} + {step}"
-            yield place, _dots(field.size), slot.path("i", field), field.said["type"]
+            data, _, what = _part(message, field)
+            yield place, data, slot.path("i", field), what
 
 
 def _part(message: Message, slot: Slot) -> tuple[str, str, str]:
-    if slot.role == "constant":
-        return to_hex(slot.data), slot.name, ""
+    if slot.role in ("constant", "reserved"):
+        return to_hex(slot.data), slot.name, slot.role if slot.role == "reserved" else ""
     if slot.role == "id":
-        return to_hex(slot.write(message.id)), slot.name, str(message.id)
+        number = message.ids[message.frame.ids.index(slot)]
+        return to_hex(slot.write(number)), slot.name, str(number)
     if slot.role == "length":
-        fixed = message.items is None
-        data = to_hex(slot.write(message.lengths[0])) if fixed else _dots(slot.size)
+        data = _dots(slot.size) if message.varies else to_hex(slot.write(message.lengths[0]))
         return data, slot.name, message.formula
-    return _dots(slot.size), slot.name, slot.said["type"]
+    return _dots(slot.size), slot.name, _kind(slot)
+
+
+def _kind(slot: Slot) -> str:
+    """Return what a slot holds: its type, or the method of a checksum."""
+    if slot.role == "packed":
+        return f"{slot.said['count']} of {slot.said['packed']}"
+    if slot.role == "checksum":
+        return str(slot.said["method"])
+    absent = ", may be absent" if slot.said.get("optional") else ""
+    return f"{slot.said.get('type', 'text')}{absent}"
 
 
 def _dots(size: int) -> str:
     # The ASCII of it: not every console has the dots that pages have.
+    if size > _MOST_DOTS:
+        return f".. ... .. ({size} bytes)"
     return " ".join([".."] * size)
 
 
@@ -174,7 +220,9 @@ def _fields(sheet: Sheet, model: Protocol, message: Message) -> None:
         if slot.role != "list":
             _field(sheet, model, slot, slot.name)
             continue
-        many = f"{slot.low}..{slot.high} of them, as {slot.said['counter']} says"
+        many = f"{slot.low} of them" if slot.is_fixed else f"{slot.low}..{slot.high} of them"
+        if "counter" in slot.said:
+            many += f", as {slot.said['counter']} says"
         if "element" in slot.said:
             sheet.line(f"  {slot.name}  list of {slot.said['element']}, {many}")
             _said(sheet, model, slot.said)
@@ -185,13 +233,32 @@ def _fields(sheet: Sheet, model: Protocol, message: Message) -> None:
 
 def _field(sheet: Sheet, model: Protocol, slot: Slot, path: str, many: str = "") -> None:
     said = slot.said
-    values = "as many as there are" if slot.role == "count" else f"{slot.low}..{slot.high}"
-    bounds = [said["type"], values, said.get("unit", ""), many]
+    kind = "" if slot.role in ("constant", "reserved") else _kind(slot)
+    bounds = [kind, _values(slot), said.get("unit", ""), many]
     sheet.line(f"  {path}  {', '.join(filter(None, bounds))}")
     if "scale" in said:
-        step, unit = said["scale"]
-        sheet.paragraph(f"One step is {step} {unit}.", 6)
+        step, unit, *offset = said["scale"]
+        beginning = "".join(f", and 0 is {each} {unit}" for each in offset)
+        sheet.paragraph(f"One step is {step} {unit}{beginning}.", 6)
+    for name, (low, high, about) in said.get("bits", {}).items():
+        at = f"bit {low}" if low == high else f"bits {low}..{high}"
+        sheet.paragraph(f"{at}: {name}{', ' if about else ''}{about}", 6)
     _said(sheet, model, said)
+
+
+def _values(slot: Slot) -> str:
+    """Return the values that a field may have."""
+    if slot.role == "constant":
+        return f"always {to_hex(slot.data)}"
+    if slot.role == "reserved":
+        return f"written as {to_hex(slot.data)}, read as anything"
+    if slot.role == "text":
+        return f"up to {slot.size} characters"
+    if slot.role == "count":
+        return "as many as there are"
+    if slot.role == "size":
+        return "as many bytes as there are"
+    return "any number" if slot.is_float else f"{slot.low}..{slot.high}"
 
 
 def _said(sheet: Sheet, model: Protocol, said: Any) -> None:
@@ -219,7 +286,7 @@ def _example(sheet: Sheet, model: Protocol, message: Message, example: Any) -> N
     made = f"constructed: {example['constructed']}" if "constructed" in example else ""
     sheet.paragraph(f"{example['title']} ({origin or made})", 2)
     sheet.paragraph(example["hex"], 4)
-    slots = [*message.lay_out(model.frame.length.read_in(data))]
+    slots = [*message.lay_out(message.length_of(data) or 0)]
     rows = rows_of(data, slots[:_MOST_ROWS], message)
     cells = [(str(row.offset), to_hex(row.data), row.path, row.text) for row in rows]
     sheet.columns([("  byte", "hex", "part", "value"), *((f"  {at:>4}", *c) for at, *c in cells)])

@@ -26,7 +26,7 @@ def find(model: Protocol, words: str) -> list[Message]:
     if named or not words.split():
         return named or messages
     numbers = _numbers(words)
-    numbered = [each for each in messages if each.id in numbers]
+    numbered = [each for each in messages if set(numbers).intersection(each.ids)]
     if numbered:
         return numbered
     sought = [folded(word) for word in words.split()]

@@ -77,10 +77,10 @@ def _lookalike(sheet: Sheet, model: Protocol, other: Lookalike) -> None:
     if other.commands:
         sheet.line()
         here = {
-            number: [each.name for each in model.messages.values() if each.id == number]
+            number: [name for name, each in model.messages.items() if each.ids == (number,)]
             for number in other.commands
         }
-        name = model.frame.id.name
+        name = "id" if model.frame.id is None else model.frame.id.name
         sheet.columns(
             [
                 (name, "there it", "here it is"),

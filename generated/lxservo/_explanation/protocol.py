@@ -113,7 +113,8 @@ class Slot:
     def value(self, data: bytes) -> Value:
         """Return the value of its bytes: a number, a text, or all the numbers of a packed list."""
         if self.role == "text":
-            return data.rstrip(b"\0").decode(self.said["charset"], "backslashreplace")
+            text = data if self.said.get("whole") else data.rstrip(b"\0")
+            return text.decode(self.said["charset"], "backslashreplace")
         if self.role == "packed":
             return self._packed(data)
         if not self.is_float:
@@ -542,7 +543,9 @@ def lay_out(slots: Iterable[Slot], size: int, count: int = 0) -> Iterator[Placed
     slots = list(slots)
     for slot in slots:
         at = _from_front(slot.at, size)
-        if slot.role == "list":
+        if slot.role == "list" and "text" in slot.said:
+            yield _text(slot, at, slot.low if slot.is_fixed else count)
+        elif slot.role == "list":
             for index in range(slot.low if slot.is_fixed else count):
                 start = at + index * slot.size
                 for field in slot.fields:
@@ -552,6 +555,14 @@ def lay_out(slots: Iterable[Slot], size: int, count: int = 0) -> Iterator[Placed
             yield Placed(slot.name, at, size - sum(each.size for each in slots), slot)
         else:
             yield Placed(slot.name, at, slot.size, slot)
+
+
+def _text(items: Slot, at: int, count: int) -> Placed:
+    """Return the text of a list of characters, as one slot."""
+    (character,) = items.fields
+    said = {"role": "text", "name": items.name, "at": at, "size": count}
+    text = {**said, "charset": items.said["text"], "about": character.about, "whole": True}
+    return Placed(items.name, at, count, Slot(text, items.byte_order))
 
 
 def listed(names: Sequence[str], last: str = "and") -> str:

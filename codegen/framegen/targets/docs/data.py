@@ -190,7 +190,7 @@ def _sum(number: Number, frame: Envelope | None) -> dict[str, Any]:
     """Return how a checksum is worked out, and from what."""
     if frame is None or number.role != "checksum":
         return {}
-    return {"method": _method(number), "covers": _covers(frame, number)}
+    return {"method": checksum_method(number), "covers": _covers(frame, number)}
 
 
 def _number(number: Number) -> dict[str, Any]:
@@ -242,7 +242,7 @@ def _covers(frame: Envelope, checksum: Number) -> list[Any]:
     return pieces
 
 
-def _method(checksum: Number) -> dict[str, Any]:
+def checksum_method(checksum: Number) -> dict[str, Any]:
     """Return how a checksum is worked out."""
     width = 8 * checksum.size
     terms = method_terms(checksum.method)

@@ -18,6 +18,10 @@ if TYPE_CHECKING:
     from framegen.model.model import Model
 
 
+# More bytes of an example than this are not on the cheat sheet.
+_SHORT = 24
+
+
 @dataclass(frozen=True, slots=True)
 class ExampleView:
     """One documented frame, byte by byte. `number` counts from 1 within its message."""
@@ -42,6 +46,11 @@ class ExampleView:
     def hex(self) -> str:
         """The bytes as people read them."""
         return to_hex(self.data)
+
+    @property
+    def beginning(self) -> str:
+        """The bytes, or as many of them as a line holds."""
+        return self.hex if len(self.data) <= _SHORT else f"{to_hex(self.data[:_SHORT])} …"
 
     @property
     def python(self) -> str:

@@ -32,6 +32,8 @@ if TYPE_CHECKING:
     from framegen.model.model import Model
     from framegen.targets.target import Snippets
 
+# What goes onto a page of A4, with room for the rest of the cheat sheet.
+_LINES_A_PAGE, _PARAMETERS_A_LINE = 24, 4
 # From docs/reference/<name> to the root of the project.
 _TO_ROOT = "../../../"
 
@@ -207,6 +209,12 @@ class SiteView:
     def by_id(self) -> list[MessagePage]:
         """Every message, by id; where two share one, in the order of the spec."""
         return sorted(self.messages, key=lambda message: message.layout.ids)
+
+    @property
+    def fits_a_page(self) -> bool:
+        """Whether the cheat sheet goes onto one page of A4."""
+        parameters = sum(len(message.parameters) for message in self.messages)
+        return len(self.messages) + parameters // _PARAMETERS_A_LINE <= _LINES_A_PAGE
 
     @cached_property
     def addresses(self) -> dict[str, str]:

@@ -94,6 +94,8 @@ def _kind(slot: Number | Text | Packed) -> str:
 
 def _in_each(items: Items, slot: Number | Text | Constant) -> Cell:
     path, offset = items.path("i", slot), place_in_each(items, slot.at)
+    if items.text:
+        return Cell(offset, _dots(1), items.name, "text", "repeated")
     if isinstance(slot, Constant):
         value = "reserved" if slot.role == "reserved" else ""
         return Cell(offset, to_hex(slot.data), path, value, "repeated")

@@ -82,10 +82,11 @@ function makeCodec(protocol) {
   const fixed = (slot) => (slot.role === "constant" ? slot.bytes : []);
   const countsList = ({ role }) => role === "count" || role === "size";
 
-  // Numbers with more digits than those of a browser come as text.
+  // Numbers with more digits than those of a browser come as text. The `fields` of a list are those
+  // slots of an element that have a value.
   function prepared(slot) {
     if (slot.wide) Object.assign(slot, { low: BigInt(slot.low), high: BigInt(slot.high) });
-    (slot.slots || []).forEach(prepared);
+    if (slot.slots) slot.fields = slot.slots.map(prepared).filter((each) => !("bytes" in each));
     return slot;
   }
 
@@ -144,6 +145,8 @@ function makeCodec(protocol) {
     return slotsIn(frame).flatMap((placed) => {
       const { slot: list, at } = placed;
       if (list.role !== "list") return [placed];
+      // Text is one piece, all of it.
+      if (list.text) return [{ path: list.name, at, slot: { ...list, role: "text", size: frame.count } }];
       return Array.from({ length: list.count ?? frame.count }, (_, index) => list.slots.map((slot) => (
         { path: pathOf(list, index, slot), at: at + index * list.size + slot.at, slot }
       ))).flat();
@@ -170,11 +173,14 @@ function makeCodec(protocol) {
     const ways = protocol.directions.filter(({ key }) => direction === null || key === direction);
     const carried = ways.flatMap(({ key }) => kinds.filter((kind) => kind.direction === key));
     const sizes = carried.map((kind) => sizeOf(kind, kind.counts.high));
-    const known = [...envelopes.values()].filter((envelope) => carried.some((kind) => kind.envelope === envelope));
+    const known = new Set(carried.map(({ envelope }) => envelope));
     return {
       largest: Math.min(maxFrame, Math.max(0, ...sizes)),
-      envelopes: known.map((envelope) => [envelope, carried.filter((kind) => kind.envelope === envelope
-        && (envelope.lengthSlot || sizeOf(kind, kind.counts.low) <= maxFrame))]),
+      envelopes: [...envelopes.values()].filter((each) => known.has(each)).map((envelope) => [
+        envelope,
+        carried.filter((kind) => kind.envelope === envelope
+          && (envelope.lengthSlot || sizeOf(kind, kind.counts.low) <= maxFrame)),
+      ]),
     };
   }
 
@@ -458,7 +464,10 @@ function makeCodec(protocol) {
   // What stands in a slot at `at`; null in one that says nothing.
   function valueAt(slot, bytes, at) {
     if (slot.role === "packed") return readPacked(slot, bytes, at);
-    if (slot.role === "text") return textOf(bytes.slice(at, at + slot.size)).replace(/\0+$/, "");
+    if (slot.role === "text") {
+      const text = textOf(bytes.slice(at, at + slot.size));
+      return slot.text ? text : text.replace(/\0+$/, "");
+    }
     return isNumber(slot) ? readNumber(slot, bytes, at) : null;
   }
 
@@ -471,19 +480,17 @@ function makeCodec(protocol) {
       value: valueAt(placed.slot, bytes, placed.at),
     }));
     const values = new Map(rows.map(({ path, value }) => [path, value]));
-    const fields = kind.given.map((slot) => [slot.name, slot.role !== "list"
+    const fields = kind.given.map((slot) => [slot.name, slot.role !== "list" || slot.text
       ? values.get(slot.name) ?? null
       : itemsOf(slot, slot.count ?? frame.count, values)]);
     return { kind, message: kind.name, fields: Object.fromEntries(fields), rows };
   }
 
   function itemsOf(list, count, values) {
-    const named = list.slots.filter((slot) => !("bytes" in slot));
-    const items = Array.from({ length: count }, (_, index) => {
-      const numbers = named.map((field) => [field.name, values.get(pathOf(list, index, field))]);
+    return Array.from({ length: count }, (_, index) => {
+      const numbers = list.fields.map((field) => [field.name, values.get(pathOf(list, index, field))]);
       return list.element === null ? numbers[0][1] : Object.fromEntries(numbers);
     });
-    return list.text ? textOf(items) : items;
   }
 
   // The frame that carries `fields`, as decodeFrame gives them. Throws Unusable.
@@ -527,14 +534,13 @@ function makeCodec(protocol) {
   // What is given, by path.
   function valuesOf(kind, fields) {
     return new Map(kind.given.flatMap((slot) => {
-      const value = slot.role === "counter" ? fields[slot.name] ?? 0 : fields[slot.name];
-      if (slot.role !== "list") return [[slot.name, value]];
-      const items = slot.text ? bytesOf(checkedText(slot.name, value)) : value;
+      const items = slot.role === "counter" ? fields[slot.name] ?? 0 : fields[slot.name];
+      if (slot.role !== "list" || slot.text) return [[slot.name, items]];
       const { count = items.length } = slot;
       if (items.length !== count) {
         throw new Unusable(`${slot.name}: ${items.length} items, and it has ${count}`);
       }
-      return items.flatMap((item, index) => slot.slots.map((field) =>
+      return items.flatMap((item, index) => slot.fields.map((field) =>
         [pathOf(slot, index, field), slot.element === null ? item : item[field.name]]));
     }));
   }
@@ -564,7 +570,9 @@ function makeCodec(protocol) {
       if (slot.size > 4 || !Number.isFinite(value) || Number.isFinite(Math.fround(value))) return value;
       throw new Unusable(`${path}: ${value} does not fit`);
     }
-    if (typeof value !== "bigint" && !Number.isInteger(value)) throw new Unusable(`${path}: a whole number is due`);
+    if (typeof value !== "bigint" && !Number.isInteger(value)) {
+      throw new Unusable(`${path}: a whole number is due`);
+    }
     if (inside(slot, value)) return value;
     throw new Unusable(`${path}: ${value} is outside ${slot.low}..${slot.high}`);
   }

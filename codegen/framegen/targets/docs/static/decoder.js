@@ -117,9 +117,6 @@ function numberOf(slot, text) {
   return slot.wide && !/^[-+]0x/i.test(digits) ? BigInt(digits.replace("+", "")) : Number(digits);
 }
 
-// The slots of an element that have a value.
-const named = (list) => list.slots.filter((slot) => !("bytes" in slot));
-
 // A list is typed as `1:800, 9:800`: items apart by commas, their fields by colons. Text is typed as
 // it is, and what may be absent is, if nothing is typed.
 function valueOf(slot, text) {
@@ -128,7 +125,7 @@ function valueOf(slot, text) {
   if (slot.role !== "list" && slot.role !== "packed") return numberOf(slot, text);
   const items = text.split(",").filter((item) => item.trim());
   if (slot.role === "packed") return items.map((item) => numberOf(slot, item));
-  const fields = named(slot);
+  const { fields } = slot;
   return items.map((item) => {
     const values = item.split(":").map((each, i) => (fields[i] ? valueOf(fields[i], each) : NaN));
     if (slot.element === null) return values.length === 1 ? values[0] : NaN;
@@ -186,7 +183,7 @@ function hint(slot, counts) {
   if (slot.role !== "list") return `${bounds} ${slot.unit}`.trimEnd() + absent;
   const many = slot.count ?? `${counts.low}..${counts.high}`;
   if (slot.text) return `${many} characters`;
-  return `${many} of ${named(slot).map(({ name }) => name).join(":")}, apart by commas`;
+  return `${many} of ${slot.fields.map(({ name }) => name).join(":")}, apart by commas`;
 }
 
 // The direction that an address asks for: by its key, or by its sender where that sends one way.
