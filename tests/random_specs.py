@@ -120,6 +120,9 @@ def _checksummed(draw: st.DrawFn, parts: Data, name: str) -> Data:
     body = names.index("body")
     first = 1 if "header" in parts else 0
     at = draw(st.sampled_from([len(names), len(names), body + 1]) | st.integers(first, body))
+    # What stands behind a checksum is covered by it, but for another checksum.
+    late = {each for each in names[at:] if parts[each]["is"] == "checksum"}
+    part["covers"] = [each for each in part["covers"] if each not in late]
     names.insert(at, name)
     return {each: part if each == name else parts[each] for each in names}
 

@@ -100,9 +100,7 @@ def test_others_are_asked_while_a_dead_servo_is_still_waited_for() -> None:
     line = ServoBus(1, 2, 3)
 
     async def ask() -> float:
-        controller = lib().AsyncController(
-            line, background=False, clock=line.clock.now, settle=0
-        )
+        controller = lib().AsyncController(line, background=False, clock=line.clock.now, settle=0)
         async with controller as bus:
             for number in (1, 2, 3):
                 await bus.device(number).read_position()
@@ -126,9 +124,7 @@ def test_nothing_is_sent_while_a_servo_may_answer() -> None:
     line = ServoBus(1, 2)
 
     async def ask() -> None:
-        controller = lib().AsyncController(
-            line, background=False, clock=line.clock.now, settle=0
-        )
+        controller = lib().AsyncController(line, background=False, clock=line.clock.now, settle=0)
         async with controller as bus:
             for _ in range(20):
                 asked = [asyncio.ensure_future(bus.read_position(each)) for each in (1, 2)]

@@ -177,7 +177,11 @@ CASES = {
         before=lambda board: board.send_bytes(bytes.fromhex("55 55 06 0F 4C 1D 00 00")),
         expected={
             "silence": (FAILED, "8 bytes that are no frame", "see that the rate"),
-            "look-alike": (FAILED, "BatteryVoltage came with 8 bytes, which none has", "send a report in"),
+            "look-alike": (
+                FAILED,
+                "BatteryVoltage came with 8 bytes, which none has",
+                "send a report in",
+            ),
         },
     ),
 }
