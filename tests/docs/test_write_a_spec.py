@@ -4,10 +4,12 @@ import re
 from typing import get_args
 
 import pytest
+from framegen.checks import remarks
 from framegen.compile import compile_spec
 from framegen.explain import explain
 from framegen.language import spec
-from framegen.language.number_types import NUMBER_TYPES
+from framegen.language.number_types import ALL_TYPES, NUMBER_TYPES
+from framegen.model.checksums import CHECKSUMS
 from framegen.reading.source import Source
 from framegen.render import render
 from pydantic import BaseModel
@@ -15,8 +17,17 @@ from pydantic import BaseModel
 from tests.docs.reference import ROOT
 
 GUIDE = (ROOT / "docs" / "write-a-spec.md").read_text("utf-8")
-BLOCKS = re.findall(r"```yaml\n(.*?)```", GUIDE, re.DOTALL)
-SPEC = Source("spec/kiln.yaml", "\n".join(BLOCKS))
+# A block of another spec than the kiln's begins with its name.
+BLOCKS = re.findall(r"```yaml\n(?:# (\w+)\.yaml\n)?(.*?)```", GUIDE, re.DOTALL)
+NAMES = list(dict.fromkeys(name or "kiln" for name, _ in BLOCKS))
+SPECS = {
+    each: Source(
+        f"spec/{each}.yaml", "\n".join(text for name, text in BLOCKS if (name or "kiln") == each)
+    )
+    for each in NAMES
+}
+SPEC = SPECS["kiln"]
+ALL = "\n".join(spec.text for spec in SPECS.values())
 MODELS = [
     model
     for model in vars(spec).values()
@@ -31,8 +42,52 @@ KEYS = sorted(
 )
 
 
-def test_the_example_is_a_spec_without_findings() -> None:
-    assert [finding.render(SPEC) for finding in compile_spec(SPEC).findings] == []
+def test_the_guide_shows_three_specs() -> None:
+    assert NAMES == ["kiln", "pumps", "gauges"]
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_an_example_is_a_spec_without_findings_and_remarks(name: str) -> None:
+    compiled = compile_spec(SPECS[name])
+    assert [finding.render(SPECS[name]) for finding in compiled.findings] == []
+    assert remarks(compiled.model, compiled.tree) == []
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_a_copied_example_means_the_same_with_its_first_line(name: str) -> None:
+    marked = [f"# {name}.yaml\n{text}" for each, text in BLOCKS if (each or "kiln") == name]
+    assert compile_spec(Source("spec.yaml", "\n".join(marked))).findings == []
+
+
+def test_the_guide_shows_what_is_said_of_a_wrong_checksum() -> None:
+    text = SPECS["pumps"].text.replace("crc-16/modbus", "crc-16/arc")
+    source = Source("spec/pumps.yaml", text)
+    said = next(each for each in compile_spec(source).findings if ".Status." in each.path)
+    [shown] = re.findall(r"```\n(example: .*?)```", GUIDE, re.DOTALL)
+    assert shown == f"example: {said.message}\n  = hint: {said.hint}\n"
+
+
+def test_the_guide_lists_every_checksum() -> None:
+    def row(name: str) -> str:
+        method = CHECKSUMS[name]
+        types = ", ".join(f"`u{width}`" for width in method.widths)
+        return f"| `{name}` | {types} | {method.about} |"
+
+    table = "\n".join(["| `method` | `type` | What |", "|---|---|---|", *map(row, CHECKSUMS)])
+    assert f"\n{table}\n" in GUIDE
+
+
+def test_everything_that_the_table_writes_is_in_the_language() -> None:
+    """The right column of what documents say: each method is known, and each type."""
+    [table] = re.findall(r"\| Your document says .*?\n\n", GUIDE, re.DOTALL)
+    written = " ".join(re.findall("`([^`]*)`", "".join(re.findall(r"\|([^|]*)\|\n", table))))
+    methods = set(re.findall(r"method: ((?:inverted |negated )?[a-z]+[a-z0-9/-]*)", written))
+    assert methods >= {"xor", "inverted sum", "crc-16/modbus", "fletcher-8"}
+    assert methods <= set(CHECKSUMS)
+    assert set(re.findall(r"type: (\w+)", written)) <= set(ALL_TYPES)
+    assert set(re.findall(r"is: (\w+)", written)) == {
+        *("constant", "length", "id", "address", "counter", "reserved", "checksum")
+    }
 
 
 def test_everything_can_be_generated_from_it() -> None:
@@ -45,7 +100,7 @@ def test_everything_can_be_generated_from_it() -> None:
 @pytest.mark.parametrize(("model", "key"), KEYS)
 def test_every_key_is_shown_and_explained(model: str, key: str) -> None:
     prose = re.sub(r"```yaml\n.*?```", "", GUIDE, flags=re.DOTALL)
-    assert re.search(rf"^[\s-]*{key}:|[{{ ]{key}: ", SPEC.text, re.MULTILINE), f"{model}.{key}"
+    assert re.search(rf"^[\s-]*{key}:|[{{ ]{key}: ", ALL, re.MULTILINE), f"{model}.{key}"
     obvious = {"title", "messages", "sources", "protocol", "link", "history", "changes", "text"}
     assert f"`{key}`" in prose or key in obvious, f"{model}.{key} is not explained"
 

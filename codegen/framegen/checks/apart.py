@@ -2,16 +2,17 @@
 
 from __future__ import annotations
 
-from itertools import combinations
+from itertools import chain, combinations, product
 from typing import TYPE_CHECKING
 
 from framegen.model.slots import Constant, Number
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Iterable, Iterator
 
     from framegen.model.layout import MessageLayout
     from framegen.model.model import Model
+    from framegen.model.slots import Slot
 
 
 def alike(model: Model) -> Iterator[tuple[MessageLayout, MessageLayout]]:
@@ -19,14 +20,24 @@ def alike(model: Model) -> Iterator[tuple[MessageLayout, MessageLayout]]:
     for way in model.ways:
         # One without any legal count is too long: another rule speaks of it.
         sent = [message for message in model.sent(way) if message.counts]
-        groups: dict[tuple[int, ...], list[MessageLayout]] = {}
-        for message in sent:
-            groups.setdefault(_sent_ids(message), []).append(message)
-        one_kind = len({message.frame.name for message in sent}) == 1
-        for group in groups.values() if one_kind else [sent]:
-            for one, other in combinations(group, 2):
-                if not _differ(_marks(one), _marks(other)):
-                    yield one, other
+        marks = {message.name: _marks(message) for message in sent}
+        for one, other in _pairs(sent):
+            if not _differ(marks[one.name], marks[other.name]):
+                yield one, other
+
+
+def _pairs(sent: Iterable[MessageLayout]) -> Iterator[tuple[MessageLayout, MessageLayout]]:
+    """Pair messages that may be alike: those with the same ids, and those of different frames."""
+    kinds: dict[str, dict[tuple[int, ...], list[MessageLayout]]] = {}
+    for message in sent:
+        kinds.setdefault(message.frame.name, {}).setdefault(_sent_ids(message), []).append(message)
+    for groups in kinds.values():
+        for group in groups.values():
+            yield from combinations(group, 2)
+    for some, others in combinations(kinds.values(), 2):
+        all_of_some, all_of_others = ([*chain(*groups.values())] for groups in (some, others))
+        if not _differ(*(_constants(each[0].frame.head) for each in (all_of_some, all_of_others))):
+            yield from product(all_of_some, all_of_others)
 
 
 def shared_size(one: MessageLayout, other: MessageLayout) -> int | None:
@@ -50,16 +61,19 @@ def _sent_ids(message: MessageLayout) -> tuple[int, ...]:
 
 def _marks(message: MessageLayout) -> dict[int, int]:
     """Return the bytes that every frame of a message has, by offset."""
+    end = message.least - message.frame.tail_size
+    found = _constants(slot for slot in message.slots if 0 <= slot.at < end)
+    for slot in message.frame.head:
+        if isinstance(slot, Number) and slot.role == "id":
+            found |= enumerate(slot.write(message.id_of(slot)), slot.at)
+    return found
+
+
+def _constants(slots: Iterable[Slot]) -> dict[int, int]:
     found: dict[int, int] = {}
-    for slot in message.slots:
-        if slot.at < 0 or slot.at >= message.least - message.frame.tail_size:
-            continue
-        data = b""
+    for slot in slots:
         if isinstance(slot, Constant) and slot.role == "constant":
-            data = slot.data
-        elif isinstance(slot, Number) and slot.role == "id":
-            data = slot.write(message.id_of(slot))
-        found |= dict(enumerate(data, slot.at))
+            found |= enumerate(slot.data, slot.at)
     return found
 
 

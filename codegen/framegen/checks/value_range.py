@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 from framegen.checks.fields import numbers
 from framegen.checks.rule import Problem, StructureRule
-from framegen.language.number_types import NUMBER_TYPES
+from framegen.language.number_types import ALL_TYPES
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
 def _look(spec: Spec) -> Iterator[Problem]:
     for path, field in numbers(spec):
-        range_, type_ = field.range, NUMBER_TYPES.get(field.type)
+        range_, type_ = field.range, ALL_TYPES.get(field.type)
         if range_ is None or type_ is None:
             continue
         here = (*path, "range")
