@@ -8,10 +8,11 @@ this alone.
 from __future__ import annotations
 
 from .bytes_like import as_bytes, format_hex
+from .direction import Direction
 from .envelope import Address, Constant, Id, Length
 from .envelopes import ENVELOPES
 from .errors import DecodeError, Reason
-from .heads import HEAD, size_of
+from .heads import FIRST_BYTES, HEAD, size_of
 from .pluralize import describe_range
 from .verdict import Verdict
 
@@ -58,11 +59,13 @@ class Table(dict[bytes, "Entry"]):
         super().__init__()
         self.messages = messages
         self.largest = largest
-        # The envelopes that there may be, each with its messages.
+        # The envelopes that there may be, each with its messages, one direction after the other.
         self.frames: list[tuple[Envelope, list[type[Message]]]] = []
+        ways = list(Direction)
+        messages = sorted(messages, key=lambda kind: ways.index(kind.DIRECTION))
         for frame in ENVELOPES:
             kinds = [kind for kind in messages if kind.FRAME is frame]
-            if kinds:
+            if kinds and frame.least <= largest:
                 self.frames.append((frame, kinds))
         # How many bytes of an illegal frame may look legal, where no checksum proves it.
         self.reach = max((_reach(kind, largest) for kind in messages), default=0)
@@ -141,6 +144,10 @@ class Table(dict[bytes, "Entry"]):
 
     def _learn(self, head: bytes) -> list[Try]:
         """Return what a new head may belong to, and remember it."""
+        if not head:
+            return [_too_short(0, 1)]
+        if head[0] not in FIRST_BYTES:
+            return [_NOTHING]
         tries = [each for frame, kinds in self.frames for each in self._walked(frame, kinds, head)]
         if all(isinstance(each, Verdict) for each in tries):
             return tries
@@ -167,7 +174,7 @@ class Table(dict[bytes, "Entry"]):
         ):
             return None
         entry: Entry | None = None
-        for each in sorted(found, key=_size_of_try, reverse=True):
+        for each in reversed(sorted(found, key=_size_of_try)):
             if isinstance(each[0], type):
                 kind, count, size = each
                 entry = (size, *_counted(kind, count), kind, _holds(kind), entry)
@@ -382,6 +389,11 @@ def found_entry(verdict: Verdict) -> Entry:
     return verdict.size, 0, 0, b"", kind, _always, None
 
 
+def is_certain(kind: type[Message]) -> bool:
+    """Return whether nothing but its checksum can be wrong behind the head and count of a frame."""
+    return kind.SHAPE.certain and not kind.FRAME.judged
+
+
 def measured(kind: type[Message], count: bytes) -> int:
     """Return the size of a frame by the bytes of its count; 0 if that is too short, or wrong."""
     shape = kind.SHAPE
@@ -515,7 +527,7 @@ def _always(_: bytes) -> Literal[True]:
 
 def _reach(kind: type[Message], largest: int) -> int:
     """Return how many bytes of an illegal frame may look like those of a message."""
-    if not kind.SHAPE.certain or kind.FRAME.judged or kind.FRAME.checksums:
+    if not is_certain(kind) or kind.FRAME.checksums:
         return largest
     return kind.SHAPE.counter[1] if kind.SHAPE.counter else kind.FRAME.body_at
 
