@@ -60,12 +60,16 @@ class HeadWalk:
             return Refused(differs(part.data, found, Reason.BAD_HEADER, part.at, len(self.head)))
         if len(found) < part.size:
             return Refused(too_short(len(self.head), part.at + part.size))
+        return self._read(part)
+
+    def _read(self, part: Part) -> Trial | None:
+        """Return what the head is if a number in it decides that."""
+        if isinstance(part, Id):
+            return self._identified(part)
         if isinstance(part, Length):
             self.length = part.read(self.head)
             if not self._is_possible(self.length):
                 return _refused(Reason.LENGTH_MISMATCH, part)
-        elif isinstance(part, Id):
-            return self._identified(part)
         elif isinstance(part, Address) and not part.holds(part.read(self.head)):
             return _refused(Reason.OUT_OF_RANGE, part)
         return None

@@ -4,7 +4,6 @@
 from __future__ import annotations
 
 from .bytes_like import format_hex
-from .envelope import Address, Constant
 from .errors import Reason
 from .pluralize import describe_range
 from .trial import Known
