@@ -106,7 +106,7 @@ class ReferenceDecoder:
         unfinished = verdict.claim > len(data)
         if verdict.provable:
             return unfinished
-        return verdict.undecided or (unfinished and not self._has_message(data))
+        return verdict.undecided or (unfinished and not self._has_frame(data))
 
     def _is_unknown(self, data: bytes, verdict: Verdict) -> bool:
         """Tell whether a frame of unknown id begins: one that is proven, or that may be one."""
@@ -127,11 +127,19 @@ class ReferenceDecoder:
 
         A possible frame takes precedence over a claim that nothing proves.
         """
-        verdicts = map(self.weigh, self._begun(claimed))
-        return any(verdict.message or verdict.undecided for verdict in verdicts)
+        return any(
+            verdict.message or verdict.proven or verdict.waits(len(begun))
+            for begun, verdict in self._weighed(claimed)
+        )
 
-    def _has_message(self, data: bytes) -> bool:
-        return any(self.weigh(begun).message for begun in self._begun(data))
+    def _has_frame(self, data: bytes) -> bool:
+        """Tell whether a certain frame begins behind the first byte."""
+        verdicts = (verdict for _, verdict in self._weighed(data))
+        return any(verdict.message or verdict.proven for verdict in verdicts)
+
+    def _weighed(self, data: bytes) -> Iterator[tuple[bytes, Verdict]]:
+        """Yield what begins behind the first byte as a header does, with the verdict on it."""
+        return ((begun, self.weigh(begun)) for begun in self._begun(data))
 
     def _begun(self, data: bytes) -> Iterator[bytes]:
         """Yield what begins behind the first byte as a header does."""

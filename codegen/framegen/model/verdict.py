@@ -67,6 +67,15 @@ class Verdict:
         return self.reason == TOO_SHORT
 
     @property
+    def frame_size(self) -> int:
+        """The size of the frame that is there: of a message, or of a proven frame of unknown id."""
+        return self.claim if self.message is None else self.offset
+
+    def waits(self, size: int) -> bool:
+        """Whether more than these `size` bytes could still make a certain frame of it."""
+        return self.undecided or (self.provable and self.claim > size)
+
+    @property
     def expected(self) -> str:
         """What was due."""
         return self.due()
@@ -88,9 +97,10 @@ def weigh(
 ) -> Verdict:
     """Judge what `data` begins, sent in any of `directions`; it may go on behind the frame.
 
-    Frames larger than `max_frame` bytes are refused by their length. A frame that is legal in
-    several directions belongs to the first; where it is legal in none, the refusal with the
-    largest offset is given.
+    Frames larger than `max_frame` bytes are refused by their length. Of several that it may be, it
+    is the smallest, so that what follows makes no difference; a frame that is legal in several
+    directions belongs to the first. Where it is legal in none, the refusal with the largest offset
+    is given, that of what may still become one before all others.
     """
     if data and data[0] not in model.first_bytes:
         return _begins_otherwise(model, tuple(directions))
@@ -99,11 +109,12 @@ def weigh(
         for candidates in model.candidates(directions)
         for verdict in _Look(model, candidates, directions, data, max_frame).verdicts()
     ]
-    legal = (verdict for verdict in verdicts if verdict.message is not None)
-    proven = (verdict for verdict in verdicts if verdict.proven)
-    # Of equals, `max` gives the first.
-    furthest = max(verdicts, key=lambda verdict: verdict.offset, default=None)
-    return next(legal, None) or next(proven, None) or furthest or _NOTHING
+    certain = [verdict for verdict in verdicts if verdict.message is not None or verdict.proven]
+    # Of equals, `min` and `max` give the first.
+    if certain:
+        return min(certain, key=lambda each: (each.frame_size, each.message is None))
+    waiting = [verdict for verdict in verdicts if verdict.waits(len(data))]
+    return max(waiting or verdicts, key=lambda verdict: verdict.offset, default=_NOTHING)
 
 
 def weigh_whole(model: Model, directions: Sequence[Direction], data: bytes) -> Verdict:
@@ -152,6 +163,8 @@ class _Look:
 
     def verdicts(self) -> list[Verdict]:
         """Judge the bytes as each message that its head allows, or as none."""
+        if self.frame.least > self.largest:
+            return []
         try:
             length, candidates = self.head()
         except _Refused as refused:

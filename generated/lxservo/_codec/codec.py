@@ -6,8 +6,8 @@ from __future__ import annotations
 from operator import index
 
 from .._frame.direction import Direction
-from .._frame.message import Message
 from .._frame.heads import HEAD, LEAST
+from .._frame.message import Message
 from .._frame.table import Table, largest_of
 from ..messages import MESSAGES
 

@@ -12,8 +12,10 @@ if TYPE_CHECKING:
 
     from .running import Piece, Running
 
-    # The bytes of a frame, and the ids of its message.
+    # The ids of a message.
     Ids: TypeAlias = Sequence[int]
+    # A stretch of a frame, from and to which byte; or bytes that are not sent.
+    Covered: TypeAlias = "tuple[int, int | None] | bytes"
 
     class Method(Protocol):
         """What works a checksum out, at once or along a stream."""
@@ -105,9 +107,8 @@ class Address(NumberPart):
         if self.order == "little":
             return frozenset(named | {number & 0xFF for number in self.numbers[:0x100]})
         shift = 8 * (self.size - 1)
-        return frozenset(
-            named | {*range(self.numbers[0] >> shift, (self.numbers[-1] >> shift) + 1)}
-        )
+        first, last = self.numbers[0] >> shift, self.numbers[-1] >> shift
+        return frozenset(named | {*range(first, last + 1)})
 
 
 class Checksum(NumberPart):
@@ -129,9 +130,7 @@ class Checksum(NumberPart):
         self.method = method
         self.covers = covers
 
-    def pieces(
-        self, ids: Ids, hidden: Sequence[NumberPart]
-    ) -> list[tuple[int, int | None] | bytes]:
+    def pieces(self, ids: Ids, hidden: Sequence[NumberPart]) -> list[Covered]:
         """Return what it covers in the frames of a message, by the ids of which some are hidden."""
         first = len(ids) - len(hidden)
         return [
@@ -166,7 +165,8 @@ class Envelope:
     """The parts of a frame around the fields of its message: `head` and `tail`.
 
     Its length does not count `uncounted` bytes; without a length, it is the size of the frame.
-    `hidden` are ids that both ends know, and that no frame holds.
+    `hidden` are ids that both ends know, and that no frame holds. `turns` are the names of its
+    checksums where one covers another that stands behind it: each comes after those that it covers.
     """
 
     def __init__(
@@ -176,6 +176,7 @@ class Envelope:
         tail: tuple[Part, ...] = (),
         uncounted: int = 0,
         hidden: tuple[NumberPart, ...] = (),
+        turns: tuple[str, ...] = (),
     ) -> None:
         self.name = name
         self.head = head
@@ -193,7 +194,10 @@ class Envelope:
             at -= part.size
         self.least = self.body_at + self.tail_size
         every = (*head, *tail)
-        self.checksums = tuple(part for part in every if isinstance(part, Checksum))
+        checksums = [part for part in every if isinstance(part, Checksum)]
+        if turns:
+            checksums.sort(key=lambda part: turns.index(part.name))
+        self.checksums = tuple(checksums)
         self.ids = tuple(part for part in head if isinstance(part, Id))
         self.length = next((part for part in head if isinstance(part, Length)), None)
         self.address = next((part for part in every if isinstance(part, Address)), None)
@@ -284,7 +288,7 @@ def _sealer(envelope: Envelope) -> Callable[[bytes, Ids], bytes]:
     return sealed
 
 
-def stretches(pieces: Sequence[tuple[int, int | None] | bytes], at: int, size: int) -> list[Piece]:
+def stretches(pieces: Sequence[Covered], at: int, size: int) -> list[Piece]:
     """Return pieces of the frame that begins at `at` as those of what it stands in."""
     found: list[Piece] = []
     for each in pieces:

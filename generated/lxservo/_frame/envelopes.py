@@ -10,7 +10,7 @@ FRAME_ENVELOPE = Envelope(
     "frame",
     head=(
         Constant("header", b"\x55\x55"),
-        Address("servo_id", 1, "little", range(0, 255)),
+        Address("servo_id", 1, "little", range(255)),
         Length("length", 1, "little"),
         Id("command", 1, "little"),
     ),

@@ -9,8 +9,8 @@ TYPE_CHECKING = False  # typing alone would double the time that the import take
 if TYPE_CHECKING:
     from .message import Message
 
-HEAD = max(envelope.body_at for envelope in ENVELOPES)
-"""How many bytes stand in front of the fields, at the most."""
+HEAD = max(1, *(envelope.body_at for envelope in ENVELOPES))
+"""How many bytes stand in front of the fields, at the most; 1 if there are none."""
 LEAST = min(envelope.least for envelope in ENVELOPES)
 """The size of the smallest frame there may be."""
 
@@ -20,8 +20,10 @@ _STRETCH = 256
 _HEADERS = {envelope.header for envelope in ENVELOPES}
 _HEADER = _HEADERS.pop() if len(_HEADERS) == 1 else b""
 _BEGUN = tuple(_HEADER[:size] for size in range(len(_HEADER) - 1, 0, -1))
-# The bytes with which no frame begins.
-_OTHERS = bytes({*range(0x100)}.difference(*(envelope.first_bytes for envelope in ENVELOPES)))
+FIRST_BYTES = frozenset[int]().union(*(envelope.first_bytes for envelope in ENVELOPES))
+"""The bytes with which a frame may begin."""
+
+_OTHERS = bytes({*range(0x100)} - FIRST_BYTES)
 
 
 def begins(data: bytes, at: int = 0) -> bool:

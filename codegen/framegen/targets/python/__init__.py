@@ -68,7 +68,9 @@ _FOR_PLAIN = {
     "_frame/plain_heads.py": "_frame/heads.py",
     "_frame/plain_parts.py": "_frame/parts.py",
 }
-_WITH_ENVELOPES = {"_frame/envelope.py", "_frame/envelopes.py"}
+_WITH_ENVELOPES = {
+    f"_frame/{name}.py" for name in ("envelope", "envelopes", "head_walk", "trial", "why_not")
+}
 # And where each of them proves by a checksum that it is one.
 _FOR_PROVEN = {"_codec/certain_decoder.py": "_codec/careful_decoder.py"}
 # What only a protocol with addresses has a use for, and one whose device says what has failed.

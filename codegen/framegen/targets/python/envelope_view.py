@@ -35,14 +35,17 @@ class EnvelopeView:
     @property
     def _arguments(self) -> list[Part]:
         frame = self.frame
-        found: list[Part] = [
-            literal(frame.name),
-        ]
+        found: list[Part] = [literal(frame.name)]
         for name, slots in (("head", frame.head), ("tail", frame.tail), ("hidden", frame.unsent)):
             if slots:
                 parts = [self._part(slot) for slot in slots]
                 found.append(Bracketed(f"{name}=(", parts, ")", lone=","))
-        return [*found, f"uncounted={frame.uncounted}"]
+        if frame.uncounted:
+            found.append(f"uncounted={frame.uncounted}")
+        turns = [checksum.name for checksum in frame.checksums]
+        if turns != [slot.name for slot in frame.slots if slot.role == "checksum"]:
+            found.append(Bracketed("turns=(", [literal(name) for name in turns], ")"))
+        return found
 
     @property
     def parts(self) -> set[str]:
@@ -69,7 +72,8 @@ class EnvelopeView:
 
     def _numbers(self, address: Number) -> list[Part]:
         outside = sorted(each for each in address.named if not address.low <= each <= address.high)
-        numbers: list[Part] = [f"range({address.low}, {address.high + 1})"]
+        low = f"{address.low}, " if address.low else ""
+        numbers: list[Part] = [f"range({low}{address.high + 1})"]
         if outside:
             numbers.append(Bracketed("(", [str(each) for each in outside], ")", lone=","))
         return numbers

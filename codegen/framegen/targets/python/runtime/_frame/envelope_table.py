@@ -7,21 +7,24 @@ this alone.
 
 from __future__ import annotations
 
-from .bytes_like import as_bytes, format_hex
-from .envelope import Address, Constant, Id, Length
+from .bytes_like import as_bytes
+from .direction import Direction
 from .envelopes import ENVELOPES
 from .errors import DecodeError, Reason
-from .heads import HEAD, size_of
-from .pluralize import describe_range
+from .head_walk import HeadWalk
+from .heads import FIRST_BYTES, HEAD, size_of
+from .trial import Known, Refused, too_short
 from .verdict import Verdict
 
 TYPE_CHECKING = False  # typing alone would double the time that the import takes
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator, Sequence
+    from collections.abc import Callable, Sequence
     from typing import Any, Literal, TypeAlias
 
-    from .envelope import Checksum, Envelope, NumberPart, Part
+    from .envelope import Checksum, Envelope
+    from .head_walk import Trial
     from .message import Message
+    from .trial import Prove
 
     # The size of the frame, 0 where its count says it; from where to where that count stands, and
     # the bytes it must be (b"" at 0:0 if there is none to be looked at); the class; what says of a
@@ -29,12 +32,6 @@ if TYPE_CHECKING:
     Entry: TypeAlias = (
         "tuple[int, int, int, bytes, type[Message], Callable[[bytes], bool], Entry | None]"
     )
-    # What a head may belong to: a message with its count and its size, None and 0 where these are
-    # not known yet; or a frame of unknown id that a checksum may prove, with its size and the place
-    # of that id. Otherwise the head alone is refused, or too short.
-    Try: TypeAlias = "Verdict | tuple[type[Message], int | None, int] | tuple[Envelope, int, int]"
-    # What tells the first wrong checksum of a frame of an envelope, by the ids of its message.
-    Prove: TypeAlias = "Callable[[bytes, int, int, Envelope, Sequence[int]], Checksum | None]"
 
 
 _new = object.__new__
@@ -46,6 +43,8 @@ ANY_SIZE = 1 << 62
 # noise must not fill the memory.
 _REMEMBERED = 4096
 
+_NOTHING = Verdict(None, Reason.BAD_HEADER, 0, 1)
+
 
 class Table(dict[bytes, "Entry"]):
     """A map from the head of a frame to what must follow for it to be legal.
@@ -54,20 +53,21 @@ class Table(dict[bytes, "Entry"]):
     `largest`.
     """
 
+    __slots__ = ("_trials", "frames", "largest", "messages", "reach", "verdicts", "waits")
+
     def __init__(self, messages: Sequence[type[Message]], largest: int) -> None:
         super().__init__()
         self.messages = messages
         self.largest = largest
-        # The envelopes that there may be, each with its messages.
-        self.frames: list[tuple[Envelope, list[type[Message]]]] = []
-        for frame in ENVELOPES:
-            kinds = [kind for kind in messages if kind.FRAME is frame]
-            if kinds:
-                self.frames.append((frame, kinds))
+        # The envelopes that there may be, each with its messages, one direction after the other.
+        ways = list(Direction)
+        ordered = sorted(messages, key=lambda kind: ways.index(kind.DIRECTION))
+        every = [(frame, [each for each in ordered if each.FRAME is frame]) for frame in ENVELOPES]
+        self.frames = [(frame, kinds) for frame, kinds in every if kinds and frame.least <= largest]
         # How many bytes of an illegal frame may look legal, where no checksum proves it.
         self.reach = max((_reach(kind, largest) for kind in messages), default=0)
         # What the heads seen so far may belong to; the verdicts on those that decide alone.
-        self._tries: dict[bytes, list[Try]] = {}
+        self._trials: dict[bytes, list[Trial]] = {}
         self.verdicts: dict[bytes, Verdict] = {}
         # The beginnings of frames seen so far, and the size at which each can be judged further.
         self.waits: dict[bytes, int] = {}
@@ -85,16 +85,10 @@ class Table(dict[bytes, "Entry"]):
         verdict = self.verdicts.get(head)
         if verdict is not None:
             return verdict
-        tries = self._tries.get(head)
-        if tries is None:
-            tries = self._learn(head)
-            if not tries or all(isinstance(each, Verdict) for each in tries):
-                verdict = _chosen([each for each in tries if isinstance(each, Verdict)])
-                _remember(self.verdicts, head, verdict)
-                return verdict
-        if len(tries) == 1:
-            return self._judged(tries[0], data, at, prove or _wrong, since)
-        return _chosen([self._judged(each, data, at, prove or _wrong, 0) for each in tries])
+        trials = self._trials.get(head) or self._learn(head)
+        if len(trials) == 1:
+            return trials[0].judged(data, at, prove or wrong_checksum, since)
+        return chosen([each.judged(data, at, prove or wrong_checksum, 0) for each in trials])
 
     def begins(self, data: bytes, at: int) -> bool:
         """Return whether a frame may begin at data[at], as far as its header goes."""
@@ -125,248 +119,57 @@ class Table(dict[bytes, "Entry"]):
 
     def all_of(self, frame: bytes) -> list[type[Message]]:
         """Return every message that a whole frame may be."""
-        self.weigh(frame)
-        found = []
-        for each in self._tries.get(frame[:HEAD], ()):
-            verdict = self._judged(each, frame, 0, _wrong, 0)
-            if verdict.kind is not None and verdict.size == len(frame):
-                found.append(verdict.kind)
-        return found
+        found = (each.judged(frame, 0, wrong_checksum, 0) for each in self._learn(frame[:HEAD]))
+        return [each.kind for each in found if each.kind is not None and each.size == len(frame)]
 
     def error(self, frame: bytes, verdict: Verdict) -> DecodeError:
         """Return the error for `frame`, by its verdict."""
-        return DecodeError(verdict.reason, verdict.offset, self._problem(frame, verdict))
+        from .why_not import WhyNot
 
-    # Heads.
+        why_not = WhyNot(self, frame, verdict, self._learn(frame[:HEAD]))
+        return DecodeError(verdict.reason, verdict.offset, why_not.words(wrong_checksum))
 
-    def _learn(self, head: bytes) -> list[Try]:
-        """Return what a new head may belong to, and remember it."""
-        tries = [each for frame, kinds in self.frames for each in self._walked(frame, kinds, head)]
-        if all(isinstance(each, Verdict) for each in tries):
-            return tries
-        _remember(self._tries, head, tries)
-        entry = self._entry(tries) if len(head) == HEAD else None
-        if entry is not None:
-            _remember(self, head, entry)
-        return tries
+    def _learn(self, head: bytes) -> list[Trial]:
+        """Return what a head may belong to, and remember it."""
+        trials = self._walked(head)
+        refused = [each for each in trials if isinstance(each, Refused)]
+        if len(refused) == len(trials):
+            _remember(self.verdicts, head, chosen([each.verdict for each in refused]))
+            return trials
+        _remember(self._trials, head, trials)
+        if len(head) == HEAD and not any(each.verdict.is_open for each in refused):
+            entry = self._entry([each for each in trials if not isinstance(each, Refused)])
+            if entry is not None:
+                _remember(self, head, entry)
+        return trials
 
-    def _entry(self, tries: list[Try]) -> Entry | None:
+    def _walked(self, head: bytes) -> list[Trial]:
+        """Return what a head may belong to, of any envelope."""
+        found: list[Trial] = []
+        if not head:
+            return [Refused(too_short(0, 1))]
+        if head[0] in FIRST_BYTES:
+            for frame, kinds in self.frames:
+                found += HeadWalk(frame, kinds, head, self.largest).trials()
+        return found or [Refused(_NOTHING)]
+
+    def _entry(self, trials: Sequence[Trial]) -> Entry | None:
         """Return the entries of the messages that a head may belong to, the smallest first.
 
-        None where not all of their sizes are known, or where something else may be smaller.
+        None where only `weigh` can tell: a size is not known, or an unknown frame may be smaller.
         """
-        found = [each for each in tries if not isinstance(each, Verdict)]
-        if len(found) > 1 and not all(size for *_, size in found):
-            return None
-        if any(isinstance(kind, type) and largest_of([kind]) > self.largest for kind, *_ in found):
-            return None
-        if any(
-            each.is_open and each.reason is Reason.TOO_SHORT
-            for each in tries
-            if isinstance(each, Verdict)
-        ):
-            return None
         entry: Entry | None = None
-        for each in sorted(found, key=_size_of_try, reverse=True):
-            if isinstance(each[0], type):
-                kind, count, size = each
-                entry = (size, *_counted(kind, count), kind, _holds(kind), entry)
-            elif entry is not None:
-                return None
-        return entry
-
-    def _walked(self, frame: Envelope, kinds: list[type[Message]], head: bytes) -> list[Try]:
-        """Return what a head may belong to, of one envelope."""
-        length: int | None = None
-        ids_left = len(frame.ids)
-        if frame.length is None:
-            kinds = [kind for kind in kinds if size_of(kind, kind.LENGTHS[0]) <= self.largest]
-        for part in frame.head:
-            found = head[part.place]
-            if isinstance(part, Constant):
-                if found != part.data:
-                    return [_differs(part, found, Reason.BAD_HEADER, part.at, len(head))]
-            elif len(found) < part.size:
-                return [_too_short(len(head), part.at + part.size)]
-            elif isinstance(part, Length):
-                length = part.read(head)
-                if not self._is_possible(frame, length):
-                    return [_refused(Reason.LENGTH_MISMATCH, part)]
-            elif isinstance(part, Id):
-                number, which = part.read(head), len(frame.ids) - ids_left
-                ids_left -= 1
-                kinds = [kind for kind in kinds if kind.IDS[which] == number]
-                if not kinds:
-                    return [self._unknown(frame, part, head)]
-            elif isinstance(part, Address) and not part.holds(part.read(head)):
-                return [_refused(Reason.OUT_OF_RANGE, part)]
-            if length is not None and not ids_left and frame.length is not None:
-                kinds = [kind for kind in kinds if length in kind.LENGTHS]
-                if not kinds:
-                    end = max(part.at + part.size, frame.length.at + frame.length.size)
-                    return [Verdict(None, Reason.LENGTH_MISMATCH, frame.length.at, end)]
-        if length is None:
-            return [(kind, *_fixed(kind)) for kind in kinds]
-        size = frame.size(length)
-        return [(kind, kind.SHAPE.counts[kind.LENGTHS.index(length)], size) for kind in kinds]
-
-    def _unknown(self, frame: Envelope, part: Part, head: bytes) -> Try:
-        """Return what may become of a head whose id is unknown."""
-        if len(head) < frame.body_at:
-            # The length of what it claims is not known yet.
-            reason = Reason.UNKNOWN_COMMAND
-            proven = frame.proves_unknown
-            return Verdict(None, reason, part.at, frame.body_at, is_open=True, proven=proven)
-        claim = 0
-        if frame.length is not None:
-            length = frame.length.read(head)
-            claim = frame.size(length) if self._is_possible(frame, length) else 0
-        if claim and frame.proves_unknown:
-            return frame, part.at, claim
-        return _refused(Reason.UNKNOWN_COMMAND, part, claim)
-
-    def _is_possible(self, frame: Envelope, length: int) -> bool:
-        return frame.least <= frame.size(length) <= self.largest
-
-    # What follows them.
-
-    def _judged(self, each: Try, data: bytes, at: int, prove: Prove, since: int) -> Verdict:
-        """Return the verdict on the frame at `at` as one of those that its head may belong to."""
-        if isinstance(each, Verdict):
-            return each
-        first, second, size = each
-        if isinstance(first, type):
-            return self._fit(first, second, size, data, at, prove, since)
-        return _proven(first, second or 0, size, data, at, prove)
-
-    def _fit(
-        self,
-        kind: type[Message],
-        count: int | None,
-        size: int,
-        data: bytes,
-        at: int,
-        prove: Prove,
-        since: int,
-    ) -> Verdict:
-        """Judge the bytes behind a legal head at `at`, as a message."""
-        shape, frame, have = kind.SHAPE, kind.FRAME, len(data) - at
-        if count is None:
-            start, end = shape.counter or (0, 0)
-            for place in shape.places(shape.counts[0], since):
-                if place[0] >= start:
-                    break
-                verdict = _misfit(place, data, at)
-                if verdict is not None:
-                    return verdict
-            if have < end:
-                return _too_short(have, end)
-            count = shape.count_of(data[at + start : at + end])
-            if count is not None:
-                size = size_of(kind, kind.LENGTHS[shape.counts.index(count)])
-            if count is None or size > self.largest:
-                return Verdict(None, Reason.COUNT_MISMATCH, start, end)
-        for place in shape.places(count, since):
-            verdict = _misfit(place, data, at)
-            if verdict is not None:
-                return verdict
-        for part in frame.judged:
-            start = size + part.at
-            found = data[at + start : at + start + part.size]
-            if isinstance(part, Constant):
-                if found != part.data:
-                    return _differs(part, found, Reason.BAD_TRAILER, start, have)
-            elif len(found) < part.size:
-                return _too_short(have, start + part.size)
-            elif not part.holds(int.from_bytes(found, part.order)):
-                return Verdict(None, Reason.OUT_OF_RANGE, start, start + part.size)
-        if have < size:
-            return _too_short(have, size)
-        wrong = prove(data, at, size, frame, kind.IDS) if frame.checksums else None
-        if wrong is not None:
-            return Verdict(None, Reason.BAD_CHECKSUM, wrong.at % size, size)
-        return Verdict(kind, Reason.TRAILING_BYTES, size, size)
-
-    # Words.
-
-    def _problem(self, frame: bytes, verdict: Verdict) -> str:
-        """Return what is wrong with an illegal frame, in words."""
-        if verdict.kind is not None:
-            name, size = verdict.kind.__name__, verdict.size
-            return f"this frame of {name} has {size} bytes, not {len(frame)}"
-        reason, at = verdict.reason, verdict.offset
-        if reason is Reason.BAD_HEADER:
-            return self._opening()
-        if reason is Reason.UNKNOWN_COMMAND:
-            return self._ids(frame)
-        if reason is Reason.LENGTH_MISMATCH:
-            return self._lengths(frame)
-        for envelope, _ in self.frames:
-            for part in envelope.head:
-                if isinstance(part, Address) and reason is Reason.OUT_OF_RANGE and part.at == at:
-                    number = part.read(frame)
-                    return f"{part.name} is {number}, outside {describe_range(part.numbers)}"
-        for each in self._tries.get(frame[:HEAD], ()):
-            found = self._judged(each, frame, 0, _wrong, 0)
-            if isinstance(each, tuple) and isinstance(each[0], type) and found.offset == at:
-                return self._misfit_of(frame, found, each[0])
-        return self._least()
-
-    def _misfit_of(self, frame: bytes, verdict: Verdict, kind: type[Message]) -> str:
-        """Return what keeps `frame` from being the message whose head it has, in words."""
-        name, at, envelope = kind.__name__, verdict.offset, kind.FRAME
-        if verdict.reason is Reason.OUT_OF_RANGE:
-            found = kind.SHAPE.out_of_range(frame)
-            return f"{name} has other bytes there" if found is None else found[1]
-        if verdict.reason is Reason.COUNT_MISMATCH:
-            return f"no {name} of this size has this count: {format_hex(frame[at : verdict.size])}"
-        if verdict.reason is Reason.BAD_TRAILER:
-            return f"a frame ends {format_hex(b''.join(part.data for part in envelope.ends))}"
-        if verdict.reason is Reason.BAD_CHECKSUM:
-            wrong = _wrong(frame, 0, verdict.size, envelope, kind.IDS)
-            if wrong is not None:
-                right = wrong.write(wrong.maker(kind.IDS, envelope.hidden)(frame[: verdict.size]))
-                found_bytes = format_hex(frame[: verdict.size][wrong.place])
-                return f"the {wrong.name} is {found_bytes}, and must be {format_hex(right)}"
-        return f"{name} has {verdict.size} bytes" if verdict.size > len(frame) else self._least()
-
-    def _opening(self) -> str:
-        headers = dict.fromkeys(format_hex(frame.header) for frame, _ in self.frames)
-        return f"a frame begins {' or '.join(headers)}"
-
-    def _least(self) -> str:
-        least = min((frame.least for frame, _ in self.frames), default=0)
-        return f"the shortest frame has {least} bytes"
-
-    def _ids(self, frame: bytes) -> str:
-        for envelope, kinds in self.frames:
-            if envelope.ids and envelope.begins(frame, 0) and len(frame) >= envelope.body_at:
-                known = ", ".join(
-                    dict.fromkeys(_shown(kind.IDS[: len(envelope.ids)]) for kind in kinds)
-                )
-                found = [part.read(frame) for part in envelope.ids]
-                names = " and ".join(part.name for part in envelope.ids)
-                return f"the {names} is {_shown(found)}, and only {known} can be here"
-        return "no message begins like that"
-
-    def _lengths(self, frame: bytes) -> str:
-        """Return the lengths that could stand there, in words."""
-        for envelope, every in self.frames:
-            part = envelope.length
-            if part is None or not envelope.begins(frame, 0):
+        # The largest first, and of equals the last: each is put in front of the others.
+        for _, each in sorted(enumerate(trials), key=_by_size, reverse=True):
+            if not isinstance(each, Known):
+                if entry is not None:
+                    return None
                 continue
-            whole = len(frame) >= envelope.body_at
-            found = tuple(each.read(frame) for each in envelope.ids) if whole else None
-            names: dict[str, list[str]] = {}
-            for kind in every:
-                if kind.IDS[: len(envelope.ids)] == found:
-                    names.setdefault(_words(kind.LENGTHS), []).append(kind.__name__)
-            legal = " or ".join(f"{words} ({', '.join(who)})" for words, who in names.items())
-            least, most = envelope.least - envelope.uncounted, self.largest - envelope.uncounted
-            if not legal:
-                legal = f"at least {least}" if self.largest == ANY_SIZE else f"{least}..{most}"
-            return f"the {part.name} is {part.read(frame)}, and must be {legal}"
-        return "no message is that long"
+            if not each.size and (len(trials) > 1 or largest_of([each.kind]) > self.largest):
+                return None
+            kind = each.kind
+            entry = (each.size, *_counted(kind, each.count), kind, _holds(kind), entry)
+        return entry
 
 
 def largest_of(messages: Sequence[type[Message]]) -> int:
@@ -374,12 +177,15 @@ def largest_of(messages: Sequence[type[Message]]) -> int:
     return max((size_of(kind, kind.LENGTHS[-1]) for kind in messages), default=0)
 
 
-def found_entry(verdict: Verdict) -> Entry:
+def found_entry(verdict: Verdict) -> Entry | None:
     """Return the entry of a message that is found."""
     kind = verdict.kind
-    if kind is None:
-        raise AssertionError("no message is found")
-    return verdict.size, 0, 0, b"", kind, _always, None
+    return None if kind is None else (verdict.size, 0, 0, b"", kind, _always, None)
+
+
+def is_certain(kind: type[Message]) -> bool:
+    """Return whether nothing but its checksum can be wrong behind the head and count of a frame."""
+    return kind.SHAPE.certain and not kind.FRAME.judged
 
 
 def measured(kind: type[Message], count: bytes) -> int:
@@ -392,7 +198,7 @@ def measured(kind: type[Message], count: bytes) -> int:
     return size_of(kind, kind.LENGTHS[shape.counts.index(number)])
 
 
-def _chosen(verdicts: list[Verdict]) -> Verdict:
+def chosen(verdicts: Sequence[Verdict]) -> Verdict:
     """Return the verdict on bytes by those of all that they may be.
 
     What is decided is so for the smallest frame, so that it makes no difference what has come
@@ -403,78 +209,22 @@ def _chosen(verdicts: list[Verdict]) -> Verdict:
         return min(decided, key=lambda each: (each.size, each.kind is None))
     waiting = [each for each in verdicts if each.is_open]
     if not waiting:
-        return max(verdicts, key=lambda each: each.offset, default=_NOTHING)
+        return max(verdicts, key=lambda each: each.offset)
     last = max(waiting, key=lambda each: each.offset)
     size = min(each.size for each in waiting)
     proven = any(each.proven for each in waiting)
     return Verdict(None, last.reason, last.offset, size, is_open=True, proven=proven)
 
 
-def _refused(reason: Reason, part: Part, claim: int = 0) -> Verdict:
-    return Verdict(None, reason, part.at, part.at + part.size, claim=claim)
-
-
-def _too_short(have: int, size: int) -> Verdict:
-    """Return the verdict on `have` bytes that are legal, and judged further at `size` bytes."""
-    return Verdict(None, Reason.TOO_SHORT, have, size, is_open=True)
-
-
-def _differs(part: Constant, found: bytes, reason: Reason, start: int, have: int) -> Verdict:
-    """Return the verdict on a constant that is another, or not complete in `have` bytes."""
-    for at, byte in enumerate(found):
-        if byte != part.data[at]:
-            return Verdict(None, reason, start + at, start + at + 1)
-    return _too_short(have, max(have, start) + 1)
-
-
-def _misfit(
-    place: tuple[int, int, Reason, bytes | Callable[[bytes], int | None]], data: bytes, at: int
-) -> Verdict | None:
-    """Return the verdict on a place of the frame at `at` if it is wrong, or not complete."""
-    start, end, reason, due = place
-    found = data[at + start : at + end]
-    if isinstance(due, bytes):
-        if found == due:
-            return None
-        for offset, byte in enumerate(found):
-            if byte != due[offset]:
-                wrong = start if reason is Reason.COUNT_MISMATCH else start + offset
-                return Verdict(None, reason, wrong, start + offset + 1)
-        return _too_short(len(data) - at, max(start, len(data) - at) + 1)
-    if len(found) < end - start:
-        return _too_short(len(data) - at, end)
-    bad = due(found)
-    return None if bad is None else Verdict(None, reason, start + bad, end)
-
-
-def _proven(frame: Envelope, at_id: int, size: int, data: bytes, at: int, prove: Prove) -> Verdict:
-    """Judge a frame of unknown id that its checksums may prove."""
-    reason = Reason.UNKNOWN_COMMAND
-    if len(data) - at < size:
-        return Verdict(None, reason, at_id, size, is_open=True, proven=True)
-    right = all(
-        data[at + size + part.at : at + size + part.at + part.size] == part.data
-        for part in frame.ends
-    )
-    if right and prove(data, at, size, frame, ()) is None:
-        return Verdict(None, reason, at_id, size, proven=True)
-    return Verdict(None, reason, at_id, size)
-
-
-def _wrong(data: bytes, at: int, size: int, frame: Envelope, ids: Sequence[int]) -> Checksum | None:
-    """Return the first wrong checksum of a frame."""
+def wrong_checksum(
+    data: bytes, at: int, size: int, frame: Envelope, ids: Sequence[int]
+) -> Checksum | None:
+    """Return the first wrong checksum of the frame at data[at]."""
     return frame.wrong(data[at : at + size], ids)
 
 
-def _fixed(kind: type[Message]) -> tuple[int | None, int]:
-    """Return the count and the size of a message, if these are always the same."""
-    if kind.SHAPE.counter is not None:
-        return None, 0
-    return kind.SHAPE.counts[0], size_of(kind, kind.LENGTHS[0])
-
-
-def _size_of_try(each: tuple[Any, Any, int]) -> int:
-    return each[2]
+def _by_size(numbered: tuple[int, Trial]) -> tuple[int, int]:
+    return numbered[1].size, numbered[0]
 
 
 def _counted(kind: type[Message], count: int | None) -> tuple[int, int, bytes]:
@@ -491,22 +241,20 @@ def _counted(kind: type[Message], count: int | None) -> tuple[int, int, bytes]:
 def _holds(kind: type[Message]) -> Callable[[bytes], bool]:
     """Return what says whether a frame of a message's size is right, but for head and count."""
     shape, frame = kind.SHAPE, kind.FRAME
-    proves = frame.prover(kind.IDS)
+    proves = frame.prover(kind.IDS) or _always
     if frame.judged:
-        ends, last = [(part.place, part.data) for part in frame.ends], frame.address
-        address = last if last in frame.judged else None
+        ends = [(part.place, part.data) for part in frame.ends]
+        address = frame.address if frame.address in frame.judged else None
         return lambda data: (
             all(data[place] == due for place, due in ends)
             and (address is None or address.holds(address.read(data)))
-            and (shape.certain or shape.holds(data))
-            and (proves is None or proves(data))
+            and shape.holds(data)
+            and proves(data)
         )
     if shape.certain:
-        return proves or _always
-    if proves is None:
-        return shape.holds
-    holds, right = shape.holds, proves
-    return lambda data: holds(data) and right(data)
+        return proves
+    holds = shape.holds
+    return lambda data: holds(data) and proves(data)
 
 
 def _always(_: bytes) -> Literal[True]:
@@ -515,19 +263,9 @@ def _always(_: bytes) -> Literal[True]:
 
 def _reach(kind: type[Message], largest: int) -> int:
     """Return how many bytes of an illegal frame may look like those of a message."""
-    if not kind.SHAPE.certain or kind.FRAME.judged or kind.FRAME.checksums:
+    if not is_certain(kind) or kind.FRAME.checksums:
         return largest
     return kind.SHAPE.counter[1] if kind.SHAPE.counter else kind.FRAME.body_at
-
-
-def _shown(numbers: Sequence[int]) -> str:
-    return " ".join(map(str, numbers))
-
-
-def _words(lengths: Sequence[int]) -> str:
-    if isinstance(lengths, range):
-        return describe_range(lengths)
-    return " or ".join(map(str, lengths))
 
 
 def _remember(known: dict[bytes, Any], key: bytes, value: Any) -> None:
@@ -535,6 +273,3 @@ def _remember(known: dict[bytes, Any], key: bytes, value: Any) -> None:
     if len(known) >= _REMEMBERED:
         known.clear()
     known[key] = value
-
-
-_NOTHING = Verdict(None, Reason.BAD_HEADER, 0, 1)
