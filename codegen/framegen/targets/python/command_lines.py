@@ -143,11 +143,16 @@ def _decode_lines(model: Model) -> list[_Line]:
 def _docs_lines(model: Model) -> list[_Line]:
     """Return the ways to look something up."""
     message = _messages(model)[0]
-    number = f"0x{message.layout.id:0{2 * message.layout.frame.id.size}X}"
+    layout = message.layout
+    numbers = [
+        (f"0x{number:0{2 * part.size}X}", f"the messages with this {part.name}")
+        for part, number in zip(layout.frame.ids, layout.ids, strict=True)
+        if len(layout.ids) == 1
+    ]
     return [
         ("", "every message, in a line"),
         (message.name, "a message: its bytes, fields and examples"),
-        (number, f"the messages with this {message.layout.frame.id.name}"),
+        *numbers,
         (snake_case(message.name).split("_")[0], "whatever has this in its name or its text"),
         ("errata", "where the documents are wrong, and what they leave open"),
         ("lookalikes", "protocols that are easily taken for this one"),

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+from .bytes_like import format_hex
 from .errors import EncodeError, Reason
 from .field import Field
+from .fixed import Always
 from .floating import Float
 from .lists import List, places_of
 from .number import Number
@@ -169,6 +171,48 @@ class Shape:
             if part is not self._varying:
                 yield from _places(part)
 
+    def out_of_range(self, frame: bytes) -> tuple[int, str] | None:
+        """Return the first of the fields of a frame that is wrong: its offset, and what is wrong.
+
+        Counts are passed over, and so is what is not complete where the frame is cut short.
+        """
+        body = frame[: self._size_in(frame) - self._kind.FRAME.tail_size]
+        for name, base, piece in self._pieces(body):
+            for start, end, due in places_of(piece) if not isinstance(piece, Packed) else []:
+                data = body[base + start : base + end]
+                wrong = _wrong(data, due) if len(data) == end - start else None
+                if wrong is not None:
+                    return base + start + wrong, f"{name} {_explained(piece, data, wrong)}"
+            if isinstance(piece, Packed) and piece.narrowed:
+                data = body[piece.at : piece.at + piece.size]
+                if len(data) == piece.size and piece.wrong(data) is not None:
+                    return piece.at, f"{name} {_explained(piece, data, 0)}"
+        return None
+
+    def _size_in(self, frame: bytes) -> int:
+        """Return the size that a frame says it has; that of its bytes where it does not say so."""
+        envelope = self._kind.FRAME
+        if envelope.length is None:
+            return len(frame)
+        size: int = envelope.size(envelope.length.read(frame))
+        return size
+
+    def _pieces(self, body: bytes) -> Iterator[tuple[str, int, Any]]:
+        """Yield what stands in the fields by its path, and where its place counts from."""
+        for part in map(_there, self.parts):
+            if isinstance(part, Text) and _varies(part):
+                for position, at in enumerate(range(part.at, len(body))):
+                    character = Text(0, 1)
+                    yield f"{part.name}[{position}]", at, character
+            elif isinstance(part, List):
+                end = len(body) if _varies(part) else part.at + part.most * part.unit_size
+                for position, at in enumerate(range(part.at, end, part.unit_size)):
+                    for piece in part.pieces:
+                        inner = f".{piece.name}" if part.element is not None else ""
+                        yield f"{part.name}[{position}]{inner}", at, piece
+            else:
+                yield part.name, 0, part
+
     @property
     def present(self) -> list[int]:
         """How many of the fields that may be absent are there, in the frames of each count."""
@@ -241,6 +285,27 @@ def _varies(field: List[Any] | Text) -> bool:
 def _there(part: Any) -> Any:
     """Return what a part of a frame is where it is not absent."""
     return part.number if isinstance(part, Optional) else part
+
+
+def _wrong(data: bytes, due: Due) -> int | None:
+    """Return the offset of the first byte that is wrong; None if all are right."""
+    if not isinstance(due, bytes):
+        return due(data)
+    return next((at for at, byte in enumerate(due) if data[at] != byte), None)
+
+
+def _explained(piece: Any, data: bytes, at: int) -> str:
+    """Return what is wrong with the bytes of a number, a text, a constant or packed numbers."""
+    if isinstance(piece, Always):
+        return f"is {format_hex(data)}, and always {format_hex(piece.data)}"
+    if isinstance(piece, Text):
+        return f"holds 0x{data[at]:02X}, which is no character of ASCII"
+    if isinstance(piece, Packed):
+        numbers = piece.read(data)
+        value = next(each for each in numbers if not piece.low <= each <= piece.high)
+    else:
+        (value,) = piece.struct.unpack(data)
+    return f"is {value}, outside {piece.low}..{piece.high}"
 
 
 def _at(part: Any) -> int:
