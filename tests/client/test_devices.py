@@ -212,7 +212,7 @@ def test_all_are_asked_with_asyncio() -> None:
     assert [each.own_id for each in run_virtual(ask(), line.clock)] == [1, 2]
 
 
-# ------------------------------------------------------------------ the line gives back what is sent
+# ------------------------------------------------------------------ a line with an echo
 
 
 def test_the_echo_is_dropped_where_the_line_is_said_to_have_one() -> None:
