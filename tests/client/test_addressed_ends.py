@@ -6,6 +6,7 @@ import importlib
 from contextlib import ExitStack
 from typing import TYPE_CHECKING, Any
 
+import lxservo
 import pytest
 
 from tests.client.scripted_line import ScriptedLine
@@ -22,7 +23,7 @@ if TYPE_CHECKING:
 def libraries(tmp_path_factory: pytest.TempPathFactory) -> Iterator[None]:
     """Return the libraries, imported under their own names."""
     with ExitStack() as stack:
-        for name in ("lx16a", "mavlink1", "modbus"):
+        for name in ("mavlink1", "modbus"):
             stack.enter_context(
                 library(files_of(data_of(FILES[name])), tmp_path_factory.mktemp(name))
             )
@@ -35,22 +36,21 @@ def lib(name: str) -> Any:
 
 def servos(*addresses: int) -> Any:
     """Return a device that answers two questions, and keeps what it is called for."""
-    servo: Any = lib("lx16a")
 
-    class Servos(servo.Device):  # type: ignore[misc]
+    class Servos(lxservo.Device):
         def __init__(self) -> None:
             super().__init__(*addresses)
             self.called: list[Any] = []
 
         def on_position_read(self, message: Any) -> Any:
             self.called.append(message)
-            return servo.Position(message.servo_id, position=message.servo_id)
+            return lxservo.Position(message.servo_id, position=message.servo_id)
 
         def on_servo_id_read(self, message: Any) -> Any:
             self.called.append(message)
             for each in sorted(self.addresses) if message.servo_id == 254 else ():
-                self.send(servo.ServoId(each, own_id=each))
-            return servo.ServoId(message.servo_id, own_id=message.servo_id)
+                self.send(lxservo.ServoId(each, own_id=each))
+            return lxservo.ServoId(message.servo_id, own_id=message.servo_id)
 
         def on_move(self, message: Any) -> None:
             self.called.append(message)
@@ -82,7 +82,7 @@ def test_a_client_and_a_device_of_one_library_agree() -> None:
     with client_of(servos(1, 2)) as bus:
         assert [bus.device(each).read_position() for each in (1, 2)] == [1, 2]
         assert [each.own_id for each in bus.broadcast().read_servo_id(within=0.1)] == [1, 2]
-        with pytest.raises(lib("lx16a").NoReplyError):
+        with pytest.raises(lxservo.NoReplyError):
             bus.read_position(3)
 
 
