@@ -105,7 +105,7 @@ class ServoBus:
         for _ in range(servo.copies):
             at = self._put(at, answer, arrives=True)
 
-    def _put(self, at: float, data: bytes, arrives: bool) -> float:  # noqa: FBT001
+    def _put(self, at: float, data: bytes, arrives: bool) -> float:
         """Put bytes on the wire; return when the last of them has left.
 
         The host sends one frame after the other; a servo looks at nothing but its own time.

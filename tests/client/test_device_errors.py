@@ -151,12 +151,16 @@ def test_an_echo_is_never_taken_for_the_reply_that_it_looks_like() -> None:
     with client("dynamixel1", ping + status, local_echo=True) as bus:
         assert bus.ping(1) == dynamixel.Status(1, error=0, data=[])
         assert bus.counters.echoes == 1
-    with client("dynamixel1", ping + ping, local_echo=True) as bus:
-        with pytest.raises(dynamixel.FailureError):
-            bus.ping(1)
-    with client("dynamixel1", ping, local_echo=True) as bus:
-        with pytest.raises(dynamixel.NoReplyError):
-            bus.ping(1)
+    with (
+        client("dynamixel1", ping + ping, local_echo=True) as bus,
+        pytest.raises(dynamixel.FailureError),
+    ):
+        bus.ping(1)
+    with (
+        client("dynamixel1", ping, local_echo=True) as bus,
+        pytest.raises(dynamixel.NoReplyError),
+    ):
+        bus.ping(1)
     with client("dynamixel1", ping + status) as bus:  # nobody spoke of an echo, and it is dropped
         assert bus.ping(1) == dynamixel.Status(1, error=0, data=[])
         assert bus.counters.unsolicited == 1

@@ -3,16 +3,14 @@
 from __future__ import annotations
 
 import asyncio
-import importlib
 from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any
 
+import lxservo
 import pytest
 from busservo_simulator.virtual_loop import run_virtual
 
 from tests.client.servo_bus import MOVE, READ_POSITION, ServoBus
-from tests.factories import data_of, files_of, library
-from tests.protocols.specs import FILES
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -21,21 +19,10 @@ if TYPE_CHECKING:
 TRIP = 14 * 10 / 115200 + 0.001
 
 
-@pytest.fixture(scope="module", autouse=True)
-def servos(tmp_path_factory: pytest.TempPathFactory) -> Iterator[None]:
-    """Return the library, imported under its own name."""
-    with library(files_of(data_of(FILES["lxservo"])), tmp_path_factory.mktemp("servos")):
-        yield
-
-
-def lib(module: str = "") -> Any:
-    return importlib.import_module(f"lxservo.{module}" if module else "lxservo")
-
-
 @contextmanager
 def client(line: ServoBus, **settings: Any) -> Iterator[Any]:
     settings = {"settle": 0, **settings}
-    with lib().Controller(line, background=False, clock=line.clock.now, **settings) as bus:
+    with lxservo.Controller(line, background=False, clock=line.clock.now, **settings) as bus:
         yield bus
 
 
@@ -57,8 +44,8 @@ def test_a_servo_is_named_by_its_number_or_asked_as_a_device() -> None:
 
 
 def test_a_device_has_each_method_that_is_for_one() -> None:
-    named = {name for name in vars(lib().Controller) if not name.startswith("_")}
-    for kind in (lib().OneDevice, lib().AllDevices):
+    named = {name for name in vars(lxservo.Controller) if not name.startswith("_")}
+    for kind in (lxservo.OneDevice, lxservo.AllDevices):
         own = {name for name in vars(kind) if not name.startswith("_")} - {"address"}
         assert own == named - {"device", "broadcast", "gather"}
 
@@ -74,7 +61,7 @@ def test_a_reply_of_another_servo_answers_nothing() -> None:
     line = ServoBus(1, 2)
     with client(line) as bus:
         line.servos[2].delay = 0.15  # later than the client waits: it comes when another is asked
-        with pytest.raises(lib().NoReplyError):
+        with pytest.raises(lxservo.NoReplyError):
             bus.read_position(2)
         assert bus.read_position(1) == 1001
         line.servos[2].delay = 0.001
@@ -90,7 +77,7 @@ def test_a_dead_servo_delays_no_question_to_another() -> None:
     line.servos[2].dead = True
     with client(line) as bus:
         for _ in range(5):
-            with pytest.raises(lib().NoReplyError):
+            with pytest.raises(lxservo.NoReplyError):
                 bus.read_position(2)
             assert took(line, lambda: bus.read_position(1)) < 3 * TRIP
             assert took(line, lambda: bus.read_position(3)) < 3 * TRIP
@@ -100,7 +87,7 @@ def test_others_are_asked_while_a_dead_servo_is_still_waited_for() -> None:
     line = ServoBus(1, 2, 3)
 
     async def ask() -> float:
-        controller = lib().AsyncController(line, background=False, clock=line.clock.now, settle=0)
+        controller = lxservo.AsyncController(line, background=False, clock=line.clock.now, settle=0)
         async with controller as bus:
             for number in (1, 2, 3):
                 await bus.device(number).read_position()
@@ -112,7 +99,7 @@ def test_others_are_asked_while_a_dead_servo_is_still_waited_for() -> None:
             assert await bus.read_position(servo_id=1) == 1002
             await bus.device(3).move(500, 20)
             ended = line.clock.now()
-            with pytest.raises(lib().NoReplyError):
+            with pytest.raises(lxservo.NoReplyError):
                 await dead
         return float(ended - began)
 
@@ -124,7 +111,7 @@ def test_nothing_is_sent_while_a_servo_may_answer() -> None:
     line = ServoBus(1, 2)
 
     async def ask() -> None:
-        controller = lib().AsyncController(line, background=False, clock=line.clock.now, settle=0)
+        controller = lxservo.AsyncController(line, background=False, clock=line.clock.now, settle=0)
         async with controller as bus:
             for _ in range(20):
                 asked = [asyncio.ensure_future(bus.read_position(each)) for each in (1, 2)]
@@ -141,7 +128,7 @@ def test_a_late_reply_holds_up_its_own_servo_only() -> None:
     line = ServoBus(1, 2)
     with client(line) as bus:
         line.servos[2].delay = 0.2
-        with pytest.raises(lib().NoReplyError):
+        with pytest.raises(lxservo.NoReplyError):
             bus.read_position(2)
         line.servos[2].delay = 0.001
         assert bus.read_position(1) == 1001
@@ -163,10 +150,12 @@ def test_a_reply_that_comes_twice_never_answers_the_next_question() -> None:
 def test_nobody_is_awaited_who_never_answers() -> None:
     line = ServoBus(1, 2)
     with client(line) as bus:
-        with pytest.raises(lib().EncodeError, match=r"servo_id: 254 \(all\) is answered by nobody"):
+        with pytest.raises(
+            lxservo.EncodeError, match=r"servo_id: 254 \(all\) is answered by nobody"
+        ):
             bus.read_position(254)
-        with pytest.raises(lib().EncodeError, match=r"`broadcast\(\)`"):
-            bus.request(lib("messages").PositionRead(254))
+        with pytest.raises(lxservo.EncodeError, match=r"`broadcast\(\)`"):
+            bus.request(lxservo.PositionRead(254))
         assert line.commands == []
 
 
@@ -204,7 +193,7 @@ def test_all_are_asked_with_asyncio() -> None:
     line = ServoBus(1, 2)
 
     async def ask() -> Any:
-        controller = lib().AsyncController(line, background=False, clock=line.clock.now, settle=0)
+        controller = lxservo.AsyncController(line, background=False, clock=line.clock.now, settle=0)
         async with controller as bus:
             await bus.broadcast().move(500, 20)
             return await bus.broadcast().read_servo_id(within=0.05)
@@ -212,7 +201,7 @@ def test_all_are_asked_with_asyncio() -> None:
     assert [each.own_id for each in run_virtual(ask(), line.clock)] == [1, 2]
 
 
-# ------------------------------------------------------------------ the line gives back what is sent
+# ------------------------------------------------------------------ a line with an echo
 
 
 def test_the_echo_is_dropped_where_the_line_is_said_to_have_one() -> None:
@@ -222,7 +211,7 @@ def test_the_echo_is_dropped_where_the_line_is_said_to_have_one() -> None:
         for count in range(1, 6):
             assert bus.read_position(1) == 1000 + count
             bus.move(1, position=5, time_ms=1)
-            with pytest.raises(lib().NoReplyError):
+            with pytest.raises(lxservo.NoReplyError):
                 bus.read_position(2)
         assert bus.counters.echoes == 15
         assert bus.counters.noise == 0

@@ -210,6 +210,12 @@ class ClientView:
         return found
 
     @property
+    def broadcast_address(self) -> str:
+        """The only one of them; empty where there are several."""
+        only = [*self.silent.values()]
+        return str(only[0]) if len(only) == 1 else ""
+
+    @property
     def silent_values(self) -> str:
         """The same as a dict, in the code of a method."""
         pairs = [f"{literal(name)}: {value}" for name, value in self.silent.items()]
@@ -217,7 +223,9 @@ class ClientView:
 
     @property
     def silent_names(self) -> str:
-        """The type of their names."""
+        """The type of their names, where there are several."""
+        if len(self.silent) < 2:
+            return ""
         return f"Literal[{', '.join(map(literal, self.silent))}]"
 
     @property
