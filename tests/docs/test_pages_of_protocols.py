@@ -114,18 +114,18 @@ FACTS = [
         "the actuator answers with Status. Nobody answers at servo_id 254. Where error in",
     ),
     (
-        "lx16a",
+        "lxservo",
         "stream.html",
         "16: 01 + 07 + 01 + F4 + 01 + E8 + 03 = 1E9, of which E9, inverted 16",
     ),
-    ("lx16a", "stream.html", "An unknown command with a right checksum is certain."),
+    ("lxservo", "stream.html", "An unknown command with a right checksum is certain."),
     (
-        "lx16a",
+        "lxservo",
         "stream.html",
         "A checksum of 8 bits agrees by chance with one of 256 damaged frames.",
     ),
     (
-        "lx16a",
+        "lxservo",
         "messages/ModeWrite.html",
         "Reserved: written as 0, read as anything, and never given.",
     ),
