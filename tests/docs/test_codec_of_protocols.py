@@ -146,8 +146,8 @@ def whole(message: MessageLayout, values: dict[str, Any]) -> dict[str, Any]:
 
 # Values that no frame can carry, by protocol and message, and how the refusal begins.
 UNUSABLE: list[tuple[str, str, dict[str, Any], str]] = [
-    ("lx16a", "Move", {"servo_id": 255}, "servo_id: 255 is outside 0..254"),
-    ("lx16a", "Move", {"servo_id": 1.5}, "servo_id: a whole number is due"),
+    ("lxservo", "Move", {"servo_id": 255}, "servo_id: 255 is outside 0..254"),
+    ("lxservo", "Move", {"servo_id": 1.5}, "servo_id: a whole number is due"),
     ("sbus", "Channels", {"channels": [0] * 15}, "channels: 15 numbers, and it has 16"),
     ("sbus", "Channels", {"channels": [2048] * 16}, "channels[0]: 2048 is outside 0..2047"),
     (

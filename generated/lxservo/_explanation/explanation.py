@@ -10,7 +10,13 @@ from dataclasses import dataclass
 
 from .lookalikes import recognise
 from .protocol import listed
-from .refusals import BAD_CHECKSUM, TRAILING_BYTES, UNKNOWN_COMMAND, Refused
+from .refusals import (
+    BAD_CHECKSUM,
+    LENGTH_MISMATCH,
+    TRAILING_BYTES,
+    UNKNOWN_COMMAND,
+    Refused,
+)
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
@@ -172,7 +178,7 @@ class _Explainer:
 
     def _refusal(self, direction: str, judgement: Judgement) -> Refusal:
         reason, offset = judgement.reason, judgement.offset
-        frame = self.protocol.envelopes.get(judgement.frame, self.protocol.frame)
+        frame = self._envelope(direction, judgement)
         likely = self.protocol.message(direction, frame, self.data[:offset])
         largest = self.protocol.largest([direction])
         refused = Refused(
@@ -180,6 +186,26 @@ class _Explainer:
         )
         right = rows_of(self.data, self._slots(frame, likely, offset), likely)
         return Refusal(direction, reason, offset, refused.expected(), right)
+
+    def _envelope(self, direction: str, judgement: Judgement) -> Envelope:
+        """Return the envelope that comes closest; where nobody says which, by what was refused."""
+        if judgement.frame:
+            return self.protocol.envelopes[judgement.frame]
+        frames = [*self.protocol.envelopes.values()]
+        sent = [frame for frame in frames if self.protocol.sent(direction, frame)] or frames
+        closest = (frame for frame in sent if self._is_refused_by(frame, judgement))
+        return next(closest, sent[0])
+
+    def _is_refused_by(self, frame: Envelope, judgement: Judgement) -> bool:
+        """Tell whether bytes may be refused so as a frame of an envelope."""
+        at = judgement.offset
+        if at >= len(frame.header) and not self.data.startswith(frame.header):
+            return False
+        if judgement.reason == LENGTH_MISMATCH:
+            return frame.length is not None and frame.length.at == at
+        if judgement.reason == UNKNOWN_COMMAND:
+            return any(part.at == at for part in frame.ids)
+        return True
 
     def _slots(self, frame: Envelope, message: Message | None, end: int) -> list[Placed]:
         """Return the slots up to an offset, in frames of a message if it is known."""

@@ -6,7 +6,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from .._frame.pluralize import describe_range
-from .protocol import listed
+from .protocol import lay_out, listed
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
@@ -146,7 +146,9 @@ class Refused:
         if likely is not None and (not slots or self.offset >= slots[-1].end):
             length = likely.lengths[0] if self._length() is None else self._length()
             slots += likely.lay_out(length or 0)
-        return next(placed for placed in slots if self.offset < placed.end)
+        slots += lay_out(self.frame.slots, max(len(self.data), self.frame.least))
+        # At the end of them all, what is missing is more than any frame has.
+        return next((placed for placed in slots if self.offset < placed.end), slots[-1])
 
     def _legal_lengths(self) -> str:
         frame, found = self.frame, self._named()
