@@ -121,7 +121,7 @@ def _named_addresses(message: MessageLayout) -> list[_Address]:
 def _value(slot: Field, end: _End, count: int) -> Any:
     match slot:
         case Items():
-            items = [_item(slot, end) for _ in range(slot.low if slot.is_fixed else count)]
+            items = [item_at(slot, end) for _ in range(slot.low if slot.is_fixed else count)]
             return items if slot.text is None else "".join(map(chr, items))
         case Packed():
             return [slot.low if end == "low" else slot.high] * slot.count
@@ -129,7 +129,8 @@ def _value(slot: Field, end: _End, count: int) -> Any:
             return _end(slot, end)
 
 
-def _item(items: Items, end: _End) -> Any:
+def item_at(items: Items, end: _End) -> Any:
+    """Return an element with every number at one end of its range."""
     if items.element is None:
         return _end(items.fields[0], end)
     return {field.name: _end(field, end) for field in items.fields}
