@@ -136,10 +136,8 @@ def _message(message: MessageLayout, frame: bytes) -> str:
 
 def fields(message: MessageLayout, values: Mapping[str, Any]) -> list[str]:
     """Write values in the line language: `time_ms=1000`, `targets=1:800,9:800`."""
-    given = {slot: values[slot.name] for slot in message.arguments}
-    return [
-        f"{slot.name}={_value(slot, value)}" for slot, value in given.items() if value is not None
-    ]
+    given = [(slot, values[slot.name]) for slot in message.arguments]
+    return [f"{slot.name}={_value(slot, value)}" for slot, value in given if value is not None]
 
 
 def _value(slot: Field, value: Any) -> str:
