@@ -44,7 +44,7 @@ function messageLine({ message, kind, fields }, bytes) {
 
 // The values of a question, as the codec takes them.
 function valuesIn(kind, words) {
-  const given = new Map(words.map((word) => word.split("=")));
+  const given = new Map(words.map((word) => word.split(/=(.*)/s)));
   return Object.fromEntries(kind.given.map((slot) => [slot.name, valueIn(slot, given.get(slot.name))]));
 }
 

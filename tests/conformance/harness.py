@@ -8,6 +8,7 @@ from __future__ import annotations
 import re
 import subprocess
 from dataclasses import dataclass
+from itertools import zip_longest
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
@@ -28,7 +29,7 @@ class Case:
     def differs(self, answer: Sequence[str]) -> str:
         """Return what is wrong with an answer; empty for the right one."""
         shown = joined(answer)
-        if [*map(_compared, shown)] == [*map(_compared, self.answer)]:
+        if _same(shown, self.answer):
             return ""
         return "\n".join([f"{self.title}: {self.question}", *self.answer, "but:", *shown])
 
@@ -111,14 +112,22 @@ def _message(vector: dict[str, Any]) -> str:
     return " ".join(["message", vector["message"], _hex(vector["hex"]), *fields])
 
 
-def _compared(line: str) -> list[object]:
-    """Return the words of a line; its fractions as numbers, however a language prints them."""
-    return [
-        float(word) if _FRACTION.fullmatch(word) else word for word in re.split("([ =:,])", line)
-    ]
+def _same(lines: Sequence[str], others: Sequence[str]) -> bool:
+    """Tell whether lines are the same, however a language prints a fraction."""
+    pairs = zip_longest(*(re.split("([ =:,\n])", "\n".join(each)) for each in (lines, others)))
+    return all(
+        one == other or (_is_fraction(one, other) and float(one) == float(other))
+        for one, other in pairs
+    )
 
 
-_FRACTION = re.compile(r"-?([0-9]+\.[0-9]*([eE][-+]?[0-9]+)?|[0-9]+[eE][-+]?[0-9]+|inf|Infinity)")
+def _is_fraction(one: str | None, other: str | None) -> bool:
+    """Tell whether two words are numbers, of which one is no whole one as the vectors have it."""
+    words = [each for each in (one, other) if each is not None and _NUMBER.fullmatch(each)]
+    return len(words) == 2 and any(not each.removeprefix("-").isdecimal() for each in words)
+
+
+_NUMBER = re.compile(r"-?([0-9]+\.?[0-9]*([eE][-+]?[0-9]+)?|inf|Infinity)")
 
 
 def _fields(fields: dict[str, Any]) -> list[str]:

@@ -50,7 +50,9 @@ def frames_of(message: MessageLayout) -> Iterator[ValidFrame]:
     counter = message.frame.counter
     usual = {} if counter is None else {counter.name: 0}
     for example in message.message.examples:
-        yield ValidFrame(example.title, message, usual | example.values)
+        values = usual | example.values
+        given = {slot.name: values[slot.name] for slot in message.arguments}
+        yield ValidFrame(example.title, message, given)
     for title, values in range_ends(message):
         yield ValidFrame(title, message, values)
     if not message.arguments and not message.message.examples:

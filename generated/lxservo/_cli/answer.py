@@ -81,7 +81,10 @@ def answer(question: str) -> list[str]:
 
 def _encoded(name: str, words: list[str]) -> str:
     kind = message_named(name)
-    given = fields_from_text(kind, words)
+    # A field that is called like a word of Python has another name here.
+    bent = {name.rstrip("_"): name for name in kind.__match_args__}
+    pairs = [word.partition("=") for word in words]
+    given = fields_from_text(kind, [f"{bent.get(name, name)}={text}" for name, _, text in pairs])
     try:
         with catch_warnings():
             # Nothing here is a program that could heed a warning.
@@ -118,7 +121,8 @@ def _event(event: Message | Noise) -> str:
     if isinstance(event, Noise):
         return f"noise {_dashed(event.reason.value)} {event.data.hex()}"
     given = event.to_dict().items()
-    fields = [f"{name}={_text(value)}" for name, value in given if value is not None]
+    shown = [(name.rstrip("_"), value) for name, value in given if value is not None]
+    fields = [f"{name}={_text(value)}" for name, value in shown]
     return " ".join(["message", type(event).__name__, event.encode().hex(), *fields])
 
 
