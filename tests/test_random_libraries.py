@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from itertools import pairwise
 from typing import TYPE_CHECKING, Any
 
 import pytest
@@ -41,14 +42,14 @@ def test_a_library_reads_and_writes_as_the_reference_does(spec: Data, data: st.D
 
 def frames_agree(made: Any, model: Model) -> None:
     for valid in valid_frames(model):
-        message = made_of(made, valid.message, valid.values)
+        message = made_of(made, valid.message, dict(valid.values))
         assert message.encode() == valid.data
         read = made.decode(valid.data, direction_of(made, valid.message.direction))
         if type(read) is type(message):
             assert plain(values_in(valid.message, read)) == plain(valid.values)
     for unfit in unencodable(model):
         with pytest.raises(made.EncodeError):
-            made_of(made, unfit.message, unfit.values).encode()
+            made_of(made, unfit.message, dict(unfit.values)).encode()
     for wrong in invalid_frames(model):
         with pytest.raises(made.DecodeError) as raised:
             made.decode(wrong.data, direction_of(made, wrong.direction))
@@ -63,7 +64,7 @@ def streams_agree(made: Any, model: Model, data: st.DataObject) -> None:
     way = data.draw(st.sampled_from(model.directions))
     line = data.draw(lines(frames))
     cuts = [0, *sorted(data.draw(st.lists(st.integers(0, len(line)), max_size=5))), len(line)]
-    parts = [line[start:end] for start, end in zip(cuts, cuts[1:], strict=False)]
+    parts = [line[start:end] for start, end in pairwise(cuts)]
     assert_same(made, model, way, (*parts, None), None)
 
 

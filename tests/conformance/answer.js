@@ -22,12 +22,21 @@ const toHex = (bytes) => Buffer.from(bytes).toString("hex");
 const fromHex = (text) => [...Buffer.from(text, "hex")];
 const dashed = (reason) => reason.replaceAll(" ", "-");
 
+// What ends a text, or is no character that can be seen, and how that is written.
+const escaped = (text) => text.replace(/[^!-~]|[%,:]/g,
+  (character) => `%${character.codePointAt(0).toString(16).toUpperCase().padStart(2, "0")}`);
+const unescaped = (text) => text.replace(/%([0-9A-Fa-f]{2})/g, (_, digits) => String.fromCharCode(parseInt(digits, 16)));
+const word = (value) => (typeof value === "string" ? escaped(value) : String(value));
+const inList = (value) => word(value) || "%00";
+
 // A message as it is written: `message ServoMove 5555… time_ms=1000 targets=1:800,9:800`.
 function messageLine({ message, kind, fields }, bytes) {
-  const values = kind.given.map(({ name }) => {
+  const given = kind.given.filter(({ name }) => fields[name] !== null);
+  const values = given.map(({ name }) => {
     const value = fields[name];
-    if (!Array.isArray(value)) return `${name}=${value}`;
-    const items = value.map((item) => (typeof item === "number" ? item : Object.values(item).join(":")));
+    if (!Array.isArray(value)) return `${name}=${word(value)}`;
+    const items = value.map((item) => (item !== null && typeof item === "object"
+      ? Object.values(item).map(inList).join(":") : inList(item)));
     return `${name}=${items.join(",")}`;
   });
   return ["message", message, toHex(bytes), ...values].join(" ");
@@ -35,19 +44,34 @@ function messageLine({ message, kind, fields }, bytes) {
 
 // The values of a question, as the codec takes them.
 function valuesIn(kind, words) {
-  const given = new Map(words.map((word) => word.split("=")));
-  return Object.fromEntries(kind.given.map((slot) => {
-    const text = given.get(slot.name);
-    return [slot.name, slot.role === "list" ? itemsIn(slot, text) : Number(text)];
-  }));
+  const given = new Map(words.map((word) => word.split(/=(.*)/s)));
+  return Object.fromEntries(kind.given.map((slot) => [slot.name, valueIn(slot, given.get(slot.name))]));
+}
+
+function valueIn(slot, text) {
+  if (text === undefined) return null;
+  if (slot.role === "packed") return text === "" ? [] : text.split(",").map((each) => numberIn(slot, each));
+  if (slot.role === "list" && !slot.text) return itemsIn(slot, text);
+  return single(slot, text);
+}
+
+// A fixed text has no zeros at its end.
+function single(slot, text) {
+  if (slot.role === "list") return unescaped(text);
+  return slot.role === "text" ? unescaped(text).replace(/\0+$/, "") : numberIn(slot, text);
+}
+
+function numberIn(slot, text) {
+  if (slot.wide) return BigInt(text);
+  return Number({ inf: "Infinity", "-inf": "-Infinity" }[text] ?? text);
 }
 
 function itemsIn(list, text) {
   const items = text === "" ? [] : text.split(",");
   return items.map((item) => {
-    const numbers = item.split(":").map(Number);
-    if (list.element === null) return numbers[0];
-    return Object.fromEntries(list.fields.map((field, i) => [field.name, numbers[i]]));
+    const values = item.split(":").map((each, i) => single(list.fields[i], each));
+    if (list.element === null) return values[0];
+    return Object.fromEntries(list.fields.map((field, i) => [field.name, values[i]]));
   });
 }
 

@@ -10,11 +10,13 @@ from tests.conformance.answerers import ANSWERERS
 from tests.conformance.harness import cases_of, differences, joined
 from tests.docs.reference import NODE
 from tests.factories import BUSSERVO, DEMO, compiled_file, vectors_of
+from tests.protocols.specs import FILES
 
 SPECS = [
     BUSSERVO,
     DEMO,
     *(DEMO.with_name(f"{name}.yaml") for name in ("blinds", "lamp", "weather")),
+    *FILES.values(),
 ]
 
 

@@ -50,7 +50,9 @@ def frames_of(message: MessageLayout) -> Iterator[ValidFrame]:
     counter = message.frame.counter
     usual = {} if counter is None else {counter.name: 0}
     for example in message.message.examples:
-        yield ValidFrame(example.title, message, usual | example.values)
+        values = usual | example.values
+        given = {slot.name: values[slot.name] for slot in message.arguments}
+        yield ValidFrame(example.title, message, given)
     for title, values in range_ends(message):
         yield ValidFrame(title, message, values)
     if not message.arguments and not message.message.examples:
@@ -121,7 +123,7 @@ def _named_addresses(message: MessageLayout) -> list[_Address]:
 def _value(slot: Field, end: _End, count: int) -> Any:
     match slot:
         case Items():
-            items = [_item(slot, end) for _ in range(slot.low if slot.is_fixed else count)]
+            items = [item_at(slot, end) for _ in range(slot.low if slot.is_fixed else count)]
             return items if slot.text is None else "".join(map(chr, items))
         case Packed():
             return [slot.low if end == "low" else slot.high] * slot.count
@@ -129,7 +131,8 @@ def _value(slot: Field, end: _End, count: int) -> Any:
             return _end(slot, end)
 
 
-def _item(items: Items, end: _End) -> Any:
+def item_at(items: Items, end: _End) -> Any:
+    """Return an element with every number at one end of its range."""
     if items.element is None:
         return _end(items.fields[0], end)
     return {field.name: _end(field, end) for field in items.fields}

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from itertools import zip_longest
 from typing import TYPE_CHECKING
 
+from framegen.conformance.fractions import with_plain_fractions
 from framegen.conformance.language import QUIET, UNSUPPORTED, Encode, Stream, answer, joined
 
 if TYPE_CHECKING:
@@ -80,7 +81,8 @@ def unsupported(reply: Reply) -> bool:
 
 def compare(model: Model, title: str, question: Question, reply: Reply) -> Difference | None:
     """Find where an answer differs from the reference's; None where it does not."""
-    expected, answered = joined(answer(model, question)), joined(reply.lines)
+    expected = joined(answer(model, question))
+    answered = [with_plain_fractions(model, line) for line in joined(reply.lines)]
     if not reply.failure and _agree(question, expected, answered):
         return None
     pairs = enumerate(zip_longest(expected, answered))

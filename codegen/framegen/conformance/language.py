@@ -6,21 +6,23 @@
 
 WAY is the key of a direction, `controller_to_host`. FIELDS are `name=value`, in the order of the
 frame without counts; a list is `targets=1:800,9:800`: commas between elements, colons between the
-fields of an element. REASON is one of the reference's words with dashes: `count-mismatch`. PARTS
-are chunks in hex, in the order in which they arrive, and `quiet` wherever the line goes quiet;
-frames larger than LARGEST bytes are refused. Events are `message NAME HEX FIELDS...`, `unknown
-HEX`, `noise REASON HEX` in pieces of any size, and `quiet` for each `quiet` of the question, after
-the events that it decides. Every answer ends with a line `end`; `unsupported` alone says that a
-codec cannot do what it was asked.
+fields of an element. In text, `%2C` is a comma, and likewise whatever is no printable character of
+ASCII, or ends a text; an empty one in a list is `%00`. A field that is absent is left out. REASON
+is one of the reference's words with dashes: `count-mismatch`. PARTS are chunks in hex, in the order
+in which they arrive, and `quiet` wherever the line goes quiet; frames larger than LARGEST bytes are
+refused. Events are `message NAME HEX FIELDS...`, `unknown HEX`, `noise REASON HEX` in pieces of any
+size, and `quiet` for each `quiet` of the question, after the events that it decides. Every answer
+ends with a line `end`; `unsupported` alone says that a codec cannot do what it was asked.
 """
 
 from __future__ import annotations
 
+import re
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, ClassVar, TypeAlias
 
 from framegen.model.codec import Unencodable, encode, values_of
-from framegen.model.slots import Items, Number
+from framegen.model.slots import Items, Number, Text
 from framegen.model.stream import ReferenceDecoder
 from framegen.model.verdict import weigh_whole
 
@@ -30,6 +32,7 @@ if TYPE_CHECKING:
     from framegen.language.values import Direction
     from framegen.model.layout import MessageLayout
     from framegen.model.model import Model
+    from framegen.model.slots import Field
     from framegen.model.stream import Event
 
 END = "end"
@@ -133,16 +136,46 @@ def _message(message: MessageLayout, frame: bytes) -> str:
 
 def fields(message: MessageLayout, values: Mapping[str, Any]) -> list[str]:
     """Write values in the line language: `time_ms=1000`, `targets=1:800,9:800`."""
-    return [f"{slot.name}={_value(slot, values[slot.name])}" for slot in message.arguments]
+    given = [(slot, values[slot.name]) for slot in message.arguments]
+    return [f"{slot.name}={_value(slot, value)}" for slot, value in given if value is not None]
 
 
-def _value(slot: Number | Items, value: Any) -> str:
-    if isinstance(slot, Number):
-        return str(value)
-    if slot.element is None:
+def _value(slot: Field, value: Any) -> str:
+    if not isinstance(value, list):
+        return _word(slot, value)
+    if not isinstance(slot, Items):
         return ",".join(map(str, value))
-    names = [field.name for field in slot.fields]
-    return ",".join(":".join(str(item[name]) for name in names) for item in value)
+    if slot.element is None:
+        return ",".join(_word(slot.fields[0], each) for each in value)
+    return ",".join(
+        ":".join(_word(field, item[field.name]) or "%00" for field in slot.fields) for item in value
+    )
+
+
+def _word(slot: Field, value: Any) -> str:
+    """Write a number, or a text without anything that would end it or not be seen."""
+    if isinstance(value, str):
+        return _SPECIAL.sub(lambda found: f"%{ord(found[0]):02X}", value)
+    if isinstance(slot, Number) and slot.is_float:
+        return repr(float(value))
+    return str(value)
+
+
+# What is no character of a text, though it may stand for one; and how one is written.
+_SPECIAL = re.compile("[^!-~]|[%,:]")
+_ESCAPED = re.compile("%([0-9A-Fa-f]{2})")
+
+
+def single_value(slot: Number | Text, text: str) -> float | str:
+    """Read a number or a fixed text as it is written in a line. Raises ValueError."""
+    if isinstance(slot, Text):
+        return unescaped(text).rstrip("\0")
+    return float(text) if slot.is_float else int(text)
+
+
+def unescaped(text: str) -> str:
+    """Read a text as it is written in a line."""
+    return _ESCAPED.sub(lambda found: chr(int(found[1], 16)), text)
 
 
 def dashed(reason: str) -> str:

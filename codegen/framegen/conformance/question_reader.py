@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from framegen.conformance.language import QUIET, Decode, Encode, Stream
-from framegen.model.slots import Number
+from framegen.conformance.language import QUIET, Decode, Encode, Stream, single_value, unescaped
+from framegen.model.slots import Items, Number, Packed, Text
 from framegen.reading.findings import did_you_mean
 
 if TYPE_CHECKING:
@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from framegen.language.values import Direction
     from framegen.model.layout import MessageLayout
     from framegen.model.model import Model
-    from framegen.model.slots import Items
+    from framegen.model.slots import Field
 
 _VERBS = ("decode", "encode", "stream")
 
@@ -65,26 +65,42 @@ def _encode(model: Model, name: str, words: Sequence[str]) -> Encode:
     message = model.messages[name]
     given = dict(word.partition("=")[::2] for word in words)
     due = {slot.name: slot for slot in message.arguments}
-    for missing in [name for name in due if name not in given]:
+    absent = {slot.name for slot in message.optional} - {*given}
+    for missing in [name for name in due if name not in {*given, *absent}]:
         raise NotAQuestion(f"{message.name} lacks `{missing}=`")
     for word in [word for word in given if word not in due]:
         raise NotAQuestion(f"{message.name} has no `{word}` to be given")
-    return Encode(message, {name: _value(message, due[name], given[name]) for name in due})
+    values = {name: _value(message, due[name], given[name]) for name in due if name in given}
+    return Encode(message, {name: values.get(name) for name in due})
 
 
-def _value(message: MessageLayout, slot: Number | Items, text: str) -> Any:
+def _value(message: MessageLayout, slot: Field, text: str) -> Any:
     try:
-        if isinstance(slot, Number):
-            return int(text)
-        items = [[int(each) for each in item.split(":")] for item in text.split(",") if item]
-        if slot.element is None:
-            return [only for (only,) in items]
-        names = [field.name for field in slot.fields]
-        return [dict(zip(names, item, strict=True)) for item in items]
+        match slot:
+            case Items() if slot.text is None:
+                return [_item(slot, item) for item in text.split(",") if item]
+            case Packed():
+                return [int(each) for each in text.split(",") if each]
+            case Items():
+                return unescaped(text)
+            case _:
+                return single_value(slot, text)
     except ValueError:
-        form = "a number"
-        if not isinstance(slot, Number):
-            one = ":".join(field.name for field in slot.fields)
-            form = f"a list, {one},{one}"
         said = f"`{text[:40]}` is no {slot.name} of {message.name}"
-        raise NotAQuestion(f"{said}: write {form}") from None
+        raise NotAQuestion(f"{said}: write {_form(slot)}") from None
+
+
+def _item(items: Items, text: str) -> Any:
+    if items.element is None:
+        return single_value(items.fields[0], text)
+    pairs = zip(items.fields, text.split(":"), strict=True)
+    return {field.name: single_value(field, word) for field, word in pairs}
+
+
+def _form(slot: Field) -> str:
+    if isinstance(slot, Number):
+        return "a number"
+    if isinstance(slot, Text) or (isinstance(slot, Items) and slot.text is not None):
+        return "text"
+    one = ":".join(field.name for field in slot.fields) if isinstance(slot, Items) else slot.name
+    return f"a list, {one},{one}"

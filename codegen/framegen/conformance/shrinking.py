@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
+import sys
 from contextlib import suppress
 from itertools import chain
+from math import isfinite, isnan
 from typing import TYPE_CHECKING, Any
 
+from framegen.cases.valid import values_at
 from framegen.conformance.language import Decode, Encode, Stream
 from framegen.model.codec import Unencodable, encode, values_of
-from framegen.model.slots import Number
 from framegen.model.verdict import weigh
 
 if TYPE_CHECKING:
@@ -68,7 +70,7 @@ def _weight(model: Model, question: Question) -> tuple[int, ...]:
     match question:
         case Encode():
             numbers = list(_numbers(question.values))
-            return len(numbers), *(abs(number) for number in numbers)
+            return len(numbers), *map(_magnitude, numbers)
         case Decode(data=data):
             return len(data), *data
         case Stream(way=way, max_frame=most):
@@ -159,22 +161,23 @@ def _shorter_frames(message: MessageLayout, frame: bytes) -> Iterator[bytes]:
 
 
 def _least(message: MessageLayout) -> bytes:
-    values: dict[str, Any] = {}
-    for slot in message.arguments:
-        if isinstance(slot, Number):
-            values[slot.name] = slot.low
-        elif slot.element is None:
-            values[slot.name] = [slot.fields[0].low] * slot.low
-        else:
-            values[slot.name] = [{field.name: field.low for field in slot.fields}] * slot.low
-    return encode(message, values)
+    return encode(message, values_at(message, "low", message.counts[0]))
 
 
 # -- Values --------------------------------------------------------------------------------------
 
 
-def _numbers(values: Any) -> Iterator[int]:
+def _magnitude(number: float) -> int:
+    return int(abs(number)) if isfinite(number) else sys.maxsize
+
+
+def _numbers(values: Any) -> Iterator[float]:
+    """Yield the numbers among values; of a text, the numbers of its characters."""
     match values:
+        case None:
+            return
+        case str():
+            yield from map(ord, values)
         case dict():
             yield from chain.from_iterable(map(_numbers, values.values()))
         case list():
@@ -185,9 +188,11 @@ def _numbers(values: Any) -> Iterator[int]:
 
 def _shorter(values: Any) -> Iterator[dict[str, Any]]:
     for name, value in values.items():
-        if isinstance(value, list):
+        if isinstance(value, list | str):
             for at, end in _runs(value):
-                yield {**values, name: value[:at] + value[end:]}
+                # What is left of a list is a list, and of a text a text.
+                rest: Any = [value[:at], value[end:]]
+                yield {**values, name: rest[0] + rest[1]}
 
 
 def _lower(value: Any) -> Iterator[Any]:
@@ -200,6 +205,10 @@ def _lower(value: Any) -> Iterator[Any]:
             for at, inner in enumerate(value):
                 for lower in _lower(inner):
                     yield [*value[:at], lower, *value[at + 1 :]]
+        case str() | None:
+            return
+        case float():
+            yield from (lower for lower in (0.0, 1.0) if lower < abs(value) or isnan(value))
         case _:
             towards = 1 if value > 0 else -1
             candidates = (0, towards, abs(value) // 2 * towards, value - towards)

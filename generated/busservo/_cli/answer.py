@@ -17,7 +17,7 @@ from .encode import message_named
 from .exit_codes import DONE, UNUSABLE
 from .numerals import whole
 from .usage_error import UsageError
-from .values import fields_from_text
+from .values import as_word, fields_from_text
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
@@ -81,7 +81,10 @@ def answer(question: str) -> list[str]:
 
 def _encoded(name: str, words: list[str]) -> str:
     kind = message_named(name)
-    given = fields_from_text(kind, words)
+    # A field that is called like a word of Python has another name here.
+    bent = {name.rstrip("_"): name for name in kind.__match_args__}
+    pairs = [word.partition("=") for word in words]
+    given = fields_from_text(kind, [f"{bent.get(name, name)}={text}" for name, _, text in pairs])
     try:
         with catch_warnings():
             # Nothing here is a program that could heed a warning.
@@ -117,16 +120,18 @@ def _event(event: Message | Noise) -> str:
         return f"unknown {event.data.hex()}"
     if isinstance(event, Noise):
         return f"noise {_dashed(event.reason.value)} {event.data.hex()}"
-    fields = [f"{name}={_text(value)}" for name, value in event.to_dict().items()]
+    given = event.to_dict().items()
+    shown = [(name.rstrip("_"), value) for name, value in given if value is not None]
+    fields = [f"{name}={_text(value)}" for name, value in shown]
     return " ".join(["message", type(event).__name__, event.encode().hex(), *fields])
 
 
 def _text(value: Any) -> str:
-    """Return the text of a number, or of a list of numbers or of mappings of numbers."""
+    """Return the text of a value, or of a list of values or of mappings of values."""
     if not isinstance(value, list):
-        return str(value)
+        return as_word(value)
     elements = [each.values() if isinstance(each, dict) else [each] for each in value]
-    return ",".join(":".join(map(str, element)) for element in elements)
+    return ",".join(":".join(as_word(each) or "%00" for each in element) for element in elements)
 
 
 def _way(word: str) -> Direction:

@@ -106,7 +106,7 @@ def _text_of(field: Any) -> Show:
         return lambda message: _listed(field, message, element, ",")
 
     def shown(message: Message) -> str:
-        values = iter([_word(value) for value in field.numbers(message.encode())])
+        values = iter([as_word(value) for value in field.numbers(message.encode())])
         return ",".join(":".join(row) for row in zip(*[values] * field.width, strict=True))
 
     return shown
@@ -132,7 +132,7 @@ def _as_text(field: Any, value: Any) -> str | None:
     if isinstance(value, tuple):
         return ",".join(map(str, value))
     if isinstance(value, str):
-        return _word(value)
+        return as_word(value)
     unit = f" {field.unit}" if field.unit else ""
     named = [name for name, known in field.names.items() if known == value]
     bits = getattr(field, "bits", None) or {}
@@ -140,7 +140,7 @@ def _as_text(field: Any, value: Any) -> str | None:
     return f"{value}{unit} ({', '.join(named)})" if named else f"{value}{unit}"
 
 
-def _word(value: Any) -> str:
+def as_word(value: Any) -> str:
     """Return a value as one word; of a text, what would end it is escaped."""
     if not isinstance(value, str):
         return str(value)

@@ -4,16 +4,18 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
+from framegen.cases.valid import item_at, values_at
 from framegen.conformance.device.step import Request, Step
 from framegen.model.codec import encode
 from framegen.model.slots import Items, Number
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator, Mapping
+    from collections.abc import Iterable, Iterator, Mapping
 
     from framegen.conformance.device.permission import Permission
     from framegen.model.exchanges import Exchange
     from framegen.model.model import Model
+    from framegen.model.slots import Field
 
 
 # No list is asked about that has more elements, whatever a frame has room for.
@@ -45,7 +47,7 @@ def requests(permission: Permission) -> list[Request]:
     """Return every query that is sent: those of the examples, and one for each size of list."""
     found: dict[bytes, Request] = {}
     for exchange in _of(permission.model, permission.queries):
-        for request in [*_examples(exchange), *_sized(permission.model, exchange)]:
+        for request in [*_examples(exchange), *_sized(exchange)]:
             found.setdefault(request.frame, request)
     return list(found.values())
 
@@ -78,7 +80,7 @@ def _examples(exchange: Exchange) -> Iterator[Request]:
         yield Request(exchange, example.values, frame, f"example {number}")
 
 
-def _sized(model: Model, exchange: Exchange) -> Iterator[Request]:
+def _sized(exchange: Exchange) -> Iterator[Request]:
     """Make requests with one element, with two, and with as many as a reply can report.
 
     A query without a list is only made up where no example shows it.
@@ -90,7 +92,7 @@ def _sized(model: Model, exchange: Exchange) -> Iterator[Request]:
             yield Request(exchange, pattern, encode(message, pattern), "lowest values")
         return
     most = min(message.counts[-1], exchange.most or message.counts[-1], _MOST_ELEMENTS)
-    elements = _elements(model, exchange, pattern[message.items.name])[:most]
+    elements = _elements(exchange, pattern[message.items.name])[:most]
     sizes = {1: "one element", 2: "two elements", len(elements): f"{len(elements)} elements"}
     for size, about in sizes.items():
         if size in message.counts and size <= len(elements):
@@ -103,22 +105,26 @@ def _pattern(exchange: Exchange) -> Mapping[str, Any]:
     message = exchange.request
     if message.message.examples:
         return message.message.examples[0].values
-    return {
-        slot.name: max(slot.low, 0) if isinstance(slot, Number) else []
-        for slot in message.arguments
-    }
+    values = values_at(message, "low", message.counts[0])
+    values |= _zeros(message.arguments)
+    return values if message.items is None else {**values, message.items.name: []}
 
 
-def _elements(model: Model, exchange: Exchange, first: list[Any]) -> list[Any]:
+def _zeros(slots: Iterable[Field]) -> dict[str, int]:
+    """Return a zero for each number that may be zero."""
+    return {slot.name: 0 for slot in slots if isinstance(slot, Number) and slot.holds(0)}
+
+
+def _elements(exchange: Exchange, first: list[Any]) -> list[Any]:
     """Make elements that all differ in their first field, in the order of its values.
 
     Values that are a byte of the header are left out: a list could then look like a frame.
     """
     items = exchange.request.items
-    if items is None:
+    number = None if items is None else items.fields[0]
+    if items is None or not isinstance(number, Number) or number.is_float or items.text:
         return []
-    header = set(model.frame.header)
-    number = items.fields[0]
+    header = set(exchange.request.frame.header)
     lowest = min((_key(items, item) for item in first), default=max(number.low, 0))
     values = [
         value
@@ -136,5 +142,5 @@ def _key(items: Items, item: Any) -> int:
 def _element(items: Items, value: int, first: list[Any]) -> Any:
     if items.element is None:
         return value
-    others = first[0] if first else {field.name: max(field.low, 0) for field in items.fields}
+    others = first[0] if first else {**item_at(items, "low"), **_zeros(items.fields)}
     return {**others, items.fields[0].name: value}
