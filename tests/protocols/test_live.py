@@ -213,7 +213,7 @@ def servos(made: Any, *numbers: int) -> Any:
 
 
 def test_clients_of_others_talk_to_generated_servos(libraries: Libraries) -> None:
-    device = servos(libraries["lx16a"], 1, 2)
+    device = servos(libraries["lxservo"], 1, 2)
     with served(device) as port, serial.Serial(port, timeout=GENEROUS) as line:
         theirs = needed("lewansoul_lx16a").ServoController(line, timeout=GENEROUS)
         theirs.move(1, 800, 1000)
@@ -232,7 +232,7 @@ def test_clients_of_others_talk_to_generated_servos(libraries: Libraries) -> Non
 
 def test_a_client_that_drops_its_echo_talks_to_servos_on_one_wire(libraries: Libraries) -> None:
     with (
-        served(servos(libraries["lx16a"], 1), echo=True) as port,
+        served(servos(libraries["lxservo"], 1), echo=True) as port,
         serial.Serial(port, timeout=GENEROUS) as line,
     ):
         theirs = needed("lewanlib.bus").ServoBus(
@@ -244,7 +244,7 @@ def test_a_client_that_drops_its_echo_talks_to_servos_on_one_wire(libraries: Lib
 
 @pytest.mark.parametrize("echo", [False, True])
 def test_a_generated_client_talks_to_generated_servos(libraries: Libraries, echo: bool) -> None:
-    made = libraries["lx16a"]
+    made = libraries["lxservo"]
     with (
         served(servos(made, 1, 2), echo=echo) as port,
         made.open_controller(port, local_echo=echo, **LIVE) as controller,

@@ -143,11 +143,15 @@ def _decode_lines(model: Model) -> list[_Line]:
 def _docs_lines(model: Model) -> list[_Line]:
     """Return the ways to look something up."""
     message = _messages(model)[0]
-    number = f"0x{message.layout.id:0{2 * message.layout.frame.id.size}X}"
+    part = message.layout.frame.id_part
+    by_id = []
+    if part is not None:
+        number = f"0x{message.layout.id:0{2 * part.size}X}"
+        by_id = [(number, f"the messages with this {part.name}")]
     return [
         ("", "every message, in a line"),
         (message.name, "a message: its bytes, fields and examples"),
-        (number, f"the messages with this {message.layout.frame.id.name}"),
+        *by_id,
         (snake_case(message.name).split("_")[0], "whatever has this in its name or its text"),
         ("errata", "where the documents are wrong, and what they leave open"),
         ("lookalikes", "protocols that are easily taken for this one"),
