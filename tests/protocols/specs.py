@@ -27,6 +27,8 @@ FOLDER = Path(__file__).parent
 FILES = {file.stem: file for file in sorted(FOLDER.glob("*.yaml"))}
 # The one that ships.
 FILES["lxservo"] = FOLDER.parents[1] / "spec" / "lxservo.yaml"
+# What somebody speaks.
+SPOKEN = tuple(FILES)
 # Nobody speaks it: it has every kind of part and field.
 FILES["everything"] = FOLDER.parent / "specs" / "everything.yaml"
 # Elements of a list that is drawn; one of the largest size is drawn apart.
