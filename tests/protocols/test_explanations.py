@@ -134,8 +134,10 @@ REFUSALS = [
         "length mismatch",
         "Move has a length of 7, not 8",
         [
-            "10 bytes have a length of 7; with that and the right checksum they would be Move "
-            "(host -> servo)"
+            (
+                "10 bytes have a length of 7; with that and the right checksum they would be Move "
+                "(host -> servo)"
+            )
         ],
     ),
     (
@@ -205,8 +207,10 @@ REFUSALS = [
         "mavlink1",
         "FE 09 00 01 01 00 00 00 00 00 02 03 00 04 03 D0 15",
         "bad checksum",
-        "checksum is D0 15; the crc-16/mcrf4xx of length, sequence, sender, message, payload and "
-        "extra is D0 14",
+        (
+            "checksum is D0 15; the crc-16/mcrf4xx of length, sequence, sender, message, payload and "
+            "extra is D0 14"
+        ),
         ["with the right checksum they would be Heartbeat (vehicle -> ground)"],
     ),
 ]

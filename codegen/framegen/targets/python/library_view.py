@@ -41,6 +41,9 @@ if TYPE_CHECKING:
 _BYTES = 20
 
 
+_NO_DISTRIBUTION = Distribution.model_validate({})
+
+
 @dataclass(frozen=True, slots=True)
 class DirectionView:
     """One member of the Direction enumeration."""
@@ -280,7 +283,7 @@ class LibraryView:
     @property
     def distribution(self) -> Distribution:
         """What its project file says, where it has one."""
-        return self.model.spec.protocol.distribution or Distribution()
+        return self.model.spec.protocol.distribution or _NO_DISTRIBUTION
 
     @property
     def about(self) -> list[str]:
