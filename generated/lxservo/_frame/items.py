@@ -57,8 +57,9 @@ class Items(Field["tuple[Item, ...]"]):
 
     def __init__(self, at: int, of: Any, least: int, most: int, *, count: Number) -> None:
         self.at = at
-        self.element: type[Element] | None = of if isinstance(of, type) else None
-        self.fields: tuple[Number, ...] = (of,) if self.element is None else of.FIELDS
+        is_class = isinstance(of, type)
+        self.element: type[Element] | None = of if is_class else None
+        self.fields: tuple[Number, ...] = of.FIELDS if is_class else (of,)
         self.width = len(self.fields)
         self.least = least
         self.most = most

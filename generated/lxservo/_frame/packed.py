@@ -47,7 +47,7 @@ class Packed(Field["tuple[int, ...]"]):
         self.low = low
         self.high = (1 << bits) - 1 if high is None else high
         self.unit = unit
-        self.order = _ORDERS[order]
+        self.order: Literal["little", "big"] = _ORDERS[order]
 
     @property
     def narrowed(self) -> bool:

@@ -37,7 +37,7 @@ class _Struct:
     size = _SIZE
 
     def __init__(self, order: str, *, signed: bool) -> None:
-        self.order = _ORDERS[order]
+        self.order: Literal["little", "big"] = _ORDERS[order]
         self.signed = signed
 
     def pack(self, number: int) -> bytes:

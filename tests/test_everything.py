@@ -1,0 +1,313 @@
+"""The library of a protocol with every kind of part and field: what its messages are to a user."""
+
+from __future__ import annotations
+
+import copy
+import inspect
+import json
+import math
+import pickle
+import sys
+from typing import TYPE_CHECKING, Any
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from tests.factories import compiled_file, library, library_files
+from tests.protocols.specs import FILES, messages_of
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+    from types import ModuleType
+
+NUMBERS: dict[str, Any] = messages_of("everything")["Numbers"].message.examples[0].values
+LISTS: dict[str, Any] = messages_of("everything")["Lists"].message.examples[0].values
+POINT, READING = (1, 5), ("VBAT", 12.5, 99, -300)
+
+
+@pytest.fixture(scope="module")
+def everything() -> Iterator[Any]:
+    """Return the library, imported."""
+    with library(library_files(compiled_file(FILES["everything"]))) as made:
+        yield made
+
+
+def numbers(made: Any, **changes: Any) -> Any:
+    return made.Numbers(**{**NUMBERS, **changes})
+
+
+def lists(made: Any, **changes: Any) -> Any:
+    points = [tuple(point.values()) for point in LISTS["points"]]
+    readings = [tuple(reading.values()) for reading in LISTS["readings"]]
+    return made.Lists(**{**LISTS, "points": points, "readings": readings, **changes})
+
+
+def test_the_address_comes_first_and_the_running_number_by_name(everything: Any) -> None:
+    assert everything.Numbers.__match_args__[0] == "station"
+    assert everything.Numbers.__match_args__[-1] == "sequence"
+    parameters = inspect.signature(everything.Lists).parameters
+    assert next(iter(parameters)) == "station"
+    assert parameters["sequence"].kind is inspect.Parameter.KEYWORD_ONLY
+    assert parameters["sequence"].default == 0
+    assert dict(everything.Lists.DEFAULTS) == {"sequence": 0}
+
+
+def test_named_addresses_are_constants_and_may_lie_outside_the_range(everything: Any) -> None:
+    kind = everything.Numbers
+    assert (kind.STATION_ALL, kind.STATION_FIRST) == (65535, 1)
+    assert numbers(everything, station=kind.STATION_ALL).station == 65535
+    with pytest.raises(everything.EncodeError, match=r"station: 501 is outside 1\.\.500"):
+        numbers(everything, station=501)
+
+
+def test_several_ids_are_constants(everything: Any) -> None:
+    kind = everything.Lists
+    assert (kind.CLASS, kind.KIND, kind.VERSION, kind.IDS) == (1, 3, 9, (1, 3, 9))
+    assert not hasattr(kind, "COMMAND")
+    assert (everything.Flags.COMMAND, everything.Flags.IDS) == (1, (1,))
+
+
+def test_named_bits_are_properties_and_masks(everything: Any) -> None:
+    flags = everything.Flags(error=0x53, mode=1, position=0, temperature=0)
+    assert (flags.error_voltage, flags.error_heat, flags.error_code) == (True, True, 5)
+    assert everything.Flags(error=0, mode=0, position=0, temperature=0).error_voltage is False
+    kind = everything.Flags
+    assert (kind.ERROR_VOLTAGE, kind.ERROR_HEAT, kind.ERROR_CODE) == (0x01, 0x02, 0xF0)
+    assert flags.error & kind.ERROR_HEAT
+    assert dict(kind.error.bits) == {"voltage": 0x01, "heat": 0x02, "code": 0xF0}
+
+
+def test_bits_of_an_element_and_of_what_is_absent(everything: Any) -> None:
+    point = everything.Point(x=1, flags=0b1101)
+    assert (point.flags_near, point.flags_far) == (True, 6)
+    assert everything.Tail(1).third_low is None
+    assert everything.Tail(1, 2, 3, 1.5).third_low is True
+
+
+def test_constants_and_reserved_bytes_are_no_fields(everything: Any) -> None:
+    flags = everything.Flags(error=0, mode=0, position=0, temperature=0)
+    assert flags.__match_args__ == ("error", "mode", "position", "temperature")
+    frame = flags.encode()
+    assert frame[4:5] == b"\x04"
+    assert frame[6:8] == b"\x01\x02"
+    assert [type(each).__name__ for each in everything.Flags.CONSTANTS] == [
+        "Always",
+        "Reserved",
+        "Reserved",
+        "Always",
+    ]
+
+
+def test_reserved_bytes_are_kept_whatever_they_are(everything: Any) -> None:
+    flags = everything.Flags(error=0, mode=0, position=0, temperature=0)
+    body = flags.encode()[2:6] + b"\xaa\xbb" + flags.encode()[8:-1]
+    frame = b"\xbe\xef" + body + bytes([sum(body) & 0xFF])
+    read = everything.Flags.decode(frame)
+    assert read.encode() == frame
+    assert read.to_dict() == flags.to_dict()
+    assert read != flags
+    assert pickle.loads(pickle.dumps(read)).encode() == frame  # noqa: S301 - it is our own
+
+
+@pytest.mark.parametrize(
+    ("present", "size"), [((), 7), ((2,), 9), ((2, 3, 1.5), 16)], ids=["none", "one", "all"]
+)
+def test_what_is_absent_is_none(everything: Any, present: tuple[Any, ...], size: int) -> None:
+    tail = everything.Tail(1, *present)
+    values = (tail.second, tail.third, tail.fourth)
+    assert values == (*present, *[None] * (3 - len(present)))
+    assert len(tail.encode()) == size
+    assert everything.Tail.decode(tail.encode()) == tail
+    assert everything.Tail.from_dict(tail.to_dict()) == tail
+
+
+@pytest.mark.parametrize(
+    ("given", "problem"),
+    [
+        ({"second": None, "third": 1}, "second: it is absent, and third behind it is not: give"),
+        ({"second": 1, "third": 1}, "fourth: no frame ends before it: give fourth, or none of"),
+        ({"second": 1000}, r"second: 1000 is outside 0\.\.999"),
+        ({"second": 1, "third": 1, "fourth": 1e39}, "fourth: 1e.39 is outside -3.40"),
+    ],
+    ids=["gap", "no such end", "range", "float"],
+)
+def test_an_impossible_tail_is_refused(
+    everything: Any, given: dict[str, Any], problem: str
+) -> None:
+    with pytest.raises(everything.EncodeError, match=problem):
+        everything.Tail(1, **given)
+
+
+@pytest.mark.parametrize(
+    ("changes", "problem"),
+    [
+        ({"a_u8": 2}, r"a_u8: 2 is outside 3\.\.200"),
+        ({"a_u8": True}, "a_u8: True is a truth value, not a whole number"),
+        ({"a_u24": 1 << 24}, r"a_u24: 16777216 is outside 0\.\.16777215"),
+        ({"little_i24": -8388609}, r"little_i24: -8388609 is outside -8388608\.\.8388607"),
+        ({"a_u64": 1 << 64}, r"a_u64: 18446744073709551616 is outside 0\.\."),
+        ({"an_i16": 301}, r"an_i16: 301 is outside -300\.\.300"),
+        ({"little_u16": 0}, r"little_u16: 0 is outside 1\.\.1000"),
+        ({"an_f32": "1"}, "an_f32: '1' is not a number, but a str"),
+        ({"an_f32": None}, "an_f32: None is not a number, but nothing"),
+        ({"an_f64": True}, "an_f64: True is a truth value, not a number"),
+        ({"an_f64": 10**400}, "an_f64: an integer of 1329 bits is outside -1.797"),
+        ({"little_f32": 1e39}, "little_f32: 1e.39 is outside -3.402"),
+        ({"sequence": 256}, r"sequence: 256 is outside 0\.\.255"),
+        ({"station": 0}, r"station: 0 is outside 1\.\.500"),
+    ],
+    ids=lambda value: next(iter(value)) if isinstance(value, dict) else "",
+)
+def test_a_bad_number_is_named(everything: Any, changes: dict[str, Any], problem: str) -> None:
+    with pytest.raises(everything.EncodeError, match=problem) as raised:
+        numbers(everything, **changes)
+    (path,) = changes
+    assert (raised.value.path, raised.value.value) == (path, changes[path])
+
+
+@pytest.mark.parametrize(
+    ("changes", "problem"),
+    [
+        ({"channels": [0] * 7}, "channels: 7 numbers, and there are always 8"),
+        ({"channels": [0] * 7 + [2048]}, r"channels\[7\]: 2048 is outside 0\.\.2047"),
+        ({"channels": "12345678"}, "channels: '12345678' is not a list of whole numbers"),
+        ({"low_bits": [0, 0, 10, 0]}, r"low_bits\[2\]: 10 is outside 0\.\.9"),
+        ({"triple": [0, 0]}, r"triple: 2 items is outside 3\.\.3"),
+        ({"triple": [0, 6, 0]}, r"triple\[1\]: 6 is outside -5\.\.5"),
+        ({"angles": [0, "1"]}, r"angles\[1\]: '1' is not a number, but a str"),
+        ({"points": [(1, 2), (1, 256)]}, r"points\[1\]\.flags: 256 is outside 0\.\.255"),
+        ({"points": [(1, 2), (1,)]}, r"points\[1\]: \(1,\) is not \(x, flags\)"),
+        ({"readings": [READING] * 21}, r"readings: 21 items is outside 0\.\.20"),
+        ({"readings": [("VBATT", 1, 1, 1)]}, r"readings\[0\]\.label: 5 characters, and there is"),
+        ({"readings": [("\xb0C", 1, 1, 1)]}, r"readings\[0\]\.label: '\xb0' at 0 is not a char"),
+        ({"readings": [("C", 1, 101, 1)]}, r"readings\[0\]\.quality: 101 is outside 0\.\.100"),
+    ],
+)
+def test_a_bad_element_is_named(everything: Any, changes: dict[str, Any], problem: str) -> None:
+    with pytest.raises(everything.EncodeError, match=problem):
+        lists(everything, **changes)
+
+
+@pytest.mark.parametrize(
+    ("given", "problem"),
+    [
+        (("123456789", ""), "name: 9 characters, and there is room for 8"),
+        (("", "x" * 41), r"note: 41 characters is outside 0\.\.40"),
+        (("", "\xe9"), "note: '\xe9' at 0 is not a character of ASCII"),
+        ((b"a", ""), "name: b'a' is not text, but a bytes"),
+    ],
+)
+def test_a_bad_text_is_named(everything: Any, given: tuple[Any, Any], problem: str) -> None:
+    with pytest.raises(everything.EncodeError, match=problem):
+        everything.Texts(*given)
+
+
+def test_zeros_at_the_end_of_a_fixed_text_are_no_part_of_it(everything: Any) -> None:
+    texts = everything.Texts("ab", "c\0")
+    assert texts.encode()[4:12] == b"ab\0\0\0\0\0\0"
+    assert (texts.name, texts.note) == ("ab", "c\0")
+
+
+@pytest.mark.parametrize(
+    ("at", "byte", "problem"),
+    [
+        (4, 0x05, "layout is 05, and always 04"),
+        (8, 0x0A, r"mode is 10, outside 0\.\.9"),
+        (17, 0x01, "mark is 01 03, and always 02 03"),
+    ],
+)
+def test_a_field_that_is_wrong_in_a_frame_is_named(
+    everything: Any, at: int, byte: int, problem: str
+) -> None:
+    frame = bytearray(everything.Flags(error=0, mode=0, position=0, temperature=0).encode())
+    frame[at] = byte
+    with pytest.raises(everything.DecodeError, match=problem) as raised:
+        everything.Flags.decode(frame)
+    assert raised.value.reason is everything.Reason.OUT_OF_RANGE
+
+
+def test_numbers_of_other_libraries_are_numbers(everything: Any) -> None:
+    class Whole:
+        def __index__(self) -> int:
+            return 5
+
+    class Real:
+        def __float__(self) -> float:
+            return 0.5
+
+    changes = {name: Whole() for name in ("a_u8", "a_u24", "little_i24", "little_u16", "a_u32")}
+    made = numbers(everything, **changes, an_f32=Real(), an_f64=3)
+    assert made == numbers(everything, **dict.fromkeys(changes, 5), an_f32=0.5, an_f64=3.0)
+
+
+def test_a_floating_point_number_may_be_none_at_all(everything: Any) -> None:
+    made = numbers(everything, an_f32=math.nan, an_f64=math.inf, little_f32=-math.inf)
+    assert math.isnan(made.an_f32)
+    assert (made.an_f64, made.little_f32) == (math.inf, -math.inf)
+    assert made == numbers(everything, an_f32=math.nan, an_f64=math.inf, little_f32=-math.inf)
+
+
+def specimens(made: ModuleType) -> list[Any]:
+    return [
+        getattr(made, name).decode(example.hex)
+        for name, layout in messages_of("everything").items()
+        for example in layout.message.examples
+    ]
+
+
+def test_messages_are_values(everything: Any) -> None:
+    names = {name: getattr(everything, name) for name in everything.__all__}
+    for message in specimens(everything):
+        assert eval(repr(message), names) == message  # noqa: S307 - it is our own
+        assert pickle.loads(pickle.dumps(message)) == message  # noqa: S301 - it is our own
+        assert type(message).from_dict(json.loads(json.dumps(message.to_dict()))) == message
+        assert copy.copy(message) == message == message.__replace__()
+        assert len({message, message.__replace__()}) == 1
+        if sys.version_info >= (3, 13):
+            assert copy.replace(message) == message
+
+
+def test_an_element_is_a_tuple_with_names(everything: Any) -> None:
+    (reading,) = lists(everything).readings
+    assert reading == READING
+    assert isinstance(reading, everything.Reading)
+    assert repr(reading) == "Reading(label='VBAT', value=12.5, quality=99, delta=-300)"
+    assert reading._replace(label="X").label == "X"
+    assert pickle.loads(pickle.dumps(reading)) == reading  # noqa: S301 - it is our own
+    assert lists(everything).points[0] == POINT
+
+
+def test_every_field_has_its_documentation(everything: Any) -> None:
+    assert everything.Numbers.station.__doc__ == "Who is meant."
+    assert everything.Flags.error_voltage.__doc__.startswith("The voltage is wrong.")
+    assert everything.Flags.temperature.__doc__ == "How warm it is. A step is 0.125 °C - 256."
+    for kind in everything.MESSAGES:
+        for name in kind.__match_args__:
+            assert getattr(kind, name).__doc__
+
+
+def test_a_notebook_shows_every_part(everything: Any) -> None:
+    strip = everything.Flags(error=3, mode=1, position=65535, temperature=0)._repr_html_()
+    for shown in ("what", "sum", "layout", "3 (voltage, heat)", "1 (busy)", "65535 (unknown)"):
+        assert f">{shown}<" in strip
+    strip = lists(everything)._repr_html_()
+    for shown in ("300", "992, 0, 2047, 1, 2, 3, 4, 5", "x 1, flags 5 (near, far)"):
+        assert shown in strip
+    assert "third" not in everything.Tail(1, 2)._repr_html_()
+
+
+@given(st.data())
+def test_the_strategies_make_messages_of_every_kind(everything: Any, data: st.DataObject) -> None:
+    strategies = __import__(f"{everything.__name__}.strategies", fromlist=["messages"])
+    message = data.draw(strategies.messages())
+    assert type(message).decode(message.encode()) == message
+    again = type(message).from_dict(message.to_dict())
+    assert again.encode() == message.encode()
+
+
+@pytest.mark.parametrize("name", ["lists", "numbers", "rest", "tail", "texts", "flags"])
+@given(data=st.data())
+def test_each_message_has_a_strategy(everything: Any, name: str, data: st.DataObject) -> None:
+    strategies = __import__(f"{everything.__name__}.strategies", fromlist=["messages"])
+    assert type(data.draw(getattr(strategies, name)())).__name__.lower() == name
