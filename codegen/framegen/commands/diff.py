@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
 SUMMARY = "Compare two versions of a spec, and classify each change by what it breaks."
 EXAMPLES = (
-    ("framegen diff old.yaml", "from old.yaml to the only spec/*.yaml, here or above"),
+    ("framegen diff old.yaml", "from old.yaml to spec/NAME.yaml of its protocol, here or above"),
     ("framegen diff old.yaml new.yaml", "from one to the other; 1 if anything breaks"),
     ("framegen diff old.yaml --json", "one difference a line, for programs"),
     ("git show v1.0.0:spec/name.yaml > old.yaml", "how to get at an old edition"),
@@ -34,8 +34,12 @@ def run(arguments: Namespace) -> int:
     """Print the differences, the most serious first. 1 where the wire or programs break."""
     from framegen.commands.spec_argument import compiled  # noqa: PLC0415
     from framegen.comparison import differences  # noqa: PLC0415
+    from framegen.project import named_spec  # noqa: PLC0415
 
-    found = differences(compiled(arguments.old).model, compiled(arguments.new).model)
+    old = compiled(arguments.old)
+    # Of several specs of a project, the one of this protocol.
+    new = compiled(arguments.new or named_spec(old.spec.protocol.name))
+    found = differences(old.model, new.model)
     order = ["wire", "programs", "nothing"]
     found.sort(key=lambda difference: order.index(difference.breaks))
     for difference in found:
