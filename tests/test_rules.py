@@ -10,6 +10,8 @@ import pytest
 from framegen import checks
 from framegen.checks import RULES
 from framegen.checks.reading import READING_RULES
+from framegen.compile import compile_spec
+from framegen.reading.source import Source
 
 from tests import bad_specs
 from tests.factories import BUSSERVO, DEMO, ROOT, compiled_of, data_of
@@ -72,3 +74,37 @@ def test_the_guide_shows_a_case_as_it_is() -> None:
     [shown] = re.findall(r"   ```yaml\n(.*?)   ```\n", guide, re.DOTALL)
     table = (bad_specs.FOLDER / "empty-element.yaml").read_text(encoding="utf-8")
     assert textwrap.dedent(shown) in table
+
+
+# ------------------------------------------------------------------ hints at a wrong checksum
+
+BUS = (bad_specs.BASES / "bus.yaml").read_text(encoding="utf-8")
+COVERS = "covers: [station, length, family, code, serial, payload, seed]"
+
+
+def hints_of(text: str) -> set[str]:
+    return {finding.hint for finding in compile_spec(Source("bus.yaml", text)).findings}
+
+
+@pytest.mark.parametrize(
+    ("wrong", "right"),
+    [
+        (("crc-16/modbus", "crc-16/arc"), "method: crc-16/modbus"),
+        (("byte_order: little", "byte_order: big"), "byte_order: little"),
+        ((COVERS, COVERS.replace("station, ", "")), COVERS),
+        ((COVERS, COVERS.replace(", seed", "").replace("code", "code, seed")), COVERS),
+    ],
+    ids=["method", "byte order", "a part less", "another order"],
+)
+def test_what_all_examples_agree_with_is_found(wrong: tuple[str, str], right: str) -> None:
+    assert hints_of(BUS.replace(*wrong)) == {f"all 5 examples would agree with `{right}`"}
+
+
+def test_what_one_short_checksum_agrees_with_by_chance_is_not_told() -> None:
+    text = BUS.replace(
+        "checksum, type: u16, method: crc-16/modbus", "checksum, type: u8, method: sum"
+    )
+    one = text[: text.index("  State:\n")].replace("    reply: State\n    refusal: Refused\n", "")
+    wrong = one.replace("00 D9 A0 7F", "00 D9 7F")
+    (hint,) = hints_of(wrong)
+    assert hint.startswith("if the frame was made up, write CE there; ")

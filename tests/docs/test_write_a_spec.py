@@ -86,7 +86,7 @@ def test_everything_that_the_table_writes_is_in_the_language() -> None:
     assert methods <= set(CHECKSUMS)
     assert set(re.findall(r"type: (\w+)", written)) <= set(ALL_TYPES)
     assert set(re.findall(r"is: (\w+)", written)) == {
-        *("constant", "length", "id", "address", "counter", "reserved", "checksum")
+        *("constant", "length", "id", "body", "address", "counter", "reserved", "checksum")
     }
 
 

@@ -85,10 +85,13 @@ def _others(frame: Envelope, checksum: Number, sealed: Sequence[_Sealed]) -> lis
     if found or bits < _MORE_BITS:
         return found
     names = [slot.name for slot in frame.slots if slot.name != checksum.name]
+    # What is not sent mostly ends what is covered.
+    hidden = [(), tuple(part.name for part in frame.unsent)][: 1 + bool(frame.unsent)]
     runs = [
-        tuple(names[start:end])
+        (*names[start:end], *more)
         for start in range(len(names))
         for end in range(start + 1, len(names) + 1)
+        for more in hidden
     ]
     same = (run for run in runs if _agree(checksum.method, checksum.order, run, sealed))
     kept = [_keys(checksum, checksum.method, checksum.order, run) for run in same]
