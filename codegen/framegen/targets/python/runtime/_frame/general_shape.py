@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from struct import error
+
 from .bytes_like import format_hex
 from .errors import EncodeError, Reason
 from .field import Field
@@ -17,6 +19,8 @@ TYPE_CHECKING = False  # typing alone would double the time that the import take
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Sequence
     from typing import Any, TypeAlias
+
+    from .lists import Place
 
     Due: TypeAlias = "bytes | Callable[[bytes], int | None]"
     # From where to where it stands, why it would be refused, and what must be there, or what tells
@@ -171,23 +175,16 @@ class Shape:
             if part is not self._varying:
                 yield from _places(part)
 
-    def out_of_range(self, frame: bytes) -> tuple[int, str] | None:
-        """Return the first of the fields of a frame that is wrong: its offset, and what is wrong.
-
-        Counts are passed over, and so is what is not complete where the frame is cut short.
-        """
+    def out_of_range(self, frame: bytes, at: int) -> str:
+        """Return which of the fields of a frame is wrong at an offset, and how; "" if none is."""
         body = frame[: self._size_in(frame) - self._kind.FRAME.tail_size]
         for name, base, piece in self._pieces(body):
-            for start, end, due in places_of(piece) if not isinstance(piece, Packed) else []:
+            for start, end, due in _places_of(piece):
                 data = body[base + start : base + end]
-                wrong = _wrong(data, due) if len(data) == end - start else None
-                if wrong is not None:
-                    return base + start + wrong, f"{name} {_explained(piece, data, wrong)}"
-            if isinstance(piece, Packed) and piece.narrowed:
-                data = body[piece.at : piece.at + piece.size]
-                if len(data) == piece.size and piece.wrong(data) is not None:
-                    return piece.at, f"{name} {_explained(piece, data, 0)}"
-        return None
+                wrong = _wrong(data, due)
+                if wrong is not None and base + start + wrong == at:
+                    return f"{name} {_explained(piece, data, wrong)}"
+        return ""
 
     def _size_in(self, frame: bytes) -> int:
         """Return the size that a frame says it has; that of its bytes where it does not say so."""
@@ -287,11 +284,22 @@ def _there(part: Any) -> Any:
     return part.number if isinstance(part, Optional) else part
 
 
+def _places_of(piece: Any) -> Sequence[Place]:
+    """Return what can be wrong in a number, a text, a constant or packed numbers."""
+    if not isinstance(piece, Packed):
+        return places_of(piece)
+    return [(piece.at, piece.at + piece.size, piece.wrong)] if piece.narrowed else []
+
+
 def _wrong(data: bytes, due: Due) -> int | None:
     """Return the offset of the first byte that is wrong; None if all are right."""
-    if not isinstance(due, bytes):
+    if isinstance(due, bytes):
+        places = enumerate(zip(data, due, strict=False))
+        return next((at for at, (byte, right) in places if byte != right), None)
+    try:
         return due(data)
-    return next((at for at, byte in enumerate(due) if data[at] != byte), None)
+    except error:  # it is cut short
+        return None
 
 
 def _explained(piece: Any, data: bytes, at: int) -> str:
@@ -315,13 +323,10 @@ def _at(part: Any) -> int:
 
 def _places(part: Any) -> Iterator[tuple[int, int, Due]]:
     """Yield what can be wrong in a part of a fixed size."""
-    if isinstance(part, Packed):
-        if part.narrowed:
-            yield part.at, part.at + part.size, part.wrong
-    elif isinstance(part, List):
+    if isinstance(part, List):
         yield from _elements(part, part.most, 0)
     else:
-        yield from places_of(part)
+        yield from _places_of(part)
 
 
 def _elements(listed: List[Any] | Text, count: int, since: int) -> Iterator[tuple[int, int, Due]]:
