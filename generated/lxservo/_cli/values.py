@@ -34,7 +34,7 @@ _IN_TEXT: dict[type[Message], list[tuple[str, Show]]] = {}
 # What would end a text, or not be seen; and how that is written.
 _SPECIAL = re.compile(r"[^!-~]|[%,:]")
 # A text without any characters, in a list: zeros at its end are no part of it.
-_EMPTY = "%00"
+EMPTY = "%00"
 _ESCAPED = re.compile(r"%([0-9A-Fa-f]{2})")
 
 
@@ -108,11 +108,7 @@ def _text_of(field: Any) -> Show:
         return lambda message: _listed(field, message, element, ",")
 
     def shown(message: Message) -> str:
-<<<<<<< HEAD
-        values = iter([as_word(value) for value in field.numbers(message.encode())])
-=======
-        values = iter([_word(value) or _EMPTY for value in field.numbers(message.encode())])
->>>>>>> 021aae75 (Show and read values in words as they are written for the command)
+        values = iter([as_word(value) or EMPTY for value in field.numbers(message.encode())])
         return ",".join(":".join(row) for row in zip(*[values] * field.width, strict=True))
 
     return shown
