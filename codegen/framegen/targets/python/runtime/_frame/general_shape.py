@@ -9,10 +9,11 @@ from .errors import EncodeError, Reason
 from .field import Field
 from .fixed import Always
 from .floating import Float
-from .lists import List, places_of
+from .lists import List, is_read, places_of
 from .number import Number
 from .optional import Optional
 from .packed import Packed
+from .quick_tests import checker, range_test
 from .text import Text, misspelt
 
 TYPE_CHECKING = False  # typing alone would double the time that the import takes
@@ -31,22 +32,24 @@ if TYPE_CHECKING:
 class Shape:
     """The fields of a class of messages, in the order of the frame, and the rules for its frames.
 
-    `given` are the numbers that its constructor checks; `items` is the list of a size that varies,
-    if there is one; `lengths` are the legal ones, one for each of `counts`. `counter` is from where
-    to where the number stands that says how long the list is; None where there is none. `parts` are
-    all fields and constants between head and tail. All that can be wrong is told by `places`; a
-    frame is `certain` where nothing can, but that number.
+    `given` are the numbers that its constructor has to `check`; `items` is the list of a size that
+    varies, if there is one; `lengths` are the legal ones, one for each of `counts`. `counter` is
+    from where to where the number stands that says how long the list is; None where there is none.
+    `parts` are all fields and constants between head and tail. All that can be wrong is told by
+    `places`; a frame of legal length, with the right counter, `holds` where nothing is, and is
+    `certain` where nothing can be.
     """
 
     __slots__ = (
-        "_bounds",
         "_counters",
         "_kind",
         "_quick",
         "_varying",
+        "check",
         "counter",
         "counts",
         "given",
+        "holds",
         "items",
         "lengths",
         "optional",
@@ -56,6 +59,16 @@ class Shape:
     def __init__(self, kind: Any, lengths: Sequence[int]) -> None:
         self._kind = kind
         self.lengths = lengths
+
+    def __getattr__(self, name: str) -> Any:
+        # Worked out when it is first asked for: few messages of many are ever used.
+        if name not in self.__slots__:
+            raise AttributeError(f"{type(self).__name__} has no attribute {name!r}")
+        self._work_out()
+        return getattr(self, name)
+
+    def _work_out(self) -> None:
+        kind, lengths = self._kind, self.lengths
         fields = [
             each
             for base in reversed(kind.__mro__)
@@ -67,7 +80,7 @@ class Shape:
         self.given: list[Number | Float] = [
             each
             for name in kind.__match_args__
-            if isinstance(each := vars(kind)[name], (Number, Float))
+            if isinstance(each := getattr(kind, name), (Number, Float))
         ]
         self.optional = [each for each in fields if isinstance(each, Optional)]
         lists = [each for each in fields if isinstance(each, (List, Text))]
@@ -80,8 +93,9 @@ class Shape:
         self.counter = None if first is None else (first.at, first.at + first.struct.size)
         body = [each for each in fields if each.name not in outside]
         self.parts: list[Any] = sorted([*body, *kind.CONSTANTS], key=_at)
-        self._bounds: list[tuple[type, Any, Any]] | None = None
-        self._quick: list[tuple[int, int, Due]] | None = None
+        self._quick = [*self._fixed()]
+        self.holds = self._test()
+        self.check = checker(self.given)
 
     def _counted(self) -> list[tuple[Number, int]]:
         """Return the numbers that say how long the list is, each with its value of one element."""
@@ -132,11 +146,21 @@ class Shape:
             for at, end, wrong in _elements(self._varying, count, since):
                 yield at, end, Reason.OUT_OF_RANGE, wrong
 
-    def holds(self, frame: bytes) -> bool:
-        """Return whether the fields of a frame of legal length are legal, its first count aside."""
-        if self._quick is None:
-            self._quick = [*self._fixed()]
-        size = len(frame)
+    def _test(self) -> Callable[[bytes], bool]:
+        """Return what says whether the fields of a frame of legal length are legal.
+
+        Its first count is tested by whoever knows its size.
+        """
+        places = {at: due for at, _, due in self._fixed()}
+        numbers = [each for each in self.parts if isinstance(each, Number) and each.at in places]
+        plain = [each for each in numbers if is_read(each)]
+        if plain and len(plain) == len(places) and self._varying is None:
+            return range_test(plain)
+        return self._all_hold
+
+    def _all_hold(self, frame: bytes) -> bool:
+        """Return whether the fields of a frame of legal length are legal."""
+        size = len(frame) - self._kind.FRAME.tail_size
         for at, end, due in self._quick:
             if end > size:  # it is absent, with all behind it
                 break
@@ -225,23 +249,6 @@ class Shape:
         return end
 
     # What is given.
-
-    def check(self, *numbers: Any) -> None:
-        """Raise EncodeError for the first wrong one of the numbers that are given.
-
-        Good ones are passed over; any others are looked at one by one, and are either whole numbers
-        of another kind, such as NumPy's, or explained.
-        """
-        if self._bounds is None:
-            self._bounds = [
-                (float if isinstance(each, Float) else int, each.low, each.high)
-                for each in self.given
-            ]
-        for number, (kind, low, high) in zip(numbers, self._bounds, strict=False):
-            if type(number) is not kind or not low <= number <= high:
-                for field, value in zip(self.given, numbers, strict=True):
-                    field.checked(value, field.name)
-                return
 
     def tail(self, *values: Any) -> bytes:
         """Return the bytes of the fields that may be absent. Raises EncodeError for bad ones."""
