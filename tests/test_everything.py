@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import copy
+import importlib
 import inspect
 import json
 import math
@@ -11,6 +12,7 @@ import sys
 from typing import TYPE_CHECKING, Any
 
 import pytest
+from framegen.targets.python.message_view import MessageView
 from hypothesis import given
 from hypothesis import strategies as st
 
@@ -41,6 +43,11 @@ def lists(made: Any, **changes: Any) -> Any:
     points = [tuple(point.values()) for point in LISTS["points"]]
     readings = [tuple(reading.values()) for reading in LISTS["readings"]]
     return made.Lists(**{**LISTS, "points": points, "readings": readings, **changes})
+
+
+def command_values(made: ModuleType) -> Any:
+    """Return what shows and reads values in the command of a library."""
+    return importlib.import_module(f"{made.__name__}._cli.values")
 
 
 def test_the_address_comes_first_and_the_running_number_by_name(everything: Any) -> None:
@@ -111,7 +118,7 @@ def test_reserved_bytes_are_kept_whatever_they_are(everything: Any) -> None:
 
 
 @pytest.mark.parametrize(
-    ("present", "size"), [((), 7), ((2,), 9), ((2, 3, 1.5), 16)], ids=["none", "one", "all"]
+    ("present", "size"), [((), 7), ((2,), 8), ((2, 3, 1.5), 15)], ids=["none", "one", "all"]
 )
 def test_what_is_absent_is_none(everything: Any, present: tuple[Any, ...], size: int) -> None:
     tail = everything.Tail(1, *present)
@@ -127,7 +134,7 @@ def test_what_is_absent_is_none(everything: Any, present: tuple[Any, ...], size:
     [
         ({"second": None, "third": 1}, "second: it is absent, and third behind it is not: give"),
         ({"second": 1, "third": 1}, "fourth: no frame ends before it: give fourth, or none of"),
-        ({"second": 1000}, r"second: 1000 is outside 0\.\.999"),
+        ({"second": 100}, r"second: 100 is outside 0\.\.99"),
         ({"second": 1, "third": 1, "fourth": 1e39}, "fourth: 1e.39 is outside -3.40"),
     ],
     ids=["gap", "no such end", "range", "float"],
@@ -266,6 +273,74 @@ def test_messages_are_values(everything: Any) -> None:
         assert len({message, message.__replace__()}) == 1
         if sys.version_info >= (3, 13):
             assert copy.replace(message) == message
+
+
+def test_values_are_shown_in_json_as_they_are(everything: Any) -> None:
+    values = command_values(everything)
+    for message in [*specimens(everything), everything.Tail(1), everything.Texts('"\\', "")]:
+        assert json.loads(values.fields_in_json(message)) == message.to_dict()
+    shown = values.fields_in_json(numbers(everything, an_f32=math.nan, an_f64=-math.inf))
+    assert '"an_f32": "nan", "an_f64": "-inf"' in shown
+
+
+def test_values_are_shown_in_words(everything: Any) -> None:
+    shown = command_values(everything).fields_as_text
+    flags = everything.Flags(error=3, mode=1, position=65535, temperature=0)
+    words = "error=3 (voltage, heat) mode=1 (busy) position=65535 (unknown) temperature=0"
+    assert shown(flags) == words
+    assert shown(everything.Tail(1, 2)) == "first=1 second=2"
+    assert shown(everything.Texts("a b", "c:d,e%")) == "name=a%20b note=c%3Ad%2Ce%25"
+    reading = "readings=VBAT:12.5:99:-300"
+    assert shown(lists(everything)).endswith(f"points=1:5,70000:0 {reading} sequence=0")
+    assert "an_f32=1.5 m " in shown(numbers(everything))
+
+
+@pytest.mark.parametrize(
+    ("kind", "words", "given"),
+    [
+        ("Flags", "error=voltage+heat mode=busy position=unknown temperature=0x10", (3, 1, -1, 16)),
+        ("Tail", "first=1", (1,)),
+        ("Tail", "first=1 second=2", (1, 2)),
+        ("Texts", "name=a%20b note=%", ("a b", "%")),
+        ("Texts", "name= note=", ("", "")),
+        ("Rest", "values=-1,300", ([-1, 300],)),
+        ("Rest", "values=", ([],)),
+    ],
+)
+def test_values_are_read_from_words(
+    everything: Any, kind: str, words: str, given: tuple[Any, ...]
+) -> None:
+    made = getattr(everything, kind)
+    expected = made(*(0xFFFF if value == -1 else value for value in given))
+    assert command_values(everything).message_from_text(made, words.split(" ")) == expected
+
+
+def test_an_example_is_written_for_the_command_as_it_is_read(everything: Any) -> None:
+    model = compiled_file(FILES["everything"]).model
+    for layout in model.messages.values():
+        kind = getattr(everything, layout.name)
+        for example in layout.message.examples:
+            words = MessageView(layout, model).command_words(example.values)
+            made = command_values(everything).message_from_text(kind, words)
+            assert made.encode() == example.hex
+
+
+@pytest.mark.parametrize(
+    ("kind", "words", "problem"),
+    [
+        ("Tail", "second=1", r"needs first; it is written Tail first=FIRST \[second=SECOND\]"),
+        ("Flags", "error=smoke", "'smoke' is no number: write it like 12 or 0x0C, or voltage"),
+        ("Tail", "first=1 fourth=x", "fourth: 'x' is no number: write it like 1.5"),
+        ("Lists", "station=1 channels=1,x", r"channels\[1\]: 'x' is no number"),
+        ("Lists", "readings=a:1", r"readings\[0\]: 'a:1' is not label:value:quality:delta"),
+        ("Lists", "", r"channels=CHANNELS,\.\.\. .* points=X:FLAGS,\.\.\."),
+    ],
+)
+def test_words_that_are_no_values_are_named(
+    everything: Any, kind: str, words: str, problem: str
+) -> None:
+    with pytest.raises(Exception, match=problem):
+        command_values(everything).message_from_text(getattr(everything, kind), words.split())
 
 
 def test_an_element_is_a_tuple_with_names(everything: Any) -> None:

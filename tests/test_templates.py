@@ -10,6 +10,7 @@ from framegen.targets.docs import html_pages, markdown_pages
 from framegen.targets.python import (
     _FOR_ADDRESSES,
     _FOR_CHECKSUMS,
+    _FOR_DISTRIBUTIONS,
     _FOR_ENVELOPES,
     _FOR_FAILURES,
     _FOR_FIELDS,
@@ -106,13 +107,15 @@ def test_a_template_is_tidy(template: Path) -> None:
     assert text.endswith("\n")
     assert "\t" not in text
     assert not re.search(r"[ \t]\n", text)
-    assert text.startswith(('"""', "{{ library.doc | docstring", "# What the package exports"))
+    if template.stem.endswith((".py", ".pyi")):
+        assert text.startswith(('"""', "{{ library.doc | docstring", "# What the package exports"))
 
 
 # What the library of a plain protocol, with neither address nor checksum, does without.
 _NOT_FOR_PLAIN = (
     _FOR_CHECKSUMS
     | _FOR_ADDRESSES
+    | _FOR_DISTRIBUTIONS
     | _FOR_FAILURES
     | _WITH_ENVELOPES
     | {*_FOR_ENVELOPES, *_FOR_PROVEN, "_codec/proof.py"}

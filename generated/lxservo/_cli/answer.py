@@ -17,7 +17,7 @@ from .encode import message_named
 from .exit_codes import DONE, UNUSABLE
 from .numerals import whole
 from .usage_error import UsageError
-from .values import as_word, fields_from_text
+from .values import EMPTY, as_word, fields_from_text
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
@@ -131,7 +131,7 @@ def _text(value: Any) -> str:
     if not isinstance(value, list):
         return as_word(value)
     elements = [each.values() if isinstance(each, dict) else [each] for each in value]
-    return ",".join(":".join(as_word(each) or "%00" for each in element) for element in elements)
+    return ",".join(":".join(as_word(each) or EMPTY for each in element) for element in elements)
 
 
 def _way(word: str) -> Direction:

@@ -33,6 +33,8 @@ _IN_JSON: dict[type[Message], list[tuple[str, Show]]] = {}
 _IN_TEXT: dict[type[Message], list[tuple[str, Show]]] = {}
 # What would end a text, or not be seen; and how that is written.
 _SPECIAL = re.compile(r"[^!-~]|[%,:]")
+# A text without any characters, in a list: zeros at its end are no part of it.
+EMPTY = "%00"
 _ESCAPED = re.compile(r"%([0-9A-Fa-f]{2})")
 
 
@@ -106,7 +108,7 @@ def _text_of(field: Any) -> Show:
         return lambda message: _listed(field, message, element, ",")
 
     def shown(message: Message) -> str:
-        values = iter([as_word(value) for value in field.numbers(message.encode())])
+        values = iter([as_word(value) or EMPTY for value in field.numbers(message.encode())])
         return ",".join(":".join(row) for row in zip(*[values] * field.width, strict=True))
 
     return shown

@@ -3,21 +3,26 @@
 
 from __future__ import annotations
 
+from struct import error
+
 from .bytes_like import format_hex
 from .errors import EncodeError, Reason
 from .field import Field
 from .fixed import Always
 from .floating import Float
-from .lists import List, places_of
+from .lists import List, is_read, places_of
 from .number import Number
 from .optional import Optional
 from .packed import Packed
+from .quick_tests import checker, range_test
 from .text import Text, misspelt
 
 TYPE_CHECKING = False  # typing alone would double the time that the import takes
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Sequence
     from typing import Any, TypeAlias
+
+    from .lists import Place
 
     Due: TypeAlias = "bytes | Callable[[bytes], int | None]"
     # From where to where it stands, why it would be refused, and what must be there, or what tells
@@ -28,22 +33,24 @@ if TYPE_CHECKING:
 class Shape:
     """The fields of a class of messages, in the order of the frame, and the rules for its frames.
 
-    `given` are the numbers that its constructor checks; `items` is the list of a size that varies,
-    if there is one; `lengths` are the legal ones, one for each of `counts`. `counter` is from where
-    to where the number stands that says how long the list is; None where there is none. `parts` are
-    all fields and constants between head and tail. All that can be wrong is told by `places`; a
-    frame is `certain` where nothing can, but that number.
+    `given` are the numbers that its constructor has to `check`; `items` is the list of a size that
+    varies, if there is one; `lengths` are the legal ones, one for each of `counts`. `counter` is
+    from where to where the number stands that says how long the list is; None where there is none.
+    `parts` are all fields and constants between head and tail. All that can be wrong is told by
+    `places`; a frame of legal length, with the right counter, `holds` where nothing is, and is
+    `certain` where nothing can be.
     """
 
     __slots__ = (
-        "_bounds",
         "_counters",
         "_kind",
         "_quick",
         "_varying",
+        "check",
         "counter",
         "counts",
         "given",
+        "holds",
         "items",
         "lengths",
         "optional",
@@ -53,6 +60,16 @@ class Shape:
     def __init__(self, kind: Any, lengths: Sequence[int]) -> None:
         self._kind = kind
         self.lengths = lengths
+
+    def __getattr__(self, name: str) -> Any:
+        # Worked out when it is first asked for: few messages of many are ever used.
+        if name not in self.__slots__:
+            raise AttributeError(f"{type(self).__name__} has no attribute {name!r}")
+        self._work_out()
+        return getattr(self, name)
+
+    def _work_out(self) -> None:
+        kind, lengths = self._kind, self.lengths
         fields = [
             each
             for base in reversed(kind.__mro__)
@@ -64,7 +81,7 @@ class Shape:
         self.given: list[Number | Float] = [
             each
             for name in kind.__match_args__
-            if isinstance(each := vars(kind)[name], (Number, Float))
+            if isinstance(each := getattr(kind, name), (Number, Float))
         ]
         self.optional = [each for each in fields if isinstance(each, Optional)]
         lists = [each for each in fields if isinstance(each, (List, Text))]
@@ -77,8 +94,9 @@ class Shape:
         self.counter = None if first is None else (first.at, first.at + first.struct.size)
         body = [each for each in fields if each.name not in outside]
         self.parts: list[Any] = sorted([*body, *kind.CONSTANTS], key=_at)
-        self._bounds: list[tuple[type, Any, Any]] | None = None
-        self._quick: list[tuple[int, int, Due]] | None = None
+        self._quick = [*self._fixed()]
+        self.holds = self._test()
+        self.check = checker(self.given)
 
     def _counted(self) -> list[tuple[Number, int]]:
         """Return the numbers that say how long the list is, each with its value of one element."""
@@ -129,11 +147,21 @@ class Shape:
             for at, end, wrong in _elements(self._varying, count, since):
                 yield at, end, Reason.OUT_OF_RANGE, wrong
 
-    def holds(self, frame: bytes) -> bool:
-        """Return whether the fields of a frame of legal length are legal, its first count aside."""
-        if self._quick is None:
-            self._quick = [*self._fixed()]
-        size = len(frame)
+    def _test(self) -> Callable[[bytes], bool]:
+        """Return what says whether the fields of a frame of legal length are legal.
+
+        Its first count is tested by whoever knows its size.
+        """
+        places = {at: due for at, _, due in self._fixed()}
+        numbers = [each for each in self.parts if isinstance(each, Number) and each.at in places]
+        plain = [each for each in numbers if is_read(each)]
+        if plain and len(plain) == len(places) and self._varying is None:
+            return range_test(plain)
+        return self._all_hold
+
+    def _all_hold(self, frame: bytes) -> bool:
+        """Return whether the fields of a frame of legal length are legal."""
+        size = len(frame) - self._kind.FRAME.tail_size
         for at, end, due in self._quick:
             if end > size:  # it is absent, with all behind it
                 break
@@ -172,23 +200,16 @@ class Shape:
             if part is not self._varying:
                 yield from _places(part)
 
-    def out_of_range(self, frame: bytes) -> tuple[int, str] | None:
-        """Return the first of the fields of a frame that is wrong: its offset, and what is wrong.
-
-        Counts are passed over, and so is what is not complete where the frame is cut short.
-        """
+    def out_of_range(self, frame: bytes, at: int) -> str:
+        """Return which of the fields of a frame is wrong at an offset, and how; "" if none is."""
         body = frame[: self._size_in(frame) - self._kind.FRAME.tail_size]
         for name, base, piece in self._pieces(body):
-            for start, end, due in places_of(piece) if not isinstance(piece, Packed) else []:
+            for start, end, due in _places_of(piece):
                 data = body[base + start : base + end]
-                wrong = _wrong(data, due) if len(data) == end - start else None
-                if wrong is not None:
-                    return base + start + wrong, f"{name} {_explained(piece, data, wrong)}"
-            if isinstance(piece, Packed) and piece.narrowed:
-                data = body[piece.at : piece.at + piece.size]
-                if len(data) == piece.size and piece.wrong(data) is not None:
-                    return piece.at, f"{name} {_explained(piece, data, 0)}"
-        return None
+                wrong = _wrong(data, due)
+                if wrong is not None and base + start + wrong == at:
+                    return f"{name} {_explained(piece, data, wrong)}"
+        return ""
 
     def _size_in(self, frame: bytes) -> int:
         """Return the size that a frame says it has; that of its bytes where it does not say so."""
@@ -229,23 +250,6 @@ class Shape:
         return end
 
     # What is given.
-
-    def check(self, *numbers: Any) -> None:
-        """Raise EncodeError for the first wrong one of the numbers that are given.
-
-        Good ones are passed over; any others are looked at one by one, and are either whole numbers
-        of another kind, such as NumPy's, or explained.
-        """
-        if self._bounds is None:
-            self._bounds = [
-                (float if isinstance(each, Float) else int, each.low, each.high)
-                for each in self.given
-            ]
-        for number, (kind, low, high) in zip(numbers, self._bounds, strict=False):
-            if type(number) is not kind or not low <= number <= high:
-                for field, value in zip(self.given, numbers, strict=True):
-                    field.checked(value, field.name)
-                return
 
     def tail(self, *values: Any) -> bytes:
         """Return the bytes of the fields that may be absent. Raises EncodeError for bad ones."""
@@ -288,11 +292,22 @@ def _there(part: Any) -> Any:
     return part.number if isinstance(part, Optional) else part
 
 
+def _places_of(piece: Any) -> Sequence[Place]:
+    """Return what can be wrong in a number, a text, a constant or packed numbers."""
+    if not isinstance(piece, Packed):
+        return places_of(piece)
+    return [(piece.at, piece.at + piece.size, piece.wrong)] if piece.narrowed else []
+
+
 def _wrong(data: bytes, due: Due) -> int | None:
     """Return the offset of the first byte that is wrong; None if all are right."""
-    if not isinstance(due, bytes):
+    if isinstance(due, bytes):
+        places = enumerate(zip(data, due, strict=False))
+        return next((at for at, (byte, right) in places if byte != right), None)
+    try:
         return due(data)
-    return next((at for at, byte in enumerate(due) if data[at] != byte), None)
+    except error:  # it is cut short
+        return None
 
 
 def _explained(piece: Any, data: bytes, at: int) -> str:
@@ -316,13 +331,10 @@ def _at(part: Any) -> int:
 
 def _places(part: Any) -> Iterator[tuple[int, int, Due]]:
     """Yield what can be wrong in a part of a fixed size."""
-    if isinstance(part, Packed):
-        if part.narrowed:
-            yield part.at, part.at + part.size, part.wrong
-    elif isinstance(part, List):
+    if isinstance(part, List):
         yield from _elements(part, part.most, 0)
     else:
-        yield from places_of(part)
+        yield from _places_of(part)
 
 
 def _elements(listed: List[Any] | Text, count: int, since: int) -> Iterator[tuple[int, int, Due]]:

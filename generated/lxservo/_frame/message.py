@@ -67,7 +67,6 @@ class Message:
 
     def __init_subclass__(cls) -> None:
         cls.SHAPE = Shape(cls, cls.LENGTHS)
-        cls._table = Table([cls], ANY_SIZE)
 
     @classmethod
     def _packed(cls, layout: str, *values: typing.Any) -> typing.Self:
@@ -86,11 +85,12 @@ class Message:
     @classmethod
     def decode(cls, frame: bytes | bytearray | memoryview) -> typing.Self:
         """Decode one frame of this message, with nothing after it. Raises DecodeError."""
-        try:
-            table = cls._table
-        except AttributeError:
+        table = vars(cls).get("_table")
+        if table is None and cls is not Message:
+            table = cls._table = Table([cls], ANY_SIZE)
+        if table is None:
             problem = "Message is what all messages are: decode with one of its subclasses"
-            raise TypeError(f"{problem}, or with the function `decode` of this package") from None
+            raise TypeError(f"{problem}, or with the function `decode` of this package")
         message: typing.Self = table.read(frame)
         return message
 

@@ -24,7 +24,7 @@ class Packed(Field["tuple[int, ...]"]):
     order ">", its highest bit is the highest of the first byte.
     """
 
-    __slots__ = ("at", "bits", "high", "length", "low", "order", "size", "unit")
+    __slots__ = ("at", "bits_each", "high", "length", "low", "order", "size", "unit")
 
     names: ClassVar[Mapping[str, int]] = {}
     """The names of values: it has none."""
@@ -41,7 +41,7 @@ class Packed(Field["tuple[int, ...]"]):
         order: str = STRUCT_ORDER,
     ) -> None:
         self.at = at
-        self.bits = bits
+        self.bits_each = bits
         self.length = length
         self.size = length * bits // 8
         self.low = low
@@ -52,7 +52,7 @@ class Packed(Field["tuple[int, ...]"]):
     @property
     def narrowed(self) -> bool:
         """Whether so many bits hold more than its range."""
-        return self.low > 0 or self.high < (1 << self.bits) - 1
+        return self.low > 0 or self.high < (1 << self.bits_each) - 1
 
     def reader(self) -> Callable[[Any], tuple[int, ...]]:
         """Return a function that reads them from the bytes of a message."""
@@ -61,14 +61,18 @@ class Packed(Field["tuple[int, ...]"]):
 
     def read(self, data: bytes) -> tuple[int, ...]:
         """Return the numbers that these bytes hold."""
-        whole, bits, mask = int.from_bytes(data, self.order), self.bits, (1 << self.bits) - 1
+        whole, bits, mask = (
+            int.from_bytes(data, self.order),
+            self.bits_each,
+            (1 << self.bits_each) - 1,
+        )
         places = range(0, self.length * bits, bits)
         found = [whole >> place & mask for place in places]
         return tuple(found if self.order == "little" else found[::-1])
 
     def packed(self, values: Any) -> bytes:
         """Return the bytes of these numbers. Raises EncodeError for the first bad one."""
-        whole, bits = 0, self.bits
+        whole, bits = 0, self.bits_each
         numbers = self.checked(values)
         for number in reversed(numbers) if self.order == "little" else numbers:
             whole = whole << bits | number

@@ -61,7 +61,8 @@ class WhyNot:
         if verdict.reason is Reason.BAD_TRAILER:
             return f"a frame ends {format_hex(b''.join(part.data for part in envelope.ends))}"
         if verdict.reason is Reason.OUT_OF_RANGE:
-            return f"{_field(kind, at)} of {name} is out of range: {found}"
+            wrong = kind.SHAPE.out_of_range(self._frame, at)
+            return wrong or f"{name} has other bytes than {found} there"
         if verdict.reason is Reason.BAD_CHECKSUM:
             return self._checksum(kind, verdict.size, prove)
         return f"a frame of {name} like this has {verdict.size} bytes, or more"
@@ -128,12 +129,6 @@ def _opening(envelope: Envelope) -> str:
     if envelope.header or not envelope.head:
         return format_hex(envelope.header) or "with its fields"
     return f"with its {envelope.head[0].name}"
-
-
-def _field(kind: type[Message], at: int) -> str:
-    """Return the name of the field of a message that stands at a place."""
-    parts = [(part.at, part.name) for part in kind.SHAPE.parts if part.at <= at]
-    return max(parts)[1] if parts else "what stands there"
 
 
 def _shown(numbers: Sequence[int]) -> str:

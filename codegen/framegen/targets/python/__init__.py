@@ -89,6 +89,7 @@ _FOR_FIELDS = {
     "_frame/mixed_element.py",
     "_frame/optional.py",
     "_frame/packed.py",
+    "_frame/quick_tests.py",
     "_frame/shape.py",
     "_frame/swapped.py",
     "_frame/text.py",

@@ -199,7 +199,7 @@ class LibraryView:
         if self.plain:
             return {"shape"}
         found = {"fixed", "floating", "general_shape", "lists", "optional", "packed", "text"}
-        found |= {_snake(each.base) for each in self.elements}
+        found |= {"quick_tests", *(_snake(each.base) for each in self.elements)}
         found |= set(self._field_classes.values())
         return found | ({"three_bytes"} if "swapped" in found else set[str]())
 

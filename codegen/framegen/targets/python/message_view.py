@@ -42,6 +42,8 @@ if TYPE_CHECKING:
 
 
 _WORD = re.compile(r"\w+")
+# What has a meaning to the command, or to a shell.
+_SPECIAL = re.compile(r"[^\w.+/@-]", re.ASCII)
 # So many bytes of a frame have room in a line of an example.
 _SHOWN = 31
 
@@ -353,22 +355,20 @@ class MessageView:
 
     def command_words(self, values: dict[str, Any]) -> list[str]:
         """Return the fields of an example as the command accepts them: `targets=1:800,9:800`."""
-        words: list[str] = []
+        found: list[str] = []
         for argument in self.layout.arguments:
             value = values[argument.name]
-            if value is None:
+            if value is None or (argument.role == "counter" and not value):
                 continue
-            if isinstance(argument, Packed):
-                value = ",".join(map(str, value))
-            elif isinstance(argument, Items) and not argument.text:
+            if isinstance(argument, Items) and not argument.text and argument.element is not None:
                 names = [field.name for field in argument.fields]
-                parts = [
-                    [str(item)] if argument.element is None else [str(item[name]) for name in names]
-                    for item in value
-                ]
-                value = ",".join(":".join(part) for part in parts)
-            words.append(f"{argument.name}={value}")
-        return words
+                parts = [":".join(_word(item[name]) or "%00" for name in names) for item in value]
+            elif isinstance(argument, Items | Packed) and not isinstance(value, str):
+                parts = [_word(item) for item in value]
+            else:
+                parts = [_word(value)]
+            found.append(f"{argument.name}={','.join(parts)}")
+        return found
 
     @property
     def function(self) -> str:
@@ -410,6 +410,13 @@ def field_view(slot: Field, model: Model, layout: MessageLayout) -> FieldView:
             return PackedView(slot, spec)
         case Number():
             return NumberView(slot, spec, tail)
+
+
+def _word(value: Any) -> str:
+    """Return a value as a word for the command; what has a meaning to a shell is escaped."""
+    if not isinstance(value, str):
+        return str(value)
+    return _SPECIAL.sub(lambda found: f"%{ord(found[0]):02X}", value)
 
 
 def _zeros(size: int) -> str:

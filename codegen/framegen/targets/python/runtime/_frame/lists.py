@@ -128,12 +128,12 @@ class List(Items["Item"]):
     def _rows(self, data: bytes) -> Iterator[tuple[Any, ...]]:
         """Return the values of each element."""
         rows = Struct(STRUCT_ORDER + self.layout).iter_unpack(data)
-        return rows if all(map(_is_read, self.pieces)) else map(self._read, rows)
+        return rows if all(map(is_read, self.pieces)) else map(self._read, rows)
 
     def _read(self, row: tuple[Any, ...]) -> tuple[Any, ...]:
         """Return the values of an element of which `struct` knows only the bytes of some."""
         return tuple(
-            value if _is_read(field) else _value(field, value)
+            value if is_read(field) else _value(field, value)
             for field, value in zip(self.fields, row, strict=True)
         )
 
@@ -192,7 +192,7 @@ def _judge(number: Number) -> Callable[[bytes], int | None]:
     return lambda data: None if number.holds(unpack(data)[0]) else 0
 
 
-def _is_read(piece: Any) -> bool:
+def is_read(piece: Any) -> bool:
     """Tell whether `struct` reads it as it is: no text, of a size and an order that it knows."""
     return isinstance(piece, Always) or getattr(
         getattr(piece, "struct", None), "format", ""
@@ -201,7 +201,7 @@ def _is_read(piece: Any) -> bool:
 
 def _is_tight(piece: Any) -> bool:
     """Tell whether `struct` also writes it: bytes that nobody gives are zero."""
-    return not any(piece.data) if isinstance(piece, Always) else _is_read(piece)
+    return not any(piece.data) if isinstance(piece, Always) else is_read(piece)
 
 
 def _notation(piece: Any) -> str:
@@ -209,7 +209,7 @@ def _notation(piece: Any) -> str:
     if isinstance(piece, Always):
         return f"{len(piece.data)}x"
     code: str = piece.code
-    return code if _is_read(piece) else f"{size_of(piece)}s"
+    return code if is_read(piece) else f"{size_of(piece)}s"
 
 
 def _value(piece: Any, data: bytes) -> Any:

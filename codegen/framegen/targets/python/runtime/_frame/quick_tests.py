@@ -1,0 +1,75 @@
+"""Quick tests of numbers, made once for each class of messages: they are in the way of each one."""
+
+from __future__ import annotations
+
+from struct import Struct
+
+from .protocol import STRUCT_ORDER
+
+TYPE_CHECKING = False  # typing alone would double the time that the import takes
+if TYPE_CHECKING:
+    from collections.abc import Callable, Sequence
+    from typing import Any
+
+    from .floating import Float
+    from .number import Number
+
+
+def checker(fields: Sequence[Number | Float]) -> Callable[..., None]:
+    """Return a function that raises EncodeError for the first wrong one of the numbers given.
+
+    Good ones are passed over. Any others are looked at one by one, and are either numbers of
+    another kind, such as NumPy's, or explained.
+    """
+    lows, highs = [field.low for field in fields], [field.high for field in fields]
+    kinds = [float if isinstance(field.low, float) else int for field in fields]
+
+    def explain(numbers: tuple[Any, ...]) -> None:
+        for field, number in zip(fields, numbers, strict=True):
+            field.checked(number, field.name)
+
+    def check_all(*numbers: Any) -> None:
+        for number, kind, low, high in zip(numbers, kinds, lows, highs, strict=False):
+            if type(number) is not kind or not low <= number <= high:
+                return explain(numbers)
+        return None
+
+    def check(*numbers: Any) -> None:
+        for number, low, high in zip(numbers, lows, highs):  # noqa: B905
+            if type(number) is not int or number < low or number > high:
+                return explain(numbers)
+        return None
+
+    return check if set(kinds) == {int} else check_all
+
+
+def range_test(numbers: Sequence[Number]) -> Callable[[bytes], bool]:
+    """Return a function that says whether all these numbers of a frame are inside their ranges."""
+    at = 0
+    layout = STRUCT_ORDER
+    for number in numbers:
+        layout += f"{number.at - at}x{number.code}"
+        at = number.at + number.struct.size
+    unpack = Struct(layout).unpack_from
+    if len(numbers) == 1:
+        (only,) = numbers
+        low, high = only.low, only.high
+        return lambda frame: bool(low <= unpack(frame)[0] <= high)
+    if len(numbers) == 2:
+        one, two = numbers
+        low, high, least, most = one.low, one.high, two.low, two.high
+
+        def both_inside(frame: bytes) -> bool:
+            first, second = unpack(frame)
+            return bool(low <= first <= high and least <= second <= most)
+
+        return both_inside
+    lows, highs = [number.low for number in numbers], [number.high for number in numbers]
+
+    def all_inside(frame: bytes) -> bool:
+        for value, low, high in zip(unpack(frame), lows, highs):  # noqa: B905
+            if value < low or value > high:
+                return False
+        return True
+
+    return all_inside
