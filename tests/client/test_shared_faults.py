@@ -57,9 +57,7 @@ def test_each_value_is_the_answer_to_its_own_question(turns: list[Turn]) -> None
 
 
 @given(st.lists(st.lists(st.sampled_from(NUMBERS), min_size=1, max_size=6), max_size=8), TURNS)
-def test_many_tasks_each_have_their_own_answer(
-    rounds: list[list[int]], turns: list[Turn]
-) -> None:
+def test_many_tasks_each_have_their_own_answer(rounds: list[list[int]], turns: list[Turn]) -> None:
     line = ServoBus(*NUMBERS, apart=False)
     given_out: list[int] = []
 
