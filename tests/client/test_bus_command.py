@@ -1,4 +1,4 @@
-"""The command of a library whose devices have addresses: what it sends, and whom the doctor asks."""
+"""The command of a library whose devices have addresses: what it sends, and whom it asks."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Servos on one wire, each with faults of its own: no value goes to another's question, or twice."""
+"""Servos on one wire, each with its faults: no value goes to another question, or twice."""
 
 from __future__ import annotations
 
