@@ -31,8 +31,9 @@ TURNS = st.lists(st.tuples(st.sampled_from(NUMBERS), DELAYS, st.integers(0, 2)),
 
 
 def prepared(line: ServoBus, turn: Turn) -> None:
-    number, line.servos[number].delay, copies = turn
-    line.servos[number].copies, line.servos[number].dead = copies, not copies
+    number, delay, copies = turn
+    servo = line.servos[number]
+    servo.delay, servo.copies, servo.dead = delay, copies, not copies
 
 
 @given(TURNS)
