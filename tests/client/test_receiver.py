@@ -1,4 +1,4 @@
-"""A reply that may be very long: who does not answer at all is not waited for as long."""
+"""The client of a receiver: long replies, and what comes both asked for and by itself."""
 
 from __future__ import annotations
 
@@ -19,6 +19,8 @@ def data() -> Data:
     """Return a spec in which a reply is as long as its length can say."""
     found = data_of(FILES["ubx"])
     found["messages"]["MonVer"]["fields"]["extensions"]["count"] = "0.."
+    # What comes again and again once it is switched on, and is asked for as well.
+    found["messages"]["CfgMsgRateSet"]["reports"] = ["NavPvt"]
     return found
 
 
@@ -38,6 +40,22 @@ def session() -> tuple[Any, Any]:
     made.outgoing(0.0)
     made.written(request, 0.0)
     return made, request
+
+
+def test_what_is_asked_for_and_reported_as_well_is_both() -> None:
+    kinds = importlib.import_module("ubx.messages")
+    line, _ = session()
+    [example] = data()["messages"]["NavPvt"]["examples"][:1]
+    frame = bytes.fromhex(example["hex"])
+    line.receive(frame, 0.01)
+    assert line.reports.take() == kinds.NavPvt.decode(frame)
+    assert line.counters.unsolicited == 0
+    line.tick(2.0)  # what was asked first is given up
+    request = line.submit(kinds.NavPvtPoll(), question=True)
+    line.outgoing(3.0)
+    line.written(request, 3.0)
+    line.receive(frame, 3.2)
+    assert request.reply == kinds.NavPvt.decode(frame)
 
 
 def test_nobody_is_waited_for_as_long_as_the_longest_reply_would_take() -> None:
