@@ -60,7 +60,7 @@ class Servo:
             self.moves.append(parameters)
         if command == READ_POSITION:
             self.position += 1
-            self.told.append(self.position + 1000 * self.number)
+            self.told.append(self.position % 1000 + 1000 * self.number)
             return frame(self.number, command, self.told[-1] & 0xFF, self.told[-1] >> 8)
         return frame(self.number, command, self.number) if command in _ONE_BYTE else b""
 
