@@ -92,7 +92,12 @@ class Diagnosis:
         transport = ErrorMapping(self._open(self.port, rate))
         self.log.append((self._clock(), None, b"", f"opened, at {rate:g} baud"))
         self.probe = Probe(
-            transport, baud=rate, reply_timeout=self.reply_timeout, clock=self._clock, log=self.log
+            transport,
+            baud=rate,
+            reply_timeout=self.reply_timeout,
+            clock=self._clock,
+            log=self.log,
+            local_echo=self.local_echo,
         )
         return self.probe
 
