@@ -3,7 +3,8 @@
     python -m tests.soak [--requests N] [--rounds N] [--seed S]
 
 In virtual time; by eight threads over TCP; and by a hundred tasks of asyncio over TCP. Then the
-independent board, as often: see tests/independent/long_run.py. Every value that comes back must be
+independent board, as often: see tests/independent/long_run.py; and a bus of servos, one of them
+dead: see tests/client/long_bus_run.py. Every value that comes back must be
 the right one, or a declared error, in bounded time; every report must come, in order; and in the
 end no more memory, threads and pending messages may be there than after the first fifth.
 It is no part of `make test`, which only tries that it runs.
@@ -31,6 +32,7 @@ from tests.client.conversation import (
     reports_received,
     reports_received_async,
 )
+from tests.client.long_bus_run import on_a_bus
 from tests.independent import long_run
 from tests.timeouts import GENEROUS, await_that
 
@@ -167,7 +169,7 @@ async def with_tasks(requests: int, rounds: int, seed: int) -> None:
 
 
 def main(words: Sequence[str] | None = None) -> None:
-    """Soak all five ways. Raises AssertionError at the first thing that is wrong."""
+    """Soak all six ways. Raises AssertionError at the first thing that is wrong."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--requests", type=int, default=100_000, help="for each (default: 100000)")
     parser.add_argument("--rounds", type=int, default=50, help="after each, all is looked at")
@@ -179,6 +181,7 @@ def main(words: Sequence[str] | None = None) -> None:
     asyncio.run(with_tasks(*run))
     long_run.at_a_paced_line(*run)
     long_run.with_threads(*run)
+    on_a_bus(*run)
 
 
 if __name__ == "__main__":

@@ -51,6 +51,7 @@ class Servo:
     dead: bool = False
     copies: int = 1
     position: int = 0
+    told: list[int] = field(default_factory=list)
     moves: list[bytes] = field(default_factory=list)
 
     def answer(self, command: int, parameters: bytes) -> bytes:
@@ -59,8 +60,8 @@ class Servo:
             self.moves.append(parameters)
         if command == READ_POSITION:
             self.position += 1
-            told = self.position + 1000 * self.number
-            return frame(self.number, command, told & 0xFF, told >> 8)
+            self.told.append(self.position % 1000 + 1000 * self.number)
+            return frame(self.number, command, self.told[-1] & 0xFF, self.told[-1] >> 8)
         return frame(self.number, command, self.number) if command in _ONE_BYTE else b""
 
 
@@ -72,10 +73,14 @@ class ServoBus:
 
     name = "servo bus"
 
-    def __init__(self, *numbers: int, echo: bool = False, baud: float = BAUD) -> None:
+    def __init__(
+        self, *numbers: int, echo: bool = False, apart: bool = True, baud: float = BAUD
+    ) -> None:
         self.clock = VirtualClock()
         self.servos = {number: Servo(number) for number in numbers}
         self.echo = echo
+        # Whether a servo of a higher number takes longer, so that not all answer at once.
+        self.apart = apart
         self.collisions = 0
         self.commands: list[tuple[int, int]] = []
         self._byte = 10 / baud
@@ -101,7 +106,7 @@ class ServoBus:
         answer = servo.answer(command, parameters)
         if not answer or servo.dead:
             return
-        at = heard + servo.delay * (servo.number if len(self.servos) > 1 else 1)
+        at = heard + servo.delay * (servo.number if self.apart else 1)
         for _ in range(servo.copies):
             at = self._put(at, answer, arrives=True)
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from framegen.model.slots import Number
+from framegen.model.slots import Items, Number
 
 if TYPE_CHECKING:
     from types import ModuleType
@@ -57,11 +57,17 @@ def converse(made: ModuleType, model: Model) -> None:
     `model` is in the names of the library.
     """
     _both_ways(made, model)
+    converse_alone(made, model)
+
+
+def converse_alone(made: ModuleType, model: Model) -> None:
+    """Do so without a look at the frames of the examples."""
     device = _device(made, model)
     spent = made._frame.protocol.BITS_PER_BYTE / made._frame.protocol.BAUD
     line = Line(device, spent)
     # However slow the line is, and whatever is sent in front of a reply: it will come.
     settings = {"reply_timeout": 9e9, "clock": line.clock, "background": False}
+    settings["local_echo"] = False
     with made.Controller(line, limits=None, **settings) as client:
         for exchange in model.exchanges:
             for example in exchange.request.message.examples[:4]:
@@ -82,11 +88,24 @@ def _both_ways(made: ModuleType, model: Model) -> None:
 def _ask(
     made: ModuleType, client: Any, device: Any, exchange: Exchange, values: dict[str, Any]
 ) -> None:
-    arguments = [_argument(exchange.request, values[name]) for name in exchange.method.arguments]
-    result = getattr(client, exchange.method.name)(*arguments)
+    names, request = exchange.arguments, exchange.request
+    arguments = [_argument(request, name, values[name]) for name in names]
+    address = exchange.address
+    silent = address is not None and values[address.name] in exchange.silent.values()
+    if silent and exchange.reply is not None:
+        result = getattr(client.broadcast(), exchange.method.name)(*arguments[1:], within=0.01)
+    elif address is not None and not silent:
+        result = getattr(client.device(arguments[0]), exchange.method.name)(*arguments[1:])
+    else:
+        result = getattr(client, exchange.method.name)(*arguments)
     sent = _made(made, exchange.request, values)
+    if exchange.counter is not None:
+        number = getattr(device.requests[-1], exchange.counter.name)
+        sent = sent.__replace__(**{exchange.counter.name: number})
     assert device.requests[-1] == sent
-    if exchange.reply is not None:
+    if silent and exchange.reply is not None:
+        assert result == []
+    elif exchange.reply is not None:
         reply = device.said[-1]
         assert result == (
             getattr(reply, exchange.method.result) if exchange.method.result else reply
@@ -141,6 +160,12 @@ def _report(made: ModuleType, layout: MessageLayout, request: Any) -> Any:
 def _reply(made: ModuleType, exchange: Exchange, layout: MessageLayout, request: Any) -> Any:
     """Return the reply of an example, with the values that it must repeat."""
     values = dict(layout.message.examples[0].values)
+    if exchange.failure is not None:
+        values[exchange.failure.name] = 0
+    address = layout.frame.address
+    if exchange.address is not None and address is not None:
+        asked = getattr(request, exchange.address.name)
+        values[address.name] = asked if address.holds(asked) else address.low
     for source, target in exchange.echoed:
         outer, _, inner = target.partition(".")
         value = _at(request, source)
@@ -167,12 +192,13 @@ def _at(message: Any, path: str) -> Any:
 
 
 def _made(made: ModuleType, layout: MessageLayout, values: dict[str, Any]) -> Any:
-    given = {name: _argument(layout, value) for name, value in values.items()}
+    given = {name: _argument(layout, name, value) for name, value in values.items()}
     return getattr(made, layout.name)(**given)
 
 
-def _argument(layout: MessageLayout, value: Any) -> Any:
+def _argument(layout: MessageLayout, name: str, value: Any) -> Any:
     """Return a value of an example as users give it: elements as tuples, in frame order."""
-    if not isinstance(value, list) or layout.items is None or layout.items.element is None:
+    slot = next(each for each in layout.arguments if each.name == name)
+    if not isinstance(slot, Items) or slot.element is None:
         return value
-    return [tuple(each[field.name] for field in layout.items.fields) for each in value]
+    return [tuple(each[field.name] for field in slot.fields) for each in value]

@@ -76,11 +76,14 @@ class FrameReader:
         self._decoder = decoder
         return events
 
-    def unless_arriving(self, until: float) -> float:
-        """Return a time that is up; a little later where a frame is just arriving."""
+    def unless_arriving(self, until: float, longer: float = 0.0) -> float:
+        """Return a time that is up; a little later where a frame is just arriving.
+
+        One that may take much `longer` has that time as well, as long as it goes on arriving.
+        """
         if not self._decoder.pending:
             return until
-        return max(until, min(self.received_at, until) + GAP)
+        return max(until, min(self.received_at, until + longer) + GAP)
 
     def restart(self) -> None:
         """Begin anew on another line."""

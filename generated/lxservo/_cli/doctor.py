@@ -6,12 +6,14 @@ from __future__ import annotations
 import json
 import sys
 
-from .._client.exchanges import POSE
+from .._client.exchanges import EXCHANGES, POSE
 from .._frame.bytes_like import format_hex
+from .._frame.errors import EncodeError
 from . import link
 from .checks.checks import CHECKS, examine
 from .checks.diagnosis import Diagnosis
 from .checks.move import STEP, move_check
+from .checks.question import address_field, harmless_question
 from .checks.report import Report
 from .checks.result import FAILED, PASSED, STATES, UNKNOWN
 from .colour import painted, takes_colour
@@ -29,6 +31,7 @@ if TYPE_CHECKING:
     from typing import Any
 
     from .._client.pose import Pose
+    from .._frame.message import Message
     from .._serial.transport import Transport
     from .checks.check import Check
     from .checks.result import Result
@@ -40,6 +43,9 @@ Makes these checks, one after the other:
 Each line says `passed`, `failed` or `unknown`, what was seen, the bytes that show it, and what to
 do next. It only reads"""
 ABOUT += "." if POSE is None else ";\n--move asks before it moves anything."
+# The address of a device, where there are several.
+_ADDRESS = address_field()
+_OPTION = f"--{_ADDRESS.replace('_', '-')}"
 _COLOURS = {PASSED: "green", FAILED: "red", UNKNOWN: "yellow"}
 
 
@@ -47,6 +53,9 @@ def add_arguments(parser: ArgumentParser) -> None:
     """Declare the arguments of the verb."""
     add_port(parser, required=False)
     add_timeout(parser)
+    if _ADDRESS:
+        about = "the address of the device that is asked (default: the likeliest)"
+        parser.add_argument(_OPTION, type=at_least(0), dest="address", metavar="N", help=about)
     if POSE is not None:
         about = f"also move this {POSE.noun} by {STEP} steps and back; asks first"
         parser.add_argument("--move", type=at_least(0), metavar="ID", help=about)
@@ -72,6 +81,7 @@ def run(arguments: Namespace) -> int:
         baud=arguments.baud,
         reply_timeout=arguments.timeout,
         local_echo=arguments.local_echo,
+        question=_question(arguments.address) if _ADDRESS else None,
         opener=_open,
     )
     findings: list[tuple[Check, Result]] = []
@@ -92,6 +102,17 @@ def run(arguments: Namespace) -> int:
     if diagnosis.lost:
         return LINE_LOST
     return NOT_ALL if FAILED in states else DONE
+
+
+def _question(address: int | None) -> Message | None:
+    """Return the question for the device at an address. Raises UsageError where none can be."""
+    try:
+        question = harmless_question(address)
+    except EncodeError as error:
+        raise UsageError(f"{_OPTION}: {error.problem}") from None
+    if question is not None and EXCHANGES[type(question)].address.silence(question):
+        raise UsageError(f"{_OPTION}: nobody answers at {address}")
+    return question
 
 
 def _next(found: Iterator[tuple[Check, Result]]) -> tuple[Check, Result] | None:

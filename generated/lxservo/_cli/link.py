@@ -12,6 +12,7 @@ from contextlib import contextmanager
 
 from .._client.base_client import REPLY_TIMEOUT
 from .._client.client import Client
+from .._client.controller import Controller
 from .._client.exchanges import LIMITS
 from .._frame.protocol import BAUD, LOCAL_ECHO
 from .._serial.link_errors import ClosedError, DisconnectedError, TransportError, WriteStuckError
@@ -108,7 +109,7 @@ def open_client(
     logger = logging.getLogger(Client.__module__.rpartition(".")[0])
     if not any(isinstance(each, _Warnings) for each in logger.handlers):
         logger.addHandler(_Warnings(logging.WARNING))
-    return Client(
+    return Controller(
         open_line(arguments.port, arguments.baud),
         baud=arguments.baud,
         reply_timeout=arguments.timeout,

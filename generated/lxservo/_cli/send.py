@@ -5,11 +5,12 @@ from __future__ import annotations
 
 import sys
 
+from .._client.exchange import UNFAILING
 from .._client.exchanges import EXCHANGES
 from .._client.long_question import left_out
-from .._frame.errors import EncodeError, LimitError
+from .._frame.errors import EncodeError, LimitError, ProtocolError
 from .._recording.entry import Entry
-from .._serial.link_errors import NoReplyError
+from .._serial.link_errors import TransportError
 from . import link
 from .encode import note_deprecated
 from .entries import EntryLines
@@ -24,11 +25,15 @@ from .usage_error import UsageError
 TYPE_CHECKING = False
 if TYPE_CHECKING:
     from argparse import ArgumentParser, Namespace
+    from typing import Any
 
     from .._client.client import Client
     from .._frame.message import Message
 
-ENDS = link.ENDS | {NOT_ALL: "no reply came in time, or it reported less than was requested"}
+_NOT_ALL = "no reply came in time, or it reported less than was requested"
+if any(each.failures is not UNFAILING for each in EXCHANGES.values()):
+    _NOT_ALL += ", or the device refused or failed"
+ENDS = link.ENDS | {NOT_ALL: _NOT_ALL}
 
 
 def add_arguments(parser: ArgumentParser) -> None:
@@ -59,7 +64,7 @@ def run(arguments: Namespace) -> int:
         print(note, file=sys.stderr)
     lines = EntryLines(sys.stdout, "json" if arguments.json else "text")
     missing: dict[str, list[int]] = {}
-    silent: NoReplyError | None = None
+    unanswered: ProtocolError | None = None
     with (
         failures_reported(),
         open_client(
@@ -68,15 +73,13 @@ def run(arguments: Namespace) -> int:
     ):
         for message in messages:
             try:
-                reply = _answer(controller, message)
-            except LimitError as error:
-                raise refused(error) from None
-            except EncodeError as error:
-                raise UsageError(str(error)) from None
-            except NoReplyError as error:
-                silent = error
+                replies = _answers(controller, message, arguments.timeout)
+            except TransportError:
+                raise
+            except ProtocolError as error:
+                unanswered = error
                 break
-            if reply is not None:
+            for reply in replies:
                 lines.show(Entry(reply, reply.DIRECTION.sender, 0))
                 sys.stdout.flush()
                 requested, left, _ = left_out(message, reply)
@@ -85,16 +88,33 @@ def run(arguments: Namespace) -> int:
         if values:
             listed = ", ".join(str(value) for value in values)
             print(f"the reply is incomplete: nothing of {requested} {listed}", file=sys.stderr)
-    if silent is not None:
-        print(silent, file=sys.stderr)
-    return NOT_ALL if silent is not None or any(missing.values()) else DONE
+    if unanswered is not None:
+        print(unanswered, file=sys.stderr)
+    return NOT_ALL if unanswered is not None or any(missing.values()) else DONE
 
 
-def _answer(controller: Client, message: Message) -> Message | None:
-    """Return the reply to a request; None for a command, which has none."""
-    reply = EXCHANGES[type(message)].reply
-    if reply is None:
-        controller.send(message)
-        return None
-    with shown_progress(lambda waited: f"waiting for {reply.__name__}, {waited:.0f} s"):
-        return controller.request(message)
+def _answers(controller: Client, message: Message, timeout: float) -> list[Message]:
+    """Return the reply to a request, and of one to all whatever comes in time; none to a command.
+
+    Raises UsageError for what is not sent.
+    """
+    exchange = EXCHANGES[type(message)]
+    reply = exchange.reply
+    try:
+        if reply is None:
+            controller.send(message)
+            return []
+        with shown_progress(lambda waited: f"waiting for {reply.__name__}, {waited:.0f} s"):
+            if exchange.address.silence(message):
+                return _gathered(controller, message, timeout)
+            return [controller.request(message)]
+    except LimitError as error:
+        raise refused(error) from None
+    except EncodeError as error:
+        raise UsageError(str(error)) from None
+
+
+def _gathered(controller: Any, message: Message, within: float) -> list[Message]:
+    """Return what comes in time for a question to all; only such a protocol has the method."""
+    replies: list[Message] = controller.gather(message, within=within)
+    return replies

@@ -4,7 +4,7 @@
 No frame says which request it answers. A reply has the class that answers a pending question, comes
 from the device that was asked, where frames say whom they are from, and holds nothing that was not
 requested. A message of such a class that is no reply is **unsolicited**: it is counted, dropped,
-and never taken for anything else.
+and never taken for anything else, unless it may be a report as well.
 
 A reply must be possible. It cannot be complete before the question and itself have had their time
 on the wire. A reply that is complete sooner was meant for somebody else, as when the reply before
@@ -50,6 +50,8 @@ if TYPE_CHECKING:
 _ADDRESSES: dict[type[Message], Unaddressed] = {
     kind: each.address for each in EXCHANGES.values() for kind in each.kinds
 }
+# Those of them that a device may also send without being asked.
+_REPORTS = frozenset(kind for each in EXCHANGES.values() for kind in each.reports)
 _NEVER = float("inf")
 # How much longer a device may take than any has taken so far, before it keeps others waiting no
 # longer: adapters hand on what they have received only every 16 ms.
@@ -129,6 +131,9 @@ class ReplyMatcher:
                 self._hold(pending, message, now)
                 return True
         if type(message) not in _ADDRESSES:
+            return False
+        if type(message) in _REPORTS:
+            self.late.came(self._origin(message))
             return False
         self._drop_unsolicited(message)
         return True

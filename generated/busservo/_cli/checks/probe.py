@@ -43,6 +43,7 @@ class Probe:
         reply_timeout: float,
         clock: Callable[[], float],
         log: list[Entry],
+        local_echo: bool = False,
     ) -> None:
         self.baud = baud
         self.reply_timeout = reply_timeout
@@ -51,6 +52,7 @@ class Probe:
         self._transport = transport
         self._clock = clock
         self._log = log
+        self._local_echo = local_echo
 
     def ask(self, question: Message, *, extra: float = 0.0) -> Trip:
         """Send a question, and wait for a reply, `extra` seconds longer than a program would."""
@@ -60,8 +62,11 @@ class Probe:
         self._transport.write(frame)
         size = len(frame) + EXCHANGES[type(question)].reply_size(question)
         until = sent_at + self.wire_time.seconds(size) + self.reply_timeout + extra
-        pieces = self._collected(until, lambda got: bool(Trip(question, sent_at, got).replies))
-        trip = Trip(question, sent_at, pieces)
+
+        def made_of(pieces: Pieces) -> Trip:
+            return Trip(question, sent_at, pieces, local_echo=self._local_echo)
+
+        trip = made_of(self._collected(until, lambda got: bool(made_of(got).replies)))
         if trip.echoed:
             echo = f"the question, which came back: {question!r}"
             self._log.append((sent_at, None, frame, echo))

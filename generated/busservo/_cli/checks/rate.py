@@ -122,4 +122,4 @@ def _is_pseudo_terminal(port: str) -> bool:
 def rate_check(question: Message) -> Check:
     """Return the check that asks this question."""
     title = "the device answers at the rate of the protocol"
-    return Check("rate", title, ("opening",), lambda each: _look(each, question))
+    return Check("rate", title, ("opening",), lambda each: _look(each, each.question or question))

@@ -7,7 +7,7 @@ import math
 import time
 from pathlib import Path
 
-from ..._frame.protocol import BAUD
+from ..._frame.protocol import BAUD, LOCAL_ECHO
 from ..._serial.error_mapping import ErrorMapping
 from ..._serial.hid_devices import hid_devices_at_hand
 from ..._serial.serial_port import open_transport, serial_ports
@@ -32,7 +32,8 @@ class Diagnosis:
 
     `port` may be None: the one that is plugged in is taken, if there is one. `opener` opens a port
     at a rate, `ports` and `hid_devices` return what is plugged in, and `clock` returns seconds;
-    tests replace all of them. With `local_echo`, an echo is expected of what is sent.
+    tests replace all of them. With `local_echo`, an echo is expected of what is sent. `question` is
+    put to the device where another than the usual one is meant.
     """
 
     def __init__(
@@ -41,7 +42,8 @@ class Diagnosis:
         *,
         baud: float = BAUD,
         reply_timeout: float = 0.25,
-        local_echo: bool = False,
+        local_echo: bool = LOCAL_ECHO,
+        question: Message | None = None,
         opener: Callable[[str, float], Transport] | None = None,
         ports: Callable[[], list[SerialPortSeen]] = serial_ports,
         hid_devices: Callable[[], list[HidDevice] | None] = hid_devices_at_hand,
@@ -51,6 +53,7 @@ class Diagnosis:
         self.baud = baud
         self.reply_timeout = reply_timeout
         self.local_echo = local_echo
+        self.question = question
         self.ports = ports()
         self.hid_devices = hid_devices()
         self.log: list[Entry] = []
@@ -90,7 +93,12 @@ class Diagnosis:
         transport = ErrorMapping(self._open(self.port, rate))
         self.log.append((self._clock(), None, b"", f"opened, at {rate:g} baud"))
         self.probe = Probe(
-            transport, baud=rate, reply_timeout=self.reply_timeout, clock=self._clock, log=self.log
+            transport,
+            baud=rate,
+            reply_timeout=self.reply_timeout,
+            clock=self._clock,
+            log=self.log,
+            local_echo=self.local_echo,
         )
         return self.probe
 

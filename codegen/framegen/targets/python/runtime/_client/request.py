@@ -16,6 +16,10 @@ if TYPE_CHECKING:
     from .exchange import Exchange
 
 
+# No reply has more time than one of so many bytes before it has begun to come.
+_USUAL_SIZE = 1024
+
+
 class Sent:
     """A command that has been handed to the line.
 
@@ -115,6 +119,7 @@ class Request:
         "question",
         "reply",
         "reply_least",
+        "reply_room",
         "reply_size",
         "retries",
         "sent",
@@ -142,8 +147,10 @@ class Request:
         # The device that it is for, None for the only one or all; and what may answer it.
         self.address = None if silent else exchange.address.of(message)
         self.answered_by = Origin(exchange.kinds, self.address)
-        # How many bytes its reply can have at most and at the least; 0 if there is none.
-        self.reply_size = exchange.reply_size(message) if self.question else 0
+        # How many bytes its reply can have at most and at the least; 0 if there is none. One that
+        # could be longer still gets its time once it has begun to come.
+        self.reply_room = exchange.reply_size(message) if self.question else 0
+        self.reply_size = min(self.reply_room, _USUAL_SIZE)
         self.reply_least = exchange.reply_least(message) if self.question else 0
         self.retries = retries
         # Whether a newer one of its kind replaces it.

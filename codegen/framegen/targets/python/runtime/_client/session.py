@@ -346,9 +346,9 @@ class Session:
 
     def _ends_at(self, pending: Request) -> float:
         """Return when a question is given up: its time does not begin before the port has it."""
-        return self._reader.unless_arriving(
-            pending.deadline + (0.0 if pending.written else _WRITING)
-        )
+        until = pending.deadline + (0.0 if pending.written else _WRITING)
+        longer = self.wire_time.seconds(pending.reply_room - pending.reply_size)
+        return self._reader.unless_arriving(until, longer)
 
     def _held_until(self, pending: Request) -> float:
         """Return until when another reply may take the place of the one that is held."""
