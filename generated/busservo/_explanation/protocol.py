@@ -166,7 +166,7 @@ class Slot:
         text += f" ({set_bits})" if set_bits else ""
         for name, named in self.said.get("values", {}).items():
             if named["value"] == value:
-                return f"{text} ({name})", str(named["about"])
+                return f"{text} ({name})", str(named.get("about", self.about))
         return text, self.about
 
     def bits_in_words(self, value: int) -> Iterator[str]:

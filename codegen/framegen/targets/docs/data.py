@@ -235,7 +235,7 @@ def _covers(frame: Envelope, checksum: Number) -> list[Any]:
             continue
         (slot,) = (slot for slot in frame.slots if slot.name == name)
         end = -frame.tail_size if isinstance(slot, Body) else slot.at + slot.size
-        if pieces and isinstance(pieces[-1], list) and pieces[-1][1] == slot.at:
+        if pieces and isinstance(pieces[-1], list) and pieces[-1][1] == slot.at != 0:
             pieces[-1][1] = end
         else:
             pieces.append([slot.at, end])

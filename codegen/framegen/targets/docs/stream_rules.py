@@ -119,7 +119,9 @@ class StreamRules:
     def _early(self) -> str:
         """Say what is refused before the whole of a frame is there."""
         frame = self._envelopes[0]
-        usual = all(each.length_part is not None and each.ids for each in self._envelopes)
+        usual = all(
+            each.length_part is not None and each.id_part is not None for each in self._envelopes
+        )
         if usual and frame.address is None and not self.proven and len(frame.ids) == 1:
             length, id_ = frame.length.name, frame.id.name
             return (

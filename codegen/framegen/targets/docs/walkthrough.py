@@ -220,8 +220,17 @@ class _Look:
             named = slot.field.values.items()
             shown = next((key for key, each in named if each.value == value), "")
         elif slot.role == "checksum":
-            return f"{to_hex(placed.of(self.data))}: {self._worked_out(slot)}"
+            found = to_hex(placed.of(self.data))
+            return f"{found}: {self._worked_out(slot)}" if self._is_whole else f"{name} {found}"
         return f"{name} {value}: {shown}" if shown else f"{name} {value}"
+
+    @property
+    def _is_whole(self) -> bool:
+        """Whether a whole frame has been seen, and what its checksums cover is known."""
+        verdict = self.verdict
+        if verdict.message is not None or verdict.proven:
+            return True
+        return verdict.reason == BAD_CHECKSUM and verdict.likely is not None
 
     def _counted(self, slot: Number, value: int) -> str:
         if self.frame.length_part is not None:
@@ -244,10 +253,9 @@ class _Look:
         """Yield what proves a frame of unknown id, and from where to where it stands."""
         head = len(self.verdict.seen)
         for placed in self.frame.lay_out(self.verdict.claim):
-            slot, data = placed.slot, placed.of(self.data)
-            if placed.at >= self.frame.body_at and isinstance(slot, Number):
-                yield f"{to_hex(data)}: {self._worked_out(slot)}", placed.at, placed.end
-            elif placed in self.frame.placed_head[head:] and isinstance(slot, Number):
+            slot = placed.slot
+            is_new = placed.at >= self.frame.body_at or placed in self.frame.placed_head[head:]
+            if is_new and isinstance(slot, Number):
                 text = self._number(placed)
                 is_it = placed.at == self.verdict.offset
                 unknown = f"{text}: unknown in this direction" if is_it else text
