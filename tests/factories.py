@@ -98,7 +98,7 @@ def yaml_of(value: object) -> str:
 
 
 _NOT_PLAIN = re.compile(r"[^ -~]")
-_WORD = re.compile(r'"(?:[^"\\]|\\.)*"|(?P<whole>-?[0-9]+)(?P<exponent>e[-+]?[0-9]+)')
+_WORD = re.compile(r'"(?:[^"\\]|\\.)*"|(?<![.0-9])(?P<whole>-?[0-9]+)(?P<exponent>e[-+]?[0-9]+)')
 
 
 def _pointed(found: re.Match[str]) -> str:
