@@ -91,11 +91,18 @@ def kiln() -> Data:
 
 def yaml_of(value: object) -> str:
     """Return `value` as YAML, every text in double quotes and in ASCII, whatever it holds."""
-    # JSON is YAML, but for two surrogates in the place of one character, and a control as it is.
-    return _NOT_PLAIN.sub(_escaped, json.dumps(value, ensure_ascii=False))
+    # JSON is YAML, but for two surrogates in the place of one character, a control as it is, and
+    # numbers without a point in front of their exponent.
+    text = _WORD.sub(_pointed, json.dumps(value, ensure_ascii=False))
+    return _NOT_PLAIN.sub(_escaped, text)
 
 
 _NOT_PLAIN = re.compile(r"[^ -~]")
+_WORD = re.compile(r'"(?:[^"\\]|\\.)*"|(?<![.0-9])(?P<whole>-?[0-9]+)(?P<exponent>e[-+]?[0-9]+)')
+
+
+def _pointed(found: re.Match[str]) -> str:
+    return f"{found['whole']}.0{found['exponent']}" if found["whole"] else found[0]
 
 
 def _escaped(found: re.Match[str]) -> str:

@@ -318,7 +318,7 @@ def _messages(
         message["length"] = rule
     else:
         chosen = draw(st.sets(st.sampled_from(lengths)))
-        message["length"] = sorted(chosen | {lengths[-1]})
+        message["length"] = sorted(chosen | {lengths[0], lengths[-1]})
     return {**message, "fields": fields}
 
 

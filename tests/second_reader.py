@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import struct
 from dataclasses import dataclass
+from functools import cache
 from itertools import accumulate
 from typing import TYPE_CHECKING, Any, TypeAlias
 
@@ -71,30 +72,62 @@ class Reader:
     def _shapes(self, name: str, size: int) -> Iterator[list[Cell]]:
         """Yield the cells of frames of `size` bytes: for each number of elements, or of fields."""
         message = self.spec["messages"][name]
-        fields: Data = message.get("fields", {})
-        optional = [key for key, field in fields.items() if field.get("optional")]
-        varying = [key for key, field in fields.items() if _varies(field)]
-        for number in range(size + 1) if varying else range(len(optional) + 1):
-            absent = set(optional[number:]) if not varying else set()
-            body = [
-                cell
-                for key, field in fields.items()
-                if key not in absent
-                for cell in self._field(key, field, number)
-            ]
-            cells: list[Cell] = []
-            for part, what in self.frames[self._kind(message)].items():
-                if what["is"] == "body":
-                    cells += [Cell(part, *rest) for rest in body]
-                elif what.get("sent", True):
-                    cells.append(Cell(part, what, _part_size(what)))
+        varying = [field for field in message.get("fields", {}).values() if _varies(field)]
+        for number in self._numbers(name, size):
+            cells = self._cells(name, number)
             if sum(cell.size for cell in cells) != size:
                 continue
-            if varying and not self._may_have(fields[varying[0]], number):
+            if varying and not self._may_have(varying[0], number):
                 continue
             if isinstance(message["length"], list) and not self._listed(message, cells):
                 continue
             yield cells
+
+    def _numbers(self, name: str, size: int) -> range:
+        """Return how many elements, or optional fields, frames of up to `size` bytes may have."""
+        fields: Data = self.spec["messages"][name].get("fields", {})
+        if not any(map(_varies, fields.values())):
+            return range(1 + sum("optional" in field for field in fields.values()))
+        least, step = self._least_and_step(name)
+        number = (size - least) // step
+        return range(max(number, 0), number + 1)
+
+    @cache  # noqa: B019 - a reader lives no longer than its example
+    def _least_and_step(self, name: str) -> tuple[int, int]:
+        least, more = (sum(cell.size for cell in self._cells(name, n)) for n in (0, 1))
+        return least, more - least
+
+    @cache  # noqa: B019
+    def _sizes(self, name: str, most: int) -> list[int]:
+        """Return the sizes up to `most` that frames of a message may have, or more."""
+        fields: Data = self.spec["messages"][name].get("fields", {})
+        if any(map(_varies, fields.values())):
+            least, step = self._least_and_step(name)
+            return [*range(least, most + 1, step)]
+        numbers = self._numbers(name, most)
+        return [sum(cell.size for cell in self._cells(name, number)) for number in numbers]
+
+    @cache  # noqa: B019
+    def _cells(self, name: str, number: int) -> list[Cell]:
+        """Return the cells of a frame with so many elements, or so many of its optional fields."""
+        message = self.spec["messages"][name]
+        fields: Data = message.get("fields", {})
+        optional = [key for key, field in fields.items() if field.get("optional")]
+        varying = any(map(_varies, fields.values()))
+        absent = set() if varying else set(optional[number:])
+        body = [
+            cell
+            for key, field in fields.items()
+            if key not in absent
+            for cell in self._field(key, field, number)
+        ]
+        cells: list[Cell] = []
+        for part, what in self.frames[self._kind(message)].items():
+            if what["is"] == "body":
+                cells += [Cell(part, *rest) for rest in body]
+            elif what.get("sent", True):
+                cells.append(Cell(part, what, _part_size(what)))
+        return cells
 
     def _may_have(self, field: Data, number: int) -> bool:
         low, _, high = str(field.get("count", "0..")).partition("..")
@@ -294,12 +327,14 @@ class Reader:
         self, directions: Sequence[str], names: Sequence[str], largest: int, data: bytes
     ) -> tuple[str, int] | None:
         for name in names:
-            for size in range(1, len(data) + 1):
-                if self.read(name, data[:size]) is not None:
+            for size in self._sizes(name, len(data)):
+                if size <= len(data) and self.read(name, data[:size]) is not None:
                     return name, size
         for kind in self.frames:
-            for size in range(1, min(len(data), largest) + 1):
-                if self._is_unknown(kind, directions, data[:size]):
+            known = self._known(kind, tuple(directions))
+            least = sum(map(_part_size, self.frames[kind].values()))
+            for size in range(least, min(len(data), largest) + 1) if known else ():
+                if self._is_unknown(kind, known, data[:size]):
                     return "unknown", size
         return None
 
@@ -347,40 +382,38 @@ class Reader:
         for each in message["length"]:
             yield each - counted
 
-    def _is_unknown(self, kind: str, directions: Sequence[str], frame: bytes) -> bool:
+    @cache  # noqa: B019
+    def _known(self, kind: str, directions: tuple[str, ...]) -> list[dict[str, bytes]]:
+        """Return the ids of the messages that have such a frame; none where none is proven."""
         parts: Data = self.frames[kind]
-        messages = [
-            message
+        roles = [what["is"] for what in parts.values()]
+        proven = "checksum" in roles and "length" in roles and "id" in roles
+        if not proven or not all(what.get("sent", True) for what in parts.values()):
+            return []
+        ids = [part for part, what in parts.items() if what["is"] == "id"]
+        return [
+            {part: self._id(message, part) for part in ids}
             for message in self.spec["messages"].values()
             if message["direction"] in directions and self._kind(message) == kind
         ]
-        roles = [what["is"] for what in parts.values()]
-        proven = "checksum" in roles and "length" in roles and "id" in roles
-        if not messages or not proven or not all(what.get("sent", True) for what in parts.values()):
-            return False
+
+    def _is_unknown(self, kind: str, known: list[dict[str, bytes]], frame: bytes) -> bool:
+        parts: Data = self.frames[kind]
         body = len(frame) - sum(map(_part_size, parts.values()))
-        if body < 0:
-            return False
         by_part, at = {}, 0
         for part, what in parts.items():
             size = body if what["is"] == "body" else _part_size(what)
             by_part[part] = frame[at : at + size]
             at += size
-        ids = [part for part, what in parts.items() if what["is"] == "id"]
-        known = any(
-            all(by_part[part] == self._id(message, part) for part in ids) for message in messages
-        )
+        others = {part: what for part, what in parts.items() if what["is"] != "id"}
+        plain = {part: what for part, what in others.items() if what["is"] != "checksum"}
         return (
-            not known
-            and all(
-                self._part_holds({}, part, what, by_part)
-                for part, what in parts.items()
-                if what["is"] not in ("id", "checksum")
-            )
+            all(self._part_holds({}, part, what, by_part) for part, what in plain.items())
+            and all(any(by_part[part] != id_ for part, id_ in ids.items()) for ids in known)
             and all(
                 by_part[part] == self._checksum(what, by_part)
-                for part, what in parts.items()
-                if what["is"] == "checksum"
+                for part, what in others.items()
+                if part not in plain
             )
         )
 

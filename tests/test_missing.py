@@ -10,7 +10,7 @@ import pytest
 from framegen.cli import main
 from framegen.witnesses import DECLARATION, read_witnesses
 
-from tests.factories import BUSSERVO, NEW_MESSAGE, ROOT, data_of
+from tests.factories import BUSSERVO, DEMO, NEW_MESSAGE, ROOT, data_of
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -232,6 +232,50 @@ def test_a_pattern_matches_the_name_or_value_it_is_made_of(
     }
     sought = ("case", "made_up.txt", f"messages.{names.get(of, 'ServoMove')}")
     assert (sought not in missing(project, capsys)) is found
+
+
+@pytest.mark.parametrize(
+    ("of", "text", "written", "gone"),
+    [
+        ("fields", "x {message}.{field}", "x Flags.error", "messages.Flags.fields.error"),
+        ("bits", "BIT_{FIELD}_{BIT}", "BIT_ERROR_HEAT", "messages.Flags.fields.error.bits.heat"),
+        (
+            "bits",
+            "BIT {field} {bit}",
+            "BIT flags far",
+            "messages.Lists.fields.points.fields.flags.bits.far",
+        ),
+        ("addresses", "AT_{ADDRESS}_{VALUE}", "AT_STATION_ALL", "frames.ask.station.values.all"),
+    ],
+)
+def test_bits_and_addresses_can_have_witnesses_too(
+    of: str, text: str, written: str, gone: str, project: Path, capsys: Capture
+) -> None:
+    spec = project / "spec" / "everything.yaml"
+    shutil.copy(DEMO.with_name(spec.name), spec)
+    declared = LAYOUT.replace("busservo", "everything")
+    declared = declared.replace("{of}", of).replace("{text}", text)
+    (project / DECLARATION).write_text(declared, encoding="utf-8")
+    (project / "made_up.txt").write_text("", encoding="utf-8")
+    assert main(["missing", "--json", str(spec)]) == 1
+    before = [json.loads(line)["path"] for line in capsys.readouterr().out.splitlines()]
+    (project / "made_up.txt").write_text(written, encoding="utf-8")
+    main(["missing", "--json", str(spec)])
+    after = [json.loads(line)["path"] for line in capsys.readouterr().out.splitlines()]
+    assert [each for each in before if each not in after] == [gone]
+
+
+def test_what_every_frame_has_is_no_field(project: Path, capsys: Capture) -> None:
+    spec = project / "spec" / "everything.yaml"
+    shutil.copy(DEMO.with_name(spec.name), spec)
+    declared = LAYOUT.replace("busservo", "everything").replace("{of}", "fields")
+    (project / DECLARATION).write_text(declared.replace("{text}", "x {field}"), encoding="utf-8")
+    (project / "made_up.txt").write_text("", encoding="utf-8")
+    main(["missing", str(spec)])
+    printed = capsys.readouterr()
+    assert "Numbers.a_u8 has no case" in printed.out
+    assert "station" not in printed.out
+    assert "sequence" not in printed.out
 
 
 # ------------------------------------------------------------------ what is no use

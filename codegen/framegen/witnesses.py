@@ -12,7 +12,9 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 from framegen.checks.fields import numbers_of
+from framegen.checks.frames import envelopes
 from framegen.language.load import read_source
+from framegen.language.spec import AddressPart
 from framegen.model.exchanges import snake_case
 from framegen.reading.findings import did_you_mean
 from framegen.reading.source import Source
@@ -42,7 +44,9 @@ class Subject:
     @property
     def name(self) -> str:
         """The name as people say it: `BuzzerBeep`, `BuzzerBeep.times`, `BuzzerBeep.times.once`."""
-        return ".".join(map(str, self.path[1::2]))
+        # Of several kinds of frames, each has a name, and a part stands right below it.
+        steps = self.path[2:] if self.path[0] == "frames" else self.path[1:]
+        return ".".join(map(str, steps[::2]))
 
 
 @dataclass(frozen=True, slots=True)
@@ -146,7 +150,8 @@ def _queries(model: Model) -> Iterator[Subject]:
 
 def _fields(model: Model) -> Iterator[Subject]:
     for name, layout in model.messages.items():
-        for field in layout.arguments:
+        # What every frame has is no field of any message.
+        for field in (slot for slot in layout.arguments if slot not in layout.frame.given):
             path: KeyPath = ("messages", name, "fields", field.name)
             yield Subject(name, path, _words(layout, field=field.name))
 
@@ -157,6 +162,22 @@ def _values(model: Model) -> Iterator[Subject]:
             for value in field.values:
                 words = _words(layout, field=str(path[-1]), value=value)
                 yield Subject(name, (*path, "values", value), words)
+
+
+def _bits(model: Model) -> Iterator[Subject]:
+    for name, layout in model.messages.items():
+        for path, field in numbers_of(("messages", name), layout.message):
+            for bit in field.bits:
+                words = _words(layout, field=str(path[-1]), bit=bit)
+                yield Subject(name, (*path, "bits", bit), words)
+
+
+def _addresses(model: Model) -> Iterator[Subject]:
+    for path, parts in envelopes(model.spec):
+        for name, part in parts.items():
+            for value in part.values if isinstance(part, AddressPart) else ():
+                words = _in_capitals({"address": name, "value": value})
+                yield Subject("", (*path, name, "values", value), words)
 
 
 def _words(layout: MessageLayout, **others: str) -> dict[str, str]:
@@ -172,6 +193,11 @@ def _words(layout: MessageLayout, **others: str) -> dict[str, str]:
         "fields": ", ".join(f"{field.name}=..." for field in layout.arguments),
         **others,
     }
+    return _in_capitals(words)
+
+
+def _in_capitals(words: dict[str, str]) -> dict[str, str]:
+    """Add each word in capitals, under its key in capitals."""
     return words | {key.upper(): snake_case(word).upper() for key, word in words.items()}
 
 
@@ -181,6 +207,8 @@ _SUBJECTS: dict[str, Callable[[Model], Iterator[Subject]]] = {
     "queries": _queries,
     "fields": _fields,
     "values": _values,
+    "bits": _bits,
+    "addresses": _addresses,
 }
 _ALWAYS = ("message", "snake", "sender", "receiver", "fields")
 _PLACEHOLDERS: dict[str, tuple[str, ...]] = {
@@ -189,6 +217,8 @@ _PLACEHOLDERS: dict[str, tuple[str, ...]] = {
     "queries": (*_ALWAYS, "method"),
     "fields": (*_ALWAYS, "field"),
     "values": (*_ALWAYS, "field", "value"),
+    "bits": (*_ALWAYS, "field", "bit"),
+    "addresses": ("address", "value"),
 }
 
 

@@ -88,9 +88,20 @@ def _json(spec: Compiled, missing: Missing) -> str:
     )
 
 
+_ONE = {
+    "messages": "message",
+    "requests": "request",
+    "queries": "query",
+    "fields": "field",
+    "values": "value",
+    "bits": "bit",
+    "addresses": "address",
+}
+
+
 def _summary(spec: Compiled, witnesses: Sequence[Witness], found: Sequence[Missing]) -> str:
     looked = {each.of: len([*each.subjects(spec.model)]) for each in witnesses}
-    what = ", ".join(pluralize(number, of.removesuffix("s")) for of, number in looked.items())
+    what = ", ".join(pluralize(number, _ONE[of], of) for of, number in looked.items())
     files = pluralize(len({each.file for each in witnesses}), "file")
     result = f"{len(found)} missing" if found else "nothing is missing"
     return f"{spec.source.name}: {what or 'nothing'} looked up in {files}: {result}"

@@ -238,16 +238,22 @@ def _read_whole(number: Any, text: str, path: str) -> int:
     try:
         return whole_in_any_base(text)
     except ValueError:
-        bits = getattr(number, "bits", {})
+        bits = _masks(number)
         names = "".join(f", or {name}" for name in [*number.names, *bits])
         raise UsageError(
             f"{path}: {text[:40]!r} is no number: write it like 12 or 0x0C{names}"
         ) from None
 
 
+def _masks(number: Any) -> dict[str, int]:
+    """Return the bits of a number that have a name; packed numbers have none, but a width."""
+    bits = getattr(number, "bits", None)
+    return bits if isinstance(bits, dict) else {}
+
+
 def _bits(number: Any, text: str) -> int | None:
     """Return the number in which bits of these names are set; None if there is no such name."""
-    bits = getattr(number, "bits", {})
+    bits = _masks(number)
     found = 0
     for name in text.split("+"):
         if name not in bits:
