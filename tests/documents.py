@@ -18,6 +18,7 @@ from __future__ import annotations
 import contextlib
 import doctest
 import io
+import math
 import os
 import re
 import shlex
@@ -34,10 +35,14 @@ from unittest import mock
 import busservo
 import busservo._cli
 import framegen.cli
+import lxservo
+import lxservo._cli
 from busservo._client.async_opening import open_async_controller
 from busservo._client.opening import open_controller
 from busservo_simulator import ActionGroup, Step, VirtualController
+from lxservo._client.opening import open_controller as open_servos
 
+from tests.servo_bus import ServoBus
 from tests.timeouts import GENEROUS, undoubted
 
 if TYPE_CHECKING:
@@ -64,9 +69,14 @@ _CHANGED = (
     *("generated", "codegen", "simulator"),
     *("tests/witnesses.yaml", "tests/cases.py", "tests/oracle.py", "tests/test_client_contract.py"),
 )
-_COMMANDS = {"busservo": busservo._cli.main, "framegen": framegen.cli.main}
+_COMMANDS = {
+    "busservo": busservo._cli.main,
+    "framegen": framegen.cli.main,
+    "lxservo": lxservo._cli.main,
+}
 # What each of them is made of, by the folder at the top.
-_MADE_OF = {"busservo": {"spec", "codegen", "generated"}, "framegen": {"codegen"}}
+_GENERATED = {"spec", "codegen", "generated"}
+_MADE_OF = {"busservo": _GENERATED, "framegen": {"codegen"}, "lxservo": _GENERATED}
 _BLOCK = re.compile(r"^```(console|pycon|python|output|diff)\n(.*?)^```$", re.MULTILINE | re.DOTALL)
 _COMMAND = re.compile(r"^\$ (.*)\n", re.MULTILINE)
 
@@ -94,10 +104,16 @@ class _Player:
         self._folder = folder
         self._names: dict[str, Any] = {"__name__": "__main__"}
         self._printed = ""
+        self._servos: ServoBus | None = None
         # The folders that the page has changed so far.
         self._changed: set[str] = set()
 
     def play(self, kind: str, block: str) -> str:
+        """Return the block as it really is; servos that it talks to are new for each."""
+        with ServoBus(1, 2) if "lxservo" in block else contextlib.nullcontext() as self._servos:
+            return self._play(kind, block)
+
+    def _play(self, kind: str, block: str) -> str:
         match kind:
             case "console":
                 return self._console(block)
@@ -125,9 +141,24 @@ class _Player:
                 ),
                 Controller=partial(busservo.Controller, reply_timeout=GENEROUS),
             )
-            with opening, undoubted(), _at(self._folder), contextlib.redirect_stdout(output):
+            with (
+                opening,
+                self._with_servos(),
+                undoubted(),
+                _at(self._folder),
+                contextlib.redirect_stdout(output),
+            ):
                 exec(source, self._names)  # noqa: S102 - our own pages
         return output.getvalue()
+
+    def _with_servos(self) -> contextlib.AbstractContextManager[object]:
+        """Have programs open the port of the servos, whatever they name."""
+        if self._servos is None:
+            return contextlib.nullcontext()
+        opened = partial(
+            open_servos, self._servos.port, baud=math.inf, reply_timeout=GENEROUS, settle=0
+        )
+        return mock.patch.object(lxservo, "open_controller", lambda _port, **given: opened(**given))
 
     def _console(self, block: str) -> str:
         before, *parts = _COMMAND.split(block)
@@ -144,9 +175,23 @@ class _Player:
             name, *arguments = shlex.split(command)
             assert name in _COMMANDS, f"{name} is not run here: put it into a block of `sh`"
             run = self._start if self._changed & _MADE_OF[name] else self._call
-            with _connected(arguments) as (words, shown_as):
+            with self._connected(arguments) as (words, shown_as):
                 output = shown_as(run(name, words, output))
         return output
+
+    @contextlib.contextmanager
+    def _connected(self, words: list[str]) -> Iterator[tuple[list[str], Callable[[str], str]]]:
+        """Return a command line with servos or a virtual board at its port, and how to read it."""
+        if "--port" not in words:
+            yield words, str
+            return
+        at = words.index("--port") + 1
+        board = VirtualController(via="tcp", groups=GROUPS)
+        with board if self._servos is None else contextlib.nullcontext(self._servos) as there:
+            yield (
+                [*words[:at], there.port, *words[at + 1 :], *TIMEOUT_OPTIONS.get(words[0], [])],
+                lambda text: text.replace(there.port, words[at]),
+            )
 
     def _start(self, name: str, words: list[str], given: str) -> str:
         """Return the output of a command of the changed project."""
@@ -212,20 +257,6 @@ def _at(folder: Path) -> Iterator[None]:
         yield
     finally:
         os.chdir(before)
-
-
-@contextlib.contextmanager
-def _connected(words: list[str]) -> Iterator[tuple[list[str], Callable[[str], str]]]:
-    """Return a command line with a virtual board at its port, and how to read its output."""
-    if "--port" not in words:
-        yield words, str
-        return
-    at = words.index("--port") + 1
-    with VirtualController(via="tcp", groups=GROUPS) as board:
-        yield (
-            [*words[:at], board.port, *words[at + 1 :], *TIMEOUT_OPTIONS.get(words[0], [])],
-            lambda text: text.replace(board.port, words[at]),
-        )
 
 
 def _agreed(expected: str, actual: str) -> str:

@@ -166,7 +166,8 @@ def type_checked(folder: Path, cache: Path) -> dict[str, list[str]]:
     )
     assert done.returncode in (0, 1), done.stdout + done.stderr
     found = [(line.split(":")[0], line) for line in done.stdout.splitlines() if ": error:" in line]
-    files = [str(folder / name / path) for name in names for path in MADE if COMMAND not in path]
+    made = [folder / name / path for name in names for path in MADE if COMMAND not in path]
+    files = [str(file) for file in made if file.exists()]
     looked = _run(["pyright", "--outputjson", "--pythonpath", sys.executable, *files], folder)
     assert looked.returncode in (0, 1), looked.stdout + looked.stderr
     found += [
