@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import sys
-from typing import TYPE_CHECKING
+from collections.abc import Callable
+from typing import TYPE_CHECKING, TypeAlias
 
 import lxservo
 import pytest
@@ -34,9 +35,9 @@ def client(bus: VirtualBus) -> Iterator[lxservo.Controller]:
         yield made
 
 
-def still(bus: VirtualBus) -> None:
-    """Wait until no servo moves, on a real clock."""
-    await_that(lambda: not any(servo.travelling for servo in bus.servos.values()))
+def arrived(bus: VirtualBus, servo_id: int, position: int) -> None:
+    """Wait until a servo is at a position, on a real clock."""
+    await_that(lambda: bus.servos[servo_id].position == position)
 
 
 def test_a_servo_arrives_after_its_time(bus: VirtualBus, client: lxservo.Controller) -> None:
@@ -60,7 +61,10 @@ def test_prepared_moves_start_together(bus: VirtualBus, client: lxservo.Controll
 
 
 # What is written, what reads it back, and what comes.
-SETTINGS = {
+Setting: TypeAlias = tuple[
+    Callable[[lxservo.Controller], object], Callable[[lxservo.Controller], object], object
+]
+SETTINGS: dict[str, Setting] = {
     "offset": (lambda c: c.adjust_offset(2, -30), lambda c: c.read_offset(2), -30),
     "torque": (lambda c: c.write_torque(2, 0), lambda c: c.read_torque(2), 0),
     "led": (lambda c: c.write_led(2, 1), lambda c: c.read_led(2), 1),
@@ -179,7 +183,7 @@ def test_clients_of_others_are_happy_with_it(echo: bool) -> None:
             serial_conn=line, discard_echo=echo, retry_count=0, on_exit_power_off=False
         )
         others.move_time_write(2, 60.1, 0)
-        still(bus)
+        arrived(bus, 2, 250)
         assert others.pos_read(2) == 60
         assert others.temp_read(1, "C") == bus.servos[1].temperature
         assert bus.rejected == 0
@@ -187,7 +191,7 @@ def test_clients_of_others_are_happy_with_it(echo: bool) -> None:
             return
         theirs = pytest.importorskip("lewansoul_lx16a").ServoController(line, timeout=GENEROUS)
         theirs.move(1, 800, 0)
-        still(bus)
+        arrived(bus, 1, 800)
         assert [theirs.get_position(number) for number in (1, 2)] == [800, 250]
         assert theirs.get_voltage(1) == bus.servos[1].voltage_mv
         assert theirs.get_position_limits(2) == (0, 1000)
