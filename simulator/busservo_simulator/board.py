@@ -13,11 +13,15 @@ from busservo import (
     ServoPosition,
     ServoPositions,
 )
+from busservo._frame.protocol import BAUD
+from busservo._serial import link_errors
 from busservo.device import Device
 
 from busservo_simulator.action_group import stored_groups
 from busservo_simulator.battery import Battery
+from busservo_simulator.board_fault_injector import BoardFaultInjector
 from busservo_simulator.event_log import EventLog
+from busservo_simulator.faults import Faults
 from busservo_simulator.performance import Performance
 from busservo_simulator.servo import Servo
 
@@ -36,6 +40,7 @@ if TYPE_CHECKING:
     )
 
     from busservo_simulator.action_group import ActionGroup
+    from busservo_simulator.line_faults import LineFaults
 
 # On the servo bus, the number that every servo listens to.
 EVERY_SERVO = 254
@@ -51,6 +56,9 @@ class Board(Device):
     group that is not stored are ignored, a group that starts replaces the one that runs, and a
     speed of 0 % is ignored.
     """
+
+    baud = BAUD
+    errors = link_errors
 
     def __init__(
         self,
@@ -199,6 +207,12 @@ class Board(Device):
         self.speeds.clear()
         self.restart()
         self._blackout_until = self.now + seconds
+
+    def injector(self, faults: LineFaults | None) -> BoardFaultInjector:
+        """Return what applies faults to its line. Raises TypeError for those of another line."""
+        if faults is not None and not isinstance(faults, Faults):
+            raise TypeError(f"Faults are wanted, not {type(faults).__name__}")
+        return BoardFaultInjector(faults or Faults())
 
     # ---------------------------------------------------------------- details
 

@@ -1,29 +1,15 @@
-"""The fault injector: applies faults to what passes on the line."""
+"""The fault injector: applies faults to what passes on any line."""
 
 from __future__ import annotations
 
 from random import Random
 from typing import TYPE_CHECKING, NamedTuple
 
-from busservo import (
-    ActionGroupCompleted,
-    ActionGroupStarted,
-    ActionGroupStopped,
-    BatteryVoltage,
-    ServoPosition,
-    ServoPositions,
-)
-
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from busservo.device import Report
-
-    from busservo_simulator.faults import Faults
-
-REPLIES = (BatteryVoltage, ServoPositions)
-# Where the count of servos stands in the reply that has one: behind header, length and command.
-COUNT_AT = 4
+    from busservo_simulator.line_faults import LineFaults
+    from busservo_simulator.virtual_device import Report
 
 
 class Sending(NamedTuple):
@@ -35,33 +21,43 @@ class Sending(NamedTuple):
 
 
 class FaultInjector:
-    """One run of faults, repeatable by their seed."""
+    """One run of faults, repeatable by their seed; `replies` are what answers a question.
 
-    def __init__(self, faults: Faults) -> None:
+    `header` is what no noise holds.
+    """
+
+    def __init__(self, faults: LineFaults, replies: tuple[type, ...], header: bytes) -> None:
         self.faults = faults
+        self._replies = replies
+        self._header = header
         self._random = Random(faults.seed)  # noqa: S311 - to be repeated, not to be secret
 
     def reports(self, report: Report) -> Iterator[Report]:
         """Yield the reports that are sent in place of `report`."""
-        if self._happens(self.faults.unsolicited):
-            yield self._unsolicited()
-        if isinstance(report, REPLIES) and self._happens(self.faults.dropped):
+        if isinstance(report, self._replies) and self._happens(self.faults.dropped):
             return
-        if isinstance(report, ServoPositions) and (self.faults.fewer or self.faults.absent):
-            report = self._thinned(report)
+        report = self.changed(report)
         yield report
-        if isinstance(report, REPLIES) and self._happens(self.faults.duplicated):
+        if isinstance(report, self._replies) and self._happens(self.faults.duplicated):
             yield report
+
+    def changed(self, report: Report) -> Report:
+        """Return what is sent in place of a report."""
+        return report
+
+    def frame(self, report: Report) -> bytes:
+        """Return the frame of a report, which need not be right."""
+        return report.encode()
 
     def lateness(self, report: Report) -> float:
         """Return how many seconds the board keeps `report` back, 0.0 for none."""
-        late = isinstance(report, REPLIES) and self._happens(self.faults.late)
+        late = isinstance(report, self._replies) and self._happens(self.faults.late)
         return self.faults.late_by if late else 0.0
 
     def sending(self, report: Report) -> Sending:
         """Return how the frame of `report` goes out."""
         faults, pause = self.faults, 0.0
-        data = self._miscounted(report)
+        data = self.frame(report)
         if self._happens(faults.delays):
             pause = self._random.uniform(0.0, faults.longest_delay)
         data = self._shortened(self._flipped(data, faults.bit_flips), faults.lost_bytes)
@@ -87,32 +83,6 @@ class FaultInjector:
         # Nothing is drawn for what cannot happen: one fault more leaves the others where they were.
         return chance > 0 and self._random.random() < chance
 
-    def _unsolicited(self) -> Report:
-        group = self._random.randrange(256)
-        reports: list[Report] = [
-            ActionGroupStarted(group, 1),
-            ActionGroupStopped(),
-            ActionGroupCompleted(group, 1),
-        ]
-        return self._random.choice(reports)
-
-    def _thinned(self, report: ServoPositions) -> ServoPositions:
-        kept: list[tuple[int, int]] = []
-        for servo_id, position in report.positions:
-            if self._happens(self.faults.fewer):
-                continue
-            absent = self._happens(self.faults.absent)
-            kept.append((servo_id, ServoPosition.POSITION_ABSENT if absent else position))
-        return ServoPositions(kept)
-
-    def _miscounted(self, report: Report) -> bytes:
-        """Return the frame of a report, its count of servos off by one if that fault happens."""
-        frame = report.encode()
-        if not (isinstance(report, ServoPositions) and self._happens(self.faults.wrong_count)):
-            return frame
-        count = (frame[COUNT_AT] + self._random.choice((-1, 1))) % 256
-        return frame[:COUNT_AT] + bytes([count]) + frame[COUNT_AT + 1 :]
-
     def _split(self, data: bytes, pause: float) -> list[tuple[float, bytes]]:
         cut = self._random.randrange(1, len(data))
         rest = self._random.uniform(0.001, 0.02)
@@ -136,4 +106,4 @@ class FaultInjector:
     def _noise(self) -> bytes:
         """Return up to eight bytes without a header; a single byte of one may be among them."""
         data = self._random.randbytes(self._random.randrange(1, 9))
-        return data.replace(b"\x55\x55", b"\x55\xaa")
+        return data.replace(self._header, self._header[:-1] + b"\xaa")

@@ -1,4 +1,4 @@
-"""The board at the end of a line on which bytes take their time and faults happen. No port."""
+"""A device at the end of a line on which bytes take their time and faults happen. No port."""
 
 from __future__ import annotations
 
@@ -8,17 +8,12 @@ from operator import itemgetter
 from random import Random
 from typing import TYPE_CHECKING
 
-from busservo._frame.protocol import BAUD, BITS_PER_BYTE
-
 from busservo_simulator.channel import Channel
-from busservo_simulator.fault_injector import FaultInjector
-from busservo_simulator.faults import Faults
-from busservo_simulator.uart import sampled
+from busservo_simulator.uart import BITS_PER_BYTE, sampled
 
 if TYPE_CHECKING:
-    from busservo.device import Report
-
-    from busservo_simulator.board import Board
+    from busservo_simulator.line_faults import LineFaults
+    from busservo_simulator.virtual_device import Report, VirtualDevice
 
 # How long a frame waits for another one with which to come at once.
 COALESCING = 0.02
@@ -35,21 +30,22 @@ class Line:
 
     def __init__(
         self,
-        board: Board,
+        board: VirtualDevice,
         *,
         baud: float | None = None,
         local_echo: bool = False,
-        faults: Faults | None = None,
+        faults: LineFaults | None = None,
     ) -> None:
         self.board = board
         self.hung_up = False
         self.local_echo = local_echo
-        self.baud = BAUD if baud is None or math.isinf(baud) else baud
+        self.baud = board.baud if baud is None or math.isinf(baud) else baud
         self._host_baud = self.baud
         seconds_per_byte = 0.0 if baud is None else BITS_PER_BYTE / baud
         self._to_board = Channel(seconds_per_byte)
         self._to_host = Channel(seconds_per_byte)
-        self.faults = faults or Faults()
+        self._injector = board.injector(faults)
+        self._phase = Random(self.faults.seed)  # noqa: S311 - to be repeated, not to be secret
         # Replies that the board keeps back, and when they go out.
         self._late: list[tuple[float, Report]] = []
         self._coalesced = b""
@@ -61,13 +57,13 @@ class Line:
         self._ignores_input = False
 
     @property
-    def faults(self) -> Faults:
+    def faults(self) -> LineFaults:
         """The faults that happen; setting them restarts from their seed."""
         return self._injector.faults
 
     @faults.setter
-    def faults(self, faults: Faults) -> None:
-        self._injector = FaultInjector(faults)
+    def faults(self, faults: LineFaults) -> None:
+        self._injector = self.board.injector(faults)
         self._phase = Random(faults.seed)  # noqa: S311 - to be repeated, not to be secret
 
     @property

@@ -5,13 +5,12 @@ from __future__ import annotations
 import time
 from typing import TYPE_CHECKING
 
-from busservo._serial.link_errors import ClosedError, DisconnectedError, PortNotFoundError
-
 from busservo_simulator.clock import RealClock, VirtualClock
 
 if TYPE_CHECKING:
     from collections.abc import Callable
     from threading import Condition
+    from types import ModuleType
 
     from busservo_simulator.clock import Clock
     from busservo_simulator.line import Line
@@ -26,8 +25,16 @@ class MemoryEnd:
     name = "virtual board"
 
     def __init__(
-        self, line: Line, clock: Clock, since: float, live: Callable[[], None], changed: Condition
+        self,
+        line: Line,
+        clock: Clock,
+        since: float,
+        live: Callable[[], None],
+        changed: Condition,
+        errors: ModuleType,
     ) -> None:
+        # Those of the library whose client uses it.
+        self._errors = errors
         self._line = line
         self._clock = clock
         self._since = since
@@ -46,7 +53,9 @@ class MemoryEnd:
         """Make it usable again after `close`. Raises PortNotFoundError while it is unplugged."""
         with self._changed:
             if not self._plugged:
-                raise PortNotFoundError(self.name, "the board is unplugged", "plug_in() the board")
+                raise self._errors.PortNotFoundError(
+                    self.name, "the board is unplugged", "plug_in() the board"
+                )
             self._closed = False
             self._inbox.clear()
             return self
@@ -110,9 +119,11 @@ class MemoryEnd:
 
     def _check(self) -> None:
         if self._closed:
-            raise ClosedError(self.name, "it has been closed", "open it again")
+            raise self._errors.ClosedError(self.name, "it has been closed", "open it again")
         if not self._plugged:
-            raise DisconnectedError(self.name, "the board was unplugged", "plug_in() the board")
+            raise self._errors.DisconnectedError(
+                self.name, "the board was unplugged", "plug_in() the board"
+            )
 
     def _moment(self) -> float:
         return self._clock.now() - self._since

@@ -8,8 +8,6 @@ import select
 import sys
 from pathlib import Path
 
-from busservo._frame.protocol import BAUD
-
 from busservo_simulator.backlog import Backlog
 from busservo_simulator.waker import Waker
 
@@ -25,7 +23,7 @@ class PtyEnd:
     It is at `baud` until a host sets another rate.
     """
 
-    def __init__(self, link: str | os.PathLike[str] | None = None, baud: float = BAUD) -> None:
+    def __init__(self, link: str | os.PathLike[str] | None = None, baud: float = 9600) -> None:
         if sys.platform == "win32":
             raise OSError("Windows has no pseudo terminals: use TCP")
         self._link = None if link is None else Path(link)

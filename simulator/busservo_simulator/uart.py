@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from busservo._frame.protocol import BITS_PER_BYTE
-
 if TYPE_CHECKING:
     from random import Random
 
+# A start bit, eight bits of data, and a stop bit.
+BITS_PER_BYTE = 10
 # A UART looks at the line sixteen times a bit, so that it sees an edge by so much early or late.
 JITTER = 1 / 32
 

@@ -22,7 +22,7 @@ from busservo import (
     ServoPositions,
     TransportError,
 )
-from busservo_simulator.fault_injector import REPLIES
+from busservo_simulator.board_fault_injector import REPLIES
 
 from tests.timeouts import GENEROUS, await_that
 
@@ -36,8 +36,8 @@ if TYPE_CHECKING:
         Message,
         ServoPositionsRead,
     )
-    from busservo.device import Report
     from busservo_simulator import VirtualController
+    from busservo_simulator.virtual_device import Report
 
 ABSENT = ServoPosition.POSITION_ABSENT
 # No call may take longer, on however slow a machine.

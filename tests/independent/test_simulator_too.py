@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 
 from busservo import BatteryVoltage, Controller, ServoPositions
 from busservo_simulator import Faults, VirtualClock, VirtualController
-from busservo_simulator.fault_injector import REPLIES
+from busservo_simulator.board_fault_injector import REPLIES
 from hypothesis import given
 from hypothesis import strategies as st
 
@@ -21,8 +21,8 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from busservo import BatteryVoltageRead, ServoPositionsRead
-    from busservo.device import Report
     from busservo_simulator.memory_end import MemoryEnd
+    from busservo_simulator.virtual_device import Report
 
 BAUD = 9600
 REPLY_TIMEOUT = 0.25

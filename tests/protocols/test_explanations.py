@@ -208,8 +208,8 @@ REFUSALS = [
         "FE 09 00 01 01 00 00 00 00 00 02 03 00 04 03 D0 15",
         "bad checksum",
         (
-            "checksum is D0 15; the crc-16/mcrf4xx of length, sequence, sender, message, payload and "
-            "extra is D0 14"
+            "checksum is D0 15; the crc-16/mcrf4xx of length, sequence, sender, message, payload "
+            "and extra is D0 14"
         ),
         ["with the right checksum they would be Heartbeat (vehicle -> ground)"],
     ),

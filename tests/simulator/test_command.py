@@ -15,7 +15,8 @@ from busservo._serial.serial_port import open_transport
 from busservo_simulator import Faults
 from busservo_simulator.cli import _board, main
 from busservo_simulator.faults import CHANCES
-from busservo_simulator.options import PROGRAM, faults_of, parser_of
+from busservo_simulator.line_options import faults_of
+from busservo_simulator.options import PROGRAM, parser_of
 from busservo_simulator.servo_list import parse_servos
 
 from tests.simulator.hosts import Host
@@ -110,7 +111,7 @@ def test_every_field_of_the_faults_is_reached(name: str) -> None:
     option = [f"--{name.replace('_', '-')}", str(value)]
     words = ["--fault", f"{name}={value}"] if name in CHANCES else option
     arguments = parser_of(PROGRAM).parse_args(words)
-    assert faults_of(arguments) == replace(Faults(), **{name: value})  # type: ignore[arg-type]
+    assert faults_of(arguments, Faults) == replace(Faults(), **{name: value})  # type: ignore[arg-type]
 
 
 ASK = BatteryVoltageRead().encode()

@@ -269,10 +269,10 @@ def test_how_often_one_looks_makes_no_difference(
     message: Message, until: float, looks: int
 ) -> None:
     def run(moments: list[float]) -> tuple[bytes, list[int], int]:
-        line = Line(Board())
+        board = Board()
+        line = Line(board)
         line.write(message.encode(), 0.0)
         data = b"".join(piece for moment in moments for piece in line.read(moment))
-        board = line.board
         return data, [servo.position for servo in board.servos.values()], board.battery.voltage_mv
 
     once = run([until])

@@ -1,0 +1,62 @@
+"""The command `lxservo-simulator`: virtual servos behind a port."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from busservo._cli import console
+from busservo_simulator.command import run, via
+from busservo_simulator.line_faults import LineFaults
+from busservo_simulator.line_options import completion, faults_of
+
+from lxservo_simulator.options import PROGRAM, add_arguments, parser_of
+
+if TYPE_CHECKING:
+    import argparse
+    from collections.abc import Sequence
+
+    from lxservo_simulator.virtual_bus import VirtualBus
+
+# What `lxservo simulate` asks for.
+__all__ = ["add_arguments", "main"]
+
+
+def main(argv: Sequence[str] | None = None, *, program: str = PROGRAM) -> int:
+    """Run the command line. 0: ended by Ctrl-C; 2: usage error; 141: the reader of its output left.
+
+    `program` is how the command was called. With --quiet, nothing follows the name of the port, so
+    its reader may leave.
+    """
+    return console.run(program, lambda: _run_or_tell(argv, program))
+
+
+def _run_or_tell(argv: Sequence[str] | None, program: str) -> int:
+    arguments = parser_of(program).parse_args(argv)
+    try:
+        if getattr(arguments, "print_completion", None) is not None:
+            print(completion(parser_of(PROGRAM), arguments.print_completion, LineFaults))
+            return console.DONE
+        return run(_bus, arguments, program)
+    except ValueError as error:
+        console.complain(program, str(error))
+        return console.UNUSABLE
+
+
+def _bus(arguments: argparse.Namespace) -> VirtualBus:
+    from lxservo_simulator.virtual_bus import VirtualBus  # noqa: PLC0415 - --help is to be quick
+
+    bus = VirtualBus(
+        via(arguments),
+        servos=arguments.servos,
+        baud=arguments.baud,
+        local_echo=arguments.local_echo,
+        faults=faults_of(arguments, LineFaults),
+        link=arguments.link,
+        host=arguments.host,
+        tcp_port=arguments.tcp or 0,
+    )
+    for servo_id in arguments.dead:
+        if servo_id not in bus.servos:
+            raise ValueError(f"--dead {servo_id}: there is no such servo; see --servos")
+        bus.servos[servo_id].dead = True
+    return bus

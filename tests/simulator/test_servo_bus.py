@@ -1,0 +1,216 @@
+"""The virtual servo bus: what its servos do, and who talks to them."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Callable
+from typing import TYPE_CHECKING, TypeAlias
+
+import lxservo
+import pytest
+import serial
+from busservo_simulator import VirtualClock
+from busservo_simulator.line_faults import LineFaults
+from lxservo_simulator import VirtualBus
+from lxservo_simulator.cli import main
+
+from tests.timeouts import GENEROUS, await_that
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+BAUD = 115200
+
+
+@pytest.fixture
+def bus() -> Iterator[VirtualBus]:
+    clock = VirtualClock(follow_reads=True)
+    with VirtualBus(servos=[1, 2, 3], baud=BAUD, clock=clock) as made:
+        yield made
+
+
+@pytest.fixture
+def client(bus: VirtualBus) -> Iterator[lxservo.Controller]:
+    with lxservo.Controller(bus.transport, background=False, clock=bus.clock.now) as made:
+        yield made
+
+
+def arrived(bus: VirtualBus, servo_id: int, position: int) -> None:
+    """Wait until a servo is at a position, on a real clock."""
+    await_that(lambda: bus.servos[servo_id].position == position)
+
+
+def test_a_servo_arrives_after_its_time(bus: VirtualBus, client: lxservo.Controller) -> None:
+    motion = client.move(1, position=900, time_ms=1000)
+    bus.advance(0.5)
+    assert 600 < client.read_position(1) < 800
+    motion.wait()
+    assert (client.read_position(1), client.read_position(2)) == (900, 500)
+    assert client.read_move(1) == lxservo.LastMove(1, 900, 1000)
+
+
+def test_prepared_moves_start_together(bus: VirtualBus, client: lxservo.Controller) -> None:
+    client.prepare_move(1, position=100, time_ms=500)
+    client.prepare_move(2, position=900, time_ms=500)
+    bus.advance(1)
+    assert [client.read_position(number) for number in (1, 2)] == [500, 500]
+    client.broadcast().start_move()
+    bus.advance(1)
+    # The third has prepared nothing: it stays where it is.
+    assert [client.read_position(number) for number in (1, 2, 3)] == [100, 900, 500]
+
+
+# What is written, what reads it back, and what comes.
+Setting: TypeAlias = tuple[
+    Callable[[lxservo.Controller], object], Callable[[lxservo.Controller], object], object
+]
+SETTINGS: dict[str, Setting] = {
+    "offset": (lambda c: c.adjust_offset(2, -30), lambda c: c.read_offset(2), -30),
+    "torque": (lambda c: c.write_torque(2, 0), lambda c: c.read_torque(2), 0),
+    "led": (lambda c: c.write_led(2, 1), lambda c: c.read_led(2), 1),
+    "led errors": (lambda c: c.write_led_errors(2, 5), lambda c: c.read_led_errors(2), 5),
+    "positions": (
+        lambda c: c.write_position_limits(2, 100, 700),
+        lambda c: c.read_position_limits(2),
+        lxservo.PositionLimits(2, 100, 700),
+    ),
+    "voltages": (
+        lambda c: c.write_voltage_limits(2, 6000, 9000),
+        lambda c: c.read_voltage_limits(2),
+        lxservo.VoltageLimits(2, 6000, 9000),
+    ),
+    "temperature": (
+        lambda c: c.write_temperature_limit(2, 70),
+        lambda c: c.read_temperature_limit(2),
+        70,
+    ),
+    "mode": (
+        lambda c: c.write_mode(2, 1, -400),
+        lambda c: c.read_mode(2),
+        lxservo.Mode(2, 1, -400),
+    ),
+}
+
+
+@pytest.mark.parametrize("name", SETTINGS)
+def test_what_is_written_to_one_is_read_from_it(client: lxservo.Controller, name: str) -> None:
+    write, read, expected = SETTINGS[name]
+    before = read(client)
+    write(client)
+    assert read(client) == expected != before
+
+
+def test_a_move_ends_at_the_limits(bus: VirtualBus, client: lxservo.Controller) -> None:
+    client.write_position_limits(1, 200, 600)
+    client.move(1, position=1000, time_ms=0)
+    bus.advance(1)
+    assert client.read_position(1) == 600
+
+
+def test_a_saved_offset_outlives_the_power(bus: VirtualBus, client: lxservo.Controller) -> None:
+    for number in (1, 2):
+        client.adjust_offset(number, 20)
+    client.save_offset(1)
+    bus.advance(0.01)
+    bus.reboot(0.5)
+    bus.advance(1)
+    assert [client.read_offset(number) for number in (1, 2)] == [20, 0]
+
+
+def test_a_limp_servo_is_turned_by_hand_and_held_again(
+    bus: VirtualBus, client: lxservo.Controller
+) -> None:
+    with pytest.raises(ValueError, match="servo 1 holds its position: unload it first"):
+        bus.servos[1].turn_by_hand(700)
+    client.device(1).write_torque(0)
+    bus.advance(0.01)
+    bus.servos[1].turn_by_hand(-12)
+    assert client.read_position(1) == -12
+
+
+def test_a_dead_servo_delays_nobody_else(bus: VirtualBus, client: lxservo.Controller) -> None:
+    bus.servos[2].dead = True
+    with pytest.raises(lxservo.NoReplyError, match=r"PositionRead\(servo_id=2\)"):
+        client.read_position(2)
+    before = bus.clock.now()
+    assert client.read_position(3) == 500
+    assert bus.clock.now() - before < 0.01
+
+
+def test_a_servo_is_found_by_asking_all_and_given_a_number(
+    bus: VirtualBus, client: lxservo.Controller
+) -> None:
+    bus.servos[3].dead = True
+    found = client.broadcast().read_servo_id(within=0.1)
+    assert [reply.own_id for reply in found] == [1, 2]
+    client.write_servo_id(2, new_id=9)
+    assert client.read_servo_id(9) == 9
+    assert set(bus.servos) == {1, 3, 9}
+
+
+def test_a_broken_frame_is_met_with_silence(bus: VirtualBus) -> None:
+    frame = lxservo.PositionRead(servo_id=1).encode()
+    bus.transport.write(frame[:-1] + b"\x00")
+    assert bus.transport.read(0.1) == b""
+    assert (bus.accepted, bus.rejected) == (0, 1)
+    bus.transport.write(frame)
+    assert bus.transport.read(0.1) != b""
+
+
+def test_faults_happen_and_replies_are_matched_all_the_same() -> None:
+    clock = VirtualClock(follow_reads=True)
+    faults = LineFaults(seed=3, noise=0.3, bit_flips=0.01, dropped=0.1, duplicated=0.2, splits=0.3)
+    with (
+        VirtualBus(servos=[1, 2], baud=BAUD, clock=clock, faults=faults) as bus,
+        lxservo.Controller(bus.transport, background=False, clock=clock.now, retries=8) as client,
+    ):
+        bus.servos[2].move(300, 0)
+        bus.advance(2)
+        read = [client.read_position(number) for number in (1, 2) for _ in range(40)]
+        assert read == [500] * 40 + [300] * 40
+        assert client.counters.noise > 0
+        assert client.counters.retries > 0
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="Windows has no pty")
+@pytest.mark.parametrize("echo", [False, True])
+def test_clients_of_others_are_happy_with_it(echo: bool) -> None:
+    with (
+        VirtualBus("pty", servos=[1, 2], local_echo=echo) as bus,
+        serial.Serial(bus.port, BAUD, timeout=GENEROUS) as line,
+    ):
+        others = pytest.importorskip("lewanlib.bus").ServoBus(
+            serial_conn=line, discard_echo=echo, retry_count=0, on_exit_power_off=False
+        )
+        others.move_time_write(2, 60.1, 0)
+        arrived(bus, 2, 250)
+        assert others.pos_read(2) == 60
+        assert others.temp_read(1, "C") == bus.servos[1].temperature
+        assert bus.rejected == 0
+        if echo:
+            return
+        theirs = pytest.importorskip("lewansoul_lx16a").ServoController(line, timeout=GENEROUS)
+        theirs.move(1, 800, 0)
+        arrived(bus, 1, 800)
+        assert [theirs.get_position(number) for number in (1, 2)] == [800, 250]
+        assert theirs.get_voltage(1) == bus.servos[1].voltage_mv
+        assert theirs.get_position_limits(2) == (0, 1000)
+
+
+@pytest.mark.parametrize(
+    ("words", "said"),
+    [
+        (["--dead", "9"], "--dead 9: there is no such servo; see --servos"),
+        (["--fault", "fewer=0.1"], "no fault is called 'fewer'"),
+        (["--tcp", "--link", "x"], "--link names a pty, and there is none with --tcp"),
+    ],
+)
+def test_the_command_refuses_what_cannot_be(
+    words: list[str], said: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    try:
+        status = main(words)
+    except SystemExit as stop:
+        status = int(str(stop.code))
+    assert status == 2
+    assert said in capsys.readouterr().err
