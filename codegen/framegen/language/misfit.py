@@ -162,6 +162,8 @@ def _meant(tree: Tree, path: KeyPath, key: str) -> str:
     model = _model_at(tree, path[:-1])
     if model is None:
         return ""
+    if " " in key and _at(tree, path[:-1]).get(key) is None:
+        return "put the whole text in quotes: between `{` and `}`, a comma ends it"
     known = _keys(model)
     hint = other_key(model, key)
     if "`covers`" in hint and "covers" not in _at(tree, path[:-1]):
