@@ -19,7 +19,7 @@ PLACES = (
     ("pyproject.toml", r'^version = "(.*)"$'),
     ("codegen/framegen/__init__.py", r'^__version__ = "(.*)"$'),
     ("simulator/pyproject.toml", r'^version = "(.*)"$'),
-    ("simulator/pyproject.toml", r'^dependencies = \["busservo==(.*)"\]$'),
+    ("simulator/pyproject.toml", r'^dependencies = \["busservo==([^"]*)", ".*"\]$'),
 )
 CHANGES = "CHANGELOG.md"
 UNRELEASED = re.compile(r"^## \[Unreleased\]\n(.*?)(?=^## \[|\Z)", re.MULTILINE | re.DOTALL)

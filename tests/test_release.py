@@ -65,7 +65,7 @@ def test_a_release_sets_one_version_and_tags_it(project: Path) -> None:
         '__version__ = "7.8.9"',
         'version = "7.8.9"',
         'version = "7.8.9"',
-        'dependencies = ["busservo==7.8.9"]',
+        'dependencies = ["busservo==7.8.9", "lxservo>=1,<2"]',
     ]
     assert "Release 7.8.9" in changed
     assert git(project, "status", "--porcelain") == ""
