@@ -5,13 +5,14 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from framegen.checks.rule import ModelRule, Problem
+from framegen.language.spec import AddressPart, CounterPart
 from framegen.model.exchanges import arguments_of, method_of
 from framegen.reading.findings import did_you_mean
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from framegen.language.spec import Message, Spec
+    from framegen.language.spec import Frame, Message, Spec
     from framegen.model.model import Model
     from framegen.reading.yamltree import KeyPath
 
@@ -29,7 +30,8 @@ def _look(model: Model) -> Iterator[Problem]:
             continue
         yield from _name(path, method_of(name, message).name, first, declared=declared)
         if message.method is not None:
-            yield from _arguments(path, name, message)
+            frame = spec.envelopes[spec.frame_of(message)]
+            yield from _arguments(path, name, message, frame)
             yield from _result(path, name, message, spec)
     for key in ("hold", "present", "targets") if spec.pose is not None else ():
         yield from _name(("pose", key), getattr(spec.pose, key), first, declared=True)
@@ -45,19 +47,29 @@ def _name(
         yield Problem(path, f"there are two methods called `{name}`", hint, not declared, also)
 
 
-def _arguments(path: KeyPath, name: str, message: Message) -> Iterator[Problem]:
+def _arguments(path: KeyPath, name: str, message: Message, frame: Frame) -> Iterator[Problem]:
     known = arguments_of(message)
     given = list(message.method.arguments) if message.method else []
     for argument in dict.fromkeys(given):
         if argument not in known:
-            what = f"{name} has no argument `{argument}`"
-            yield Problem(path, what, did_you_mean(argument, known))
+            yield Problem(path, *_unknown(name, argument, known, frame))
         elif given.count(argument) > 1:
             yield Problem(path, f"`{argument}` is given twice", "name each argument once")
     missing = [argument for argument in known if argument not in given]
     if missing:
         what = f"the method leaves out {' and '.join(f'`{each}`' for each in missing)}"
         yield Problem(path, what, "name every field but the count")
+
+
+def _unknown(name: str, argument: str, known: list[str], frame: Frame) -> tuple[str, str]:
+    """Say what is wrong with an argument that the message does not have."""
+    part = frame.get(argument)
+    if isinstance(part, AddressPart):
+        what = f"`{argument}` is the address, the first argument of every method"
+        return what, "leave it out: a method names the fields alone"
+    if isinstance(part, CounterPart):
+        return f"`{argument}` is a running number, which a client counts", "leave it out"
+    return f"{name} has no argument `{argument}`", did_you_mean(argument, known)
 
 
 def _result(path: KeyPath, name: str, message: Message, spec: Spec) -> Iterator[Problem]:

@@ -27,7 +27,7 @@ def _look(spec: Spec) -> Iterator[Problem]:
 
 def _bits(path: KeyPath, name: str, field: NumberField, type_: NumberType) -> Iterator[Problem]:
     if type_.is_float or type_.low < 0:
-        what = f"`{name}` is a {type_.name}, and only the bits of an unsigned number have names"
+        what = f"only bits of an unsigned number have names, and `{name}` is of type {type_.name}"
         yield Problem(path, what, f"write `type: u{type_.bits}`", on_key=True)
     if is_list(field):
         what = "numbers in a list have no properties that could have the names of bits"

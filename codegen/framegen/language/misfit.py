@@ -80,7 +80,8 @@ class _Misfit:
             hint = _meant(tree, self.path, last) if hinted else ""
             return Finding("unknown-key", self.span, path, f"there is no key `{last}` here", hint)
         context = {"found": _kind(self.problem["input"]), **self.problem.get("ctx", {})}
-        message = _MESSAGES.get(kind, self.problem["msg"]).format_map(context)
+        text: str = _MESSAGES[kind] if kind in _MESSAGES else self.problem["msg"]
+        message = text.format_map(context)
         span = _part(source, self.span, context.get("part", ""))
         return Finding("wrong-value", span, path, message, self._hint(source))
 
