@@ -148,7 +148,7 @@ class StreamDecoder:
                     return events
             # What else may be wrong with a frame that is not whole yet is seen by the search.
             if entry is not None and not quiet and is_certain(entry[4]):
-                self._hold(data, at, at, end)
+                self._hold(data, at, at, at + entry[0])
                 return events
             noise.summed = base + summed
             entry = noise.search(events, data, base, at, quiet=quiet)

@@ -74,8 +74,8 @@ class UnknownFrame(Noise):
 
     @property
     def command(self) -> int:
-        """The number that says which message it is."""
-        return self.ids[0]
+        """The last of these numbers."""
+        return self.ids[-1]
 
     @property
     def address(self) -> int | None:

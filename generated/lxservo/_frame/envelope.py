@@ -8,9 +8,7 @@ from functools import cached_property
 TYPE_CHECKING = False  # typing alone would double the time that the import takes
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
-    from typing import Literal, Protocol, TypeAlias
-
-    from .running import Piece, Running
+    from typing import Any, Literal, Protocol, TypeAlias
 
     # The ids of a message.
     Ids: TypeAlias = Sequence[int]
@@ -20,9 +18,11 @@ if TYPE_CHECKING:
     class Method(Protocol):
         """What works a checksum out, at once or along a stream."""
 
-        of: Callable[[bytes], int]
+        @property
+        def of(self) -> Callable[[bytes], int]:
+            """What returns the checksum of some bytes."""
 
-        def running(self) -> Running:
+        def running(self) -> Any:
             """Return what works it out along a stream."""
 
 
@@ -58,7 +58,7 @@ class NumberPart(Part):
 
     def __init__(self, name: str, size: int, order: Literal["little", "big"]) -> None:
         super().__init__(name, size)
-        self.order = order
+        self.order: Literal["little", "big"] = order
 
     def read(self, frame: bytes) -> int:
         """Return the number in a frame."""
@@ -288,9 +288,9 @@ def _sealer(envelope: Envelope) -> Callable[[bytes, Ids], bytes]:
     return sealed
 
 
-def stretches(pieces: Sequence[Covered], at: int, size: int) -> list[Piece]:
+def stretches(pieces: Sequence[Covered], at: int, size: int) -> list[tuple[int, int] | bytes]:
     """Return pieces of the frame that begins at `at` as those of what it stands in."""
-    found: list[Piece] = []
+    found: list[tuple[int, int] | bytes] = []
     for each in pieces:
         if isinstance(each, bytes):
             found.append(each)

@@ -92,19 +92,12 @@ class LibraryView:
         return Bracketed(before, names, ")", lone=",").fitted(0)
 
     @property
-    def import_parts(self) -> str:
-        """The import of the parts that they are made of."""
-        parts = {"Envelope"}.union(*(each.parts for each in self.envelopes))
-        return relative_import("envelope", parts)
-
-    @property
-    def import_checksums(self) -> list[str]:
-        """The imports of what works out checksums."""
-        methods = checksums_of(self.model)
-        return [
-            relative_import(module, {each.name for each in methods if each.module == module})
-            for module in sorted({each.module for each in methods})
-        ]
+    def import_parts(self) -> list[str]:
+        """The imports of what they are made of."""
+        parts = {"envelope": {"Envelope"}.union(*(each.parts for each in self.envelopes))}
+        for method in checksums_of(self.model):
+            parts.setdefault(method.module, set()).add(method.name)
+        return [relative_import(module, parts[module]) for module in sorted(parts)]
 
     @property
     def checksums(self) -> bool:
@@ -115,12 +108,6 @@ class LibraryView:
     def proven(self) -> bool:
         """Whether every frame has a checksum."""
         return all(frame.checksums for frame in self.model.envelopes.values())
-
-    @property
-    def one_id(self) -> bool:
-        """Whether one number at the most says which message a frame is."""
-        frames = self.model.envelopes.values()
-        return max(len(frame.ids) - len(frame.unsent) for frame in frames) == 1
 
     @property
     def address(self) -> bool:

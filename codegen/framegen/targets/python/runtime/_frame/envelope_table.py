@@ -26,9 +26,9 @@ if TYPE_CHECKING:
     from .message import Message
     from .trial import Prove
 
-    # The size of the frame, 0 where its count says it; from where to where that count stands, and
-    # the bytes it must be (b"" at 0:0 if there is none to be looked at); the class; what says of a
-    # whole frame whether all else is right; and the entry for another message with the same head.
+    # The size of the frame, 0 where only its count says it; from where to where that count stands,
+    # and the bytes it must be (b"" at 0:0 if there is none); the class; what says of a whole frame
+    # whether all else is right; and the entry for another message with the same head.
     Entry: TypeAlias = (
         "tuple[int, int, int, bytes, type[Message], Callable[[bytes], bool], Entry | None]"
     )
@@ -188,14 +188,16 @@ def is_certain(kind: type[Message]) -> bool:
     return kind.SHAPE.certain and not kind.FRAME.judged
 
 
-def measured(kind: type[Message], count: bytes) -> int:
-    """Return the size of a frame by the bytes of its count; 0 if that is too short, or wrong."""
-    shape = kind.SHAPE
-    start, end = shape.counter or (0, 0)
-    number = shape.count_of(count) if len(count) == end - start else None
-    if number is None:
-        return 0
-    return size_of(kind, kind.LENGTHS[shape.counts.index(number)])
+def measured(entry: Entry, data: bytes, at: int) -> Entry | None:
+    """Return the entry of a frame whose count says its size; None if there is none."""
+    size, start, end, _, kind, holds, other = entry
+    if size or at + end > len(data):
+        return None
+    count = kind.SHAPE.count_of(data[at + start : at + end])
+    if count is None:
+        return None
+    size = size_of(kind, kind.LENGTHS[kind.SHAPE.counts.index(count)])
+    return size, 0, 0, b"", kind, holds, other
 
 
 def chosen(verdicts: Sequence[Verdict]) -> Verdict:
@@ -233,7 +235,8 @@ def _counted(kind: type[Message], count: int | None) -> tuple[int, int, bytes]:
         return 0, 0, b""
     start, end = kind.SHAPE.counter
     if count is None:
-        return start, end, b""
+        # No count is like that, so that it is looked at: see `measured`.
+        return start, end, bytes(end - start + 1)
     due = next(place[3] for place in kind.SHAPE.places(count) if place[0] == start)
     return start, end, due if isinstance(due, bytes) else b""
 
