@@ -14,10 +14,11 @@ from framegen.reading.yamltree import Unusable
 from hypothesis import given
 from hypothesis import strategies as st
 
-from tests.factories import BUSSERVO, DEMO, Data, data_of, layout_of
+from tests.factories import BUSSERVO, DEMO, Data, compiled_file, data_of, layout_of
 from tests.firmware.devices import Answer, VirtualLine, by_the_reference
 from tests.firmware.runs import Run, model_of, run
 from tests.independent.firmware import Reader, well_formed
+from tests.protocols.specs import FILES
 
 MODEL = model_of()
 COMMANDS = ["ServoMove", "ActionGroupRun", "ActionGroupStop", "ActionGroupSpeed", "ServoUnload"]
@@ -161,6 +162,21 @@ OBJECTIONS = [
 def test_bytes_that_could_be_taken_for_a_command_are_refused(data: str, why: str) -> None:
     objection = permit(MODEL, []).objection(bytes.fromhex(data))
     assert objection == why
+
+
+@pytest.mark.parametrize(
+    ("name", "queries"),
+    [
+        ("dynamixel1", ["Read"]),
+        ("modbus", ["CoilsRead", "InputsRead", "HoldingRead", "InputRegistersRead"]),
+        ("ubx", ["NavPvtPoll", "CfgPrtPoll", "CfgMsgPoll", "CfgRatePoll", "MonVerPoll"]),
+        ("learm", ["VersionRead", "OffsetsRead", "PositionsRead"]),
+    ],
+)
+def test_what_is_only_acknowledged_is_a_command(name: str, queries: list[str]) -> None:
+    permission = permit(compiled_file(FILES[name]).model, [])
+    assert permission.queries == queries
+    assert not set(queries) & set(permission.commands)
 
 
 def test_an_allowed_command_is_not_refused() -> None:

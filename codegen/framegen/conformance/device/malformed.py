@@ -66,12 +66,12 @@ def _is_fit(permission: Permission, data: bytes, reason: str, after: Request) ->
 
 
 def _cut_in_fields(permission: Permission, request: Request) -> Iterator[bytes]:
-    for size in range(len(request.frame) - 1, permission.model.frame.body_at - 1, -1):
+    for size in range(len(request.frame) - 1, permission.frame.body_at - 1, -1):
         yield request.frame[:size]
 
 
 def _cut_before(permission: Permission, request: Request) -> Iterator[bytes]:
-    for size in range(permission.model.frame.body_at - 1, len(permission.model.frame.header), -1):
+    for size in range(permission.frame.body_at - 1, len(permission.frame.header), -1):
         yield request.frame[:size]
 
 

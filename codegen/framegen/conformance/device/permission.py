@@ -1,5 +1,7 @@
 """Permission to send frames to a device: queries always, commands only if the user names them.
 
+A query is what a device only tells something for. What it does something for is a command, even if
+it is acknowledged by a reply.
 Whatever is sent is checked here first, together with the bytes in front of it: a device receives
 bytes, not frames, and may have lost some of them.
 """
@@ -19,6 +21,8 @@ if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator
 
     from framegen.language.values import Direction
+    from framegen.model.envelope import Envelope
+    from framegen.model.exchanges import Exchange
     from framegen.model.layout import MessageLayout
     from framegen.model.model import Model
 
@@ -32,13 +36,43 @@ class Permission:
 
     @cached_property
     def queries(self) -> list[str]:
-        """The messages of the client that have a reply."""
-        return [each.request.name for each in self.model.exchanges if each.reply is not None]
+        """The messages of the client whose reply tells something that they do not say."""
+        return [each.request.name for each in self.model.exchanges if self._only_tells(each)]
 
     @cached_property
     def commands(self) -> list[str]:
         """The client's other messages: a device acts on them."""
-        return [each.request.name for each in self.model.exchanges if each.reply is None]
+        return [each.request.name for each in self.model.exchanges if not self._only_tells(each)]
+
+    def _only_tells(self, exchange: Exchange) -> bool:
+        """Tell whether a reply is certain to be more than an acknowledgement.
+
+        It has a field that the request has not; and it answers nothing else, or the method returns
+        that field.
+        """
+        if exchange.reply is None:
+            return False
+        said = {
+            *exchange.request.message.fields,
+            *(slot.name for slot in exchange.request.arguments),
+        }
+        told = {slot.name for slot in exchange.reply.arguments}
+        told -= {exchange.reply.message.failure, *said}
+        alone = len(self.model.answers[exchange.reply.name]) == 1
+        return exchange.method.result in told or (alone and bool(told))
+
+    @cached_property
+    def frame(self) -> Envelope:
+        """The one kind of frame that the client sends. Raises Unusable."""
+        kinds = self.model.candidates(self._ways)
+        if len(kinds) == 1 and kinds[0].frame.id_part is not None:
+            return kinds[0].frame
+        why = "has several kinds" if len(kinds) > 1 else "has no id"
+        name = self.model.spec.protocol.name
+        raise Unusable(
+            f"what a device of {name} would take for a command cannot be told: what is sent {why}",
+            hint="test its codec: `framegen conform SPEC -- PROGRAM`",
+        )
 
     @cached_property
     def allowed(self) -> list[str]:
@@ -58,7 +92,7 @@ class Permission:
         allowed messages in it. If any one byte is lost on the way, there must still be no legal
         frame in it that is not allowed.
         """
-        head = self.model.frame.id.at + self.model.frame.id.size
+        head = self.frame.id.at + self.frame.id.size
         for at in self._headers(data, range(len(data))):
             found = self._dangerous.get(self._id(data, at))
             if found is not None:
@@ -90,7 +124,7 @@ class Permission:
         return [at for at in self._headers(data, places) if self._id(data, at) in self._forbidden]
 
     def _headers(self, data: bytes, places: range) -> Iterator[int]:
-        header = self.model.frame.header
+        header = self.frame.header
         at = data.find(header, places.start)
         while 0 <= at < places.stop:
             yield at
@@ -98,7 +132,7 @@ class Permission:
 
     def _id(self, data: bytes, at: int) -> int:
         """Return the id of what begins at `at`; -1 where there is none yet."""
-        place, begun = self.model.frame.id, data[at : at + self.model.frame.body_at]
+        place, begun = self.frame.id, data[at : at + self.frame.body_at]
         return place.read_in(begun) if place.is_in(begun) else -1
 
     @cached_property
@@ -143,10 +177,11 @@ class Permission:
     @cached_property
     def unknown_id(self) -> int | None:
         """An id that no message and no look-alike uses; None where there is none."""
-        place = self.model.frame.id
-        known = {message.id for message in self.model.messages.values()}
+        place = self.frame.id
+        messages = self.model.messages.values()
+        known = {message.id for message in messages if message.frame.id_part is not None}
         # A header byte there could begin a header.
-        taken = known | self._dangerous.keys() | set(self.model.frame.header)
+        taken = known | self._dangerous.keys() | set(self.frame.header)
         free = (code for code in range(place.high, -1, -1) if code not in taken)
         return next(free, None)
 
@@ -170,11 +205,12 @@ def permit(model: Model, names: Iterable[str]) -> Permission:
             f"there is no message `{name}` to be allowed",
             hint=did_you_mean(name, permission.commands, otherwise=_choices(permission)),
         )
-    if not permission.allowed:
+    if not can or not permission.allowed:
         raise Unusable(
             f"{model.spec.protocol.name} has no query",
             hint=f"name what may be sent, as by --allow {can[0]}" if can else "",
         )
+    _ = permission.frame  # Refused before anything is sent.
     return permission
 
 
