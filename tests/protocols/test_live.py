@@ -253,3 +253,60 @@ def test_a_generated_client_talks_to_generated_servos(libraries: Libraries, echo
         assert [controller.read_position(number) for number in (1, 2)] == [800, 500]
         controller.broadcast().move(250, 0)
         assert controller.device(2).read_position() == 250
+
+
+# --- UBX -----------------------------------------------------------------------------------------
+
+
+def _their_receiver(port: str) -> threading.Thread:
+    """Serve settings by `pyubx2`: those of class 1 are taken and reported; class 0 ends it."""
+    theirs = needed("pyubx2")
+    line = serial.Serial(port, timeout=0.05)
+
+    def serve() -> None:
+        reader = theirs.UBXReader(line, msgmode=theirs.SET)
+        while True:
+            _, asked = reader.read()
+            if asked is None:
+                continue
+            answer = "ACK-ACK" if asked.msgClass < 2 else "ACK-NAK"
+            told = theirs.UBXMessage("ACK", answer, theirs.GET, clsID=6, msgID=1).serialize()
+            report = theirs.UBXMessage("NAV", "NAV-EOE", theirs.GET, iTOW=0x2162B508).serialize()
+            line.write(told + (report if asked.msgClass else b""))
+            if not asked.msgClass:
+                line.close()
+                return
+
+    thread = threading.Thread(target=serve, name="their receiver")
+    thread.start()
+    return thread
+
+
+def test_a_generated_client_sets_a_receiver_of_others(libraries: Libraries) -> None:
+    made = libraries["ubx"]
+    with crossed() as (theirs, ours), made.open_controller(ours, **LIVE) as client:
+        receiver = _their_receiver(theirs)
+        try:
+            assert client.set_message_rate(1, 0x61, 1) == made.AckAck(6, 1)
+            assert client.wait_for(made.NavEoe, timeout=GENEROUS).time_of_week == 0x2162B508
+            with pytest.raises(made.RefusedError, match="AckNak"):
+                client.set_message_rate(9, 9, 1)
+        finally:
+            client.set_message_rate(0, 0, 0)
+            receiver.join(GENEROUS)
+
+
+# --- A sensor that only reports ------------------------------------------------------------------
+
+
+def test_a_generated_client_listens_to_a_sensor(libraries: Libraries) -> None:
+    made = libraries["tfmini"]
+    with (
+        crossed() as (theirs, ours),
+        serial.Serial(theirs) as sensor,
+        made.open_controller(ours, **LIVE) as client,
+    ):
+        for distance in (150, 151):
+            sensor.write(made.Measurement(distance, 1000, 2304).encode() + b"\x59")
+        heard = [report.distance for _, report in zip(range(2), client.reports(), strict=False)]
+        assert heard == [150, 151]
