@@ -60,11 +60,12 @@ def _value(slot: Number | Text, chance: Random) -> float | str:
         return float(chance.randint(-1000, 1000))
     if slot.role == "address":
         # A line has a few devices.
-        return chance.choice([*range(slot.low, min(slot.high, slot.low + 5) + 1)])
-    low, high = int(slot.low), int(slot.high)
+        address: int = chance.choice(range(slot.low, min(slot.high, slot.low + 5) + 1))
+        return address
+    low, high = slot.low, slot.high
     near = max(low, min(0, high))
-    lowest, highest = chance.choice([(low, high), (near, min(high, near + 20))])
-    return chance.randint(int(lowest), int(highest))
+    number: int = chance.randint(*chance.choice([(low, high), (near, min(high, near + 20))]))
+    return number
 
 
 def _text(size: int, chance: Random) -> str:

@@ -38,9 +38,12 @@ def run(arguments: Namespace) -> int:
     from framegen.guess.explained import explained  # noqa: PLC0415
     from framegen.guess.guess import guess  # noqa: PLC0415
     from framegen.guess.spec_text import spec_text  # noqa: PLC0415
+    from framegen.reading.yamltree import Unusable  # noqa: PLC0415
 
     name = "standard input" if arguments.file == "-" else visible(arguments.file)
     capture = read_capture(_content(arguments.file))
+    if not capture.data:
+        raise Unusable(f"{name} is empty", hint="record some 200 frames of the line")
     found = guess(capture)
     if found is None:
         print(f"undecided: nothing in {name} shows where frames begin", file=sys.stderr)
@@ -55,10 +58,7 @@ def _content(file: str) -> bytes:
     from framegen.reading.yamltree import Unusable  # noqa: PLC0415
 
     try:
-        content = sys.stdin.buffer.read() if file == "-" else Path(file).read_bytes()
+        return sys.stdin.buffer.read() if file == "-" else Path(file).read_bytes()
     except (OSError, ValueError) as error:
         why = getattr(error, "strerror", None) or str(error)
         raise Unusable(f"cannot read {visible(file)}: {why}") from None
-    if not content:
-        raise Unusable(f"{visible(file)} is empty", hint="record some 200 frames of the line")
-    return content

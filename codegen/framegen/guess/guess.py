@@ -139,13 +139,13 @@ def _length(fit: LengthFit) -> str:
 
 
 def _checksum(fit: ChecksumFit | HiddenFit) -> str:
-    size = pluralize(fit.size, "byte")
+    size = "byte" if fit.size == 1 else f"{fit.size} bytes"
     order = f", {fit.order}-endian" if fit.size > 1 else ""
     if isinstance(fit, HiddenFit):
         where, over = f"the last {size}", f"from byte {fit.first} on, and a byte that is not sent"
         follows = "" if fit.by is None else f" and follows from byte {fit.by}"
         return f"{where}: `{fit.method}`{order}, of all {over}{follows}"
-    behind = f" before the last {pluralize(fit.behind, 'byte')}" if fit.behind else ""
+    behind = f" before the last {fit.behind}" if fit.behind else ""
     if fit.is_one_piece:
         over = f"all from byte {fit.front - len(fit.offsets)} on"
     else:
