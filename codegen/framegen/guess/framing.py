@@ -78,7 +78,8 @@ class Framing:
 
     data: bytes
     places: tuple[tuple[int, int], ...]
-    # Of how many ends each frame has the one that fits, in bits.
+    # Whether a checksum showed where they are; and if so, of how many ends one was chosen, in bits.
+    is_proven: bool = False
     chosen_bits: int = 0
 
     @cached_property
@@ -128,6 +129,11 @@ class Framing:
             elsewhere = self.data.count(byte) - len(self.places)
             bits += min(8, log2(len(self.data) / max(1, elsewhere)))
         return bits
+
+    @property
+    def constant_weight(self) -> float:
+        """The same, of all frames together."""
+        return self.constant_bits * len(self.places)
 
     def turned(self, by: int) -> Framing:
         """Return the same frames, each beginning so many bytes earlier."""

@@ -73,7 +73,7 @@ class Guess:
             return Conclusion("constants", "nothing is the same in each", is_decided=True)
         if self.reading.beginning_is_decided:
             return Conclusion("constants", says, is_decided=True)
-        other = "any of these bytes may as well end a frame, of which the next begins with the rest"
+        other = "the first of these bytes may as well end the frame before"
         return Conclusion("constants", says, is_decided=False, others=(other,))
 
     def _length(self) -> Conclusion:

@@ -84,7 +84,7 @@ class _Trial:
                 at = end
             else:
                 at += 1
-        told = Framing(self.data, tuple(places))
+        told = Framing(self.data, tuple(places), is_proven=True)
         return told if told.covered >= _ENOUGH * chosen.covered else chosen
 
     def _chosen(self) -> Framing:
@@ -104,7 +104,7 @@ class _Trial:
             if taken[at]:
                 places.append((at, taken[at]))
             at = taken[at] or at + 1
-        return Framing(data, tuple(places), self._longest.bit_length())
+        return Framing(data, tuple(places), is_proven=True, chosen_bits=self._longest.bit_length())
 
     @property
     def _longest(self) -> int:

@@ -181,7 +181,7 @@ class Reading:
         """Return whether about as many frames have more in common here."""
         here, there = self.framing, other.framing
         return len(here.places) >= _MOST * len(there.places) and (
-            here.constant_bits * len(here.places) > there.constant_bits * len(there.places)
+            here.constant_weight > there.constant_weight
         )
 
 
@@ -197,9 +197,13 @@ def readings(capture: Capture) -> list[Reading]:
         if alike is not None:
             if reading.is_stricter(alike):
                 found[found.index(alike)] = reading
-        elif framing.covered >= _NEARLY * most and len(found) < _READINGS:
+        elif framing.covered >= _NEARLY * most:
             found.append(reading)
-    return sorted(found, key=lambda each: -each.weight)
+    # Only the likeliest are looked into: that takes its time.
+    found.sort(key=lambda each: (-each.framing.constant_weight, -each.framing.covered))
+    chosen = found[:_READINGS]
+    chosen += [each for each in found[_READINGS:] if each.framing.is_proven][:_READINGS]
+    return sorted(chosen, key=lambda each: -each.weight)
 
 
 def _framings(capture: Capture) -> list[Framing]:
