@@ -26,6 +26,8 @@ from tests.guess.truth import wrong
 from tests.protocols.specs import FILES
 
 SPECS = {**FILES, "busservo": BUSSERVO}
+# Its two ends speak in frames that have nothing in common.
+MIXED = "everything"
 Capsys = pytest.CaptureFixture[str]
 
 
@@ -56,7 +58,12 @@ def test_what_200_frames_decide_is_right(protocol: str) -> None:
     assert wrong(guessed(protocol)[0], model_of(protocol)) == []
 
 
-@pytest.mark.parametrize("protocol", SPECS)
+def test_frames_of_two_kinds_on_one_line_are_undecided() -> None:
+    assert not any(each.is_decided for each in guessed(MIXED)[0].conclusions)
+    assert compiled(guessed(MIXED)[0]).findings == []
+
+
+@pytest.mark.parametrize("protocol", [name for name in SPECS if name != MIXED])
 def test_200_frames_give_a_spec_without_findings_that_explains_them_all(protocol: str) -> None:
     found, capture = guessed(protocol)
     assert [finding.render(compiled(found).source) for finding in compiled(found).findings] == []
