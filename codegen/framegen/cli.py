@@ -24,6 +24,7 @@ VERBS = (
     "diff",
     "docs",
     "explain",
+    "guess",
     "conform",
     "schema",
     "rules",

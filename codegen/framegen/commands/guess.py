@@ -1,0 +1,64 @@
+"""`framegen guess`: prints a spec to begin from, guessed from a recording."""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from framegen.console import visible
+
+if TYPE_CHECKING:
+    from argparse import ArgumentParser, Namespace
+
+SUMMARY = "Guess a spec to begin from, by a recording of a line whose protocol nobody has written."
+EXAMPLES = (
+    ("framegen guess line.bin", "print it, with what is undecided in its comments"),
+    ("framegen guess line.bin > spec/kiln.yaml", "begin with it"),
+    ("framegen guess frames.hex", "hex, which tells most with a frame a line"),
+)
+ABOUT = (
+    "It tries constant bytes, lengths, checksums of the catalogue and ids in all combinations, and "
+    "says what fits equally. Some 200 frames, of several devices, decide most."
+)
+
+
+def add_arguments(parser: ArgumentParser) -> None:
+    """Declare the arguments of the verb."""
+    parser.add_argument(
+        "file",
+        metavar="FILE",
+        help="raw bytes, or hex as text, such as a recording; - is standard input",
+    )
+
+
+def run(arguments: Namespace) -> int:
+    """Print the spec. 0 for one, 1 where nothing shows what frames are. Raises Unusable."""
+    from framegen.guess.capture import read_capture  # noqa: PLC0415
+    from framegen.guess.explained import explained  # noqa: PLC0415
+    from framegen.guess.guess import guess  # noqa: PLC0415
+    from framegen.guess.spec_text import spec_text  # noqa: PLC0415
+    from framegen.reading.yamltree import Unusable  # noqa: PLC0415
+
+    name = "standard input" if arguments.file == "-" else visible(arguments.file)
+    capture = read_capture(_content(arguments.file))
+    if not capture.data:
+        raise Unusable(f"{name} is empty", hint="record some 200 frames of the line")
+    found = guess(capture)
+    if found is None:
+        print(f"undecided: nothing in {name} shows where frames begin", file=sys.stderr)
+        return 1
+    share = explained(spec_text(found, name), capture)
+    print(spec_text(found, name, share), end="")
+    return 0
+
+
+def _content(file: str) -> bytes:
+    """Return the bytes of a file. Raises Unusable."""
+    from framegen.reading.yamltree import Unusable  # noqa: PLC0415
+
+    try:
+        return sys.stdin.buffer.read() if file == "-" else Path(file).read_bytes()
+    except (OSError, ValueError) as error:
+        why = getattr(error, "strerror", None) or str(error)
+        raise Unusable(f"cannot read {visible(file)}: {why}") from None

@@ -1,0 +1,81 @@
+"""The checksums of all beginnings of some bytes, for searches that try every end."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from functools import cache
+from itertools import accumulate
+from operator import xor
+from typing import TYPE_CHECKING
+
+from framegen.model.checksums import CHECKSUMS, Crc, Fletcher, Sum, Xor
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+METHODS = tuple((name, width) for name, row in CHECKSUMS.items() for width in row.widths)
+"""Every method in each of its widths, in bits."""
+
+
+def running(method: str, width: int, data: bytes) -> Sequence[int]:
+    """Return the checksums of the first byte, of the first two bytes, and so on."""
+    row = CHECKSUMS[method]
+    match row:
+        case Sum():
+            mask = (1 << width) - 1
+            return [(row.factor * total + row.offset) & mask for total in accumulate(data)]
+        case Xor():
+            return [*accumulate(data, xor, initial=row.xor_out)][1:]
+        case Fletcher():
+            return _fletcher(row, width, data)
+        case Crc():
+            return _crc(row, width, data)
+    raise AssertionError(f"{method} is of no known kind")
+
+
+def checksum(method: str, width: int, data: bytes) -> int:
+    """Return the checksum of some bytes, as CHECKSUMS has it, but faster."""
+    return running(method, width, data)[-1] if data else CHECKSUMS[method].of(data, width)
+
+
+@cache
+def inverse_table(method: str) -> dict[int, int]:
+    """Return which last byte makes which difference to a CRC, against a last byte of zero."""
+    row = CHECKSUMS[method]
+    if not isinstance(row, Crc):
+        raise TypeError(f"{method} is no CRC")
+    table = _table(row.poly, row.width, reflected=row.reflected)
+    return {difference: byte for byte, difference in enumerate(table)}
+
+
+def _fletcher(row: Fletcher, width: int, data: bytes) -> list[int]:
+    firsts = [*accumulate(data, initial=row.start)][1:]
+    half, modulus = width // 2, row.modulus
+    return [
+        second % modulus << half | first % modulus
+        for first, second in zip(firsts, accumulate(firsts), strict=True)
+    ]
+
+
+def _crc(row: Crc, width: int, data: bytes) -> list[int]:
+    table, xor_out = _table(row.poly, width, reflected=row.reflected), row.xor_out
+    values = []
+    if row.reflected:
+        register = int(f"{row.init:0{width}b}"[::-1], 2)
+        for byte in data:
+            register = table[(register ^ byte) & 0xFF] ^ register >> 8
+            values.append(register ^ xor_out)
+        return values
+    register, shift, kept = row.init, width - 8, (1 << width - 8) - 1
+    for byte in data:
+        register = table[register >> shift ^ byte] ^ (register & kept) << 8
+        values.append(register ^ xor_out)
+    return values
+
+
+@cache
+def _table(poly: int, width: int, *, reflected: bool) -> list[int]:
+    """Return what each byte makes of a register that is zero, as the catalogue has it."""
+    any_of_them = next(row for row in CHECKSUMS.values() if isinstance(row, Crc))
+    plain = replace(any_of_them, poly=poly, init=0, reflected=reflected, xor_out=0)
+    return [plain.of(bytes([byte]), width) for byte in range(256)]
