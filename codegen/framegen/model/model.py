@@ -164,6 +164,12 @@ class Model:
         """The messages that each report may follow, by the name of the report."""
         return _turned({name: message.reports for name, message in self.spec.messages.items()})
 
+    @cached_property
+    def refuses(self) -> dict[str, list[str]]:
+        """The requests that each refusal may answer instead of their reply, by its name."""
+        refused = ((name, each.refusal) for name, each in self.spec.messages.items())
+        return _turned({name: [refusal] for name, refusal in refused if refusal is not None})
+
 
 def _turned(named: Mapping[str, Iterable[str]]) -> dict[str, list[str]]:
     """Invert a mapping: by each name that is named, those that name it."""

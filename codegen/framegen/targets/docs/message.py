@@ -128,9 +128,7 @@ class MessagePage:
     @property
     def refuses(self) -> list[str]:
         """The requests that it refuses, where it comes instead of their reply."""
-        return [
-            name for name, each in self.model.spec.messages.items() if each.refusal == self.name
-        ]
+        return self.model.refuses.get(self.name, [])
 
     @property
     def silent(self) -> bool:

@@ -245,8 +245,7 @@ class ClientView:
     def _device_imports(self, module: str, client: str, methods: list[MethodView]) -> list[str]:
         addressed = [method for method in methods if method.has_address]
         shown = " ".join(f"{method.returns} {method.signature}" for method in addressed)
-        names = {name for name in self._messages if re.search(rf"\b{name}\b", shown)}
-        names -= self._gathered
+        names = set(re.findall(r"\w+", shown)).intersection(self._messages) - self._gathered
         returned = {method.returns for method in addressed}
         modules: dict[str, set[str]] = {".messages": names, module: {client}}
         modules |= {each: returned.intersection(results) for each, results in _RESULTS.items()}
