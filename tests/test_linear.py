@@ -17,8 +17,8 @@ from tests.factories import yaml_of
 FEW = 32
 
 
-def many(number: int) -> Source:
-    """Return a spec of questions and answers, reports among them."""
+def many(number: int, *, bus: bool = False) -> Source:
+    """Return a spec of questions and answers, reports among them; of devices on a `bus`, proven."""
     messages: dict[str, Any] = {}
     for at in range(1000, 1000 + number, 2):
         messages[f"Ask{at:04}"] = {
@@ -40,6 +40,14 @@ def many(number: int) -> Source:
             "fields": {"level": {"type": "u8", "about": "How bright."}},
             "examples": [_example(f"AA 55 03 {at:04X} 07", {"level": 7})],
         }
+    if bus:
+        _put_on_a_bus(messages)
+    frame: dict[str, Any] = {
+        "header": {"is": "constant", "bytes": "AA 55"},
+        "size": {"is": "length", "type": "u8", "counts": ["code", "body"]},
+        "code": {"is": "id", "type": "u16"},
+        "body": {"is": "body"},
+    }
     data = {
         "framegen": 2,
         "protocol": {
@@ -53,15 +61,42 @@ def many(number: int) -> Source:
         "endpoints": {"host": "Asks.", "device": "Answers."},
         "link": {"baud": 9600},
         "byte_order": "big",
-        "frame": {
-            "header": {"is": "constant", "bytes": "AA 55"},
-            "size": {"is": "length", "type": "u8", "counts": ["code", "body"]},
-            "code": {"is": "id", "type": "u16"},
-            "body": {"is": "body"},
-        },
+        "frame": frame | (BUS_PARTS if bus else {}),
         "messages": messages,
     }
     return Source("many.yaml", yaml_of(data))
+
+
+# Behind the body.
+BUS_PARTS: dict[str, Any] = {
+    "station": {"is": "address", "type": "u8", "values": {"all": {"value": 255, "silent": True}}},
+    "check": {
+        "is": "checksum",
+        "type": "u8",
+        "method": "inverted sum",
+        "covers": ["size", "code", "body", "station"],
+    },
+}
+
+
+def _put_on_a_bus(messages: dict[str, Any]) -> None:
+    """Have the stations of a bus answer, or refuse, with frames that prove themselves."""
+    for message in messages.values():
+        if "reply" in message:
+            message["reports"] = []
+            message["refusal"] = message["reply"].replace("Tell", "Not")
+        (example,) = message["examples"]
+        frame = bytes.fromhex(example["hex"]) + b"\x07"
+        example["hex"] = (frame + bytes([~sum(frame[2:]) & 0xFF])).hex(" ")
+        example["values"]["station"] = 7
+    for name, message in [*messages.items()]:
+        if name.startswith("Tell"):
+            refusal = {**message, "id": message["id"] + 5000, "summary": "Say no."}
+            digits = bytes.fromhex(message["examples"][0]["hex"])
+            body = digits[:3] + refusal["id"].to_bytes(2, "big") + digits[5:-1]
+            hexed = (body + bytes([~sum(body[2:]) & 0xFF])).hex(" ")
+            refusal["examples"] = [{**message["examples"][0], "hex": hexed}]
+            messages[name.replace("Tell", "Not")] = refusal
 
 
 def _example(digits: str, values: dict[str, int]) -> dict[str, Any]:
@@ -101,18 +136,19 @@ nobody_traces = pytest.mark.skipif(
 # --- From the text to the files ------------------------------------------------------------------
 
 
-def generated(number: int) -> None:
+def generated(number: int, *, bus: bool) -> None:
     """Make all files of a spec of so many messages."""
-    compiled = compile_spec(many(number))
+    compiled = compile_spec(many(number, bus=bus))
     assert compiled.findings == []
     assert render(compiled)
 
 
 @nobody_traces
-def test_work_grows_no_faster_than_the_messages() -> None:
-    generated(2)  # templates are compiled and read once for all
+@pytest.mark.parametrize("bus", [False, True])
+def test_work_grows_no_faster_than_the_messages(bus: bool) -> None:
+    generated(2, bus=bus)  # templates are compiled and read once for all
     few, twice, four_times = (
-        lines_run(partial(generated, FEW * factor), "pydantic") for factor in (1, 2, 4)
+        lines_run(partial(generated, FEW * factor, bus=bus), "pydantic") for factor in (1, 2, 4)
     )
     first, second = twice - few, four_times - twice
     # A search through all messages for each of them makes it 2.06.
