@@ -126,8 +126,9 @@ class ReplyMatcher:
     def take(self, message: Message, now: float) -> bool:
         """Take in a message, unless it is a report; whether it was taken."""
         for pending in self.pending:
-            # What had come before the question was sent cannot answer it.
-            if now >= pending.sent_at and pending.exchange.answers(pending.message, message):
+            # What had come before the question was sent, or before its echo, cannot answer it.
+            early = now < pending.sent_at or pending.echo_due
+            if not early and pending.exchange.answers(pending.message, message):
                 self._hold(pending, message, now)
                 return True
         if type(message) not in _ADDRESSES:

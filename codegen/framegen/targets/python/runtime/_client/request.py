@@ -106,6 +106,7 @@ class Request:
         "before",
         "deadline",
         "doubted",
+        "echo_due",
         "error",
         "exchange",
         "gathered",
@@ -172,6 +173,9 @@ class Request:
         # Whether a reply came that is impossible; whether the reply to an earlier one, which never
         # came, may come yet; and what had been counted before it was sent.
         self.doubted = self.after_lost = False
+        # Whether its echo is still to come, on a line that has given back others: no reply comes
+        # before that.
+        self.echo_due = False
         # Whether its device was never asked for this before.
         self.is_first = False
         self.before: tuple[int, int, int] = (0, 0, 0)
