@@ -16,7 +16,7 @@ class ScriptedLine:
     def __init__(self, answer: Callable[[bytes], bytes]) -> None:
         self.now = 0.0
         self.written: list[bytes] = []
-        self._answer = answer
+        self.answer = answer
         self._arrived = b""
 
     def clock(self) -> float:
@@ -29,7 +29,7 @@ class ScriptedLine:
 
     def write(self, data: bytes) -> None:
         self.written.append(data)
-        self._arrived += self._answer(data)
+        self._arrived += self.answer(data)
 
     def drain(self, _timeout: float) -> None:
         pass

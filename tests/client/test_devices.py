@@ -10,7 +10,8 @@ import lxservo
 import pytest
 from busservo_simulator.virtual_loop import run_virtual
 
-from tests.client.servo_bus import MOVE, READ_POSITION, ServoBus
+from tests.client.scripted_line import ScriptedLine
+from tests.client.servo_bus import MOVE, READ_POSITION, ServoBus, frame
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -215,6 +216,25 @@ def test_the_echo_is_dropped_where_the_line_is_said_to_have_one() -> None:
                 bus.read_position(2)
         assert bus.counters.echoes == 15
         assert bus.counters.noise == 0
+
+
+def test_nothing_answers_a_question_that_has_not_come_back_yet() -> None:
+    """On a line of no rate, a reply that comes twice would look like the next one."""
+    replies = [frame(1, READ_POSITION, number, 0) for number in range(20)]
+
+    def answer(question: bytes) -> bytes:
+        number = len(line.written)
+        return replies[number - 1] + question + replies[number]
+
+    line = ScriptedLine(lambda question: question + replies[1])
+    with lxservo.Controller(
+        line, background=False, clock=line.clock, settle=0, local_echo=True, baud=float("inf")
+    ) as bus:
+        assert bus.read_position(1) == 1
+        line.answer = answer
+        for number in range(2, 20):
+            assert bus.read_position(1) == number
+        assert (bus.counters.unsolicited, bus.counters.echoes) == (18, 19)
 
 
 def test_an_echo_that_nobody_spoke_of_is_noise() -> None:

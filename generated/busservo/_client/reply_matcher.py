@@ -84,8 +84,9 @@ class ReplyMatcher:
     def may_be_mistaken(self, request: Request, now: float) -> bool:
         """Whether a reply to a question might be confused with one that may yet come."""
         origin = request.answered_by
-        if self.waits_for_reply(now) or any(
-            each.answered_by.meets(origin) for each in self.pending
+        if self.pending and (
+            self.waits_for_reply(now)
+            or any(each.answered_by.meets(origin) for each in self.pending)
         ):
             return True
         # A further attempt accepts the late reply to an earlier one.
@@ -112,8 +113,10 @@ class ReplyMatcher:
         """Record that a question has been sent."""
         if request.attempts == 1:
             request.after_lost = self.late.take_missing(request.answered_by)
-            request.is_first = request.address is not None and not self._was_asked(request)
-            self._asked.update((kind, request.address) for kind in request.answered_by.kinds)
+            if request.address is not None:
+                request.is_first = not self._was_asked(request)
+            if request.shares_wire:
+                self._asked.update((kind, request.address) for kind in request.answered_by.kinds)
         self.pending.append(request)
 
     def _was_asked(self, request: Request) -> bool:
@@ -126,8 +129,9 @@ class ReplyMatcher:
     def take(self, message: Message, now: float) -> bool:
         """Take in a message, unless it is a report; whether it was taken."""
         for pending in self.pending:
-            # What had come before the question was sent cannot answer it.
-            if now >= pending.sent_at and pending.exchange.answers(pending.message, message):
+            # What had come before the question was sent, or before its echo, cannot answer it.
+            early = now < pending.sent_at or pending.echo_due
+            if not early and pending.exchange.answers(pending.message, message):
                 self._hold(pending, message, now)
                 return True
         if type(message) not in _ADDRESSES:
@@ -153,7 +157,7 @@ class ReplyMatcher:
     def weigh(self) -> list[Answer]:
         """Give the replies that are held, if the wire can have carried them: they are answers."""
         answers: list[Answer] = []
-        for pending in [each for each in self.pending if each.held is not None]:
+        for pending in [*self.pending]:
             if pending.held is not None:
                 answers += self._weighed(pending, *pending.held)
         return answers

@@ -107,6 +107,7 @@ class Request:
         "before",
         "deadline",
         "doubted",
+        "echo_due",
         "error",
         "exchange",
         "gathered",
@@ -142,17 +143,21 @@ class Request:
         self.message = message
         self.exchange = exchange
         # Whether anybody answers it; for how many seconds the replies of all who do are gathered.
-        silent = bool(exchange.address.silence(message))
-        self.question = exchange.reply is not None and (not silent or bool(within))
+        self.question = exchange.reply is not None
         self.within = within
         # The device that it is for, None for the only one or all; and what may answer it.
-        self.address = None if silent else exchange.address.of(message)
-        self.answered_by = Origin(exchange.kinds, self.address)
+        self.address: int | None = None
+        self.answered_by = exchange.origin
+        if exchange.address is not UNADDRESSED:
+            silent = bool(exchange.address.silence(message))
+            self.question = self.question and (not silent or bool(within))
+            self.address = None if silent else exchange.address.of(message)
+            self.answered_by = Origin(exchange.kinds, self.address)
         # How many bytes its reply can have at most and at the least; 0 if there is none. One that
         # could be longer still gets its time once it has begun to come.
-        self.reply_room = exchange.reply_size(message) if self.question else 0
-        self.reply_size = min(self.reply_room, _USUAL_SIZE)
-        self.reply_least = exchange.reply_least(message) if self.question else 0
+        least, largest = exchange.reply_sizes(message) if self.question else (0, 0)
+        self.reply_least, self.reply_room = least, largest
+        self.reply_size = min(largest, _USUAL_SIZE)
         self.retries = retries
         # Whether a newer one of its kind replaces it.
         self.latest = latest
@@ -173,6 +178,9 @@ class Request:
         # Whether a reply came that is impossible; whether the reply to an earlier one, which never
         # came, may come yet; and what had been counted before it was sent.
         self.doubted = self.after_lost = False
+        # Whether its echo is still to come, on a line that has given back others: no reply comes
+        # before that.
+        self.echo_due = False
         # Whether its device was never asked for this before.
         self.is_first = False
         self.before: tuple[int, int, int] = (0, 0, 0)

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 from .._frame.errors import EncodeError
 from .._frame.heads import size_of
+from .late_replies import Origin
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
@@ -62,6 +63,7 @@ class Exchange:
     """
 
     __slots__ = (
+        "_sizes",
         "acknowledged",
         "address",
         "arguments",
@@ -72,6 +74,7 @@ class Exchange:
         "lasts",
         "method",
         "most",
+        "origin",
         "reply",
         "reports",
         "result",
@@ -107,6 +110,9 @@ class Exchange:
         self.counter = counter
         # The messages that answer it, or refuse it.
         self.kinds = tuple(kind for kind in (reply, failures.refusal) if kind is not None)
+        self.origin = Origin(self.kinds, None)
+        # The sizes of these, where they do not depend on the request.
+        self._sizes: tuple[int, int] | None = None
 
     def check(self, request: Message) -> None:
         """Raise EncodeError if no reply has room for the answer to `request`."""
@@ -153,15 +159,17 @@ class Exchange:
         steps: int = getattr(request, name)
         return steps / steps_per_second
 
-    def reply_size(self, request: Message) -> int:
-        """Return the size in bytes of the largest frame that can answer `request`."""
-        return max((size for kind in self.kinds for size in self._sizes(kind, request)), default=0)
+    def reply_sizes(self, request: Message) -> tuple[int, int]:
+        """Return the size in bytes of the smallest and the largest frame that answers `request`.
 
-    def reply_least(self, request: Message) -> int:
-        """Return the size in bytes of the smallest frame that answers `request`, if in full."""
-        return min((size for kind in self.kinds for size in self._sizes(kind, request)), default=0)
+        The smallest is that of an answer in full, where the reply repeats a list.
+        """
+        if self._sizes is None or self.echoed:
+            sizes = [size for kind in self.kinds for size in self._sizes_of(kind, request)]
+            self._sizes = min(sizes, default=0), max(sizes, default=0)
+        return self._sizes
 
-    def _sizes(self, kind: type[Message], request: Message) -> tuple[int, int]:
+    def _sizes_of(self, kind: type[Message], request: Message) -> tuple[int, int]:
         """Return the least and the largest size of an answer of a class."""
         items, lengths = kind.SHAPE.items, kind.LENGTHS
         if items is not None and kind is self.reply:
@@ -172,6 +180,10 @@ class Exchange:
                         size = size_of(kind, lengths[items.counts.index(count)])
                         return size, size
         return size_of(kind, lengths[0]), size_of(kind, lengths[-1])
+
+    def reply_size(self, request: Message) -> int:
+        """Return the size in bytes of the largest frame that can answer `request`."""
+        return self.reply_sizes(request)[1]
 
 
 def column(message: Message, path: str) -> list[int]:

@@ -13,6 +13,8 @@ from .._serial.link_errors import EchoError
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
+    from collections.abc import Iterator
+
     from .._codec.counters import LineCounters
     from .request import Request
 
@@ -42,15 +44,13 @@ class LocalEcho:
         """Expect the echo of a frame that was sent, until a deadline."""
         self._expected.append((request, frame, until))
 
-    def take_out(self, data: bytes) -> tuple[bytes, list[Request], list[Request]]:
-        """Return the bytes of the other end, the requests whose echo came, and those whose is lost.
+    def take_out(self, data: bytes) -> Iterator[tuple[bytes, Request | None, list[Request]]]:
+        """Yield the bytes of the other end in front of each echo, whose it is, and whose are lost.
 
-        Frames come back in order: if the echo of a later one comes, those before it are lost.
+        Those behind the last echo come with None. Frames come back in order: if the echo of a later
+        one comes, those before it are lost.
         """
         data, self._held = self._held + data, b""
-        others = b""
-        came: list[Request] = []
-        lost: list[Request] = []
         while self._expected:
             found = [
                 (at, number)
@@ -59,16 +59,15 @@ class LocalEcho:
             ]
             if not found:
                 kept = max(_overlap(data, frame) for _, frame, _ in self._expected)
-                others += data[: len(data) - kept]
                 self._held = data[len(data) - kept :]
-                return others, came, lost
+                data = data[: len(data) - kept]
+                break
             at, number = min(found)
-            lost += [self._expected.popleft()[0] for _ in range(number)]
+            lost = [self._expected.popleft()[0] for _ in range(number)]
             request, frame, _ = self._expected.popleft()
-            came.append(request)
-            others += data[:at]
-            data = data[at + len(frame) :]
-        return others + data, came, lost
+            before, data = data[:at], data[at + len(frame) :]
+            yield before, request, lost
+        yield data, None, []
 
     def forget(self, request: Request) -> None:
         """Stop expecting the echo of a request."""

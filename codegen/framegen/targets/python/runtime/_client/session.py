@@ -190,13 +190,15 @@ class Session:
             return
         self._settling.received()
         self.acknowledgements.delay(len(data))
-        if self._echo is not None:
-            data, came, lost = self._echo.take_out(data)
-            for request in lost:
-                self._echo_lost(request)
-            for request in came:
+        if self._echo is None:
+            self._read(data, now)
+            return
+        for before, request, lost in self._echo.take_out(data):
+            self._read(before, now)
+            for each in lost:
+                self._echo_lost(each)
+            if request is not None:
                 self._echo_came(request)
-        self._read(data, now)
 
     def tick(self, now: float) -> None:
         """Advance the time to `now`; all that arrived before must have been received."""
@@ -312,6 +314,7 @@ class Session:
         if self._echo is not None:
             until = request.left_at + min(self._reply_timeout, _ECHO_LATENCY)
             self._echo.sent(request, frame, until)
+            request.echo_due = self.counters.echoes > 0
         else:
             self._echo_watch.sent(frame)
         if not request.question:
@@ -407,6 +410,7 @@ class Session:
 
     def _echo_came(self, request: Request) -> None:
         self.counters.echoes += 1
+        request.echo_due = False
         if not request.done and request not in self._matcher.pending:
             request.finish(sent=request.sent)
 
