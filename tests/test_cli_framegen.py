@@ -385,7 +385,7 @@ def test_two_specs_leave_a_choice(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: Capture
 ) -> None:
     monkeypatch.chdir(project(tmp_path / "here", "b.yaml", "a.yaml"))
-    assert main(["explain", "55"]) == 2
+    assert main(["conform", "--", "codec"]) == 2
     assert capsys.readouterr().err == (
         "framegen: error: there are 2 specs to choose from: a.yaml, b.yaml\n"
         "  hint: name the one you mean, such as `a`\n"

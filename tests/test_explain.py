@@ -194,6 +194,28 @@ def test_json_holds_the_same_as_the_page(
 ENDS = (", host -> controller", ", controller -> host")
 
 
+@pytest.mark.parametrize(
+    ("words", "code", "line"),
+    [
+        (["55 55 02 07"], 0, "ActionGroupStop, host -> controller"),
+        (["55 55 01 03 1C DF"], 0, "PositionRead, host -> servo"),
+        (["55 55 01 03 1C DE"], 1, "These 6 bytes are no frame of the LX-16A servo bus."),
+        (["busservo", "55 55 01 03 1C DF"], 1, "no frame of the Hiwonder bus servo controller."),
+        (["55 55 01 03 1C DF", "--direction", "controller"], 1, "servo controller."),
+    ],
+)
+def test_bytes_are_explained_by_the_protocol_that_they_come_closest_to(
+    words: list[str],
+    code: int,
+    line: str,
+    monkeypatch: pytest.MonkeyPatch,
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    monkeypatch.chdir(ROOT)
+    assert main(["explain", *words]) == code
+    assert capsys.readouterr().out.partition("\n")[0].endswith(line)
+
+
 def test_more_bytes_than_a_line_holds_are_shown_on_several() -> None:
     page = as_text(explained("55 55 15 15 07" + 18 * " 01"))
     assert page.splitlines()[2:6] == [

@@ -42,7 +42,7 @@ def run_script(names: Iterable[str], program: str, asked: object) -> Any:
         check=False,
     )
     assert done.returncode == 0, done.stderr
-    return json.loads(done.stdout, object_hook=_meant)
+    return json.loads(done.stdout, object_hook=_meant, parse_int=_whole)
 
 
 def _sayable(value: Any) -> Any:
@@ -54,6 +54,11 @@ def _sayable(value: Any) -> Any:
         return list(value)
     is_large = isinstance(value, int) and abs(value) > _EXACT
     return {"number": str(value)} if is_large else value
+
+
+def _whole(digits: str) -> float:
+    """Return a number without a point; one of many digits is of floating point, in a script."""
+    return int(digits) if abs(int(digits)) <= _EXACT else float(digits)
 
 
 def _meant(found: dict[str, Any]) -> Any:

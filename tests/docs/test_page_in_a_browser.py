@@ -4,7 +4,12 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from framegen.cli import main
+from framegen.language.values import to_hex
+from framegen.model.codec import encode
+
 from tests.docs.browser import Visit, decoded, launched, needs_chromium, site_on_disk, texts
+from tests.protocols.specs import FILES, messages_of
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -30,4 +35,22 @@ def test_the_decoder_shows_frames_noise_and_unknown_frames(tmp_path: Path) -> No
             "6 E8 03 time_ms 1000 ms",
             "8 01 targets[0].servo_id 1",
         ]
+        visit.end()
+
+
+@needs_chromium
+def test_what_the_encoder_offers_is_the_first_example_of_each_message(tmp_path: Path) -> None:
+    spec = FILES["everything"]
+    assert main(["docs", str(spec), "--out", str(tmp_path)]) == 0
+    with launched() as browser:
+        visit = Visit(browser.new_context(), tmp_path / "everything")
+        tab = visit.open("decoder.html")
+        for name, layout in messages_of("everything").items():
+            example = layout.message.examples[0]
+            tab.get_by_label("Frame").select_option(name)
+            assert tab.locator("#encoded").inner_text() == to_hex(encode(layout, example.values)), (
+                name
+            )
+            tab.get_by_label("Bytes in hex").fill(to_hex(example.hex))
+            assert f"✓ {name}" in decoded(tab)
         visit.end()

@@ -75,8 +75,12 @@ def test_guides_lead_to_the_pages_of_the_reference(site: dict[str, Page]) -> Non
 
 def test_the_front_page_of_the_references_leads_to_each(site: dict[str, Page]) -> None:
     front = site["reference/index.html"]
-    assert [front.leads_to(link)[0] for link in front.links] == ["reference/busservo/index.html"]
+    assert [front.leads_to(link)[0] for link in front.links] == [
+        "reference/busservo/index.html",
+        "reference/lxservo/index.html",
+    ]
     assert "Hiwonder bus servo controller 1.0.0" in front.words
+    assert "LX-16A servo bus 1.0.0" in front.words
 
 
 def test_code_of_a_guide_is_code(site: dict[str, Page]) -> None:

@@ -12,7 +12,9 @@ from framegen.reading.text import shown
 
 if TYPE_CHECKING:
     from argparse import ArgumentParser, Namespace
+    from collections.abc import Sequence
 
+    from framegen.explanation.explanation import Explanation
     from framegen.language.values import Direction
     from framegen.model.model import Model
 
@@ -23,7 +25,7 @@ EXAMPLES = (
     ("framegen explain 55 55 08 03 01 E8 03 01 20 03", "each byte, and what it says"),
     ("framegen explain 5555040F4C1D --direction controller", "as sent by the controller alone"),
     ("framegen explain 0x55,0x55,0x09,0x03,0x01,0xE8", "where and why it is no frame"),
-    ("framegen explain busservo 55 55 02 07", "by spec/busservo.yaml, where there are others"),
+    ("framegen explain busservo 55 55 02 07", "by spec/busservo.yaml alone"),
 )
 
 
@@ -45,8 +47,8 @@ def add_arguments(parser: ArgumentParser) -> None:
 def run(arguments: Namespace) -> int:
     """Print the explanation. 0 for a frame, 1 for none. Raises Unusable."""
     from framegen.commands.spec_argument import compiled  # noqa: PLC0415
-    from framegen.explain import explain  # noqa: PLC0415
     from framegen.explanation.text import as_json, as_text  # noqa: PLC0415
+    from framegen.project import all_specs  # noqa: PLC0415
     from framegen.reading.yamltree import Unusable  # noqa: PLC0415
 
     spec, words = None, arguments.words
@@ -59,10 +61,31 @@ def run(arguments: Namespace) -> int:
         raise Unusable(_pointed(text, error), hint=error.hint) from None
     if not data:
         raise Unusable("there are no bytes to explain", hint="give them in hex, like 55 55 02 07")
-    model = compiled(spec).model
-    explanation = explain(model, data, _directions(model, arguments.direction))
+    models = [compiled(file).model for file in ([spec] if spec else all_specs())]
+    explanation = _closest(models, data, arguments.direction)
     print(json.dumps(as_json(explanation)) if arguments.json else as_text(explanation))
     return 0 if explanation.readings else 1
+
+
+def _closest(models: Sequence[Model], data: bytes, sender: str | None) -> Explanation:
+    """Explain bytes by the protocol of which they are a frame, or come closest to one."""
+    from framegen.explain import explain  # noqa: PLC0415
+
+    senders = {way.sender for model in models for way in model.directions}
+    asked = [
+        model
+        for model in models
+        # A sender that none of them has is reported as one of the first.
+        if sender not in senders or sender in {way.sender for way in model.directions}
+    ]
+    explanations = [explain(each, data, _directions(each, sender)) for each in asked]
+    return max(explanations, key=_rows)
+
+
+def _rows(explanation: Explanation) -> tuple[bool, int]:
+    """Tell how close bytes came to a frame: whether they are one, and how much of it agrees."""
+    agreed = (len(refusal.rows) for refusal in explanation.refusals)
+    return bool(explanation.readings), max(agreed, default=0)
 
 
 def _pointed(text: str, error: HexError) -> str:

@@ -253,13 +253,31 @@ function makeCodec(protocol) {
     if (begins.size && at < limit && !begins.has(look.bytes[at])) return refused(Reason.header, 0);
     const verdicts = line.envelopes.flatMap(([envelope, known]) =>
       weighIn(envelope, known, line, look, at, limit));
-    const furthest = Math.max(...verdicts.map(({ offset }) => offset));
-    return verdicts.find(({ frame }) => frame) || verdicts.find(({ proven }) => proven)
-      || verdicts.find(({ offset }) => offset === furthest) || refused(Reason.header, 0);
+    return best(verdicts, limit - at) || refused(Reason.header, 0);
+  }
+
+  // Of verdicts on so many bytes, that on the smallest frame, whatever follows it; or else the one
+  // that came furthest, of what may still become a frame if there is any.
+  function best(verdicts, size) {
+    const sizeOfFrame = ({ frame, claim }) => (frame ? frame.size : claim);
+    const certain = verdicts.filter(({ frame, proven }) => frame || proven);
+    const smallest = Math.min(...certain.map(sizeOfFrame));
+    const found = certain.filter((each) => sizeOfFrame(each) === smallest);
+    if (found.length) return found.find(({ frame }) => frame) || found[0];
+    const waiting = verdicts.filter((verdict) => waits(verdict, size));
+    const possible = waiting.length ? waiting : verdicts;
+    const furthest = Math.max(...possible.map(({ offset }) => offset));
+    return possible.find(({ offset }) => offset === furthest);
+  }
+
+  // Whether more than so many bytes could still make a certain frame of it.
+  function waits({ reason, provable, claim }, size) {
+    return reason === Reason.tooShort || (provable && claim > size);
   }
 
   // The same for frames of one envelope: a verdict for each message that may be meant.
   function weighIn(envelope, known, line, look, at, limit) {
+    if (envelope.least > line.largest) return [];
     let size = null, meant = known;
     let idsLeft = envelope.head.filter(({ role }) => role === "id").length;
     for (const slot of envelope.head) {
@@ -390,8 +408,8 @@ function makeCodec(protocol) {
   function fateOf(line, look, at, end) {
     const whole = end <= look.bytes.length, limit = whole ? end : look.bytes.length;
     for (let inside = limit - 1; inside > at; inside--) {
-      const { frame, reason } = weigh(line, look, inside, limit);
-      if (frame || (whole && reason === Reason.tooShort)) return "noise";
+      const verdict = weigh(line, look, inside, limit);
+      if (verdict.frame || verdict.proven || (whole && waits(verdict, limit - inside))) return "noise";
     }
     return whole ? "unknown" : "begun";
   }
