@@ -31,6 +31,8 @@ _ROW = 6
 _BEGINNINGS = 32
 # A length has to agree with so many frames: some may be two by chance.
 _ENOUGH = 0.8
+# Each frame more is worth so many bytes that are not in any.
+_FOR_A_FRAME = 4
 # So many bytes are enough to see which method it is, and where frames end.
 _LOOKED_AT = 8192
 
@@ -88,15 +90,14 @@ class _Trial:
         return told if told.covered >= _ENOUGH * chosen.covered else chosen
 
     def _chosen(self) -> Framing:
-        """Return the frames that cover most; of equal readings, the one of most frames."""
+        """Return the frames that cover most, and are many: large ones may be chance."""
         data, size = self.data, len(self.data)
-        best: list[tuple[int, int]] = [(0, 0)] * (size + 1)
+        best = [0] * (size + 1)
         taken = [0] * (size + 1)
         for at in range(size - 1, -1, -1):
             best[at] = best[at + 1]
             for end in self.ends(at):
-                covered, frames = best[end]
-                reading = covered + end - at, frames + 1
+                reading = best[end] + end - at + _FOR_A_FRAME
                 if reading > best[at]:
                     best[at], taken[at] = reading, end
         places, at = [], 0

@@ -222,4 +222,4 @@ def _is_enough(framing: Framing) -> bool:
     """Return whether no others need be looked for: noise takes its share of a proven line."""
     if framing.covered >= _MOST * len(framing.data):
         return True
-    return framing.covered >= _NEARLY * len(framing.data) and Reading(framing).is_proven
+    return framing.covered >= _MOST_UNPROVEN * len(framing.data) and Reading(framing).is_proven
