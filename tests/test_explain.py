@@ -1,6 +1,7 @@
 """`framegen explain`: its text for frames, and for bytes that are none."""
 
 import json
+import shutil
 from pathlib import Path
 
 import pytest
@@ -451,9 +452,11 @@ def test_the_spec_may_have_any_name(tmp_path: Path, capsys: pytest.CaptureFixtur
 
 
 def test_hex_longer_than_a_path_can_be_is_hex(
-    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    monkeypatch.chdir(ROOT)
+    # With two specs, the first word would have to name one.
+    shutil.copytree(ROOT / "spec", tmp_path / "spec", ignore=shutil.ignore_patterns("lx*"))
+    monkeypatch.chdir(tmp_path)
     servo_ids = list(range(252))
     frame = codec.encode(LAYOUT.messages["ServoUnload"], {"servo_ids": servo_ids})
     assert main(["explain", frame.hex()]) == 0
