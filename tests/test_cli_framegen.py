@@ -73,14 +73,14 @@ EXIT_CODES = [
     (["check", "spec/busservo.yaml"], 0),
     (["check", "--help"], 0),
     (["check", "--json"], 0),
-    (["explain", STOP], 0),
+    (["explain", "busservo", STOP], 0),
     (["explain", "--help"], 0),
-    (["explain", "--json", STOP], 0),
+    (["explain", "--json", "busservo", STOP], 0),
     (["rules"], 0),
     (["rules", "unknown-type"], 0),
     (["schema"], 0),
-    (["explain", "55 55 02 08"], 1),
-    (["explain", "--json", "55 55 02 08"], 1),
+    (["explain", "busservo", "55 55 02 08"], 1),
+    (["explain", "--json", "busservo", "55 55 02 08"], 1),
     ([], 2),
     (["chekc"], 2),
     (["--nonsense"], 2),
@@ -94,7 +94,7 @@ EXIT_CODES = [
     (["explain", "5"], 2),
     (["explain", "spec/busservo.yaml"], 2),
     (["explain", "missing.yaml", STOP], 2),
-    (["explain", "--direction", "nobody", STOP], 2),
+    (["explain", "busservo", "--direction", "nobody", STOP], 2),
     (["guess", "tests/captures/noisy_line.bin"], 0),
     (["guess", "pyproject.toml"], 1),
     (["guess"], 2),
@@ -184,6 +184,7 @@ def test_check_says_what_it_looked_at(capsys: Capture) -> None:
     assert printed.err == (
         f"spec/busservo.yaml: {messages} messages, {examples} examples, {errata} errata checked: "
         "nothing found\n"
+        "spec/lxservo.yaml: 42 messages, 70 examples, 0 errata checked: nothing found\n"
     )
 
 
@@ -527,7 +528,7 @@ def test_what_runs_no_verb_imports_nothing_heavy() -> None:
 
 
 def test_a_real_process_finds_and_explains() -> None:
-    code, out, err = run("explain", "55", "55", "02", "07")
+    code, out, err = run("explain", "busservo", "55", "55", "02", "07")
     assert (code, err) == (0, "")
     assert out.startswith("ActionGroupStop, host -> controller\n")
 

@@ -1,6 +1,7 @@
 """`framegen explain`: its text for frames, and for bytes that are none."""
 
 import json
+import shutil
 from pathlib import Path
 
 import pytest
@@ -113,7 +114,8 @@ These 10 bytes are no frame of the Hiwonder bus servo controller.
 hint: this looks like a frame of the LX-16A bus servo protocol. Spoken behind the controller, at
       115200 baud, between the board and each servo. The same two header bytes, but a servo
       number comes before the length, and a checksum ends the frame. Public write-ups mix the
-      two up.
+      two up. For servos without the controller there is `lxservo`, from the same house:
+      `lxservo decode` reads these frames.
 """
 
 BOTH_WAYS = "55 55 05 06 02 00 00"
@@ -472,9 +474,11 @@ def test_the_spec_may_have_any_name(tmp_path: Path, capsys: pytest.CaptureFixtur
 
 
 def test_hex_longer_than_a_path_can_be_is_hex(
-    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    monkeypatch.chdir(ROOT)
+    # With two specs, the first word would have to name one.
+    shutil.copytree(ROOT / "spec", tmp_path / "spec", ignore=shutil.ignore_patterns("lx*"))
+    monkeypatch.chdir(tmp_path)
     servo_ids = list(range(252))
     frame = codec.encode(LAYOUT.messages["ServoUnload"], {"servo_ids": servo_ids})
     assert main(["explain", frame.hex()]) == 0
