@@ -13,6 +13,7 @@ from .envelopes import ENVELOPES
 from .errors import DecodeError, Reason
 from .head_walk import HeadWalk
 from .heads import FIRST_BYTES, HEAD, size_of
+from .ranges import fields_hold
 from .trial import Known, Refused, too_short
 from .verdict import Verdict
 
@@ -256,8 +257,10 @@ def _holds(kind: type[Message]) -> Callable[[bytes], bool]:
         )
     if shape.certain:
         return proves
-    holds = shape.holds
-    return lambda data: holds(data) and proves(data)
+    holds = fields_hold(kind)
+    if proves is _always:
+        return holds
+    return lambda data: proves(data) and holds(data)
 
 
 def _always(_: bytes) -> Literal[True]:
