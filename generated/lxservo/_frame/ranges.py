@@ -37,7 +37,12 @@ def _in_range(order: str, numbers: Sequence[Number]) -> Callable[[bytes], bool]:
     bounds = [(number.low, number.high) for number in numbers]
     if len(bounds) == 1:
         ((low, high),) = bounds
-        return lambda frame: low <= unpack(frame)[0] <= high
+
+        def one(frame: bytes) -> bool:
+            number: int = unpack(frame)[0]
+            return low <= number <= high
+
+        return one
     if len(bounds) == 2:
         (low, high), (least, most) = bounds
 
