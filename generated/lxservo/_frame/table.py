@@ -14,7 +14,6 @@ from .envelopes import ENVELOPES
 from .errors import DecodeError, Reason
 from .head_walk import HeadWalk
 from .heads import FIRST_BYTES, HEAD, size_of
-from .ranges import fields_hold
 from .trial import Known, Refused, too_short
 from .verdict import Verdict
 
@@ -258,7 +257,7 @@ def _holds(kind: type[Message]) -> Callable[[bytes], bool]:
         )
     if shape.certain:
         return proves
-    holds = fields_hold(kind)
+    holds = shape.holds
     if proves is _always:
         return holds
     return lambda data: proves(data) and holds(data)

@@ -69,8 +69,7 @@ _FOR_PLAIN = {
     "_frame/plain_parts.py": "_frame/parts.py",
 }
 _WITH_ENVELOPES = {
-    f"_frame/{name}.py"
-    for name in ("envelope", "envelopes", "head_walk", "ranges", "trial", "why_not")
+    f"_frame/{name}.py" for name in ("envelope", "envelopes", "head_walk", "trial", "why_not")
 }
 # And where each of them proves by a checksum that it is one.
 _FOR_PROVEN = {"_codec/certain_decoder.py": "_codec/careful_decoder.py"}
