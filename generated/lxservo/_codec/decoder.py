@@ -123,7 +123,7 @@ class StreamDecoder:
             begun, before = at, len(events)
             while entry is not None:
                 length, count_at, count_end, count, kind, holds, other = entry
-                if data[at + count_at : at + count_end] != count:
+                if count and data[at + count_at : at + count_end] != count:
                     entry = other
                     continue
                 end = at + length

@@ -257,7 +257,9 @@ def _holds(kind: type[Message]) -> Callable[[bytes], bool]:
     if shape.certain:
         return proves
     holds = shape.holds
-    return lambda data: holds(data) and proves(data)
+    if proves is _always:
+        return holds
+    return lambda data: proves(data) and holds(data)
 
 
 def _always(_: bytes) -> Literal[True]:
