@@ -37,6 +37,7 @@ from tests.factories import (
     BUSSERVO,
     DEMO,
     ROOT,
+    compiled_file,
     compiled_of,
     data_of,
     layout_of,
@@ -558,3 +559,27 @@ def test_an_unknown_target_gets_a_hint(framegen: Command) -> None:
     code, _, err = framegen("targets", "pyhton")
     assert code == 2
     assert "did you mean `python`?" in err
+
+
+def test_what_stands_around_the_fields_is_renamed_as_they_are() -> None:
+    compiled = compiled_file(DEMO.with_name("taken_names.yaml"))
+    names = names_of(compiled.model)
+    with library(library_files(compiled)) as made:
+        for layout in compiled.model.messages.values():
+            kind = getattr(made, names.message(layout.name).name)
+            for example in layout.message.examples:
+                values = names.values(layout.name, example.values)
+                assert kind.from_dict(values).encode() == example.hex
+                assert kind.decode(example.hex).to_dict() == values
+        text = made.TextMessage
+        assert text.__match_args__ == (
+            "id_",
+            "error",
+            "err_voltage",
+            "absent_",
+            "type_",
+            "flat_",
+            "hash_",
+        )
+        assert (text.DIRECTION_, text.FRAME_, text.IDS, text.ID_ALL) == (1, 2, (1, 2), 255)
+        assert text.DIRECTION is made.Direction.ASKER_TO_TELLER

@@ -30,7 +30,7 @@ COMMAND = "_cli"
 # What differs from library to library. All else is copied, and the same for every spec.
 MADE = sorted(
     path.relative_to(TEMPLATES).as_posix().removesuffix(".jinja")
-    for path in TEMPLATES.rglob("*.jinja")
+    for path in TEMPLATES.rglob("*.py*.jinja")
 )
 
 
@@ -71,7 +71,8 @@ class Library:
 def library_of(name: str, files: dict[str, str]) -> Library:
     """Return the library among the files of a spec, under the name `name`."""
     [root] = {path.rpartition("/")[0] for path in files if path.endswith("/py.typed")}
-    return Library(name, {path: files[f"{root}/{path}"] for path in MADE})
+    made = {path: files.get(f"{root}/{path}") for path in MADE}
+    return Library(name, {path: text for path, text in made.items() if text is not None})
 
 
 class _Said(ast.NodeTransformer):
