@@ -28,8 +28,8 @@ if TYPE_CHECKING:
     Show: TypeAlias = Callable[[Message], "str | None"]
 
 # How the fields of each class of messages are shown, made when it is first seen.
-_IN_JSON: dict[type[Message], list[tuple[str, Show]]] = {}
-_IN_TEXT: dict[type[Message], list[tuple[str, Show]]] = {}
+_IN_JSON: dict[type[Message], Callable[[Message], str]] = {}
+_IN_TEXT: dict[type[Message], Callable[[Message], str]] = {}
 # What would end a text, or not be seen; and how that is written.
 _SPECIAL = re.compile(r"[^!-~]|[%,:]")
 # A text without any characters, in a list: zeros at its end are no part of it.
@@ -40,25 +40,64 @@ _ESCAPED = re.compile(r"%([0-9A-Fa-f]{2})")
 def fields_in_json(message: Message) -> str:
     """Return what `to_dict` gives as the text of a JSON object, many times as fast."""
     kind = type(message)
-    shows = _IN_JSON.get(kind)
-    if shows is None:
-        shows = _IN_JSON[kind] = [
-            (name, _json_of(getattr(kind, name))) for name in kind.__match_args__
-        ]
-    shown = [f'"{name}": {show(message)}' for name, show in shows]
-    return f"{{{', '.join(shown)}}}"
+    show = _IN_JSON.get(kind)
+    if show is None:
+        show = _IN_JSON[kind] = _all_in_json(kind)
+    return show(message)
 
 
 def fields_as_text(message: Message) -> str:
     """Return the fields as `delay=10 ms items=1:20,2:30`; those that are absent are left out."""
     kind = type(message)
-    shows = _IN_TEXT.get(kind)
-    if shows is None:
-        shows = _IN_TEXT[kind] = [
-            (name, _text_of(getattr(kind, name))) for name in kind.__match_args__
-        ]
-    shown = [(name, show(message)) for name, show in shows]
-    return " ".join(f"{name}={text}" for name, text in shown if text is not None)
+    show = _IN_TEXT.get(kind)
+    if show is None:
+        show = _IN_TEXT[kind] = _all_as_text(kind)
+    return show(message)
+
+
+def _all_in_json(kind: type[Message]) -> Callable[[Message], str]:
+    """Return what shows the fields of a class of messages in JSON."""
+    fields = [getattr(kind, name) for name in kind.__match_args__]
+    if fields and all(map(_is_whole, fields)):
+        return _formatted(
+            f"{{{', '.join(f'{json.dumps(each.name)}: %d' for each in fields)}}}", fields
+        )
+    shows = [(f"{json.dumps(field.name)}: ", _json_of(field)) for field in fields]
+
+    def shown(message: Message) -> str:
+        return f"{{{', '.join([f'{name}{show(message)}' for name, show in shows])}}}"
+
+    return shown
+
+
+def _all_as_text(kind: type[Message]) -> Callable[[Message], str]:
+    """Return what shows the fields of a class of messages as text."""
+    fields = [getattr(kind, name) for name in kind.__match_args__]
+    if fields and all(_is_whole(field) and not _is_named(field) for field in fields):
+        return _formatted(" ".join(f"{each.name}=%d{_unit(each)}" for each in fields), fields)
+    shows = [(field.name, _text_of(field)) for field in fields]
+
+    def shown(message: Message) -> str:
+        found = [(name, show(message)) for name, show in shows]
+        return " ".join([f"{name}={text}" for name, text in found if text is not None])
+
+    return shown
+
+
+def _formatted(form: str, fields: list[Any]) -> Callable[[Message], str]:
+    """Return what puts the numbers of a message into a text, all at once."""
+    values: Any = attrgetter(*(field.name for field in fields))
+    return lambda message: form % values(message)
+
+
+def _unit(field: Any) -> str:
+    """Return the unit of a number, as a format."""
+    return f" {field.unit.replace('%', '%%')}" if field.unit else ""
+
+
+def _is_named(field: Any) -> bool:
+    """Tell whether values or bits of a field have names."""
+    return bool(field.names or getattr(field, "bits", None))
 
 
 def _json_of(field: Any) -> Show:
@@ -101,6 +140,8 @@ def _text_of(field: Any) -> Show:
     """Return what shows a field as text."""
     read: Any = attrgetter(field.name)
     if not isinstance(field, Items):
+        if _is_whole(field) and not _is_named(field):
+            return _formatted(f"%d{_unit(field)}", [field])
         return lambda message: _as_text(field, read(message))
     if all(map(_is_whole, field.fields)):
         element = ":".join(["%d"] * field.width)
