@@ -306,15 +306,13 @@ class Reader:
     def scan(self, directions: Sequence[str], data: bytes) -> list[Event]:
         """Read a line that has gone quiet: messages, unknown frames that are proven, and noise.
 
-        At each byte, the first message that is legal there, in the order of the spec; else a frame
-        of an unknown id with the right checksum; else the byte is noise.
+        At each byte, the smallest frame that is legal there: of a message, the first of equals in
+        the order of the spec, or of an unknown id with the right checksum; else it is noise.
         """
         events: list[Event] = []
-        names, largest = self.names(directions), self.largest(directions)
         at = 0
         while at < len(data):
-            found = self._begins(directions, names, largest, data[at:])
-            kind, size = found or ("noise", 1)
+            kind, size = self.begins(directions, data[at:]) or ("noise", 1)
             piece = data[at : at + size]
             if kind == "noise" and events and events[-1][0] == "noise":
                 events[-1] = ("noise", events[-1][1] + piece)
@@ -323,20 +321,23 @@ class Reader:
             at += size
         return events
 
-    def _begins(
-        self, directions: Sequence[str], names: Sequence[str], largest: int, data: bytes
-    ) -> tuple[str, int] | None:
-        for name in names:
-            for size in self._sizes(name, len(data)):
-                if size <= len(data) and self.read(name, data[:size]) is not None:
-                    return name, size
+    def begins(self, directions: Sequence[str], data: bytes) -> tuple[str, int] | None:
+        """Return the message that `data` begins with, or `unknown`, and the size of its frame."""
+        found = [
+            (name, size)
+            for name in self.names(directions)
+            for size in self._sizes(name, len(data))
+            if size <= len(data) and self.read(name, data[:size]) is not None
+        ]
+        most = min(len(data), self.largest(directions))
         for kind in self.frames:
             known = self._known(kind, tuple(directions))
             least = sum(map(_part_size, self.frames[kind].values()))
-            for size in range(least, min(len(data), largest) + 1) if known else ():
-                if self._is_unknown(kind, known, data[:size]):
-                    return "unknown", size
-        return None
+            sizes = range(least, most + 1) if known else ()
+            found += [
+                ("unknown", size) for size in sizes if self._is_unknown(kind, known, data[:size])
+            ]
+        return min(found, key=lambda each: each[1], default=None)
 
     def largest(self, directions: Sequence[str]) -> int:
         """Return the size of the largest frame of these directions."""
