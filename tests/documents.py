@@ -41,8 +41,8 @@ from busservo._client.async_opening import open_async_controller
 from busservo._client.opening import open_controller
 from busservo_simulator import ActionGroup, Step, VirtualController
 from lxservo._client.opening import open_controller as open_servos
+from lxservo_simulator import VirtualBus
 
-from tests.servo_bus import ServoBus
 from tests.timeouts import GENEROUS, undoubted
 
 if TYPE_CHECKING:
@@ -104,13 +104,14 @@ class _Player:
         self._folder = folder
         self._names: dict[str, Any] = {"__name__": "__main__"}
         self._printed = ""
-        self._servos: ServoBus | None = None
+        self._servos: VirtualBus | None = None
         # The folders that the page has changed so far.
         self._changed: set[str] = set()
 
     def play(self, kind: str, block: str) -> str:
         """Return the block as it really is; servos that it talks to are new for each."""
-        with ServoBus(1, 2) if "lxservo" in block else contextlib.nullcontext() as self._servos:
+        bus = VirtualBus(via="tcp", servos=[1, 2])
+        with bus if "lxservo" in block else contextlib.nullcontext() as self._servos:
             return self._play(kind, block)
 
     def _play(self, kind: str, block: str) -> str:

@@ -17,7 +17,7 @@ from framegen.writing import changes
 
 from tests.documents import ROOT
 
-SPEC = ROOT / "spec" / "busservo.yaml"
+SPECS = sorted((ROOT / "spec").glob("*.yaml"))
 # Folders that tools make, and nobody writes.
 IGNORED = (ROOT / ".gitignore").read_text(encoding="utf-8").splitlines()
 LITTER = {".git", "node_modules", *(line.strip("/") for line in IGNORED)}
@@ -105,7 +105,7 @@ def test_text_files_end_with_one_line_break() -> None:
 def test_there_is_one_version() -> None:
     said = [TEXTS[project] for project in PROJECTS]
     versions = re.findall(r'^version = "(.*)"$', "\n".join(said), flags=re.MULTILINE)
-    required = re.findall(r'"busservo==(.*)"', "\n".join(said))
+    required = re.findall(r'"busservo==(.*?)"', "\n".join(said))
     changes = re.findall(r"^## \[(.*?)\]", TEXTS["CHANGELOG.md"], flags=re.MULTILINE)
     assert changes[0] == "Unreleased"
     # framegen's project file reads its version from the package.
@@ -114,17 +114,18 @@ def test_there_is_one_version() -> None:
 
 
 def test_everything_under_generated_is_what_the_generator_makes() -> None:
-    compiled = compile_spec(read_source(SPEC))
-    rendered = render(compiled)
-    found = changes(ROOT, [rendered, render_shared(compiled)])
+    compiled = [compile_spec(read_source(spec)) for spec in SPECS]
+    rendered = [render(each) for each in compiled]
+    found = changes(ROOT, [*rendered, render_shared(compiled[0])])
     assert [(change.path, change.why) for change in found] == []
     on_disk = {name for name in TEXTS if name.startswith("generated/")}
-    assert on_disk <= {*rendered.files, rendered.manifest}
+    made = {name for each in rendered for name in (*each.files, each.manifest)}
+    assert on_disk <= made
 
 
-def test_there_is_nothing_in_generated_but_the_library() -> None:
+def test_there_is_nothing_in_generated_but_the_libraries() -> None:
     names = {path.name for path in (ROOT / "generated").iterdir() if path.name not in LITTER}
-    assert names == {"busservo", "busservo.manifest"}
+    assert names == {name for spec in SPECS for name in (spec.stem, f"{spec.stem}.manifest")}
 
 
 def test_generated_code_silences_no_checker() -> None:

@@ -52,10 +52,10 @@ def all_messages() -> list[tuple[str, str]]:
 
 
 @cache
-def values_of(name: str, message: str) -> st.SearchStrategy[Values]:
-    """Return a strategy for values that a frame of a message can carry."""
+def values_of(name: str, message: str, *, few: bool = False) -> st.SearchStrategy[Values]:
+    """Return a strategy for values that a frame of a message can carry, `few` in each list."""
     layout = messages_of(name)[message]
-    whole = _in_order({slot.name: _values(slot) for slot in layout.arguments})
+    whole = _in_order({slot.name: _values(slot, few) for slot in layout.arguments})
     if not layout.optional:
         return whole
     absent = [
@@ -65,7 +65,7 @@ def values_of(name: str, message: str) -> st.SearchStrategy[Values]:
     return st.builds(lambda values, gone: values | gone, whole, st.sampled_from(absent))
 
 
-def _values(slot: Field) -> st.SearchStrategy[Any]:
+def _values(slot: Field, few: bool = False) -> st.SearchStrategy[Any]:
     match slot:
         case Number():
             return _numbers(slot)
@@ -75,7 +75,7 @@ def _values(slot: Field) -> st.SearchStrategy[Any]:
             number = st.integers(slot.low, slot.high)
             return st.lists(number, min_size=slot.count, max_size=slot.count)
         case Items():
-            return _lists(slot)
+            return _lists(slot, few)
 
 
 def _in_order(drawn: dict[str, st.SearchStrategy[Any]]) -> st.SearchStrategy[Values]:
@@ -83,17 +83,17 @@ def _in_order(drawn: dict[str, st.SearchStrategy[Any]]) -> st.SearchStrategy[Val
     return st.fixed_dictionaries(drawn).map(lambda values: {name: values[name] for name in drawn})
 
 
-def _lists(items: Items) -> st.SearchStrategy[Any]:
-    few = max(items.low, min(items.high, FEW))
+def _lists(items: Items, few: bool) -> st.SearchStrategy[Any]:
+    most = max(items.low, min(items.high, FEW))
     if items.text is not None:
-        return _texts(few).filter(lambda text: len(text) >= items.low)
+        return _texts(most).filter(lambda text: len(text) >= items.low)
     element: st.SearchStrategy[Any] = (
         _values(items.fields[0])
         if items.element is None
         else _in_order({field.name: _values(field) for field in items.fields})
     )
-    full = st.builds(lambda one: [one] * items.high, element)
-    return st.lists(element, min_size=items.low, max_size=few) | full
+    some = st.lists(element, min_size=items.low, max_size=most)
+    return some if few else some | st.builds(lambda one: [one] * items.high, element)
 
 
 def _numbers(number: Number) -> st.SearchStrategy[Any]:

@@ -27,7 +27,8 @@ def sent(name: str, way: Direction) -> list[MessageLayout]:
 def frames(name: str, way: Direction) -> st.SearchStrategy[bytes]:
     """Return a strategy for frames of one direction."""
     drawn = [
-        values_of(name, message.name).map(partial(encode, message)) for message in sent(name, way)
+        values_of(name, message.name, few=True).map(partial(encode, message))
+        for message in sent(name, way)
     ]
     small = st.one_of(drawn).filter(lambda frame: len(frame) <= LARGE)
     return st.sampled_from(published(name, way)) | small

@@ -35,7 +35,7 @@ def checker(fields: Sequence[Number | Float]) -> Callable[..., None]:
         return None
 
     def check(*numbers: Any) -> None:
-        for number, low, high in zip(numbers, lows, highs):  # noqa: B905
+        for number, low, high in zip(numbers, lows, highs):
             if type(number) is not int or number < low or number > high:
                 return explain(numbers)
         return None
@@ -67,7 +67,7 @@ def range_test(numbers: Sequence[Number]) -> Callable[[bytes], bool]:
     lows, highs = [number.low for number in numbers], [number.high for number in numbers]
 
     def all_inside(frame: bytes) -> bool:
-        for value, low, high in zip(unpack(frame), lows, highs):  # noqa: B905
+        for value, low, high in zip(unpack(frame), lows, highs):
             if value < low or value > high:
                 return False
         return True
