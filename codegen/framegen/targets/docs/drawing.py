@@ -101,8 +101,7 @@ def interruption(model: Model) -> Drawing | None:
 
 
 def _is_report(model: Model, name: str) -> bool:
-    refusals = {message.refusal for message in model.spec.messages.values()}
-    return model.kind(name) == "report" and name not in refusals
+    return model.kind(name) == "report" and name not in model.refuses
 
 
 def _caption(model: Model, name: str) -> str:

@@ -258,8 +258,10 @@ class ClientView:
 
     @property
     def _gathered(self) -> set[str]:
+        if not self.silent:
+            return set()
         asked = [each for each in self.methods if each.has_address and each.reply_name]
-        return {name for each in asked for name in (each.request, each.reply_name) if self.silent}
+        return {name for each in asked for name in (each.request, each.reply_name)}
 
     @property
     def _messages(self) -> set[str]:
