@@ -45,7 +45,8 @@ BLIND: dict[str, str] = {
     "little_u16.range=2..1000": NO_END,
     "low_bits.range=1..9": NO_END,
     "quality.range=1..100": NO_END,
-    "second.range=1..999": NO_END,
+    "second.range=1..99": NO_END,
+    "second.type=i8": "its range is that of both",
 }
 
 
