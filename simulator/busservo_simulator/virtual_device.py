@@ -18,6 +18,7 @@ class Report(Protocol):
 
     def encode(self) -> bytes:
         """Return its frame."""
+        ...
 
 
 class Rejects(Protocol):
@@ -36,14 +37,17 @@ class VirtualDevice(Protocol):
     @property
     def errors(self) -> ModuleType:
         """The module of its library with the errors of a link."""
+        ...
 
     @property
     def baud(self) -> int:
         """The rate of its line."""
+        ...
 
     @property
     def rejects(self) -> Rejects:
         """Its counts of rejected input."""
+        ...
 
     @property
     def next_event(self) -> float | None:
@@ -57,9 +61,11 @@ class VirtualDevice(Protocol):
 
     def take(self) -> Sequence[Report]:
         """Return what waits to be sent."""
+        ...
 
     def reboot(self, seconds: float) -> None:
         """Switch it off and on: no input for `seconds`."""
 
     def injector(self, faults: LineFaults | None) -> FaultInjector:
         """Return what applies faults to its line; None for none."""
+        ...

@@ -25,8 +25,8 @@ class BusServo:
         self.voltage_mv = 7400
         # What it keeps when it is switched off.
         self.saved_offset = 0
-        self.position_limits = (LOWEST, HIGHEST)
-        self.voltage_limits = (4500, 12000)
+        self.position_limits: tuple[int, int] = (LOWEST, HIGHEST)
+        self.voltage_limits: tuple[int, int] = (4500, 12000)
         self.temperature_limit = 85
         self.led = 0
         self.led_errors = 7
@@ -34,8 +34,8 @@ class BusServo:
         self.offset = 0
         self.mode, self.speed = 0, 0
         self.loaded = True
-        self.last_move = (position, 0)
-        self.prepared = (position, 0)
+        self.last_move: tuple[int, int] = (position, 0)
+        self.prepared: tuple[int, int] = (position, 0)
         self._now = now
         self._start = self._target = position
         self._left = self._arrives = now()

@@ -17,9 +17,9 @@ if TYPE_CHECKING:
     class Method(Protocol):
         """What works a checksum out, at once or along a stream."""
 
-        @property
-        def of(self) -> Callable[[bytes], int]:
-            """What returns the checksum of some bytes."""
+        # A function that returns the checksum of some bytes. What is called like a method, and is
+        # none, has no other type that all checkers agree on.
+        of: Any
 
         def running(self) -> Any:
             """Return what works it out along a stream."""
