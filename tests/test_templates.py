@@ -51,7 +51,7 @@ ALLOWED = (
     nodes.Add,
     nodes.Keyword,
 )
-FILTERS = {"assigned", "docstring", "join", "literal"}
+FILTERS = {"assigned", "docstring", "join", "literal", "quoted"}
 
 
 def named(path: Path) -> str:

@@ -432,7 +432,8 @@ def test_a_verb_can_be_run_from_any_thread() -> None:
 def test_a_missing_dependency_of_the_simulator_is_not_taken_for_the_simulator(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    monkeypatch.delitem(sys.modules, "busservo_simulator.cli", raising=False)
+    for module in ("cli", "command"):
+        monkeypatch.delitem(sys.modules, f"busservo_simulator.{module}", raising=False)
     monkeypatch.setitem(sys.modules, "signal", None)
     with pytest.raises(ModuleNotFoundError, match="signal"):
         simulate.hand_over([])

@@ -163,7 +163,7 @@ class _Look:
 
     def verdicts(self) -> list[Verdict]:
         """Judge the bytes as each message that its head allows, or as none."""
-        if self.frame.least > self.largest:
+        if self.candidates.messages and self.frame.least > self.largest:
             return []
         try:
             length, candidates = self.head()

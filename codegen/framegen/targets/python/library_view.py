@@ -268,6 +268,11 @@ class LibraryView:
         return [protocol.title, protocol.summary, protocol.description]
 
     @property
+    def title(self) -> str:
+        """What people call the protocol."""
+        return self.model.spec.protocol.title
+
+    @property
     def distribution(self) -> Distribution:
         """What its project file says, where it has one."""
         return self.model.spec.protocol.distribution or _NO_DISTRIBUTION

@@ -46,7 +46,8 @@ function readNumber({ size, order, signed, float, wide }, bytes, at) {
 // The bytes that stand for `value` in a slot.
 function writeNumber({ size, order, float }, value) {
   const view = new DataView(new ArrayBuffer(8));
-  if (float) view[size === 4 ? "setFloat32" : "setFloat64"](8 - size, value);
+  if (float && size === 4) view.setFloat32(4, value);
+  else if (float) view.setFloat64(0, value);
   else view.setBigInt64(0, BigInt.asIntN(64, BigInt(value)));
   const bytes = [...new Uint8Array(view.buffer)].slice(8 - size);
   return order === "little" ? bytes.reverse() : bytes;
