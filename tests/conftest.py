@@ -61,6 +61,8 @@ _sockets.time = SimpleNamespace(sleep=lambda _seconds: None)
 
 
 ROOT = Path(__file__).parent.parent
+# Protocols of which each kind of frame is one of another protocol as well.
+ALIKE = {"crsf", "ibus", "learm", "mavlink1", "mhz19", "msp", "tfmini"}
 SLOW_TESTS = Path(__file__).parent / "all"
 
 
@@ -128,16 +130,26 @@ def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item
     elif config.option.all or any("::" in argument for argument in config.args):
         return
     else:
-        kept = {item for item in items if item.get_closest_marker("slow") is None}
+        kept = {item for item in items if not is_slow(item)}
     config.hook.pytest_deselected(items=[item for item in items if item not in kept])
     items[:] = [item for item in items if item in kept]
+
+
+def is_slow(item: pytest.Item) -> bool:
+    """Tell whether a test is left out of most runs."""
+    if item.get_closest_marker("each_protocol") is not None:
+        parameters = getattr(item, "callspec", SimpleNamespace(params={})).params.values()
+        names = {each.stem if isinstance(each, Path) else each for each in parameters}
+        if not ALIKE.isdisjoint(str(name) for name in names):
+            return True
+    return item.get_closest_marker("slow") is not None
 
 
 def sample(items: Sequence[pytest.Item], many: int, seed: int) -> set[pytest.Item]:
     """Return so many slow tests of each file; the same for the same seed."""
     by_file: defaultdict[str, list[pytest.Item]] = defaultdict(list)
     for item in items:
-        if SLOW_TESTS in item.path.parents or item.get_closest_marker("slow") is not None:
+        if SLOW_TESTS in item.path.parents or is_slow(item):
             by_file[item.nodeid.partition("::")[0]].append(item)
     return {
         item

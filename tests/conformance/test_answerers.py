@@ -26,6 +26,7 @@ def published(spec: Path) -> dict[str, Any]:
     return vectors_of(compiled_file(spec))
 
 
+@pytest.mark.each_protocol
 @pytest.mark.parametrize("spec", SPECS, ids=lambda spec: spec.stem)
 @pytest.mark.parametrize("language", ANSWERERS)
 def test_a_codec_says_what_the_vectors_say(language: str, spec: Path, tmp_path: Path) -> None:

@@ -63,6 +63,7 @@ def ways_of(model: Model) -> list[tuple[str | None, list[Direction]]]:
     return [*((way.key, [way]) for way in model.directions), (None, model.directions)]
 
 
+@pytest.mark.each_protocol
 @pytest.mark.parametrize("name", FILES)
 def test_streams_are_decoded_as_the_reference_decodes_them(name: str) -> None:
     model, chance = model_of(name), random.Random(name)  # noqa: S311 - the same in every run
@@ -104,6 +105,7 @@ def _events(
             yield [event.kind, event.data.hex(), (event.message.name, values)]
 
 
+@pytest.mark.each_protocol
 @pytest.mark.parametrize("name", FILES)
 def test_single_frames_are_judged_as_the_reference_judges_them(name: str) -> None:
     model = model_of(name)
@@ -126,6 +128,7 @@ def _verdict(model: Model, way: Direction | None, data: bytes) -> list[Any]:
     return [decoded.layout.name, decoded.values]
 
 
+@pytest.mark.each_protocol
 @pytest.mark.parametrize("name", FILES)
 def test_every_example_is_encoded_as_the_reference_encodes_it(name: str) -> None:
     model = model_of(name)

@@ -53,6 +53,7 @@ def compiled(found: Guess) -> Compiled:
     return compile_spec(Source("guess.yaml", spec_text(found, "line.bin")))
 
 
+@pytest.mark.each_protocol
 @pytest.mark.parametrize("protocol", SPECS)
 def test_what_200_frames_decide_is_right(protocol: str) -> None:
     assert wrong(guessed(protocol)[0], model_of(protocol)) == []
@@ -63,6 +64,7 @@ def test_frames_of_two_kinds_on_one_line_are_undecided() -> None:
     assert compiled(guessed(MIXED)[0]).findings == []
 
 
+@pytest.mark.each_protocol
 @pytest.mark.parametrize("protocol", [name for name in SPECS if name != MIXED])
 def test_200_frames_give_a_spec_without_findings_that_explains_them_all(protocol: str) -> None:
     found, capture = guessed(protocol)
@@ -113,6 +115,7 @@ DECIDED = {
 }
 
 
+@pytest.mark.each_protocol
 @pytest.mark.parametrize("protocol", DECIDED)
 def test_200_frames_decide_what_there_is_to_see(protocol: str) -> None:
     conclusions = guessed(protocol)[0].conclusions

@@ -38,6 +38,7 @@ def test_a_published_frame_is_read_and_written_again(
         assert made_again.to_dict() == read.to_dict()
 
 
+@pytest.mark.each_protocol
 @pytest.mark.parametrize(("name", "message"), all_messages())
 @given(data=st.data())
 def test_what_is_written_is_read(
@@ -51,6 +52,7 @@ def test_what_is_written_is_read(
     assert (type(read).__name__, values_in(layout, read)) == (message, values)
 
 
+@pytest.mark.each_protocol
 @pytest.mark.parametrize(("name", "way"), WAYS)
 @given(data=st.data())
 def test_bytes_are_refused_for_the_same_reason(
@@ -75,6 +77,7 @@ def _judged(name: str, way: Direction, line: bytes) -> Values | tuple[str, int]:
         return refused.reason, refused.offset
 
 
+@pytest.mark.each_protocol
 @pytest.mark.parametrize(("name", "way"), WAYS)
 @given(data=st.data())
 def test_a_stream_is_read_as_the_reference_reads_it(

@@ -50,6 +50,7 @@ def test_a_published_frame_is_read_and_written_again(name: str, message: str, nu
     assert encode(layout, decoded.values, like=example.hex) == example.hex
 
 
+@pytest.mark.each_protocol
 @pytest.mark.parametrize(("name", "message"), all_messages())
 @given(data=st.data())
 def test_what_is_written_is_read(name: str, message: str, data: st.DataObject) -> None:

@@ -16,6 +16,8 @@ from tests.protocols.streams import all_ways, frames, lines, noise, proven, publ
 if TYPE_CHECKING:
     from framegen.language.values import Direction
 
+pytestmark = pytest.mark.each_protocol
+
 WAYS = [pytest.param(name, way, id=f"{name}-{way.sender}") for name, way in all_ways()]
 
 

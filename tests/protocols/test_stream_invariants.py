@@ -24,6 +24,8 @@ if TYPE_CHECKING:
     from framegen.language.values import Direction
     from framegen.model.layout import MessageLayout
 
+pytestmark = pytest.mark.each_protocol
+
 each_protocol = pytest.mark.parametrize("name", FILES)
 each_way = pytest.mark.parametrize(
     ("name", "way"), [pytest.param(*each, id=f"{each[0]}-{each[1].sender}") for each in all_ways()]
