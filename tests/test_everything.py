@@ -130,6 +130,13 @@ def test_what_is_absent_is_none(everything: Any, present: tuple[Any, ...], size:
     assert everything.Tail.from_dict(tail.to_dict()) == tail
 
 
+def test_what_is_absent_has_no_value_to_compare(everything: Any) -> None:
+    """Limits and replies are compared by column: of what is absent, there is none."""
+    column = importlib.import_module(f"{everything.__name__}._client.exchange").column
+    assert column(everything.Tail(1), "second") == []
+    assert column(everything.Tail(1, second=7), "second") == [7]
+
+
 @pytest.mark.parametrize(
     ("given", "problem"),
     [

@@ -187,9 +187,14 @@ class Exchange:
 
 
 def column(message: Message, path: str) -> list[int]:
-    """Return the values of a field, by path: one number, or one for each element of a list."""
+    """Return the values of a field, by path: one number, or one for each element of a list.
+
+    A field that is absent has none.
+    """
     name, _, inner = path.partition(".")
     value = getattr(message, name)
     if inner:
         return [getattr(item, inner) for item in value]
+    if value is None:
+        return []
     return list(value) if isinstance(value, tuple) else [value]
