@@ -4,11 +4,10 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from busservo._cli import console
-
-from busservo_simulator.command import run, via
+from busservo_simulator import command
+from busservo_simulator.command import Simulator, via
 from busservo_simulator.faults import Faults
-from busservo_simulator.line_options import completion, faults_of
+from busservo_simulator.line_options import faults_of
 from busservo_simulator.options import PROGRAM, add_arguments, parser_of
 
 if TYPE_CHECKING:
@@ -27,19 +26,7 @@ def main(argv: Sequence[str] | None = None, *, program: str = PROGRAM) -> int:
     `program` is how the command was called: it is a verb of another one, too. With --quiet, nothing
     follows the name of the port, so its reader may leave.
     """
-    return console.run(program, lambda: _run_or_tell(argv, program))
-
-
-def _run_or_tell(argv: Sequence[str] | None, program: str) -> int:
-    arguments = parser_of(program).parse_args(argv)
-    try:
-        if getattr(arguments, "print_completion", None) is not None:
-            print(completion(parser_of(PROGRAM), arguments.print_completion, Faults))
-            return console.DONE
-        return run(_board, arguments, program)
-    except ValueError as error:
-        console.complain(program, str(error))
-        return console.UNUSABLE
+    return command.main(_SIMULATOR, argv, program)
 
 
 def _board(arguments: argparse.Namespace) -> VirtualController:
@@ -63,3 +50,6 @@ def _board(arguments: argparse.Namespace) -> VirtualController:
                 raise ValueError(f"--{attribute} {servo_id}: there is no such servo; see --servos")
             setattr(board.servos[servo_id], attribute, True)
     return board
+
+
+_SIMULATOR = Simulator(PROGRAM, parser_of, Faults, _board)

@@ -7,21 +7,55 @@ import signal
 import sys
 import threading
 from contextlib import ExitStack, contextmanager
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, Literal
 
 from busservo._cli import console
 from busservo._frame.pluralize import pluralize
 
+from busservo_simulator.line_options import completion
 from busservo_simulator.tcp_end import LOOPBACK
 
 if TYPE_CHECKING:
     import argparse
-    from collections.abc import Callable, Iterator
+    from collections.abc import Callable, Iterator, Sequence
 
+    from busservo_simulator.line_faults import LineFaults
     from busservo_simulator.virtual_line import VirtualLine
 
 
-def run(
+@dataclass(frozen=True)
+class Simulator:
+    """A command: its name, its parser by the name it was called by, its faults, and its device."""
+
+    name: str
+    parser_of: Callable[[str], argparse.ArgumentParser]
+    faults: type[LineFaults]
+    make: Callable[[argparse.Namespace], VirtualLine]
+
+
+def main(simulator: Simulator, argv: Sequence[str] | None, program: str) -> int:
+    """Run a command line. 0: ended by Ctrl-C; 2: usage error; 141: the reader of its output left.
+
+    With --quiet, nothing follows the name of the port, so its reader may leave.
+    """
+    return console.run(program, lambda: _run_or_tell(simulator, argv, program))
+
+
+def _run_or_tell(simulator: Simulator, argv: Sequence[str] | None, program: str) -> int:
+    arguments = simulator.parser_of(program).parse_args(argv)
+    try:
+        shell = getattr(arguments, "print_completion", None)
+        if shell is not None:
+            print(completion(simulator.parser_of(simulator.name), shell, simulator.faults))
+            return console.DONE
+        return _run(simulator.make, arguments, program)
+    except ValueError as error:
+        console.complain(program, str(error))
+        return console.UNUSABLE
+
+
+def _run(
     make: Callable[[argparse.Namespace], VirtualLine], arguments: argparse.Namespace, program: str
 ) -> int:
     """Serve what `make` makes until a signal ends it. Raises ValueError for what cannot be."""

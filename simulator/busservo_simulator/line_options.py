@@ -6,7 +6,7 @@ import argparse
 import re
 from typing import TYPE_CHECKING, TypeVar
 
-from busservo._cli import shell_completion
+from busservo._cli import console, shell_completion
 
 from busservo_simulator.line_faults import LineFaults, described
 from busservo_simulator.servo_list import parse_servos
@@ -85,6 +85,29 @@ def add_fault_arguments(parser: argparse.ArgumentParser, kind: type[LineFaults])
         default=0,
         help="which run of faults: the same seed and the same traffic repeat it (default: 0)",
     )
+
+
+def add_output_arguments(parser: argparse.ArgumentParser, version: str) -> None:
+    """Declare what is printed; `version` is the program's, with its name."""
+    parser.add_argument("--quiet", action="store_true", help="print the port and nothing else")
+    parser.add_argument("--version", action="version", version=version)
+
+
+def parser_named(
+    program: str,
+    own: str,
+    description: str,
+    examples: str,
+    declare: Callable[[argparse.ArgumentParser], None],
+) -> argparse.ArgumentParser:
+    """Return the parser of a command, under the name that it was called by instead of its own."""
+    parser = console.Parser(
+        prog=program, description=description, epilog=examples.replace(own, program)
+    )
+    declare(parser)
+    if program == own:
+        shell_completion.add_option(parser)
+    return parser
 
 
 def faults_of(arguments: argparse.Namespace, kind: type[_Faults]) -> _Faults:

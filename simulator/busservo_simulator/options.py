@@ -5,15 +5,16 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from busservo import __version__
-from busservo._cli import console, shell_completion
 from busservo._frame.protocol import BAUD
 
 from busservo_simulator.faults import Faults
 from busservo_simulator.line_options import (
     add_fault_arguments,
     add_line_arguments,
+    add_output_arguments,
     listed_faults,
     millivolts,
+    parser_named,
     servos,
 )
 from busservo_simulator.tcp_end import LOOPBACK
@@ -23,6 +24,7 @@ if TYPE_CHECKING:
 
 PROGRAM = "busservo-simulator"
 
+_DESCRIPTION = "A virtual bus servo controller: talk to it as to a real one."
 _EXAMPLES = f"""\
 examples:
   {PROGRAM}                            a board behind a pty, whose name is printed first
@@ -45,15 +47,7 @@ What happens is printed line by line: the seconds since the start, who, and what
 
 def parser_of(program: str) -> argparse.ArgumentParser:
     """Return the parser of the command, under the name that it was called by."""
-    parser = console.Parser(
-        prog=program,
-        description="A virtual bus servo controller: talk to it as to a real one.",
-        epilog=_EXAMPLES.replace(PROGRAM, program),
-    )
-    add_arguments(parser)
-    if program == PROGRAM:
-        shell_completion.add_option(parser)
-    return parser
+    return parser_named(program, PROGRAM, _DESCRIPTION, _EXAMPLES, add_arguments)
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -92,5 +86,4 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "--no-start-report", action="store_true", help="does not report that an action group starts"
     )
     add_fault_arguments(parser, Faults)
-    parser.add_argument("--quiet", action="store_true", help="print the port and nothing else")
-    parser.add_argument("--version", action="version", version=f"{PROGRAM} {__version__}")
+    add_output_arguments(parser, f"{PROGRAM} {__version__}")

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from busservo._cli import console
-from busservo_simulator.command import run, via
+from busservo_simulator import command
+from busservo_simulator.command import Simulator, via
 from busservo_simulator.line_faults import LineFaults
-from busservo_simulator.line_options import completion, faults_of
+from busservo_simulator.line_options import faults_of
 
 from lxservo_simulator.options import PROGRAM, add_arguments, parser_of
 
@@ -27,19 +27,7 @@ def main(argv: Sequence[str] | None = None, *, program: str = PROGRAM) -> int:
     `program` is how the command was called. With --quiet, nothing follows the name of the port, so
     its reader may leave.
     """
-    return console.run(program, lambda: _run_or_tell(argv, program))
-
-
-def _run_or_tell(argv: Sequence[str] | None, program: str) -> int:
-    arguments = parser_of(program).parse_args(argv)
-    try:
-        if getattr(arguments, "print_completion", None) is not None:
-            print(completion(parser_of(PROGRAM), arguments.print_completion, LineFaults))
-            return console.DONE
-        return run(_bus, arguments, program)
-    except ValueError as error:
-        console.complain(program, str(error))
-        return console.UNUSABLE
+    return command.main(_SIMULATOR, argv, program)
 
 
 def _bus(arguments: argparse.Namespace) -> VirtualBus:
@@ -60,3 +48,6 @@ def _bus(arguments: argparse.Namespace) -> VirtualBus:
             raise ValueError(f"--dead {servo_id}: there is no such servo; see --servos")
         bus.servos[servo_id].dead = True
     return bus
+
+
+_SIMULATOR = Simulator(PROGRAM, parser_of, LineFaults, _bus)

@@ -4,12 +4,13 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from busservo._cli import console, shell_completion
 from busservo_simulator.line_faults import LineFaults
 from busservo_simulator.line_options import (
     add_fault_arguments,
     add_line_arguments,
+    add_output_arguments,
     listed_faults,
+    parser_named,
     servos,
 )
 from busservo_simulator.tcp_end import LOOPBACK
@@ -21,6 +22,7 @@ if TYPE_CHECKING:
 
 PROGRAM = "lxservo-simulator"
 
+_DESCRIPTION = "A virtual bus of LX-16A servos: talk to it as to real ones."
 _EXAMPLES = f"""\
 examples:
   {PROGRAM}                            servos behind a pty, whose name is printed first
@@ -32,7 +34,7 @@ examples:
   {PROGRAM} --fault noise=0.2 --fault dropped=0.1 --seed 7
 
 faults, each by its chance from 0 to 1:
-{{faults}}
+{listed_faults(LineFaults)}
 
 What happens is printed line by line: the seconds since the start, who, and what. Ctrl-C ends it.
 """
@@ -40,16 +42,7 @@ What happens is printed line by line: the seconds since the start, who, and what
 
 def parser_of(program: str) -> argparse.ArgumentParser:
     """Return the parser of the command, under the name that it was called by."""
-    examples = _EXAMPLES.replace("{faults}", listed_faults(LineFaults))
-    parser = console.Parser(
-        prog=program,
-        description="A virtual bus of LX-16A servos: talk to it as to real ones.",
-        epilog=examples.replace(PROGRAM, program),
-    )
-    add_arguments(parser)
-    if program == PROGRAM:
-        shell_completion.add_option(parser)
-    return parser
+    return parser_named(program, PROGRAM, _DESCRIPTION, _EXAMPLES, add_arguments)
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -71,5 +64,4 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         help="those of them that neither answer nor move",
     )
     add_fault_arguments(parser, LineFaults)
-    parser.add_argument("--quiet", action="store_true", help="print the port and nothing else")
-    parser.add_argument("--version", action="version", version=f"{PROGRAM} {__version__}")
+    add_output_arguments(parser, f"{PROGRAM} {__version__}")

@@ -43,12 +43,34 @@ def noted(field: NumberField | ListField, spec: Spec) -> list[str]:
 
 
 class _NoNumber:
-    """What is no number has none of these beside it."""
+    """A field of bytes that are no number by themselves, which has nothing beside it."""
 
     constants: ClassVar[list[Constant]] = []
     masks: ClassVar[list[Constant]] = []
     bits: ClassVar[list[BitsView]] = []
     signed: ClassVar[SignedView | None] = None
+
+    slot: TextSlot | Items | Packed
+    value_type: ClassVar[str]
+
+    @property
+    def name(self) -> str:
+        return self.slot.name
+
+    @property
+    def read_as(self) -> str:
+        """The type of its value."""
+        return self.value_type
+
+    @property
+    def notation(self) -> str:
+        """What `struct` packs it as."""
+        return f"{self.slot.size}s"
+
+    @property
+    def packed(self) -> str:
+        """The expression that `struct` packs."""
+        return f"cls.{self.name}.packed({self.name})"
 
 
 @dataclass(frozen=True)
@@ -64,18 +86,9 @@ class TextView(_NoNumber):
     classes: ClassVar[dict[str, str]] = {"Text": "text"}
 
     @property
-    def name(self) -> str:
-        return self.slot.name
-
-    @property
     def argument(self) -> str:
         """The declaration as an argument."""
         return f"{self.name}: str"
-
-    @property
-    def read_as(self) -> str:
-        """The type of its value."""
-        return self.value_type
 
     @property
     def described(self) -> str:
@@ -101,16 +114,6 @@ class TextView(_NoNumber):
         about = bounded(slot.field.about, f"{bounds} characters")
         return [about, *noted(slot.field, self.spec)]
 
-    @property
-    def notation(self) -> str:
-        """What `struct` packs it as."""
-        return f"{self.slot.size}s"
-
-    @property
-    def packed(self) -> str:
-        """The expression that `struct` packs."""
-        return f"cls.{self.name}.packed({self.name})"
-
 
 @dataclass(frozen=True)
 class PackedView(_NoNumber):
@@ -124,18 +127,9 @@ class PackedView(_NoNumber):
     classes: ClassVar[dict[str, str]] = {"Packed": "packed"}
 
     @property
-    def name(self) -> str:
-        return self.slot.name
-
-    @property
     def argument(self) -> str:
         """The declaration as an argument."""
         return f"{self.name}: Iterable[int]"
-
-    @property
-    def read_as(self) -> str:
-        """The type of its value."""
-        return self.value_type
 
     @property
     def described(self) -> str:
@@ -164,19 +158,8 @@ class PackedView(_NoNumber):
         about = bounded(slot.field.about, f"{slot.count} of {slot.low}..{slot.high}{unit}")
         return [about, *noted(slot.field, self.spec)]
 
-    @property
-    def notation(self) -> str:
-        """What `struct` packs it as."""
-        return f"{self.slot.size}s"
-
-    @property
-    def packed(self) -> str:
-        """The expression that `struct` packs."""
-        return f"cls.{self.name}.packed({self.name})"
-
 
 def counters(items: Items, tail: int) -> list[Part]:
     """Return the arguments that say what the size of a list depends on."""
-    keys = {"count": "count", "size": "size"}
-    found: list[Part] = [f"{keys[each.role]}={each.name}" for each in items.counters]
+    found: list[Part] = [f"{each.role}={each.name}" for each in items.counters]
     return [*found, f"tail={tail}"] if tail and not items.is_fixed else found
