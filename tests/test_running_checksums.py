@@ -9,9 +9,9 @@ from typing import Any
 
 import pytest
 from framegen.model.checksums import CHECK_DATA, CHECKSUMS
-from framegen.targets.python import _FOR_CHECKSUMS
 from framegen.targets.python import __file__ as target
 from framegen.targets.python.checksum_view import ChecksumView
+from framegen.targets.python.files import ONLY_WITH
 from hypothesis import given
 from hypothesis import strategies as st
 
@@ -59,7 +59,7 @@ def make(method: str, width: int) -> Any:
 
 def test_every_module_that_a_method_needs_is_in_the_runtime() -> None:
     needed = set().union(*(ChecksumView(*method).files for method in METHODS))
-    assert needed == _FOR_CHECKSUMS
+    assert needed == ONLY_WITH["checksums"]
     assert {f"_frame/{file.name}" for file in RUNTIME.iterdir()} >= needed
 
 

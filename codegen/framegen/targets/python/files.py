@@ -1,0 +1,104 @@
+"""Which files a library is made of: some only if the protocol has a use for them."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from framegen.targets.python.checksum_view import checksums_of
+
+if TYPE_CHECKING:
+    from framegen.targets.python.client_view import ClientView
+    from framegen.targets.python.library_view import LibraryView
+
+# What framegen and a library have in common is written once: where it is copied to.
+SHARED = {
+    "_cli/colour.py": "colour.py",
+    "_cli/console.py": "console.py",
+    "_cli/shell_completion.py": "shell_completion.py",
+    "_codec/hextext.py": "hextext.py",
+    "_recording/file.py": "recording_file.py",
+    "_frame/pluralize.py": "pluralize.py",
+    **{
+        f"_explanation/{name}.py": f"explanation/{name}.py"
+        for name in (
+            "__init__",
+            "checksum",
+            "explanation",
+            "lookalikes",
+            "protocol",
+            "refusals",
+            "text",
+        )
+    },
+}
+# What only some protocols have a use for, by what they have; `_used` tells which these are.
+ONLY_WITH = {
+    "a distribution": {"README.md", "pyproject.toml"},
+    "poses": {"_cli/play.py", "_cli/posefile.py", "_cli/positions.py", "_cli/teach.py"},
+    "addresses": {"_client/address.py", "_client/async_devices.py", "_client/devices.py"},
+    "failures": {"_client/failures.py"},
+    "envelopes": {
+        f"_frame/{name}.py" for name in ("envelope", "envelopes", "head_walk", "trial", "why_not")
+    },
+    "proof": {"_codec/proof.py"},
+    # Each method needs some of these, and each kind of field some of those.
+    "checksums": {f"_frame/{name}.py" for name in ("byte_sum", "crc", "fletcher", "running")},
+    "fields": {
+        f"_frame/{name}.py"
+        for name in (
+            "fixed",
+            "floating",
+            "general_shape",
+            "lists",
+            "mixed_element",
+            "optional",
+            "packed",
+            "quick_tests",
+            "shape",
+            "swapped",
+            "text",
+            "three_bytes",
+        )
+    },
+}
+# What takes the place of another file, by whose library it does: frames that are a header, a
+# length and an id; frames that are more than that; frames that each prove that they are one.
+INSTEAD = {
+    "plain": {
+        "_frame/plain_heads.py": "_frame/heads.py",
+        "_frame/plain_parts.py": "_frame/parts.py",
+    },
+    "general": {
+        "_frame/envelope_heads.py": "_frame/heads.py",
+        "_frame/envelope_parts.py": "_frame/parts.py",
+        "_frame/envelope_table.py": "_frame/table.py",
+    },
+    "proven": {"_codec/certain_decoder.py": "_codec/careful_decoder.py"},
+}
+
+
+def placed(files: dict[str, str], library: LibraryView, client: ClientView) -> dict[str, str]:
+    """Return those of all files that the library has a use for, each in its place."""
+    used = _used(library, client)
+    kinds = {"plain": library.plain, "general": not library.plain, "proven": library.proven}
+    unused = set[str]().union(*ONLY_WITH.values(), *INSTEAD.values()) - used
+    found = {name: text for name, text in files.items() if name not in unused}
+    for kind, places in INSTEAD.items():
+        if kinds[kind]:
+            found |= {place: files[name] for name, place in places.items()}
+    return found
+
+
+def _used(library: LibraryView, client: ClientView) -> set[str]:
+    spec = library.model.spec
+    has = {
+        "a distribution": spec.protocol.distribution is not None,
+        "poses": spec.pose is not None,
+        "addresses": client.bus is not None,
+        "failures": bool(client.failing),
+        "envelopes": not library.plain,
+        "proof": bool(library.checksums),
+    }
+    used = {name for what, there in has.items() if there for name in ONLY_WITH[what]}
+    used |= {f"_frame/{name}.py" for name in library.modules}
+    return used.union(*(sums.files for sums in checksums_of(library.model)))
