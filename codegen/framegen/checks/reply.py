@@ -1,4 +1,4 @@
-"""Rule: replies and reports are messages of the other direction."""
+"""Rule: replies, refusals and reports are messages of the other direction."""
 
 from __future__ import annotations
 
@@ -38,14 +38,16 @@ def _look(spec: Spec) -> Iterator[Problem]:
 def _answers(path: KeyPath, message: Message) -> Iterator[tuple[KeyPath, str]]:
     if message.reply is not None:
         yield (*path, "reply"), message.reply
+    if message.refusal is not None:
+        yield (*path, "refusal"), message.refusal
     for index, report in enumerate(message.reports):
         yield (*path, "reports", index), report
 
 
 RULE = StructureRule(
     id="reply",
-    title="Replies and reports are messages of the other direction",
-    why="A client waits for the reply by its name: one that cannot arrive is waited for in vain.",
+    title="Replies, refusals and reports are messages of the other direction",
+    why="A client waits for them by their names: one that cannot arrive is waited for in vain.",
     bad="LampRead: {direction: host -> lamp, reply: LampRead}",
     good="LampRead: {direction: host -> lamp, reply: LampState}",
     look=_look,
