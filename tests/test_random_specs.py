@@ -10,11 +10,13 @@ from framegen.cases.invalid import invalid_frames
 from framegen.cases.streams import streams
 from framegen.cases.unencodable import unencodable
 from framegen.cases.valid import valid_frames
+from framegen.explain import explain
 from framegen.language.spec import Spec
 from framegen.language.values import Direction
 from framegen.model.codec import NotAFrame, Unencodable, decode, encode
 from framegen.model.model import Model, derive
 from framegen.model.stream import Event, ReferenceDecoder
+from framegen.model.verdict import weigh_whole
 from hypothesis import assume, given
 from hypothesis import strategies as st
 
@@ -62,6 +64,25 @@ def test_values_become_a_frame_that_has_them_again(spec: Data, data: st.DataObje
     if found.layout is message:
         assert plain(found.values) == plain(values)
         assert encode(message, found.values, like=frame) == frame
+
+
+@given(specs(), st.data())
+def test_what_is_no_frame_is_explained_as_what_it_was_refused_as(
+    spec: Data, data: st.DataObject
+) -> None:
+    """The explanation knows the reason and the offset alone, and the verdict much more."""
+    model = model_of(spec)
+    way = Direction.parse(data.draw(directions_of(spec))[0])
+    line = data.draw(lines_of(spec, model, [str(way)]))
+    assume(line)
+    bytes_ = line[: data.draw(st.integers(1, len(line)))]
+    verdict = weigh_whole(model, [way], bytes_)
+    (refused,) = explain(model, bytes_, [way]).refusals or (None,)
+    assert (refused is None) == (verdict.message is not None)
+    if refused is not None:
+        assert (refused.reason, refused.offset) == (verdict.reason, verdict.offset)
+        assert verdict.expected in refused.expected
+        assert bytes_.startswith(b"".join(row.data for row in refused.rows))
 
 
 def plain(values: Any) -> str:

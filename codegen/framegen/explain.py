@@ -27,7 +27,7 @@ def explain(model: Model, data: bytes, directions: Sequence[Direction]) -> Expla
 def _judge(model: Model, direction: str, data: bytes) -> Judgement:
     verdict = weigh_whole(model, [Direction.parse(direction)], data)
     name = None if verdict.message is None else verdict.message.name
-    return Judgement(name, verdict.reason, verdict.offset, verdict.frame)
+    return Judgement(name, verdict.reason, verdict.offset)
 
 
 def seen_rows(model: Model, verdict: Verdict, data: bytes) -> tuple[Row, ...]:

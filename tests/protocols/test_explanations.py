@@ -7,6 +7,7 @@ from importlib import import_module
 from typing import TYPE_CHECKING
 
 import pytest
+import yaml
 from framegen.explain import explain
 from framegen.explanation.checksum import checksum
 from framegen.explanation.text import as_json, as_text
@@ -15,7 +16,7 @@ from framegen.model.codec import decode
 from framegen.model.data import method_terms
 
 from tests.docs.peers import noisy_lines
-from tests.factories import compiled_file, library, library_files
+from tests.factories import compiled_file, compiled_of, library, library_files
 from tests.protocols.specs import FILES, messages_of, model_of
 
 if TYPE_CHECKING:
@@ -224,3 +225,92 @@ def test_a_refusal_says_what_was_due_and_what_the_bytes_would_be(
     found = explain(model, bytes.fromhex(data), model.directions)
     assert (reason, due) in [(each.reason, each.expected) for each in found.refusals]
     assert [hint.text for hint in found.hints] == hints
+
+
+# Kinds of frames, and messages of the same ids, that only what follows tells apart.
+LIKE_EACH_OTHER = """
+framegen: 2
+protocol: {name: lamps, title: Lamps, version: 1.0.0, authority: m, summary: Two lamps.}
+sources: {m: {title: Manual, kind: document}}
+endpoints: {host: Asks., lamp: Answers.}
+link: {baud: 9600}
+byte_order: big
+frames:
+  numbered:
+    start: {is: constant, bytes: 7E}
+    size: {is: length, type: u8, counts: [kind, number, body]}
+    kind: {is: id, type: u8}
+    number: {is: counter, type: u8}
+    body: {is: body}
+    check: {is: checksum, type: u8, method: xor, covers: [kind, body]}
+  plain:
+    start: {is: constant, bytes: 7E}
+    size: {is: length, type: u8, counts: [kind, body]}
+    kind: {is: id, type: u8}
+    body: {is: body}
+    check: {is: checksum, type: u8, method: xor, covers: [kind, body]}
+messages:
+  Wake:
+    frame: plain
+    id: 1
+    direction: host -> lamp
+    summary: Wake up.
+    cite: m
+    length: 3
+    fields: {state: {type: u16, always: 1, about: Awake.}}
+    examples: [{title: Wake, hex: 7E 03 01 00 01 00, values: {}, cite: m}]
+  Sleep:
+    frame: plain
+    id: 1
+    direction: host -> lamp
+    summary: Go to sleep.
+    cite: m
+    length: 3
+    fields: {state: {type: u16, always: 0, about: Asleep.}}
+    examples: [{title: Sleep, hex: 7E 03 01 00 00 01, values: {}, cite: m}]
+  Glow:
+    frame: numbered
+    id: 2
+    direction: host -> lamp
+    summary: Glow.
+    cite: m
+    length: 3
+    fields: {level: {type: u8, about: How bright.}}
+    examples: [{title: Glow, hex: 7E 03 02 00 02 00, values: {level: 2, number: 0}, cite: m}]
+"""
+
+
+@pytest.mark.parametrize(
+    ("data", "reason", "due"),
+    [
+        (
+            "7E 03 01 01 02 02",
+            "out of range",
+            "Wake: state is always 00 01; Sleep: state is always 00 00",
+        ),
+        (
+            "7E 03 01 00 01 77",
+            "bad checksum",
+            "check is 77; the xor of kind and body is 00",
+        ),
+        (
+            "7E 03 02 00 02 01 00",
+            "bad checksum",
+            "check is 01; the xor of kind and body is 00",
+        ),
+        ("7E 03 01 00", "too short", "a size of 3 makes 6 bytes"),
+        ("7E 03 02 00 02 00 00", "trailing bytes", "a size of 3 makes 6 bytes"),
+    ],
+)
+def test_what_nothing_tells_apart_is_explained_as_each_of_them(
+    data: str, reason: str, due: str, tmp_path: Path
+) -> None:
+    compiled = compiled_of(yaml.safe_load(LIKE_EACH_OTHER))
+    assert compiled.findings == []
+    frame = bytes.fromhex(data)
+    here = explain(compiled.model, frame, compiled.model.directions)
+    assert [(each.reason, each.expected) for each in here.refusals] == [(reason, due)]
+    with library(library_files(compiled), tmp_path) as made:
+        explained = import_module(f"{made.__name__}._cli.explain").explained
+        carried = import_module(f"{made.__name__}._cli.carried_model").protocol()
+        assert repr(explained(carried, frame)) == repr(here)

@@ -8,11 +8,11 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from .closest import closest
 from .lookalikes import recognise
 from .protocol import listed
 from .refusals import (
     BAD_CHECKSUM,
-    LENGTH_MISMATCH,
     TRAILING_BYTES,
     UNKNOWN_COMMAND,
     Refused,
@@ -23,6 +23,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Iterator, Sequence
     from typing import TypeAlias
 
+    from .closest import Attempt
     from .protocol import Envelope, Message, Placed, Protocol, Value
 
     # The verdict on bytes as exactly one frame, sent in a direction.
@@ -34,15 +35,11 @@ _MOST_WITHIN = 8
 
 @dataclass(frozen=True)
 class Judgement:
-    """The name of the message that bytes are; or none, with the reason and where it shows.
-
-    `frame` is the name of the envelope that comes closest; empty for the only one.
-    """
+    """The name of the message that bytes are; or none, with the reason and where it shows."""
 
     message: str | None
     reason: str = ""
     offset: int = 0
-    frame: str = ""
 
 
 @dataclass(frozen=True)
@@ -178,34 +175,31 @@ class _Explainer:
 
     def _refusal(self, direction: str, judgement: Judgement) -> Refusal:
         reason, offset = judgement.reason, judgement.offset
-        frame = self._envelope(direction, judgement)
-        likely = self.protocol.message(direction, frame, self.data[:offset])
-        largest = self.protocol.largest([direction])
-        refused = Refused(
-            self.protocol, frame, [direction], self.data, reason, offset, likely, largest
+        attempts = closest(self.protocol, direction, self.data, reason, offset)
+        expected: dict[str, str] = {}
+        for attempt in attempts:
+            expected.setdefault(self._expected(direction, attempt), attempt.name)
+        words = (
+            [f"{name}: {due}" for due, name in expected.items()] if len(expected) > 1 else expected
         )
-        right = rows_of(self.data, self._slots(frame, likely, offset), likely)
-        return Refusal(direction, reason, offset, refused.expected(), right)
+        first = attempts[0]
+        known = first.message if len(attempts) == 1 else None
+        right = rows_of(self.data, self._slots(first.frame, first.message, offset), known)
+        return Refusal(direction, reason, offset, "; ".join(words), right)
 
-    def _envelope(self, direction: str, judgement: Judgement) -> Envelope:
-        """Return the envelope that comes closest; where nobody says which, by what was refused."""
-        if judgement.frame:
-            return self.protocol.envelopes[judgement.frame]
-        frames = [*self.protocol.envelopes.values()]
-        sent = [frame for frame in frames if self.protocol.sent(direction, frame)] or frames
-        closest = (frame for frame in sent if self._is_refused_by(frame, judgement))
-        return next(closest, sent[0])
-
-    def _is_refused_by(self, frame: Envelope, judgement: Judgement) -> bool:
-        """Tell whether bytes may be refused so as a frame of an envelope."""
-        at = judgement.offset
-        if at >= len(frame.header) and not self.data.startswith(frame.header):
-            return False
-        if judgement.reason == LENGTH_MISMATCH:
-            return frame.length is not None and frame.length.at == at
-        if judgement.reason == UNKNOWN_COMMAND:
-            return any(part.at == at for part in frame.ids)
-        return True
+    def _expected(self, direction: str, attempt: Attempt) -> str:
+        """Say what would have been due for bytes to be what they were taken for."""
+        refused = Refused(
+            self.protocol,
+            attempt.frame,
+            [direction],
+            self.data,
+            attempt.reason,
+            attempt.offset,
+            attempt.message,
+            self.protocol.largest([direction]),
+        )
+        return refused.expected()
 
     def _slots(self, frame: Envelope, message: Message | None, end: int) -> list[Placed]:
         """Return the slots up to an offset, in frames of a message if it is known."""

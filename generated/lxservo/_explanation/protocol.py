@@ -133,6 +133,17 @@ class Slot:
         data = value.to_bytes(self.size, "big", signed=bool(self.said.get("signed")))
         return data if self.order == "big" else data[::-1]
 
+    def holds(self, data: bytes) -> bool:
+        """Tell whether it may have these bytes, as far as they tell it by themselves."""
+        if self.role == "constant":
+            return data == self.data
+        if self.role == "text":
+            return data.isascii()
+        if "low" not in self.said:
+            return True
+        value = self._packed(data) if self.role == "packed" else [self.read(data)]
+        return all(self.low <= each <= self.high for each in value)
+
     def checksum(self, data: bytes) -> int:
         """Work out a checksum of `data`."""
         found: int = checksum(self.said["terms"], 8 * self.size, data)
@@ -491,15 +502,17 @@ class Protocol:
         """Return the messages of a direction in frames of an envelope."""
         return self._sent.get((direction, frame.name), ())
 
-    def message(self, direction: str, frame: Envelope, data: bytes) -> Message | None:
-        """Return the message of a direction whose ids `data` begins with; None for no such."""
-        if not all(part.is_in(data) for part in frame.ids):
-            return None
-        ids = tuple(part.read_in(data) for part in frame.ids)
-        found = [message for message in self.sent(direction, frame) if message.seen_ids == ids]
-        if len(found) > 1 and frame.length is not None and frame.length.is_in(data):
-            found = [message for message in found if message.length_of(data) is not None]
-        return found[0] if len(found) == 1 else None
+    def begun(self, direction: str, frame: Envelope, data: bytes) -> Sequence[Message]:
+        """Return the messages of a direction that `data` begins: none until its ids tell."""
+        ids = tuple(part.read_in(data) for part in frame.ids if part.is_in(data))
+        found = [each for each in self.sent(direction, frame) if each.seen_ids[: len(ids)] == ids]
+        if len(found) == 1:
+            return found
+        if len(ids) < len(frame.ids):
+            return ()
+        if frame.length is not None and frame.length.is_in(data):
+            return [each for each in found if each.length_of(data) is not None] or found
+        return found
 
     @cached_property
     def lookalikes(self) -> dict[str, Lookalike]:

@@ -23,6 +23,7 @@ SHARED = {
         for name in (
             "__init__",
             "checksum",
+            "closest",
             "explanation",
             "lookalikes",
             "protocol",
