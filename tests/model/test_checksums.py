@@ -4,7 +4,7 @@ from dataclasses import replace
 from zlib import adler32
 
 import pytest
-from crccheck.checksum import Checksum8, Checksum16, Checksum32, ChecksumXor8
+from crccheck.checksum import Checksum8, Checksum16, Checksum32, ChecksumXor8, ChecksumXor16
 from crccheck.crc import ALLCRCCLASSES
 from crccheck.crc import Crc as Peer
 from framegen.model.checksums import (
@@ -25,9 +25,16 @@ from hypothesis import strategies as st
 CRCS = [method for method in CHECKSUMS.values() if isinstance(method, Crc)]
 PUBLISHED = {kind._names[0].lower(): kind for kind in ALLCRCCLASSES if kind._width % 8 == 0}
 # Of vendors, whose documents give a table, or code.
-UNPUBLISHED = {"crc-8/ldrobot", "crc-32/novatel"}
+UNPUBLISHED = {
+    *("crc-7/pololu", "crc-8/duml", "crc-8/ldrobot", "crc-8/odrive", "crc-8/robomaster"),
+    *("crc-8/trinamic", "crc-16/duml", "crc-16/odrive", "crc-16/simplebgc", "crc-32/novatel"),
+}
 # What the catalogue has of other widths goes over no line of bytes as a number.
 WIDTHS = {8, 16, 24, 32, 64}
+
+
+# Bits that a method leaves out.
+UNSEEN = {"sum-7": (7,), "negated sum-7": (7,), "even xor": (0,), "inverted even xor": (0,)}
 
 
 def named(method: Checksum) -> str:
@@ -53,13 +60,15 @@ def test_a_crc_is_what_crccheck_makes_of_the_same_data(method: Crc, data: bytes)
 
 
 def _peer(method: Crc) -> Peer:
-    both = method.reflected
-    return Peer(method.width, method.poly, method.init, both, both, method.xor_out)
+    last = method.reflected and not method.mixed
+    return Peer(method.width, method.poly, method.init, method.reflected, last, method.xor_out)
 
 
-@pytest.mark.parametrize("change", ["poly", "init", "reflected", "xor_out"])
+@pytest.mark.parametrize("change", ["poly", "init", "reflected", "xor_out", "mixed"])
 @pytest.mark.parametrize("method", CRCS, ids=named)
 def test_a_crc_with_any_number_changed_misses_its_check_value(method: Crc, change: str) -> None:
+    if change == "mixed" and not method.reflected:
+        change = "reflected"
     value = getattr(method, change)
     changed = replace(method, **{change: value ^ (True if value is True or value is False else 8)})
     assert changed.of(CHECK_DATA, method.width) != method.checks[method.width]
@@ -77,13 +86,44 @@ def test_sums_are_what_crccheck_adds_up(data: bytes) -> None:
         assert CHECKSUMS["sum"].of(data, width) == total
         assert CHECKSUMS["inverted sum"].of(data, width) == total ^ (1 << width) - 1
         assert (CHECKSUMS["negated sum"].of(data, width) + total) % (1 << width) == 0
-        assert CHECKSUMS["sum"].of(data, 24) == totals[32] % (1 << 24)
+    assert CHECKSUMS["sum"].of(data, 24) == totals[32] % (1 << 24)
+    assert CHECKSUMS["sum-7"].of(data, 8) == totals[8] % 0x80
+    assert (CHECKSUMS["negated sum-7"].of(data, 8) + totals[8]) % 0x80 == 0
+    assert CHECKSUMS["negated sum-7"].of(data, 8) < 0x80
+    assert CHECKSUMS["sum-15"].of(data, 16) == totals[16] % 0x8000
+
+
+@given(data=st.binary(max_size=300))
+def test_carries_are_added_byte_by_byte_as_vendors_do(data: bytes) -> None:
+    total = 0
+    for byte in data:
+        total += byte
+        total = (total & 0xFF) + (total >> 8)
+    assert CHECKSUMS["carried sum"].of(data, 8) == total
+    assert CHECKSUMS["inverted carried sum"].of(data, 8) == total ^ 0xFF
+
+
+@given(data=st.binary(max_size=150).map(lambda data: data + data[::-1]))
+def test_sums_of_words_are_what_crccheck_adds_up(data: bytes) -> None:
+    # It takes the high byte first.
+    swapped = bytes(byte for pair in zip(data[1::2], data[::2], strict=True) for byte in pair)
+    assert CHECKSUMS["word sum"].of(data, 16) == Checksum16.calc(swapped)
+    assert CHECKSUMS["word xor"].of(data, 16) == ChecksumXor16.calc(swapped)
+    # As RFC 1071 says, it is the same in either order, with its own bytes in that order.
+    carried = 0
+    for high, low in zip(data[::2], data[1::2], strict=True):
+        carried += high << 8 | low
+        carried = (carried & 0xFFFF) + (carried >> 16)
+    sent = CHECKSUMS["internet checksum"].of(data, 16).to_bytes(2, "little")
+    assert sent == (carried ^ 0xFFFF).to_bytes(2, "big")
 
 
 @given(data=st.binary(max_size=300))
 def test_an_exclusive_or_is_what_crccheck_makes_of_the_same_data(data: bytes) -> None:
     assert CHECKSUMS["xor"].of(data, 8) == ChecksumXor8.calc(data)
     assert CHECKSUMS["inverted xor"].of(data, 8) == ChecksumXor8.calc(data) ^ 0xFF
+    assert CHECKSUMS["even xor"].of(data, 8) == ChecksumXor8.calc(data) & 0xFE
+    assert CHECKSUMS["inverted even xor"].of(data, 8) == ~ChecksumXor8.calc(data) & 0xFE
 
 
 @given(data=st.binary(max_size=300))
@@ -109,6 +149,25 @@ def test_adler_32_is_what_zlib_makes_of_the_same_data(data: bytes) -> None:
             ),
             0x50,
         ),
+        # To read the register GCONF and the counter IFCNT of a motor driver.
+        ("crc-8/trinamic", bytes.fromhex("05 00 00"), 0x48),
+        ("crc-8/trinamic", bytes.fromhex("05 00 02"), 0x8F),
+        # Of a motor controller's guide: leave safe start, with a CRC.
+        ("crc-7/pololu", bytes.fromhex("83 01"), 0x17),
+        # The two of one frame on the bus of a drone, in front of its payload and behind it.
+        ("crc-8/duml", bytes.fromhex("55 0D 04"), 0x33),
+        ("crc-16/duml", bytes.fromhex("55 0D 04 33 0A 0E 03 00 40 06 01"), 0x4AF4),
+        # Forward at half speed, of the manual of a motor driver: 130, 0, 64, 66.
+        ("sum-7", bytes([130, 0, 64]), 66),
+        # The reset that every synthesizer of this kind knows.
+        ("negated sum-7", bytes.fromhex("40 00 7F 00"), 0x41),
+        # To ask a receiver for the version of its software.
+        ("sum-15", bytes.fromhex("84 00"), 0x0084),
+        # Of the specification of LIN, and of RFC 1071, whose number has the high byte first.
+        ("inverted carried sum", bytes.fromhex("4A 55 93 E5"), 0xE6),
+        ("internet checksum", bytes.fromhex("00 01 F2 03 F4 F5 F6 F7"), 0x0D22),
+        # Steer 0 and speed 0, with the header ABCD.
+        ("word xor", bytes.fromhex("CD AB 00 00 00 00"), 0xABCD),
     ],
 )
 def test_a_method_gives_the_checksum_of_a_published_example(
@@ -123,6 +182,8 @@ def test_any_bit_that_changes_changes_any_checksum(data: bytes, at: int, bit: in
     changed = bytearray(data)
     changed[at % len(data)] ^= 1 << bit
     for method in CHECKSUMS.values():
+        if bit in UNSEEN.get(method.name, ()):
+            continue
         for width in method.widths:
             assert method.of(bytes(changed), width) != method.of(data, width), method.name
 
@@ -142,6 +203,8 @@ def test_every_kind_of_method_is_in_the_catalogue() -> None:
         ("crc-24q", "write `crc-24/lte-a`, which is the same method"),
         ("BCC", "write `xor`, which is the same method"),
         ("two's complement", "write `negated sum`, which is the same method"),
+        ("TMC2209", "write `crc-8/trinamic`, which is the same method"),
+        ("end-around carry", "write `carried sum`, which is the same method"),
         ("negatd sum", "did you mean `negated sum`?"),
         ("crc-16/modbud", "did you mean `crc-16/modbus`?"),
         (
@@ -162,7 +225,7 @@ def test_a_method_that_is_none_is_answered_with_those_that_most_protocols_use() 
     hint = suggest("magic")
     assert hint.startswith("choose one of `sum`, `inverted sum`, `negated sum`, `xor`")
     named = hint.count("`") // 2
-    assert hint.endswith(f"or {len(CHECKSUMS) - named} other CRCs")
+    assert hint.endswith(f"or {len(CHECKSUMS) - named} others")
 
 
 def test_every_other_name_leads_to_methods_and_is_none_itself() -> None:

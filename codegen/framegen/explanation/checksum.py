@@ -14,14 +14,23 @@ def checksum(terms: Mapping[str, Any], width: int, data: bytes) -> int:
 
 
 def _sum(terms: Mapping[str, Any], width: int, data: bytes) -> int:
-    return int((terms["factor"] * sum(data) + terms["offset"]) % (1 << width))
+    bits = width - int(terms.get("left_out", 0))
+    total = sum(_words(terms, data))
+    if terms.get("carried") and total:
+        total = (total - 1) % ((1 << bits) - 1) + 1
+    return int((terms["factor"] * total + terms["offset"]) % (1 << bits))
 
 
 def _xor(terms: Mapping[str, Any], width: int, data: bytes) -> int:
     value = int(terms["xor_out"])
-    for byte in data:
-        value ^= byte
-    return value % (1 << width)
+    for word in _words(terms, data):
+        value ^= word
+    return value & int(terms.get("mask", (1 << width) - 1))
+
+
+def _words(terms: Mapping[str, Any], data: bytes) -> list[int]:
+    size = int(terms.get("word", 1))
+    return [int.from_bytes(data[at : at + size], "little") for at in range(0, len(data), size)]
 
 
 def _fletcher(terms: Mapping[str, Any], width: int, data: bytes) -> int:
@@ -39,7 +48,8 @@ def _crc(terms: Mapping[str, Any], width: int, data: bytes) -> int:
         for _ in range(8):
             carry = register & top
             register = (register << 1) % (top << 1) ^ (int(terms["poly"]) if carry else 0)
-    value = _turned(register, width) if is_reflected else register
+    is_turned = is_reflected and not terms.get("mixed")
+    value = _turned(register, width) if is_turned else register
     return value ^ int(terms["xor_out"])
 
 

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 from framegen.model.checksums import CHECKSUMS, Crc, Fletcher, Sum, Xor
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Iterable, Sequence
 
 METHODS = tuple((name, width) for name, row in CHECKSUMS.items() for width in row.widths)
 """Every method in each of its widths, in bits."""
@@ -22,10 +22,10 @@ def running(method: str, width: int, data: bytes) -> Sequence[int]:
     row = CHECKSUMS[method]
     match row:
         case Sum():
-            mask = (1 << width) - 1
-            return [(row.factor * total + row.offset) & mask for total in accumulate(data)]
+            return _sum(row, width - row.left_out, data)
         case Xor():
-            return [*accumulate(data, xor, initial=row.xor_out)][1:]
+            values = accumulate(_placed(data, row.word), xor, initial=row.xor_out)
+            return [value & row.mask for value in values][1:]
         case Fletcher():
             return _fletcher(row, width, data)
         case Crc():
@@ -45,7 +45,22 @@ def inverse_table(method: str) -> dict[int, int]:
     if not isinstance(row, Crc):
         raise TypeError(f"{method} is no CRC")
     table = _table(row.poly, row.width, reflected=row.reflected)
+    if row.mixed:
+        table = [_turned(value, row.width) for value in table]
     return {difference: byte for byte, difference in enumerate(table)}
+
+
+def _sum(row: Sum, bits: int, data: bytes) -> list[int]:
+    mask = (1 << bits) - 1
+    totals = [*accumulate(_placed(data, row.word))]
+    if row.carried:
+        totals = [(total - 1) % mask + 1 if total else 0 for total in totals]
+    return [(row.factor * total + row.offset) & mask for total in totals]
+
+
+def _placed(data: bytes, word: int) -> Iterable[int]:
+    """Return the bytes, each as it counts in the number of `word` bytes that it is in."""
+    return data if word == 1 else (byte << at % word * 8 for at, byte in enumerate(data))
 
 
 def _fletcher(row: Fletcher, width: int, data: bytes) -> list[int]:
@@ -61,10 +76,10 @@ def _crc(row: Crc, width: int, data: bytes) -> list[int]:
     table, xor_out = _table(row.poly, width, reflected=row.reflected), row.xor_out
     values = []
     if row.reflected:
-        register = int(f"{row.init:0{width}b}"[::-1], 2)
+        register = _turned(row.init, width)
         for byte in data:
             register = table[(register ^ byte) & 0xFF] ^ register >> 8
-            values.append(register ^ xor_out)
+            values.append((_turned(register, width) if row.mixed else register) ^ xor_out)
         return values
     register, shift, kept = row.init, width - 8, (1 << width - 8) - 1
     for byte in data:
@@ -77,5 +92,9 @@ def _crc(row: Crc, width: int, data: bytes) -> list[int]:
 def _table(poly: int, width: int, *, reflected: bool) -> list[int]:
     """Return what each byte makes of a register that is zero, as the catalogue has it."""
     any_of_them = next(row for row in CHECKSUMS.values() if isinstance(row, Crc))
-    plain = replace(any_of_them, poly=poly, init=0, reflected=reflected, xor_out=0)
+    plain = replace(any_of_them, poly=poly, init=0, reflected=reflected, xor_out=0, mixed=False)
     return [plain.of(bytes([byte]), width) for byte in range(256)]
+
+
+def _turned(value: int, width: int) -> int:
+    return int(f"{value:0{width}b}"[::-1], 2)

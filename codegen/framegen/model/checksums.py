@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING
 from framegen.reading.findings import did_you_mean
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
+    from collections.abc import Iterator, Mapping
 
 CHECK_DATA = b"123456789"
 """What the check value of a method is the checksum of."""
@@ -40,28 +40,44 @@ class Checksum:
 
 @dataclass(frozen=True)
 class Sum(Checksum):
-    """The bytes added up, with a factor and an offset, as many bits of it as the part has."""
+    """The bytes added up, with a factor and an offset, as many bits of it as the part has.
+
+    Some highest bits may be left out. With `words`, numbers of `word` bytes are added instead, the
+    low byte first; with `carried`, what goes beyond the highest bit is added to the lowest.
+    """
 
     factor: int
     offset: int
+    left_out: int = 0
+    word: int = 1
+    carried: bool = False
 
     def of(self, data: bytes, width: int) -> int:
         """Return the checksum of `data`."""
-        return (self.factor * sum(data) + self.offset) % (1 << width)
+        bits = width - self.left_out
+        total = sum(_words(data, self.word))
+        if self.carried and total:
+            total = (total - 1) % ((1 << bits) - 1) + 1
+        return (self.factor * total + self.offset) % (1 << bits)
 
 
 @dataclass(frozen=True)
 class Xor(Checksum):
-    """The exclusive or of all bytes, and of a last one."""
+    """The exclusive or of all bytes, and of a last one; of this, the bits of a mask.
+
+    Instead of bytes, it may be of numbers of `word` bytes, the low byte first.
+    """
 
     xor_out: int
+    mask: int = 0xFF
+    word: int = 1
 
     def of(self, data: bytes, width: int) -> int:  # noqa: ARG002 - it has but one
         """Return the checksum of `data`."""
         value = self.xor_out
-        for byte in data:
-            value ^= byte
-        return value
+        for word in _words(data, self.word):
+            value ^= word
+        return value & self.mask
 
 
 @dataclass(frozen=True)
@@ -84,13 +100,15 @@ class Fletcher(Checksum):
 class Crc(Checksum):
     """The remainder of a division by a polynomial, whose highest power is left out.
 
-    Where it is reflected, the lowest bit of each byte comes first, and that of the remainder last.
+    Where it is reflected, the lowest bit of each byte comes first, and that of the remainder last;
+    where it is mixed as well, the remainder is as it would be otherwise.
     """
 
     poly: int
     init: int
     reflected: bool
     xor_out: int
+    mixed: bool = False
 
     @property
     def width(self) -> int:
@@ -104,9 +122,14 @@ class Crc(Checksum):
             for bit in range(8) if self.reflected else range(7, -1, -1):
                 carry = bool(register & top) ^ (byte >> bit & 1)
                 register = (register << 1) % (1 << width) ^ (self.poly if carry else 0)
-        if self.reflected:
+        if self.reflected and not self.mixed:
             register = int(f"{register:0{width}b}"[::-1], 2)
         return register ^ self.xor_out
+
+
+def _words(data: bytes, size: int) -> Iterator[int]:
+    """Yield the numbers of so many bytes that data consists of; missing last bytes are zeros."""
+    return (int.from_bytes(data[at : at + size], "little") for at in range(0, len(data), size))
 
 
 _SUMS: tuple[Checksum, ...] = (
@@ -153,6 +176,89 @@ _SUMS: tuple[Checksum, ...] = (
         {32: 0x091E_01DE},
         modulus=65521,
         start=1,
+    ),
+)
+
+# What few protocols have.
+_UNUSUAL_SUMS: tuple[Checksum, ...] = (
+    Sum(
+        "sum-7",
+        "all bytes added up, 7 bits of it: the highest one is 0",
+        {8: 0x5D},
+        factor=1,
+        offset=0,
+        left_out=1,
+    ),
+    Sum(
+        "negated sum-7",
+        "what makes 7 zero bits of all bytes added up; the highest bit is 0",
+        {8: 0x23},
+        factor=-1,
+        offset=0,
+        left_out=1,
+    ),
+    Sum(
+        "sum-15",
+        "all bytes added up, 15 bits of it: the highest one is 0",
+        {16: 0x01DD},
+        factor=1,
+        offset=0,
+        left_out=1,
+    ),
+    Sum(
+        "carried sum",
+        "all bytes added up, what goes beyond 8 bits added to the lowest (end-around carry)",
+        {8: 0xDE},
+        factor=1,
+        offset=0,
+        carried=True,
+    ),
+    Sum(
+        "inverted carried sum",
+        "all bytes added up with end-around carry, then every bit inverted (enhanced LIN)",
+        {8: 0x21},
+        factor=-1,
+        offset=-1,
+        carried=True,
+    ),
+    Sum(
+        "word sum",
+        "all numbers of 16 bits added up, the low byte of each first",
+        {16: 0xD509},
+        factor=1,
+        offset=0,
+        word=2,
+    ),
+    Sum(
+        "internet checksum",
+        "all numbers of 16 bits added up with end-around carry, then every bit inverted (RFC 1071)",
+        {16: 0x2AF6},
+        factor=-1,
+        offset=-1,
+        word=2,
+        carried=True,
+    ),
+    Xor(
+        "even xor",
+        "the exclusive or of all bytes, with the lowest bit 0",
+        {8: 0x30},
+        xor_out=0,
+        mask=0xFE,
+    ),
+    Xor(
+        "inverted even xor",
+        "the exclusive or of all bytes, with every bit inverted, then the lowest bit 0",
+        {8: 0xCE},
+        xor_out=0xFF,
+        mask=0xFE,
+    ),
+    Xor(
+        "word xor",
+        "the exclusive or of all numbers of 16 bits, the low byte of each first",
+        {16: 0x0839},
+        xor_out=0,
+        mask=0xFFFF,
+        word=2,
     ),
 )
 
@@ -243,27 +349,43 @@ crc-64/xz        42F0E1EBA9EA3693  FFFFFFFFFFFFFFFF  both  FFFFFFFFFFFFFFFF  995
 """
 
 # Not published there, but seen on serial lines: what vendors' documents give as tables or code.
+# Of the CRC of 7 bits, the polynomial is shifted up, and so is the remainder before it is turned.
 _OTHER_CRCS = """
-crc-8/ldrobot   4D        00        none  00        C3
-crc-32/novatel  04C11DB7  00000000  both  00000000  2DFD2D88
+crc-7/pololu       12        00        both   00        25
+crc-8/ldrobot      4D        00        none   00        C3
+crc-8/odrive       37        42        none   00        8C
+crc-8/robomaster   31        FF        both   00        0B
+crc-8/duml         31        EE        both   00        FB
+crc-8/trinamic     07        00        mixed  00        04
+crc-16/odrive      3D65      1337      none   0000      AA01
+crc-16/duml        1021      496C      both   0000      7109
+crc-16/simplebgc   8005      0000      mixed  0000      BCDD
+crc-32/novatel     04C11DB7  00000000  both   00000000  2DFD2D88
 """
+
+
+_BIT_ORDERS = {
+    "none": "highest bit first",
+    "both": "lowest bit first",
+    "mixed": "lowest bit of bytes first, highest of the CRC",
+}
 
 
 def _crc(row: str) -> Crc:
     name, poly, init, reflected, xor_out, check = row.split()
     width = 4 * len(poly)
-    order = "lowest bit first" if reflected == "both" else "highest bit first"
+    order = _BIT_ORDERS[reflected]
     about = f"CRC of {width} bits: polynomial {poly}, begun with {init}, {order}, xor {xor_out}"
     checks = {width: int(check, 16)}
-    return Crc(
-        name, about, checks, int(poly, 16), int(init, 16), reflected == "both", int(xor_out, 16)
-    )
+    numbers = int(poly, 16), int(init, 16), reflected != "none", int(xor_out, 16)
+    return Crc(name, about, checks, *numbers, mixed=reflected == "mixed")
 
 
 CHECKSUMS: Mapping[str, Checksum] = {
     method.name: method
     for method in (
         *_SUMS,
+        *_UNUSUAL_SUMS,
         *(_crc(row) for row in (_PUBLISHED_CRCS + _OTHER_CRCS).splitlines() if row),
     )
 }
@@ -276,9 +398,24 @@ _OTHER_NAMES = {
     "negated sum": "two's complement, twos complement, intel hex, sum to zero",
     "xor": "bcc, xor-8, longitudinal parity, exclusive or",
     "inverted xor": "not xor, xor complement",
+    "sum-7": "7-bit sum, sabertooth, syren",
+    "negated sum-7": "roland, midi, system exclusive, sysex",
+    "sum-15": "15-bit sum, sirf",
+    "carried sum": "end-around carry, sum with carry, modulo 255",
+    "inverted carried sum": "lin, enhanced checksum, f.port, s.port, smart port",
+    "word sum": "sum of words, 16-bit word sum",
+    "internet checksum": "rfc 1071, ip checksum",
+    "even xor": "herkulex",
+    "inverted even xor": "herkulex checksum 2",
+    "word xor": "xor-16, xor of words, hoverboard",
     "fletcher-8": "fletcher, 8-bit fletcher, rfc 1145",
     "adler-32": "adler",
+    "crc-7/pololu": "crc-7, crc7, maestro",
     "crc-8/i-432-1": "crc-8/itu",
+    "crc-8/trinamic": "tmc2208, tmc2209, tmc2225, tmc2226, tmc2300",
+    "crc-8/duml": "dji, robomaster s1",
+    "crc-8/robomaster": "robomaster referee",
+    "crc-16/simplebgc": "basecam, sbgc",
     "crc-8/maxim-dow": "crc-8/maxim, dow-crc, crc-8/dallas, 1-wire",
     "crc-8/tech-3250": "crc-8/aes, crc-8/ebu",
     "crc-16/arc": "crc-16/lha, crc-ibm",
@@ -307,6 +444,8 @@ _OTHER_NAMES = {
 # Names that stand for several methods: what the document says of them decides.
 _LOOSE_NAMES = {
     "lrc": ("negated sum", "xor"),
+    "crc-8/atm, crc-8-atm": ("crc-8/trinamic", "crc-8/smbus", "crc-8/i-432-1"),
+    "odrive": ("crc-8/odrive", "crc-16/odrive"),
     "crc, crc-8": ("crc-8/smbus", "crc-8/maxim-dow", "crc-8/dvb-s2"),
     "crc-16, crc-16-ibm, crc-16-ansi": ("crc-16/modbus", "crc-16/arc", "crc-16/umts"),
     "crc-16/ccitt, crc-ccitt, ccitt": ("crc-16/ibm-3740", "crc-16/xmodem", "crc-16/kermit"),
@@ -337,9 +476,7 @@ def suggest(method: str) -> str:
         return f"that name stands for several methods: write {choices}"
     choose = ", ".join(f"`{name}`" for name in (*(row.name for row in _SUMS), *_COMMON_CRCS))
     others = len(CHECKSUMS) - len(_SUMS) - len(_COMMON_CRCS)
-    return did_you_mean(
-        method, CHECKSUMS, otherwise=f"choose one of {choose} or {others} other CRCs"
-    )
+    return did_you_mean(method, CHECKSUMS, otherwise=f"choose one of {choose} or {others} others")
 
 
 @cache

@@ -203,14 +203,23 @@ def method_terms(name: str) -> dict[str, Any]:
     match method:
         case Crc():
             terms = {"poly": method.poly, "init": method.init, "reflected": method.reflected}
-            return {"kind": "crc", **terms, "xor_out": method.xor_out}
+            mixed = {"mixed": True} if method.mixed else {}
+            return {"kind": "crc", **terms, "xor_out": method.xor_out, **mixed}
         case Sum():
-            return {"kind": "sum", "factor": method.factor, "offset": method.offset}
+            how = {"left_out": method.left_out, "word": method.word, "carried": method.carried}
+            apart = _other_than(how, {"left_out": 0, "word": 1, "carried": False})
+            return {"kind": "sum", "factor": method.factor, "offset": method.offset, **apart}
         case Xor():
-            return {"kind": "xor", "xor_out": method.xor_out}
+            how = {"mask": method.mask, "word": method.word}
+            apart = _other_than(how, {"mask": 0xFF, "word": 1})
+            return {"kind": "xor", "xor_out": method.xor_out, **apart}
         case Fletcher():
             return {"kind": "fletcher", "modulus": method.modulus, "start": method.start}
     raise AssertionError(f"nothing explains {name}")
+
+
+def _other_than(terms: dict[str, Any], usual: dict[str, Any]) -> dict[str, Any]:
+    return {name: value for name, value in terms.items() if value != usual[name]}
 
 
 def _scale(field: NumberField) -> list[str]:

@@ -21,9 +21,9 @@ def worked_out(name: str, size: int, data: bytes) -> str:
     if len(data) > _MOST:
         return f"the {name} of {len(data)} bytes is {value}"
     match method:
-        case Sum():
+        case Sum() if method.word == 1 and not method.carried and not method.left_out:
             return _added_up(method, size, data, value)
-        case Xor() if not method.xor_out:
+        case Xor() if method.word == 1 and not method.xor_out and method.mask == 0xFF:
             return f"{to_hex(data).replace(' ', ' xor ')} = {value}"
         case _:
             # After the first byte, after two of them, and so on.

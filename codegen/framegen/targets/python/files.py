@@ -43,7 +43,9 @@ ONLY_WITH = {
     },
     "proof": {"_codec/proof.py"},
     # Each method needs some of these, and each kind of field some of those.
-    "checksums": {f"_frame/{name}.py" for name in ("byte_sum", "crc", "fletcher", "running")},
+    "checksums": {
+        f"_frame/{name}.py" for name in ("byte_sum", "word_sum", "crc", "fletcher", "running")
+    },
     "fields": {
         f"_frame/{name}.py"
         for name in (

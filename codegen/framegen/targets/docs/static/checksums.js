@@ -26,22 +26,55 @@ function makeRegisters(first, bytes, next) {
 
 const isStretch = (piece) => Array.isArray(piece);
 
-function makeSum({ width, factor, offset }, bytes) {
-  const sum = makeRegisters(0, bytes, (total, byte) => total + byte);
+// Sums are of numbers of `word` bytes, the low byte first, which begin where the first piece does.
+// A register is what the last byte, the one before, and so on to the size of a number make, each with
+// those that are a multiple of this size in front of it.
+function makeWords(word, bytes, joined) {
+  const first = new Array(word).fill(0);
+  const next = (sums, byte) => [joined(sums.at(-1), byte), ...sums.slice(0, -1)];
+  const sums = makeRegisters(first, bytes, next);
+  // What the bytes of all pieces make at each place of a number.
+  return (pieces, without) => {
+    const places = [...first];
+    let length = 0;
+    const put = (found, back) => {
+      const place = (((length - 1 - back) % word) + word) % word;
+      places[place] = joined(places[place], found);
+    };
+    for (const piece of pieces) {
+      if (!isStretch(piece)) {
+        for (const byte of piece.unsent) {
+          length++;
+          put(byte, 0);
+        }
+        continue;
+      }
+      const [start, end] = piece, before = sums(start), behind = sums(end);
+      length += end - start;
+      behind.forEach((found, back) => {
+        const there = ((back - (end - start)) % word + word) % word;
+        put(without(found, before[there]), back);
+      });
+    }
+    return places;
+  };
+}
+
+function makeSum({ width, factor, offset, left_out: leftOut = 0, word = 1, carried }, bytes) {
+  const modulus = 2 ** (width - leftOut), sums = makeWords(word, bytes, (one, other) => one + other);
   return (pieces) => {
-    const total = pieces.reduce((so, piece) => so + (isStretch(piece)
-      ? sum(piece[1]) - sum(piece[0])
-      : piece.unsent.reduce((all, byte) => all + byte, 0)), 0);
-    const modulus = 2 ** width, value = (factor * total + offset) % modulus;
+    const places = sums(pieces, (behind, before) => behind - before);
+    let total = places.reduce((so, sum, place) => so + sum * 256 ** place, 0);
+    if (carried && total > 0) total = ((total - 1) % (modulus - 1)) + 1;
+    const value = (factor * total + offset) % modulus;
     return value < 0 ? value + modulus : value;
   };
 }
 
-function makeXor({ xor_out: last }, bytes) {
-  const xor = makeRegisters(0, bytes, (value, byte) => value ^ byte);
-  return (pieces) => pieces.reduce((value, piece) => value ^ (isStretch(piece)
-    ? xor(piece[1]) ^ xor(piece[0])
-    : piece.unsent.reduce((all, byte) => all ^ byte, 0)), last);
+function makeXor({ xor_out: last, mask = 255, word = 1 }, bytes) {
+  const either = (one, other) => one ^ other, places = makeWords(word, bytes, either);
+  return (pieces) => (last ^ places(pieces, either).reduce(
+    (value, each, place) => value ^ (each << (8 * place)), 0)) & mask;
 }
 
 // Two sums: of the bytes, and of what the first one was after each.
@@ -66,7 +99,7 @@ function makeFletcher({ width, modulus, start }, bytes) {
 
 // The remainder of a division, with the lowest bit of each byte first; where the method has the
 // highest first, bytes and remainder are turned round. One of 64 bits is a BigInt.
-function makeCrc({ width, poly, init, xor_out: last, reflected }, bytes) {
+function makeCrc({ width, poly, init, xor_out: last, reflected, mixed }, bytes) {
   const isWide = width > 32, number = isWide ? BigInt : Number;
   const right = isWide ? (value, bits) => value >> BigInt(bits) : (value, bits) => value >>> bits;
   const whole = isWide ? (value) => value : (value) => value >>> 0;
@@ -125,6 +158,6 @@ function makeCrc({ width, poly, init, xor_out: last, reflected }, bytes) {
         value = piece.unsent.reduce(next, value);
       }
     }
-    return whole((reflected ? value : turned(value, width)) ^ number(last));
+    return whole((reflected && !mixed ? value : turned(value, width)) ^ number(last));
   };
 }

@@ -19,20 +19,27 @@ _IN_HQX, _IN_CRC32 = (16, 0x1021), (32, 0x04C1_1DB7)
 class Crc:
     """A remainder of `width` bits: begun with `init`, and xor `xor_out` in the end.
 
-    Where it is reflected, the lowest bit of each byte comes first, and that of the remainder last.
-    `of` is a function, which returns the checksum of some bytes.
+    Where it is reflected, the lowest bit of each byte comes first, and that of the remainder last,
+    unless it is mixed. `of` is a function, which returns the checksum of some bytes.
     """
 
-    __slots__ = ("_powers", "init", "of", "reflected", "table", "width", "xor_out")
+    __slots__ = ("_powers", "init", "mixed", "of", "reflected", "table", "width", "xor_out")
 
     def __init__(
-        self, width: int, poly: int, *, init: int = 0, reflected: bool = False, xor_out: int = 0
+        self,
+        width: int,
+        poly: int,
+        *,
+        init: int = 0,
+        reflected: bool = False,
+        xor_out: int = 0,
+        mixed: bool = False,
     ) -> None:
-        self.width, self.reflected, self.xor_out = width, reflected, xor_out
+        self.width, self.reflected, self.xor_out, self.mixed = width, reflected, xor_out, mixed
         self.init = _reversed(init, width) if reflected else init
         self.table = _byte_table(width, poly, reflected=reflected)
         make = {_IN_HQX: _with_hqx, _IN_CRC32: _with_crc32}.get((width, poly), _with_table)
-        self.of = make(self)
+        self.of = _with_table(self) if mixed else make(self)
         # What 1, 2, 4, … zero bytes make of a register: a table for each byte of it.
         self._powers: list[Sequence[Sequence[int]]] = []
 
@@ -53,6 +60,10 @@ class Crc:
             register = table[register >> shift ^ byte] ^ (register & kept) << 8
             registers.append(register)
         return registers
+
+    def finish(self, register: int) -> int:
+        """Return the checksum that a register makes."""
+        return (_reversed(register, self.width) if self.mixed else register) ^ self.xor_out
 
     def after_zeros(self, register: int, count: int) -> int:
         """Return what the register is after `count` zero bytes, by powers of two of them."""
@@ -100,7 +111,7 @@ class RunningCrc(Running):
                 # Remainders add up: what was there before the stretch is taken out again.
                 register = crc.after_zeros(register ^ registers[start], end - start)
                 register ^= registers[end]
-        return register ^ crc.xor_out
+        return crc.finish(register)
 
 
 def _byte_table(width: int, poly: int, *, reflected: bool) -> list[int]:
@@ -163,6 +174,8 @@ def _with_table(crc: Crc) -> Callable[[bytes], int]:
             register = table[register >> shift ^ byte] ^ (register & kept) << 8
         return register ^ xor_out
 
+    if crc.mixed:
+        return lambda data: crc.finish([init, *crc.registers(init, data)][-1])
     if width == 8:
         return of_a_byte
     return reflected if crc.reflected else straight
