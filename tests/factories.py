@@ -15,8 +15,10 @@ from types import CodeType, ModuleType
 from typing import Any, TypeAlias
 
 from framegen.compile import Compiled, compile_loaded, compile_spec
+from framegen.explanation.protocol import Slot
 from framegen.language.load import Loaded, read_source
 from framegen.language.spec import Spec
+from framegen.language.values import Scale
 from framegen.model.model import Model
 from framegen.reading.source import Source
 from framegen.reading.yamltree import Tree, Unusable, read_tree
@@ -113,6 +115,14 @@ def _escaped(found: re.Match[str]) -> str:
 def compiled_of(data: Data, name: str = "made_up.yaml") -> Compiled:
     """Compile `data`, by way of its text. Raises Unusable."""
     return compile_spec(Source(name, yaml_of(data)))
+
+
+def in_larger_unit(text: str, value: float) -> str:
+    """Return a value as an explanation has it, in the unit of a scale."""
+    scale = Scale.parse(text)
+    said = [f"{scale.step:f}", scale.unit, *([f"{scale.offset:f}"] if scale.offset else [])]
+    words, _ = Slot({"role": "field", "scale": said}, "big").in_words(value)
+    return words.partition(" = ")[2]
 
 
 @cache

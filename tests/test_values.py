@@ -9,6 +9,8 @@ from framegen.language.values import Citation, Direction, Method, Range, Scale, 
 from hypothesis import given
 from hypothesis import strategies as st
 
+from tests.factories import in_larger_unit
+
 WORDS = st.from_regex(r"[a-z][a-z0-9_]{0,8}", fullmatch=True)
 
 
@@ -22,9 +24,14 @@ WORDS = st.from_regex(r"[a-z][a-z0-9_]{0,8}", fullmatch=True)
         (Range.parse, "-900..900", Range(-900, 900)),
         (Range.parse, "-9..-3", Range(-9, -3)),
         (Range.parse, "0 .. 7", Range(0, 7)),
+        (Range.parse, "0x20..0x7E", Range(0x20, 0x7E)),
+        (Range.parse, "0x1..", Range(1, None)),
+        (Range.parse, "007..010", Range(7, 10)),
         (Range.parse, "0..18446744073709551615", Range(0, 2**64 - 1)),
         (Scale.parse, "0.001 V", Scale(Decimal("0.001"), "V")),
         (Scale.parse, "5 mm", Scale(Decimal(5), "mm")),
+        (Scale.parse, "0.01", Scale(Decimal("0.01"), "")),
+        (Scale.parse, "0.5 - 40", Scale(Decimal("0.5"), "", Decimal(-40))),
         (Scale.parse, "0.24 °", Scale(Decimal("0.24"), "°")),
         (Citation.parse, "vendor, section 1.1", Citation("vendor", "section 1.1")),
         (Citation.parse, "vendor", Citation("vendor", "")),
@@ -55,13 +62,14 @@ def test_a_notation_is_read(parse: Callable[[str], Any], text: str, value: objec
         (Range.parse, "..5", "write it like `0..1000`"),
         (Range.parse, "0-5", "write it like `0..1000`"),
         (Range.parse, "0...5", "write it like `0..1000`"),
-        (Range.parse, "0x1..5", "write it like `0..1000`"),
+        (Range.parse, "-0x1..5", "write it like `0..1000`"),
+        (Range.parse, "0x..5", "write it like `0..1000`"),
         (Range.parse, "+1..5", "write it like `0..1000`"),
         (Range.parse, "\u0663..\u0665", "write it like `0..1000`"),
         (Range.parse, f"0..{10**20}", "write it like `0..1000`"),
         (Range.parse, "1..5\n", "write it like `0..1000`"),
         (Scale.parse, "", "like `0.001 V`"),
-        (Scale.parse, "0.001", "like `0.001 V`"),
+        (Scale.parse, f"0.{'1' * 25} V", "of 24 decimals at most"),
         (Scale.parse, "0.001V", "like `0.001 V`"),
         (Scale.parse, "0 V", "a step above zero"),
         (Scale.parse, "0.000 V", "a step above zero"),
@@ -147,12 +155,17 @@ def test_a_citation_reads_back(source: str, place: str) -> None:
         ("0.24 °", 1000, "240.00 °"),
         ("5 mm", 3, "15 mm"),
         ("0.1 V", 3, "0.3 V"),
+        ("0.01", 250, "2.50"),
+        ("0.125 °C - 256", 2208, "20.000 °C"),
+        ("0.5 - 40", 1, "-39.5"),
+        ("0.0054931640625 °", 7, "0.0384521484375 °"),
+        ("0.0000000001 s", 7, "0.0000000007 s"),
+        ("0.000000000000000000000001 V", 2**64 - 1, "0.000018446744073709551615 V"),
     ],
 )
 def test_a_scaled_value_is_exact(scale: str, value: int, said: str) -> None:
-    read = Scale.parse(scale)
-    assert read.of(value) == said
-    assert str(read) == scale
+    assert in_larger_unit(scale, value) == said
+    assert str(Scale.parse(scale)) == scale
 
 
 @given(st.text())

@@ -111,7 +111,7 @@ def test_style_and_scripts_keep_within_their_bounds() -> None:
     lines = [
         line.strip() for file in folder.glob("*.js") for line in file.read_text("utf-8").split("\n")
     ]
-    assert len([line for line in lines if line and not line.startswith("//")]) <= 800
+    assert len([line for line in lines if line and not line.startswith("//")]) <= 850
     assert max(map(len, lines)) <= 110
 
 

@@ -1,8 +1,8 @@
-"""What tells two frames of one direction apart: their constants and ids, and how long they are."""
+"""What tells two frames of one direction apart: a byte that differs, and how long they are."""
 
 from __future__ import annotations
 
-from itertools import chain, combinations, product
+from itertools import chain, combinations, product, repeat
 from typing import TYPE_CHECKING
 
 from framegen.model.slots import Constant, Number
@@ -12,11 +12,13 @@ if TYPE_CHECKING:
 
     from framegen.model.layout import MessageLayout
     from framegen.model.model import Model
-    from framegen.model.slots import Slot
+    from framegen.model.slots import Placed, Slot
+
+_ANY = range(256)
 
 
 def alike(model: Model) -> Iterator[tuple[MessageLayout, MessageLayout]]:
-    """Yield pairs of messages of one direction that no constant and no id tells apart."""
+    """Yield pairs of messages of one direction that no byte tells apart."""
     for way in model.ways:
         # One without any legal count is too long: another rule speaks of it.
         sent = [message for message in model.sent(way) if message.counts]
@@ -59,23 +61,62 @@ def _sent_ids(message: MessageLayout) -> tuple[int, ...]:
     )
 
 
-def _marks(message: MessageLayout) -> dict[int, int]:
-    """Return the bytes that every frame of a message has, by offset."""
-    end = message.least - message.frame.tail_size
-    found = _constants(slot for slot in message.slots if 0 <= slot.at < end)
-    for slot in message.frame.head:
-        if isinstance(slot, Number) and slot.role == "id":
-            found |= enumerate(slot.write(message.id_of(slot)), slot.at)
+def _marks(message: MessageLayout) -> dict[int, range]:
+    """Return the values of the bytes that every frame of a message has, by offset."""
+    end = message.least
+    if message.largest != message.least:
+        end -= message.frame.tail_size
+    found: dict[int, range] = {}
+    for placed in message.lay_out(message.counts[0]):
+        if placed.end <= end:
+            found |= enumerate(_values(message, placed), placed.at)
     return found
 
 
-def _constants(slots: Iterable[Slot]) -> dict[int, int]:
-    found: dict[int, int] = {}
+def _values(message: MessageLayout, placed: Placed) -> Iterator[range]:
+    """Yield the values that the bytes of a slot can have, each by itself."""
+    slot = placed.slot
+    if isinstance(slot, Constant) and slot.role == "constant":
+        yield from _exactly(slot.data)
+    elif isinstance(slot, Number) and slot.role == "id":
+        yield from _exactly(slot.write(message.id_of(slot)))
+    elif isinstance(slot, Number) and _is_bounded(slot):
+        found = [
+            *_between(slot.low.to_bytes(slot.size, "big"), slot.high.to_bytes(slot.size, "big"))
+        ]
+        yield from found if slot.order == "big" else reversed(found)
+    else:
+        yield from repeat(_ANY, placed.size)
+
+
+def _is_bounded(slot: Number) -> bool:
+    return slot.is_field and not slot.is_float and slot.low >= 0
+
+
+def _exactly(data: bytes) -> Iterator[range]:
+    return (range(byte, byte + 1) for byte in data)
+
+
+def _between(low: bytes, high: bytes) -> Iterator[range]:
+    """Yield the values of each byte of the numbers between two, the most significant first."""
+    same = True
+    for one, other in zip(low, high, strict=True):
+        yield range(one, other + 1) if same else _ANY
+        same = same and one == other
+
+
+def _constants(slots: Iterable[Slot]) -> dict[int, range]:
+    found: dict[int, range] = {}
     for slot in slots:
         if isinstance(slot, Constant) and slot.role == "constant":
-            found |= enumerate(slot.data, slot.at)
+            found |= enumerate(_exactly(slot.data), slot.at)
     return found
 
 
-def _differ(one: dict[int, int], other: dict[int, int]) -> bool:
-    return any(other.get(at, byte) != byte for at, byte in one.items())
+def _differ(one: dict[int, range], other: dict[int, range]) -> bool:
+    """Tell whether a byte has no value in common."""
+    return any(
+        max(values.start, other[at].start) >= min(values.stop, other[at].stop)
+        for at, values in one.items()
+        if at in other
+    )

@@ -28,7 +28,8 @@ def _problem(one: MessageLayout, other: MessageLayout, size: int) -> Problem:
         what = f"{named} both go {other.direction}, with frames of {size} bytes"
         path: KeyPath = ("messages", other.name)
         also = (("messages", one.name), "the first is here")
-        hint = "only an id, a constant (`always`) or another size could tell them apart"
+        tells = "an id, a constant (`always`), another `range` or another size"
+        hint = f"only {tells} could tell them apart"
         return Problem(path, what, hint, on_key=True, also=also)
     what = f"{named} are both {other.message.id}, {other.direction}"
     if _sizes_vary(one, other):

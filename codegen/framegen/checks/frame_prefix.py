@@ -23,7 +23,8 @@ def _look(model: Model) -> Iterator[Problem]:
                 f"a frame of {short.name} can be the beginning of one of {long.name}, "
                 f"{other.direction}, and only silence would tell them apart",
                 "if a part of the frame is its length or a checksum, say so; if the two differ in "
-                "a byte, make it an `id`, or `always` in each; else describe one of them alone",
+                "a byte, make it an `id`, or give it an `always` or a `range` in each; else "
+                "describe one of them alone",
                 on_key=True,
                 also=(("messages", one.name), "the other is here"),
             )

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import struct
 from dataclasses import dataclass
-from decimal import Decimal
+from decimal import Context, Decimal
 from functools import cached_property
 
 from .checksum import checksum
@@ -16,6 +16,9 @@ if TYPE_CHECKING:
 
     # What a slot can hold.
     Value: TypeAlias = float | str | list[int]
+
+# Digits for any number of 64 bits in steps of any size, none of them rounded.
+_EXACT = Context(prec=64)
 
 
 @dataclass(frozen=True)
@@ -140,8 +143,11 @@ class Slot:
             return data.isascii()
         if "low" not in self.said:
             return True
-        value = self._packed(data) if self.role == "packed" else [self.read(data)]
-        return all(self.low <= each <= self.high for each in value)
+        found = self._packed(data) if self.role == "packed" else [self.read(data)]
+        # Names of addresses may lie outside the range.
+        named = self.said.get("values", {}) if self.role == "address" else {}
+        names = [each["value"] for each in named.values()]
+        return all(self.low <= each <= self.high or each in names for each in found)
 
     def checksum(self, data: bytes) -> int:
         """Work out a checksum of `data`."""
@@ -170,8 +176,10 @@ class Slot:
         text = f"{value} {self.said.get('unit', '')}".rstrip()
         if "scale" in self.said:
             step, unit, *offset = self.said["scale"]
-            scaled = Decimal(str(value)) * Decimal(step) + sum(map(Decimal, offset))
-            text += f" = {scaled} {unit}"
+            scaled = _EXACT.multiply(Decimal(str(value)), Decimal(step))
+            for each in offset:
+                scaled = _EXACT.add(scaled, Decimal(each))
+            text += f" = {scaled:f} {unit}".rstrip()
         set_bits = ", ".join(self.bits_in_words(int(value))) if "bits" in self.said else ""
         text += f" ({set_bits})" if set_bits else ""
         for name, named in self.said.get("values", {}).items():

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from decimal import Decimal
 from typing import TYPE_CHECKING, Any, get_args
 
 from pydantic_core import PydanticCustomError, PydanticKnownError, core_schema
@@ -16,13 +17,17 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, slots=True)
 class Notation:
-    """A type for `Annotated`: text read by `parse`; a number or a list by its own, if given."""
+    """A type for `Annotated`: text read by `parse`; a number or a list by its own, if given.
+
+    With `fractions`, plain numbers are read by `parse` as well.
+    """
 
     what: str
     example: str
     parse: Callable[[str], Any]
     number: Callable[[int], Any] | None = None
     listed: Callable[[list[object]], Any] | None = None
+    fractions: bool = False
 
     def __get_pydantic_core_schema__(
         self, _type: object, _handler: GetCoreSchemaHandler
@@ -33,12 +38,14 @@ class Notation:
         self, _schema: core_schema.CoreSchema, _handler: GetJsonSchemaHandler
     ) -> JsonSchemaValue:
         kinds = ["string"] + ["integer"] * (self.number is not None)
-        kinds += ["array"] * (self.listed is not None)
+        kinds += ["number"] * self.fractions + ["array"] * (self.listed is not None)
         return {"type": kinds if len(kinds) > 1 else "string", "examples": [self.example]}
 
     def _read(self, value: object) -> Any:
         if self.number is not None and isinstance(value, int) and not isinstance(value, bool):
             return self.number(value)
+        if self.fractions and isinstance(value, int | float) and not isinstance(value, bool):
+            value = f"{Decimal(str(value)):f}"
         is_listed = self.listed is not None and isinstance(value, list)
         if not isinstance(value, str) and not is_listed:
             raise PydanticCustomError(

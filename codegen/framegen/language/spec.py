@@ -36,7 +36,7 @@ Count: TypeAlias = Annotated[Range, Notation("a count", "1..", Range.parse, numb
 BitRange: TypeAlias = Annotated[
     Range, Notation("a range of bits", "0..6", Range.parse, number=Range.only)
 ]
-Step: TypeAlias = Annotated[Scale, Notation("a scale", "0.001 V", Scale.parse)]
+Step: TypeAlias = Annotated[Scale, Notation("a scale", "0.001 V", Scale.parse, fractions=True)]
 Length: TypeAlias = Annotated[
     LengthRule,
     Notation("a length rule", "3 * servo_count + 5", parse_formula, Formula, sizes_of),
@@ -293,7 +293,7 @@ class NumberField(Part):
     )
     about: str = Key(description="What it is.")
     unit: str = Key("", description="The unit of one step, such as ms.")
-    scale: Step | None = Key(None, description="What one step is in a larger unit.")
+    scale: Step | None = Key(None, description="What one step is in a larger unit, or without one.")
     range: Bounds | None = Key(
         None, description="The values allowed, where they are fewer than the type holds."
     )

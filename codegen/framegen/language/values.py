@@ -14,12 +14,12 @@ from framegen.hextext import is_hex, read_hex
 _HEX = re.compile(r"(?:[0-9A-Fa-f]{2}\s+)*[0-9A-Fa-f]{2}")
 _BYTE = re.compile(r"[0-9A-Fa-f]{2}")
 _DIRECTION = re.compile(r"(\S+)\s*->\s*(\S+)")
-_RANGE = re.compile(r"(-?[0-9]{1,20})\s*\.\.\s*(-?[0-9]{1,20})?")
+_NUMBER = r"-?[0-9]{1,20}|0x[0-9A-Fa-f]{1,16}"
+_RANGE = re.compile(rf"({_NUMBER})\s*\.\.\s*({_NUMBER})?")
 _METHOD = re.compile(r"(\w+)\s*\(\s*((?:\w+(?:\s*,\s*\w+)*)?)\s*\)(?:\s*->\s*(\w+))?", re.ASCII)
 _NAME = re.compile(r"\w+", re.ASCII)
-_SCALE = re.compile(
-    r"([0-9]{1,6}(?:\.[0-9]{1,12})?)\s+(\S+)(?:\s+([-+])\s*([0-9]{1,12}(?:\.[0-9]{1,12})?))?"
-)
+_DECIMAL = r"[0-9]{1,12}(?:\.[0-9]{1,24})?"
+_SCALE = re.compile(rf"({_DECIMAL})(?:\s+([^-+\s]\S*))?(?:\s+([-+])\s*({_DECIMAL}))?")
 
 
 @dataclass(frozen=True, slots=True)
@@ -73,21 +73,23 @@ class Range:
 
     @classmethod
     def parse(cls, text: str) -> Range:
-        """Read `0..1000` or `1..`."""
+        """Read `0..1000`, `0x20..0x7E` or `1..`."""
         match = _RANGE.fullmatch(text)
         if match is None:
             raise ValueError(
                 f"`{text}` is no range: write it like `0..1000`, "
                 "or `1..` where the frame sets the end"
             )
-        return cls(int(match[1]), None if match[2] is None else int(match[2]))
+        low, high = (None if end is None else _number(end) for end in match.groups())
+        return cls(low or 0, high)
 
 
 @dataclass(frozen=True, slots=True)
 class Scale:
     """The size of one step of a value in a larger unit, written `0.001 V`.
 
-    With what a value of zero is in that unit, if it is not zero: `0.125 °C - 256`.
+    With what a value of zero is in that unit, if it is not zero: `0.125 °C - 256`. What has no
+    unit, such as a ratio, has a step alone.
     """
 
     step: Decimal
@@ -95,14 +97,10 @@ class Scale:
     offset: Decimal = Decimal(0)
 
     def __str__(self) -> str:
-        text = f"{self.step} {self.unit}"
+        text = f"{self.step:f} {self.unit}".rstrip()
         if not self.offset:
             return text
-        return f"{text} {'-' if self.offset < 0 else '+'} {abs(self.offset)}"
-
-    def of(self, value: int) -> str:
-        """Convert `value` to that unit, exactly: 7500 steps of 0.001 V are `7.500 V`."""
-        return f"{value * self.step + self.offset} {self.unit}"
+        return f"{text} {'-' if self.offset < 0 else '+'} {abs(self.offset):f}"
 
     @classmethod
     def parse(cls, text: str) -> Scale:
@@ -110,10 +108,13 @@ class Scale:
         match = _SCALE.fullmatch(text)
         if match is None or not Decimal(match[1]):
             raise ValueError(
-                f"`{text}` is no scale: write a step above zero and its unit, like `0.001 V`, "
-                "and what a value of zero is, if it is not zero: `0.125 °C - 256`"
+                f"`{text}` is no scale: write a step above zero, of 24 decimals at most, and its "
+                "unit, if it has one, like `0.001 V`; and what a value of zero is, if it is not "
+                "zero: `0.125 °C - 256`"
             )
-        return cls(Decimal(match[1]), match[2], Decimal(f"{match[3]}{match[4]}" if match[3] else 0))
+        return cls(
+            Decimal(match[1]), match[2] or "", Decimal(f"{match[3]}{match[4]}" if match[3] else 0)
+        )
 
 
 @dataclass(frozen=True, slots=True)
@@ -181,3 +182,8 @@ def parse_hex(text: str) -> bytes:
 def to_hex(data: bytes) -> str:
     """Write bytes as `55 55 02 07`."""
     return data.hex(" ").upper()
+
+
+def _number(text: str) -> int:
+    """Read a whole number; one in hexadecimal begins with 0x, and zeros in front change nothing."""
+    return int(text, 16 if text.startswith("0x") else 10)

@@ -225,8 +225,8 @@ def _other_than(terms: dict[str, Any], usual: dict[str, Any]) -> dict[str, Any]:
 def _scale(field: NumberField) -> list[str]:
     if field.scale is None:
         return []
-    offset = [str(field.scale.offset)] if field.scale.offset else []
-    return [str(field.scale.step), field.scale.unit, *offset]
+    offset = [f"{field.scale.offset:f}"] if field.scale.offset else []
+    return [f"{field.scale.step:f}", field.scale.unit, *offset]
 
 
 def _packed(packed: Packed) -> dict[str, Any]:

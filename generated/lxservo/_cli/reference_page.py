@@ -238,8 +238,8 @@ def _field(sheet: Sheet, model: Protocol, slot: Slot, path: str, many: str = "")
     sheet.line(f"  {path}  {', '.join(filter(None, bounds))}")
     if "scale" in said:
         step, unit, *offset = said["scale"]
-        beginning = "".join(f", and 0 is {each} {unit}" for each in offset)
-        sheet.paragraph(f"One step is {step} {unit}{beginning}.", 6)
+        beginning = "".join(f", and 0 is {each} {unit}".rstrip() for each in offset)
+        sheet.paragraph(f"{f'One step is {step} {unit}'.rstrip()}{beginning}.", 6)
     for name, (low, high, about) in said.get("bits", {}).items():
         at = f"bit {low}" if low == high else f"bits {low}..{high}"
         sheet.paragraph(f"{at}: {name}{', ' if about else ''}{about}", 6)

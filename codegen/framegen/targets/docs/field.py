@@ -192,7 +192,8 @@ def _unit(field: NumberField | ListField) -> str:
     if isinstance(field, ListField) or field.scale is None:
         return getattr(field, "unit", "")
     step, unit, offset = field.scale.step, field.scale.unit, field.scale.offset
-    scaled = f"one step is {step} {unit}" + (f", and 0 is {offset} {unit}" if offset else "")
+    scaled = f"one step is {step:f} {unit}".rstrip()
+    scaled += f", and 0 is {offset:f} {unit}".rstrip() if offset else ""
     return f"{field.unit}, {scaled}" if field.unit else scaled
 
 

@@ -22,7 +22,7 @@ function cell(role, offset, bytes, name, value) {
 // A value in its larger unit, exactly: 7500 steps of 0.001 V are 7.500 V.
 function scaled(value, { step, unit, offset = "0" }) {
   if (!Number.isInteger(value) && typeof value !== "bigint") {
-    return `${value * Number(step) + Number(offset)} ${unit}`;
+    return `${value * Number(step) + Number(offset)} ${unit}`.trimEnd();
   }
   const places = (text) => (text.split(".")[1] || "").length;
   const digits = Math.max(places(step), places(offset));
@@ -31,7 +31,7 @@ function scaled(value, { step, unit, offset = "0" }) {
   const shown = String(steps < 0 ? -steps : steps).padStart(digits + 1, "0");
   const point = shown.length - digits;
   const text = digits ? `${shown.slice(0, point)}.${shown.slice(point)}` : shown;
-  return `${steps < 0 ? "-" : ""}${text} ${unit}`;
+  return `${steps < 0 ? "-" : ""}${text} ${unit}`.trimEnd();
 }
 
 // The named bits of a number that are set, those of several bits with their value.
