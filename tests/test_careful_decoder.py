@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+from importlib import import_module
 from typing import TYPE_CHECKING
 
 import pytest
+import yaml
 from busservo import (
     ActionGroupCompleted,
     ActionGroupStarted,
@@ -20,10 +22,12 @@ from busservo._codec.careful_decoder import CarefulDecoder
 from hypothesis import given
 from hypothesis import strategies as st
 
+from tests.factories import compiled_of, library, library_files
 from tests.strategies import joined
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
+    from pathlib import Path
 
 RECEIVED = Direction.CONTROLLER_TO_HOST
 REPORT = ActionGroupCompleted(8, 1)
@@ -189,3 +193,52 @@ def test_without_doubtful_messages_it_agrees_with_the_stream_decoder(line: list[
         found += doubting.flush()
     if not any(b"\x55" in each.encode()[2:] for each in messages(expected)):
         assert joined(found) == joined(expected)
+
+
+# Of its two kinds of frames, one is a single byte, and the other has a checksum.
+ACKNOWLEDGED = """
+framegen: 2
+protocol: {name: meter, title: Meter, version: 1.0.0, authority: m, summary: A meter.}
+sources: {m: {title: Manual, kind: document}}
+endpoints: {host: Asks., meter: Answers.}
+link: {baud: 9600}
+byte_order: big
+frames:
+  normal:
+    start: {is: constant, bytes: AA}
+    code: {is: id, type: u8}
+    body: {is: body}
+    check: {is: checksum, type: u8, method: sum, covers: [code, body]}
+  acknowledgement:
+    byte: {is: constant, bytes: "06"}
+    body: {is: body}
+messages:
+  Done:
+    frame: acknowledgement
+    direction: meter -> host
+    summary: It is done.
+    cite: m
+    length: 1
+    examples: [{title: Done, hex: "06", values: {}, cite: m}]
+  Value:
+    frame: normal
+    id: 2
+    direction: meter -> host
+    summary: A value.
+    cite: m
+    length: 4
+    fields: {value: {type: u8, about: The value.}}
+    examples: [{title: Four, hex: AA 02 04 06, values: {value: 4}, cite: m}]
+"""
+
+
+def test_what_a_checksum_proves_is_not_in_doubt(tmp_path: Path) -> None:
+    compiled = compiled_of(yaml.safe_load(ACKNOWLEDGED))
+    assert compiled.findings == []
+    with library(library_files(compiled), tmp_path) as made:
+        module = import_module(f"{made.__name__}._codec.careful_decoder")
+        for value in range(256):
+            decoder = module.CarefulDecoder(made.Direction.METER_TO_HOST)
+            message, done = made.messages.Value(value), made.messages.Done()
+            assert decoder.feed(message.encode()) == [message]
+            assert decoder.feed(done.encode() + message.encode()) == [done, message]
