@@ -235,3 +235,30 @@ def test_every_other_name_leads_to_methods_and_is_none_itself() -> None:
         for name in names.split(", "):
             assert name not in CHECKSUMS
             assert all(f"`{each}`" in suggest(name) for each in meant)
+
+
+@pytest.mark.parametrize("method", CHECKSUMS.values(), ids=named)
+@given(data=st.binary(max_size=20), behind=st.binary(max_size=20), drawn=st.data())
+def test_bytes_that_a_checksum_tells_apart_never_have_the_same(
+    method: Checksum, data: bytes, behind: bytes, drawn: st.DataObject
+) -> None:
+    for width in method.widths:
+        for size in range(1, 5):
+            one, other = drawn.draw(
+                st.lists(
+                    st.binary(min_size=size, max_size=size), min_size=2, max_size=2, unique=True
+                )
+            )
+            if method.tells_apart(size):
+                assert method.of(data + one + behind, width) != method.of(
+                    data + other + behind, width
+                )
+
+
+def test_what_no_checksum_tells_apart_is_known() -> None:
+    """Some have one value for 0 and for 255, some leave out bits, and sums know no order."""
+    blind = {name for name, method in CHECKSUMS.items() if not method.tells_apart(1)}
+    assert {"fletcher-16", "carried sum", "sum-7", "even xor", "crc-7/pololu"} <= blind
+    assert not CHECKSUMS["sum"].tells_apart(2)
+    assert CHECKSUMS["crc-16/modbus"].tells_apart(2)
+    assert not CHECKSUMS["crc-16/modbus"].tells_apart(3)

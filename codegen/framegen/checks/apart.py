@@ -5,6 +5,7 @@ from __future__ import annotations
 from itertools import chain, combinations, product, repeat
 from typing import TYPE_CHECKING
 
+from framegen.model.checksums import CHECKSUMS
 from framegen.model.slots import Constant, Number
 
 if TYPE_CHECKING:
@@ -48,6 +49,19 @@ def shared_size(one: MessageLayout, other: MessageLayout) -> int | None:
     return next((size for size in sizes if size in others), None)
 
 
+def told_by_checksum(one: MessageLayout, other: MessageLayout) -> bool:
+    """Tell whether two messages never have the same bytes, as a checksum covers an unsent id."""
+    if one.frame is not other.frame:
+        return False
+    pairs = zip(one.frame.ids, one.ids, other.ids, strict=True)
+    differing = [part for part, here, there in pairs if here != there]
+    return len(differing) == 1 and any(
+        differing[0].name in checksum.of
+        and CHECKSUMS[checksum.method].tells_apart(differing[0].size)
+        for checksum in one.frame.checksums
+    )
+
+
 def _sizes(message: MessageLayout) -> range | list[int]:
     if isinstance(message.lengths, range):
         by, lengths = message.frame.uncounted, message.lengths
@@ -80,11 +94,12 @@ def _values(message: MessageLayout, placed: Placed) -> Iterator[range]:
         yield from _exactly(slot.data)
     elif isinstance(slot, Number) and slot.role == "id":
         yield from _exactly(slot.write(message.id_of(slot)))
+    elif isinstance(slot, Number) and slot.role == "length":
+        # A frame that is too long for its length is another rule's concern.
+        low, high = (min(message.lengths[end], slot.number_type.high) for end in (0, -1))
+        yield from _between(slot, low, high)
     elif isinstance(slot, Number) and _is_bounded(slot):
-        found = [
-            *_between(slot.low.to_bytes(slot.size, "big"), slot.high.to_bytes(slot.size, "big"))
-        ]
-        yield from found if slot.order == "big" else reversed(found)
+        yield from _between(slot, slot.low, slot.high)
     else:
         yield from repeat(_ANY, placed.size)
 
@@ -97,12 +112,14 @@ def _exactly(data: bytes) -> Iterator[range]:
     return (range(byte, byte + 1) for byte in data)
 
 
-def _between(low: bytes, high: bytes) -> Iterator[range]:
-    """Yield the values of each byte of the numbers between two, the most significant first."""
-    same = True
-    for one, other in zip(low, high, strict=True):
-        yield range(one, other + 1) if same else _ANY
+def _between(number: Number, low: int, high: int) -> Iterator[range]:
+    """Yield the values of each byte of a number from `low` to `high`."""
+    found, same = [], True
+    ends = (each.to_bytes(number.size, "big") for each in (low, high))
+    for one, other in zip(*ends, strict=True):
+        found.append(range(one, other + 1) if same else _ANY)
         same = same and one == other
+    return iter(found if number.order == "big" else found[::-1])
 
 
 def _constants(slots: Iterable[Slot]) -> dict[int, range]:

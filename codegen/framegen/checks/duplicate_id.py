@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from framegen.checks.apart import alike, shared_size
+from framegen.checks.apart import alike, shared_size, told_by_checksum
 from framegen.checks.rule import ModelRule, Problem
 
 if TYPE_CHECKING:
@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 def _look(model: Model) -> Iterator[Problem]:
     for one, other in alike(model):
         size = shared_size(one, other)
-        if size is not None:
+        if size is not None and not told_by_checksum(one, other):
             yield _problem(one, other, size)
 
 
@@ -50,7 +50,7 @@ RULE = ModelRule(
     title="No two messages of one direction can have the same frame",
     why="A receiver tells a message by its direction, by the constants and ids of its frame, and "
     "by its size: where all of these agree, nobody can say which was meant. An id that is not sent "
-    "tells nothing.",
+    "tells them apart only if the checksum that covers it is never the same.",
     bad="{LampOn: {id: 7, direction: host -> lamp}, LampOff: {id: 7, direction: host -> lamp}}",
     good="{LampOn: {id: 7, direction: host -> lamp}, LampOff: {id: 8, direction: host -> lamp}}",
     look=_look,

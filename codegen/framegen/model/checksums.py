@@ -37,6 +37,10 @@ class Checksum:
         """Return the checksum of `data`, in one of its widths."""
         raise NotImplementedError
 
+    def tells_apart(self, size: int) -> bool:
+        """Tell whether data that differ in so many bytes on end never have the same checksum."""
+        raise NotImplementedError
+
 
 @dataclass(frozen=True)
 class Sum(Checksum):
@@ -60,6 +64,10 @@ class Sum(Checksum):
             total = (total - 1) % ((1 << bits) - 1) + 1
         return (self.factor * total + self.offset) % (1 << bits)
 
+    def tells_apart(self, size: int) -> bool:
+        """Tell whether data that differ in so many bytes on end never have the same checksum."""
+        return size == 1 and not self.left_out and not self.carried
+
 
 @dataclass(frozen=True)
 class Xor(Checksum):
@@ -79,6 +87,10 @@ class Xor(Checksum):
             value ^= word
         return value & self.mask
 
+    def tells_apart(self, size: int) -> bool:
+        """Tell whether data that differ in so many bytes on end never have the same checksum."""
+        return size == 1 and self.mask + 1 == 1 << 8 * self.word
+
 
 @dataclass(frozen=True)
 class Fletcher(Checksum):
@@ -94,6 +106,10 @@ class Fletcher(Checksum):
             first = (first + byte) % self.modulus
             second = (second + first) % self.modulus
         return second << width // 2 | first
+
+    def tells_apart(self, size: int) -> bool:
+        """Tell whether data that differ in so many bytes on end never have the same checksum."""
+        return size == 1 and self.modulus > 0xFF
 
 
 @dataclass(frozen=True)
@@ -125,6 +141,10 @@ class Crc(Checksum):
         if self.reflected and not self.mixed:
             register = int(f"{register:0{width}b}"[::-1], 2)
         return register ^ self.xor_out
+
+    def tells_apart(self, size: int) -> bool:
+        """Tell whether data that differ in so many bytes on end never have the same checksum."""
+        return 8 * size <= self.width and bool(self.poly & 1)
 
 
 def _words(data: bytes, size: int) -> Iterator[int]:
