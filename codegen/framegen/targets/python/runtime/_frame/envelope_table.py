@@ -209,7 +209,12 @@ def chosen(verdicts: Sequence[Verdict]) -> Verdict:
     decided = [each for each in verdicts if not each.is_open and (each.kind or each.proven)]
     if decided:
         return min(decided, key=lambda each: (each.size, each.kind is None))
-    waiting = [each for each in verdicts if each.is_open]
+    # For one of unknown id alone, nothing is awaited that could not prove it.
+    waiting = [
+        each
+        for each in verdicts
+        if each.is_open and (each.proven or each.reason is Reason.TOO_SHORT)
+    ]
     if not waiting:
         return max(verdicts, key=lambda each: each.offset)
     last = max(waiting, key=lambda each: each.offset)
