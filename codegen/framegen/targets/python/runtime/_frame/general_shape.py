@@ -29,6 +29,10 @@ if TYPE_CHECKING:
     Judged: TypeAlias = "tuple[int, int, Reason, Due]"
 
 
+# So many sizes are remembered at once.
+_REMEMBERED = 1024
+
+
 class Shape:
     """The fields of a class of messages, in the order of the frame, and the rules for its frames.
 
@@ -37,7 +41,7 @@ class Shape:
     from where to where the number stands that says how long the list is; None where there is none.
     `parts` are all fields and constants between head and tail. All that can be wrong is told by
     `places`; a frame of legal length, with the right counter, `holds` where nothing is, and is
-    `certain` where nothing can be.
+    `certain` where nothing can be. `sizes` are those of frames by the bytes of their counter.
     """
 
     __slots__ = (
@@ -54,6 +58,7 @@ class Shape:
         "lengths",
         "optional",
         "parts",
+        "sizes",
     )
 
     def __init__(self, kind: Any, lengths: Sequence[int]) -> None:
@@ -91,6 +96,7 @@ class Shape:
         self.counts = range(len(lengths)) if self._varying is None else self._varying.counts
         first = min((number for number, _ in self._counters), key=_at, default=None)
         self.counter = None if first is None else (first.at, first.at + first.struct.size)
+        self.sizes = _Sizes(self)
         body = [each for each in fields if each.name not in outside]
         self.parts: list[Any] = sorted([*body, *kind.CONSTANTS], key=_at)
         self._quick = [*self._fixed()]
@@ -125,6 +131,11 @@ class Shape:
         number, factor = min(self._counters, key=lambda each: each[0].at)
         count, rest = divmod(number.struct.unpack(data)[0], factor)
         return None if rest or count not in self.counts else count
+
+    def size_at(self, count: int) -> int:
+        """Return the size of the frames with this count."""
+        size: int = self._kind.FRAME.size(self.lengths[self.counts.index(count)])
+        return size
 
     def places(self, count: int, since: int = 0) -> Iterator[Judged]:
         """Yield all that can be wrong in the fields of a frame with this count, in its order.
@@ -277,6 +288,25 @@ class Shape:
         if not absent:
             problem = "no frame goes on with it: leave it out"
         raise EncodeError((absent or self.optional)[0].name, None, problem)
+
+
+class _Sizes(dict[bytes, int]):
+    """The sizes of the frames of a message, by the bytes of its counter; 0 where no frame has it.
+
+    Worked out once for each.
+    """
+
+    __slots__ = ("_shape",)
+
+    def __init__(self, shape: Shape) -> None:
+        self._shape = shape
+
+    def __missing__(self, counter: bytes) -> int:
+        if len(self) >= _REMEMBERED:
+            self.clear()
+        count = self._shape.count_of(counter)
+        self[counter] = size = 0 if count is None else self._shape.size_at(count)
+        return size
 
 
 def _varies(field: List[Any] | Text) -> bool:

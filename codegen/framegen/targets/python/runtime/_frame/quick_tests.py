@@ -50,18 +50,18 @@ def range_test(numbers: Sequence[Number]) -> Callable[[bytes], bool]:
     for number in numbers:
         layout += f"{number.at - at}x{number.code}"
         at = number.at + number.struct.size
-    unpack = Struct(layout).unpack_from
+    unpack: Callable[[bytes], tuple[int, ...]] = Struct(layout).unpack_from
     if len(numbers) == 1:
         (only,) = numbers
         low, high = only.low, only.high
-        return lambda frame: bool(low <= unpack(frame)[0] <= high)
+        return lambda frame: low <= unpack(frame)[0] <= high
     if len(numbers) == 2:
         one, two = numbers
         low, high, least, most = one.low, one.high, two.low, two.high
 
         def both_inside(frame: bytes) -> bool:
             first, second = unpack(frame)
-            return bool(low <= first <= high and least <= second <= most)
+            return low <= first <= high and least <= second <= most
 
         return both_inside
     lows, highs = [number.low for number in numbers], [number.high for number in numbers]
