@@ -15,6 +15,7 @@ from .envelopes import ENVELOPES, PROVEN_IN_PLACE
 from .errors import DecodeError, Reason
 from .head_walk import HeadWalk
 from .heads import FIRST_BYTES, HEAD, size_of
+from .quick_tests import together
 from .trial import Known, Refused, too_short
 from .verdict import Verdict
 
@@ -246,16 +247,9 @@ def _holds(kind: type[Message]) -> Callable[[bytes], bool] | None:
 
     What the decoders test themselves is left out; None where nothing else can be wrong.
     """
-    shape, frame = kind.SHAPE, kind.FRAME
-    tests = [] if PROVEN_IN_PLACE else frame.provers(kind.IDS)
-    tests += [] if shape.certain else [shape.holds]
-    tests += [_end_test(part) for part in frame.judged]
-    if len(tests) < 2:
-        return tests[0] if tests else None
-    if len(tests) == 2:
-        first, second = tests
-        return lambda data: first(data) and second(data)
-    return lambda data: all(holds(data) for holds in tests)
+    frame = kind.FRAME
+    proofs = [] if PROVEN_IN_PLACE else frame.provers(kind.IDS)
+    return together([*kind.SHAPE.tests, *map(_end_test, frame.judged), *proofs])
 
 
 def _end_test(part: Constant | Address) -> Callable[[bytes], bool]:

@@ -112,6 +112,11 @@ class LibraryView:
         return proof_in_place(self.model)
 
     @property
+    def proven_in_place(self) -> bool:
+        """Whether there is such a test."""
+        return self.proof is not None
+
+    @property
     def proven(self) -> bool:
         """Whether every frame has a checksum."""
         return all(frame.checksums for frame in self.model.envelopes.values())
