@@ -11,18 +11,30 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from benchmarks import captures, messages, peers, processes, report, streams
+from benchmarks.checksummed import measure as checksummed
+from benchmarks.checksummed import peers as checking_peers
+from benchmarks.checksummed.rows import ROWS as CHECKSUMMED_ROWS
 from benchmarks.results import FLOOR, OURS, Results
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
     from types import ModuleType
 
+    from benchmarks.checksummed.peers.interface import Peer as CheckingPeer
     from benchmarks.peers.interface import Peer
 
 COMMAND_ROWS = {"command-text": [], "command-json": ["--json"], "command-csv": ["--csv"]}
 """`busservo decode`, by the form of what it prints."""
 
-ROWS = (*messages.ROWS, *streams.ROWS, *streams.NOISE_ROWS, "import", *COMMAND_ROWS, "generate")
+ROWS = (
+    *messages.ROWS,
+    *streams.ROWS,
+    *streams.NOISE_ROWS,
+    *CHECKSUMMED_ROWS,
+    "import",
+    *COMMAND_ROWS,
+    "generate",
+)
 
 ROUNDS = 10
 SECONDS = 0.01
@@ -89,15 +101,22 @@ def load_ours() -> ModuleType | None:
 
 
 def measure(
-    chosen: argparse.Namespace, ours: ModuleType | None, present: Sequence[Peer]
+    chosen: argparse.Namespace,
+    ours: ModuleType | None,
+    present: Sequence[Peer],
+    checking: Sequence[CheckingPeer],
 ) -> Results:
-    """Measure all chosen rows."""
+    """Measure all chosen rows; those with checksums with peers of their own."""
     results = Results()
     seconds = QUICK_SECONDS if chosen.quick else SECONDS
     stream_seconds = QUICK_STREAM_SECONDS if chosen.quick else STREAM_SECONDS
     stretch = QUICK_STRETCH if chosen.quick else captures.PIECE
     for row in chosen.rows:
         print(f"measuring {row}", file=sys.stderr, flush=True)
+        if row in CHECKSUMMED_ROWS:
+            sample = stream_seconds if row.endswith("stream") else seconds
+            checksummed.measure(row, checking, chosen.rounds, sample, results)
+            continue
         kind = row.split("-")[0]
         able = [peer for peer in present if kind not in peer.lacks]
         for peer in present:
@@ -106,7 +125,7 @@ def measure(
         if row in messages.ROWS:
             cases = ours.message_cases(row) if ours else []
             cases += [messages.peer_case(row, peer) for peer in able]
-            messages.measure(row, cases, chosen.rounds, seconds, results)
+            messages.measure(row, messages.floor_case(row), cases, chosen.rounds, seconds, results)
         elif row in streams.ROWS:
             cases = ours.stream_cases() if ours else []
             cases += [streams.peer_case(peer) for peer in able]
@@ -162,8 +181,10 @@ def main(arguments: Sequence[str] | None = None) -> int:
     chosen = options(arguments)
     ours = load_ours()
     present, absent = ([], []) if chosen.no_peers else peers.load()
-    results = measure(chosen, ours, present)
-    tables = report.everything(results, ours is not None, present, absent, chosen.rounds)
+    checking, not_checking = ([], []) if chosen.no_peers else checking_peers.load()
+    results = measure(chosen, ours, present, checking)
+    missing = list(dict.fromkeys([*absent, *not_checking]))
+    tables = report.everything(results, ours is not None, present, checking, missing, chosen.rounds)
     print(tables)
     if chosen.write:
         report.write(tables)

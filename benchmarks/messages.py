@@ -85,9 +85,10 @@ def _decode(
     return Case(contender, "decode(frame)", "decode(frame)", names, plain)
 
 
-def measure(row: str, cases: Iterable[Case], rounds: int, seconds: float, into: Results) -> None:
-    """Measure these contenders in this row, by samples of about `seconds`."""
-    base = floor_case(row)
+def measure(
+    row: str, base: Case, cases: Iterable[Case], rounds: int, seconds: float, into: Results
+) -> None:
+    """Measure these contenders in this row beside the floor, by samples of about `seconds`."""
     expected = base.evaluate()
     floor_sample = sampling.statement_sample(base.statement, base.names, seconds)
     for case in cases:

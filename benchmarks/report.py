@@ -8,13 +8,25 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from benchmarks import captures, streams
-from benchmarks.peers import NOT_INSTALLED
-from benchmarks.results import AS_COLUMNS, CLIENT, EVERY_FIELD, FLOOR, IN_USE, OURS, Results
+from benchmarks.checksummed.rows import PROTOCOLS, ROWS, SPEAKERS
+from benchmarks.peers import MODULES, NOT_INSTALLED
+from benchmarks.results import (
+    AS_COLUMNS,
+    CLIENT,
+    EVERY_FIELD,
+    FLOOR,
+    GENERATED,
+    GENERATED_READ,
+    IN_USE,
+    OURS,
+    Results,
+)
 from benchmarks.targets import TARGETS
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator, Mapping, Sequence
 
+    from benchmarks.checksummed.peers.interface import Peer as CheckingPeer
     from benchmarks.peers import Absent
     from benchmarks.peers.interface import Peer
 
@@ -35,8 +47,8 @@ class Table:
     columns: Mapping[str, str]
     """Row of the benchmark, and the head of its column."""
 
-    candidates: Sequence[str] | None = None
-    """Who is named when absent: everybody, unless it is said here."""
+    candidates: Sequence[str] = (OURS, *MODULES.values())
+    """Who is named when absent."""
 
 
 TABLES = (
@@ -66,6 +78,14 @@ TABLES = (
         {"noise-garbage": "garbage", "noise-flipped": "flipped"},
         (OURS,),
     ),
+    *(
+        Table(
+            f"{title}, ratio to the floor",
+            {name: row.head for name, row in ROWS.items() if row.protocol == protocol},
+            SPEAKERS[protocol],
+        )
+        for protocol, title in PROTOCOLS.items()
+    ),
     Table("Import, milliseconds over a bare Python", {"import": "ms"}),
     Table(
         "`busservo decode`, CPU seconds for a capture of a megabyte, both ways",
@@ -80,13 +100,16 @@ def everything(
     results: Results,
     with_ours: bool,
     present: Sequence[Peer],
+    checking: Sequence[CheckingPeer],
     absent: Sequence[Absent],
     rounds: int,
 ) -> str:
     """Return the whole report."""
     titles = {FLOOR: "floor (struct by hand)"}
     titles |= {name: name for name in (OURS, EVERY_FIELD, AS_COLUMNS, IN_USE, CLIENT)}
+    titles |= {name: name for name in (GENERATED, GENERATED_READ)}
     titles |= {peer.name: peer.title for peer in present}
+    titles |= {peer.name: peer.title for peer in checking}
     missing = [*([] if with_ours else [OURS]), *(one.name for one in absent)]
     rounds_text = "1 round" if rounds == 1 else f"{rounds} rounds"
     python = f"{platform.python_implementation()} {platform.python_version()}"
@@ -96,11 +119,10 @@ def everything(
     for table in TABLES:
         columns = {row: head for row, head in table.columns.items() if _any(results, row)}
         if columns:
-            candidates = [
-                name for name in missing if table.candidates is None or name in table.candidates
-            ]
+            candidates = [name for name in missing if name in table.candidates]
             parts += [f"### {table.title}", _comparison(results, columns, titles, candidates)]
     parts += _notes(results, present, absent)
+    parts += _remarks(results, checking)
     ours = _against_targets(results)
     if ours:
         parts += ["### busservo against bar and goal", ours]
@@ -136,7 +158,7 @@ def _any(results: Results, row: str) -> bool:
 
 
 def _cell(results: Results, row: str, contender: str) -> str:
-    is_ratio_to_floor = row.startswith(("encode", "decode", "stream"))
+    is_ratio_to_floor = row in ROWS or row.startswith(("encode", "decode", "stream"))
     if contender == FLOOR and is_ratio_to_floor:
         return "1.00"
     measured = results.measurements.get((row, contender), _NOTHING)
@@ -157,6 +179,13 @@ def _notes(results: Results, present: Sequence[Peer], absent: Sequence[Absent]) 
         yield f"Smallest stretch of a stream in one sample: {sizes}."
     for sentence in results.wrong:
         yield f"NOT TIMED: {sentence}"
+
+
+def _remarks(results: Results, checking: Sequence[CheckingPeer]) -> Iterator[str]:
+    """Yield remarks on those that check what they read."""
+    for peer in checking:
+        if peer.remark and any(row in peer.works for row, _ in results.measurements):
+            yield f"{peer.name}, frames with checksums: {peer.remark}."
 
 
 def _against_targets(results: Results) -> str:

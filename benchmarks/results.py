@@ -19,6 +19,11 @@ CLIENT = "busservo, its client in use"
 """The library in the plainest use of a row, and in other uses."""
 
 
+GENERATED = "the generated library"
+GENERATED_READ = "the generated library, every field read"
+"""The libraries of protocols with checksums."""
+
+
 class WrongResultError(Exception):
     """A contender's result differs from the floor's, so its time would mean nothing."""
 

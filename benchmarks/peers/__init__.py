@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import importlib
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from benchmarks.peers.interface import Peer
+    from collections.abc import Mapping
 
 # Module of the peer, and how the tables call it when it is not installed.
 MODULES = {
@@ -34,12 +34,14 @@ class Absent:
     reason: str
 
 
-def load() -> tuple[list[Peer], list[Absent]]:
-    """Return every peer that can be measured, and every one that cannot."""
-    present: list[Peer] = []
+def load(
+    modules: Mapping[str, str] = MODULES, package: str = __name__
+) -> tuple[list[Any], list[Absent]]:
+    """Return every peer in a package that can be measured, and every one that cannot."""
+    present: list[Any] = []
     absent: list[Absent] = []
-    for module, name in MODULES.items():
-        loaded = _load(module)
+    for module, name in modules.items():
+        loaded = _load(f"{package}.{module}")
         if isinstance(loaded, str):
             absent.append(Absent(name, loaded))
         else:
@@ -47,10 +49,10 @@ def load() -> tuple[list[Peer], list[Absent]]:
     return present, absent
 
 
-def _load(module: str) -> list[Peer] | str:
+def _load(module: str) -> list[Any] | str:
     """Return the peers of a module, or why there are none."""
     try:
-        found: list[Peer] = importlib.import_module(f"benchmarks.peers.{module}").peers()
+        found: list[Any] = importlib.import_module(module).peers()
     except ModuleNotFoundError as error:
         if (error.name or "").startswith("benchmarks"):
             raise

@@ -25,36 +25,37 @@ from benchmarks.peers.interface import Peer
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping, Sequence
 
-_HERE = Path(__file__).parent
-_SOURCE = _HERE / "servo_frames.ksy"
-_MODULE = "servo_frames"
+FOLDER = Path(__file__).parent
+"""Where descriptions and compiler are."""
+
+_SOURCE = FOLDER / "servo_frames.ksy"
 
 
-def compile_command(folder: str, *options: str) -> list[str]:
-    """Return the command that compiles the .ksy file into a folder."""
+def compile_command(folder: str, source: Path, *options: str) -> list[str]:
+    """Return the command that compiles a .ksy file into a folder."""
     native = shutil.which("kaitai-struct-compiler")
     if native is not None:
-        return [native, "--target", "python", "--outdir", folder, *options, str(_SOURCE)]
+        return [native, "--target", "python", "--outdir", folder, *options, str(source)]
     node = shutil.which("node")
-    if node is None or not (_HERE / "node_modules").is_dir():
+    if node is None or not (FOLDER / "node_modules").is_dir():
         raise UnavailableError("its runtime is there, its compiler is not")
-    return [node, str(_HERE / "compile.js"), str(_SOURCE), folder, *options]
+    return [node, str(FOLDER / "compile.js"), str(source), folder, *options]
 
 
-def _compiled(folder: str, *options: str) -> Any:
-    """Return the generated class that holds all others."""
-    command = compile_command(folder, *options)
+def compiled(folder: str, source: Path, *options: str) -> Any:
+    """Return the class that is generated from a .ksy file, and holds all others."""
+    command = compile_command(folder, source, *options)
     done = subprocess.run(command, capture_output=True, text=True, check=False)
     if done.returncode != 0:
         reason = done.stderr.strip() or f"exit status {done.returncode}"
         raise UnavailableError(f"kaitai-struct-compiler failed: {reason}")
-    path = Path(folder) / f"{_MODULE}.py"
-    spec = importlib.util.spec_from_file_location(_MODULE, path)
+    path = Path(folder) / f"{source.stem}.py"
+    spec = importlib.util.spec_from_file_location(source.stem, path)
     if spec is None or spec.loader is None:
         raise UnavailableError(f"kaitai-struct-compiler wrote no {path.name}")
     module = importlib.util.module_from_spec(spec)
     spec.loader.exec_module(module)
-    return module.ServoFrames
+    return getattr(module, "".join(map(str.capitalize, source.stem.split("_"))))
 
 
 def _parser(kind: Any) -> Callable[[bytes], Any]:
@@ -66,7 +67,7 @@ class Kaitai(Peer):
 
     name = "Kaitai Struct"
     distribution = "kaitaistruct"
-    import_statement = f"import {_MODULE}"
+    import_statement = f"import {_SOURCE.stem}"
 
     def __init__(self) -> None:
         super().__init__()
@@ -75,9 +76,9 @@ class Kaitai(Peer):
         writers = Path(self._folders.name) / "writers"
         readers.mkdir()
         writers.mkdir()
-        frames = _compiled(str(readers))
+        frames = compiled(str(readers), _SOURCE)
         self.import_path = str(readers)
-        self.generate_command = compile_command(str(readers))
+        self.generate_command = compile_command(str(readers), _SOURCE)
         self.parsers: Mapping[int, Callable[[bytes], Any]] = {
             floor.ACTION_GROUP_STARTED: _parser(frames.ActionGroupRun),
             floor.ACTION_GROUP_STOPPED: _parser(frames.ActionGroupStop),
@@ -86,7 +87,7 @@ class Kaitai(Peer):
             floor.POSITIONS: _parser(frames.ServoPositions),
         }
         try:
-            self._writers = _compiled(str(writers), "--read-write")
+            self._writers = compiled(str(writers), _SOURCE, "--read-write")
         except UnavailableError:
             self.lacks = {"encode": "this build of its compiler makes readers only"}
 

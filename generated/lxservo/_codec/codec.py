@@ -79,7 +79,12 @@ def decode(frame: bytes | bytearray | memoryview, direction: Direction | None) -
         entry = table.get(frame[_HEAD])
         if entry is not None:
             size, at, until, count, kind, holds, _ = entry
-            if len(frame) == size and (not count or frame[at:until] == count) and holds(frame):
+            if (
+                len(frame) == size
+                and (not count or frame[at:until] == count)
+                and sum(frame) & 0xFF == 0xA9
+                and (holds is None or holds(frame))
+            ):
                 message = _new(kind)
                 message._frame = frame
                 return message

@@ -41,16 +41,6 @@ class Sum:
             self.of = lambda data: sum(data) & mask
             self.finish = lambda total: total & mask
 
-    def prover(self, covered: slice, at: int) -> Callable[[bytes], bool]:
-        """Return a function that says whether the byte at `at` is the checksum of a stretch.
-
-        It is in the way of every frame that is read, where each call costs as much as the sum.
-        """
-        difference = self.finish(0)
-        if self.finish(1) == 1:
-            return lambda frame: sum(frame[covered]) & 0xFF == frame[at]
-        return lambda frame: sum(frame[covered], frame[at]) & 0xFF == difference
-
     def running(self) -> RunningSum:
         """Return what works it out along a stream."""
         return RunningSum(self)

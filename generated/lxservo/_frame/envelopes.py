@@ -18,3 +18,5 @@ FRAME_ENVELOPE = Envelope(
     uncounted=3,
 )
 ENVELOPES: tuple[Envelope, ...] = (FRAME_ENVELOPE,)
+PROVEN_IN_PLACE = True
+"""Whether the decoders test the only checksum themselves, as it is the same for all frames."""

@@ -10,28 +10,31 @@ from __future__ import annotations
 
 from .bytes_like import as_bytes
 from .direction import Direction
-from .envelopes import ENVELOPES
+from .envelope import Constant
+from .envelopes import ENVELOPES, PROVEN_IN_PLACE
 from .errors import DecodeError, Reason
 from .head_walk import HeadWalk
 from .heads import FIRST_BYTES, HEAD, size_of
+from .quick_tests import together
 from .trial import Known, Refused, too_short
 from .verdict import Verdict
 
 TYPE_CHECKING = False  # typing alone would double the time that the import takes
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
-    from typing import Any, Literal, TypeAlias
+    from typing import Any, TypeAlias
 
-    from .envelope import Checksum, Envelope
+    from .envelope import Address, Checksum, Envelope
     from .head_walk import Trial
     from .message import Message
     from .trial import Prove
 
     # The size of the frame, 0 where only its count says it; from where to where that count stands,
     # and the bytes it must be (b"" at 0:0 if there is none); the class; what says of a whole frame
-    # whether all else is right; and the entry for another message with the same head.
+    # whether all is right that the decoders do not test themselves (None if it always is); and the
+    # entry for another message with the same head.
     Entry: TypeAlias = (
-        "tuple[int, int, int, bytes, type[Message], Callable[[bytes], bool], Entry | None]"
+        "tuple[int, int, int, bytes, type[Message], Callable[[bytes], bool] | None, Entry | None]"
     )
 
 
@@ -181,7 +184,7 @@ def largest_of(messages: Sequence[type[Message]]) -> int:
 def found_entry(verdict: Verdict) -> Entry | None:
     """Return the entry of a message that is found."""
     kind = verdict.kind
-    return None if kind is None else (verdict.size, 0, 0, b"", kind, _always, None)
+    return None if kind is None else (verdict.size, 0, 0, b"", kind, None, None)
 
 
 def is_certain(kind: type[Message]) -> bool:
@@ -194,11 +197,8 @@ def measured(entry: Entry, data: bytes, at: int) -> Entry | None:
     size, start, end, _, kind, holds, other = entry
     if size or at + end > len(data):
         return None
-    count = kind.SHAPE.count_of(data[at + start : at + end])
-    if count is None:
-        return None
-    size = size_of(kind, kind.LENGTHS[kind.SHAPE.counts.index(count)])
-    return size, 0, 0, b"", kind, holds, other
+    size = kind.SHAPE.sizes[data[at + start : at + end]]
+    return (size, 0, 0, b"", kind, holds, other) if size else None
 
 
 def chosen(verdicts: Sequence[Verdict]) -> Verdict:
@@ -247,29 +247,22 @@ def _counted(kind: type[Message], count: int | None) -> tuple[int, int, bytes]:
     return start, end, due if isinstance(due, bytes) else b""
 
 
-def _holds(kind: type[Message]) -> Callable[[bytes], bool]:
-    """Return what says whether a frame of a message's size is right, but for head and count."""
-    shape, frame = kind.SHAPE, kind.FRAME
-    proves = frame.prover(kind.IDS) or _always
-    if frame.judged:
-        ends = [(part.place, part.data) for part in frame.ends]
-        address = frame.address if frame.address in frame.judged else None
-        return lambda data: (
-            all(data[place] == due for place, due in ends)
-            and (address is None or address.holds(address.read(data)))
-            and shape.holds(data)
-            and proves(data)
-        )
-    if shape.certain:
-        return proves
-    holds = shape.holds
-    if proves is _always:
-        return holds
-    return lambda data: proves(data) and holds(data)
+def _holds(kind: type[Message]) -> Callable[[bytes], bool] | None:
+    """Return what says whether a frame of a message's size is right, but for head and count.
+
+    What the decoders test themselves is left out; None where nothing else can be wrong.
+    """
+    frame = kind.FRAME
+    proofs = [] if PROVEN_IN_PLACE else frame.provers(kind.IDS)
+    return together([*kind.SHAPE.tests, *map(_end_test, frame.judged), *proofs])
 
 
-def _always(_: bytes) -> Literal[True]:
-    return True
+def _end_test(part: Constant | Address) -> Callable[[bytes], bool]:
+    """Return what says whether a constant or an address behind the fields is right."""
+    if isinstance(part, Constant):
+        place, due = part.place, part.data
+        return lambda frame: frame[place] == due
+    return lambda frame: part.holds(part.read(frame))
 
 
 def _reach(kind: type[Message], largest: int) -> int:

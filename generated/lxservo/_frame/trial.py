@@ -7,7 +7,6 @@ from itertools import takewhile
 
 from .envelope import Constant
 from .errors import Reason
-from .heads import size_of
 from .verdict import Verdict
 
 TYPE_CHECKING = False  # typing alone would double the time that the import takes
@@ -98,7 +97,7 @@ class Known:
             return too_short(len(data) - at, end)
         count = shape.count_of(data[at + start : at + end])
         if count is not None:
-            size = size_of(self.kind, self.kind.LENGTHS[shape.counts.index(count)])
+            size = shape.size_at(count)
             if size <= self.largest:
                 return count, size
         return Verdict(None, Reason.COUNT_MISMATCH, start, end)

@@ -25,6 +25,7 @@ from framegen.targets.python.list_view import ListView
 from framegen.targets.python.lookalike_view import LookalikeView
 from framegen.targets.python.message_view import MessageView
 from framegen.targets.python.plain import is_plain
+from framegen.targets.python.proof_view import proof_in_place
 from framegen.targets.python.spelling import direction_member, struct_order
 from framegen.targets.python.text_view import PackedView
 from framegen.targets.python.union_view import UnionView, type_alias, unions
@@ -35,6 +36,7 @@ if TYPE_CHECKING:
     from framegen.model.model import Model
     from framegen.targets.python.command_lines import VerbView
     from framegen.targets.python.element_view import ElementView
+    from framegen.targets.python.proof_view import ProofView
 
 
 # So many bytes have room in a line.
@@ -103,6 +105,16 @@ class LibraryView:
     def checksums(self) -> bool:
         """Whether any frame has a checksum."""
         return any(frame.checksums for frame in self.model.envelopes.values())
+
+    @property
+    def proof(self) -> ProofView | None:
+        """The test of the checksum that decoders make in place, where one does for all frames."""
+        return proof_in_place(self.model)
+
+    @property
+    def proven_in_place(self) -> bool:
+        """Whether there is such a test."""
+        return self.proof is not None
 
     @property
     def proven(self) -> bool:

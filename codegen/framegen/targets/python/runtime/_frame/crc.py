@@ -178,7 +178,29 @@ def _with_table(crc: Crc) -> Callable[[bytes], int]:
         return lambda data: crc.finish([init, *crc.registers(init, data)][-1])
     if width == 8:
         return of_a_byte
+    if width == 16:
+        return _in_halves(crc)
     return reflected if crc.reflected else straight
+
+
+def _in_halves(crc: Crc) -> Callable[[bytes], int]:
+    """Return a function for a register of two bytes: the first half meets the next byte.
+
+    Half of such a number is one that Python has ready, and need not make.
+    """
+    first_at, second_at = (0, 8) if crc.reflected else (8, 0)
+    first_init, second_init = crc.init >> first_at & 0xFF, crc.init >> second_at & 0xFF
+    halves = [(value >> first_at & 0xFF, value >> second_at & 0xFF) for value in crc.table]
+    xor_out = crc.xor_out
+
+    def of(data: bytes) -> int:
+        first, second = first_init, second_init
+        for byte in data:
+            image, behind = halves[first ^ byte]
+            first, second = image ^ second, behind
+        return (first << first_at | second << second_at) ^ xor_out
+
+    return of
 
 
 def _with_hqx(crc: Crc) -> Callable[[bytes], int]:

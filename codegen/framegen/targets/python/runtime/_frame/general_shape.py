@@ -13,7 +13,7 @@ from .lists import List, is_read, places_of
 from .number import Number
 from .optional import Optional
 from .packed import Packed
-from .quick_tests import checker, range_test
+from .quick_tests import checker, count_test, element_test, item_test, place_test, range_test
 from .text import Text, misspelt
 
 TYPE_CHECKING = False  # typing alone would double the time that the import takes
@@ -29,6 +29,10 @@ if TYPE_CHECKING:
     Judged: TypeAlias = "tuple[int, int, Reason, Due]"
 
 
+# So many sizes are remembered at once.
+_REMEMBERED = 1024
+
+
 class Shape:
     """The fields of a class of messages, in the order of the frame, and the rules for its frames.
 
@@ -36,24 +40,24 @@ class Shape:
     varies, if there is one; `lengths` are the legal ones, one for each of `counts`. `counter` is
     from where to where the number stands that says how long the list is; None where there is none.
     `parts` are all fields and constants between head and tail. All that can be wrong is told by
-    `places`; a frame of legal length, with the right counter, `holds` where nothing is, and is
-    `certain` where nothing can be.
+    `places`; a frame of legal length, with the right counter, is right where all `tests` hold, and
+    `certain` where there are none. `sizes` are those of frames by the bytes of their counter.
     """
 
     __slots__ = (
         "_counters",
         "_kind",
-        "_quick",
         "_varying",
         "check",
         "counter",
         "counts",
         "given",
-        "holds",
         "items",
         "lengths",
         "optional",
         "parts",
+        "sizes",
+        "tests",
     )
 
     def __init__(self, kind: Any, lengths: Sequence[int]) -> None:
@@ -91,10 +95,10 @@ class Shape:
         self.counts = range(len(lengths)) if self._varying is None else self._varying.counts
         first = min((number for number, _ in self._counters), key=_at, default=None)
         self.counter = None if first is None else (first.at, first.at + first.struct.size)
+        self.sizes = _Sizes(self)
         body = [each for each in fields if each.name not in outside]
         self.parts: list[Any] = sorted([*body, *kind.CONSTANTS], key=_at)
-        self._quick = [*self._fixed()]
-        self.holds = self._test()
+        self.tests = [*self._tested()]
         self.check = checker(self.given)
 
     def _counted(self) -> list[tuple[Number, int]]:
@@ -111,20 +115,18 @@ class Shape:
     @property
     def certain(self) -> bool:
         """Whether a frame of legal length, with the right count, is always legal."""
-        if len(self._counters) > 1:
-            return False
-        varying = self._varying
-        return not (
-            isinstance(varying, Text)
-            or (varying is not None and varying.places)
-            or any(self._fixed())
-        )
+        return not self.tests
 
     def count_of(self, data: bytes) -> int | None:
         """Return the count that these bytes of the counter mean; None where no frame has it."""
         number, factor = min(self._counters, key=lambda each: each[0].at)
         count, rest = divmod(number.struct.unpack(data)[0], factor)
         return None if rest or count not in self.counts else count
+
+    def size_at(self, count: int) -> int:
+        """Return the size of the frames with this count."""
+        size: int = self._kind.FRAME.size(self.lengths[self.counts.index(count)])
+        return size
 
     def places(self, count: int, since: int = 0) -> Iterator[Judged]:
         """Yield all that can be wrong in the fields of a frame with this count, in its order.
@@ -146,52 +148,34 @@ class Shape:
             for at, end, wrong in _elements(self._varying, count, since):
                 yield at, end, Reason.OUT_OF_RANGE, wrong
 
-    def _test(self) -> Callable[[bytes], bool]:
-        """Return what says whether the fields of a frame of legal length are legal.
+    def _tested(self) -> Iterator[Callable[[bytes], bool]]:
+        """Yield what say whether the fields of a frame of legal length are legal.
 
         Its first count is tested by whoever knows its size.
         """
-        places = {at: due for at, _, due in self._fixed()}
-        numbers = [each for each in self.parts if isinstance(each, Number) and each.at in places]
+        places = [*self._fixed()]
+        starts = {at for at, _, _ in places}
+        numbers = [each for each in self.parts if isinstance(each, Number) and each.at in starts]
         plain = [each for each in numbers if is_read(each)]
-        if plain and len(plain) == len(places) and self._varying is None:
-            return range_test(plain)
-        return self._all_hold
-
-    def _all_hold(self, frame: bytes) -> bool:
-        """Return whether the fields of a frame of legal length are legal."""
-        size = len(frame) - self._kind.FRAME.tail_size
-        for at, end, due in self._quick:
-            if end > size:  # it is absent, with all behind it
-                break
-            found = frame[at:end]
-            if found != due if isinstance(due, bytes) else due(found) is not None:
-                return False
-        if self._varying is None:
-            return True
-        return self._list_holds(self._varying, frame)
-
-    def _list_holds(self, varying: List[Any] | Text, frame: bytes) -> bool:
-        """Return whether the counts of a list are right, and all that is in it."""
-        at, end = varying.at, len(frame) - varying.tail
-        data = frame[at:end]
-        count = len(data) // (1 if isinstance(varying, Text) else varying.unit_size)
-        for number, factor in self._counters:
-            if number.struct.unpack_from(frame, number.at)[0] != count * factor:
-                return False
+        if plain:
+            yield range_test(plain)
+        rest = [place for place in places if place[0] not in {each.at for each in plain}]
+        if rest:
+            yield place_test(rest, self._kind.FRAME.tail_size)
+        varying = self._varying
+        if varying is None:
+            return
+        unit = 1 if isinstance(varying, Text) else varying.unit_size
+        if len(self._counters) > 1:
+            yield count_test(self._counters, varying.at + varying.tail, unit)
+        at, end = varying.at, -varying.tail or None
         if isinstance(varying, Text):
-            return data.isascii()
-        if varying.element is None and varying.places:
+            yield lambda frame: frame[at:end].isascii()
+        elif varying.element is None and varying.places:
             (number,) = varying.fields
-            values = varying.numbers(frame)
-            return not values or (number.low <= min(values) and max(values) <= number.high)
-        size = varying.unit_size
-        for base in range(0, len(data), size):
-            for start, until, due in varying.places:
-                found = data[base + start : base + until]
-                if found != due if isinstance(due, bytes) else due(found) is not None:
-                    return False
-        return True
+            yield item_test(varying.numbers, number)
+        elif varying.places:
+            yield element_test(varying.places, slice(at, end), unit)
 
     def _fixed(self) -> Iterator[tuple[int, int, Due]]:
         """Yield what can be wrong at the same place in every frame, save for counts."""
@@ -277,6 +261,25 @@ class Shape:
         if not absent:
             problem = "no frame goes on with it: leave it out"
         raise EncodeError((absent or self.optional)[0].name, None, problem)
+
+
+class _Sizes(dict[bytes, int]):
+    """The sizes of the frames of a message, by the bytes of its counter; 0 where no frame has it.
+
+    Worked out once for each.
+    """
+
+    __slots__ = ("_shape",)
+
+    def __init__(self, shape: Shape) -> None:
+        self._shape = shape
+
+    def __missing__(self, counter: bytes) -> int:
+        if len(self) >= _REMEMBERED:
+            self.clear()
+        count = self._shape.count_of(counter)
+        self[counter] = size = 0 if count is None else self._shape.size_at(count)
+        return size
 
 
 def _varies(field: List[Any] | Text) -> bool:

@@ -1,4 +1,4 @@
-"""Quick tests of numbers, made once for each class of messages: they are in the way of each one."""
+"""Quick tests, made once for each class of messages: they are in the way of each one."""
 
 from __future__ import annotations
 
@@ -12,6 +12,7 @@ if TYPE_CHECKING:
     from typing import Any
 
     from .floating import Float
+    from .lists import Place
     from .number import Number
 
 
@@ -50,18 +51,18 @@ def range_test(numbers: Sequence[Number]) -> Callable[[bytes], bool]:
     for number in numbers:
         layout += f"{number.at - at}x{number.code}"
         at = number.at + number.struct.size
-    unpack = Struct(layout).unpack_from
+    unpack: Callable[[bytes], tuple[int, ...]] = Struct(layout).unpack_from
     if len(numbers) == 1:
         (only,) = numbers
         low, high = only.low, only.high
-        return lambda frame: bool(low <= unpack(frame)[0] <= high)
+        return lambda frame: low <= unpack(frame)[0] <= high
     if len(numbers) == 2:
         one, two = numbers
         low, high, least, most = one.low, one.high, two.low, two.high
 
         def both_inside(frame: bytes) -> bool:
             first, second = unpack(frame)
-            return bool(low <= first <= high and least <= second <= most)
+            return low <= first <= high and least <= second <= most
 
         return both_inside
     lows, highs = [number.low for number in numbers], [number.high for number in numbers]
@@ -73,3 +74,75 @@ def range_test(numbers: Sequence[Number]) -> Callable[[bytes], bool]:
         return True
 
     return all_inside
+
+
+def place_test(places: Sequence[Place], tail: int) -> Callable[[bytes], bool]:
+    """Return a function that says whether all is right in some places of a frame.
+
+    What ends behind the fields is absent: `tail` bytes of the frame stand behind them.
+    """
+
+    def all_right(frame: bytes) -> bool:
+        size = len(frame) - tail
+        for at, end, due in places:
+            if end > size:
+                break
+            found = frame[at:end]
+            if found != due if isinstance(due, bytes) else due(found) is not None:
+                return False
+        return True
+
+    return all_right
+
+
+def count_test(
+    counters: Sequence[tuple[Number, int]], around: int, unit: int
+) -> Callable[[bytes], bool]:
+    """Return a function that says whether all counters of a list are right.
+
+    Each counts an element as a number of its own. An element has `unit` bytes, and `around` ones of
+    the frame are not of the list.
+    """
+    counted = [(number.struct.unpack_from, number.at, factor) for number, factor in counters]
+
+    def all_agree(frame: bytes) -> bool:
+        count = (len(frame) - around) // unit
+        return all(unpack(frame, at)[0] == count * factor for unpack, at, factor in counted)
+
+    return all_agree
+
+
+def item_test(numbers: Callable[[bytes], Sequence[int]], each: Number) -> Callable[[bytes], bool]:
+    """Return a function that says whether each number of a list is inside its range."""
+    low, high = each.low, each.high
+
+    def all_inside(frame: bytes) -> bool:
+        values = numbers(frame)
+        return not values or (low <= min(values) and max(values) <= high)
+
+    return all_inside
+
+
+def element_test(places: Sequence[Place], listed: slice, size: int) -> Callable[[bytes], bool]:
+    """Return a function that says whether all is right in the elements of a list."""
+
+    def all_right(frame: bytes) -> bool:
+        data = frame[listed]
+        for base in range(0, len(data), size):
+            for start, end, due in places:
+                found = data[base + start : base + end]
+                if found != due if isinstance(due, bytes) else due(found) is not None:
+                    return False
+        return True
+
+    return all_right
+
+
+def together(tests: Sequence[Callable[[bytes], bool]]) -> Callable[[bytes], bool] | None:
+    """Return a function that says whether all tests hold; None where there are none."""
+    if len(tests) < 2:
+        return tests[0] if tests else None
+    if len(tests) == 2:
+        first, second = tests
+        return lambda frame: first(frame) and second(frame)
+    return lambda frame: all(holds(frame) for holds in tests)

@@ -1,0 +1,95 @@
+"""The test of a checksum as the decoders have it: in place, where the same does for all frames."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from framegen.model.checksums import CHECKSUMS, Sum
+from framegen.model.slots import Constant
+from framegen.targets.python.checksum_view import ChecksumView
+from framegen.targets.python.escape import literal
+
+if TYPE_CHECKING:
+    from framegen.model.envelope import Envelope
+    from framegen.model.model import Model
+    from framegen.model.slots import Number
+
+
+@dataclass(frozen=True, slots=True)
+class ProofView:
+    """The test of a checksum that covers one stretch of a frame, from and to which byte."""
+
+    frame: Envelope
+    checksum: Number
+    start: int
+    end: int | None
+
+    @property
+    def holds(self) -> str:
+        """The expression that says whether it is right in `frame`, whose head is.
+
+        It is in the way of every frame, where each call or slice costs half as much as a sum.
+        """
+        row = CHECKSUMS[self.checksum.method]
+        if not isinstance(row, Sum):
+            return f"checksum_of({self._covered}) == {self._number}"
+        mask = (1 << 8 * self.checksum.size) - 1
+        if row.factor == -1 and self.checksum.size == 1 and self.end == self.checksum.at == -1:
+            # What was subtracted is there again; and what stands in front is always the same.
+            if self._in_front is None:
+                return f"sum(frame[{self.start}:]) & 0xFF == 0x{row.offset & mask:02X}"
+            return f"sum(frame) & 0xFF == 0x{row.offset + self._in_front & mask:02X}"
+        sign = {1: "", -1: "~" if row.offset else "-"}[row.factor]
+        return f"{sign}sum({self._covered}) & 0x{mask:X} == {self._number}"
+
+    @property
+    def _in_front(self) -> int | None:
+        """The sum of the bytes in front of what is covered; None if it is not always the same."""
+        total, at = 0, 0
+        for slot in self.frame.head:
+            if slot.at < self.start and isinstance(slot, Constant) and slot.role == "constant":
+                total, at = total + sum(slot.data), slot.at + slot.size
+        return total if at == self.start else None
+
+    @property
+    def method(self) -> str:
+        """How it is worked out."""
+        return ChecksumView(self.checksum.method, 8 * self.checksum.size).made
+
+    @property
+    def calls(self) -> bool:
+        """Whether it calls what works the checksum out, and does not do so itself."""
+        return not isinstance(CHECKSUMS[self.checksum.method], Sum)
+
+    @property
+    def _covered(self) -> str:
+        start, end = self.start or "", "" if self.end is None else self.end
+        return f"frame[{start}:{end}]"
+
+    @property
+    def _number(self) -> str:
+        at, size, order = self.checksum.at, self.checksum.size, self.checksum.order
+        if size > 2:
+            stretch = f"frame[{at}:{at + size or ''}]"
+            return f"int.from_bytes({stretch}, {literal(order)})"
+        places = [*range(at, at + size)]
+        low, *high = places if order == "little" else reversed(places)
+        return " | ".join([f"frame[{low}]", *(f"frame[{each}] << 8" for each in high)])
+
+
+def proof_in_place(model: Model) -> ProofView | None:
+    """Return the test of the only checksum of every frame; None where these are not all alike."""
+    proofs = [_proof(frame) for frame in model.envelopes.values()]
+    alike = {proof and (proof.holds, proof.method) for proof in proofs}
+    return proofs[0] if len(alike) == 1 else None
+
+
+def _proof(frame: Envelope) -> ProofView | None:
+    if len(frame.checksums) != 1 or frame.unsent:
+        return None
+    (checksum,) = frame.checksums
+    pieces = frame.covered(checksum, {}).pieces
+    if len(pieces) != 1 or isinstance(pieces[0], bytes):
+        return None
+    return ProofView(frame, checksum, *pieces[0])

@@ -1,0 +1,189 @@
+"""Decoders test a checksum in place where the same test does for all frames; and do so rightly."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import pytest
+from framegen.model.codec import NotAFrame, decode, encode
+from framegen.render import render_target
+from framegen.targets import python
+from framegen.targets.python.proof_view import proof_in_place
+
+from tests.factories import compiled_values, library
+
+if TYPE_CHECKING:
+    from framegen.compile import Compiled
+
+HEADER = {"is": "constant", "bytes": "AA 55", "about": "The start."}
+LENGTH = {"is": "length", "type": "u8", "counts": ["length", "id", "body"], "about": "Bytes."}
+ID = {"is": "id", "type": "u8", "about": "The message."}
+HIDDEN = {"is": "id", "type": "u8", "sent": False, "about": "Known to both ends."}
+BODY = {"is": "body", "about": "The fields."}
+GAP = {"is": "reserved", "bytes": "00", "about": "Nothing."}
+END = {"is": "constant", "bytes": "7E", "about": "The end."}
+ALL = ["length", "id", "body"]
+
+
+def checksum(method: str, covers: list[str], type_: str = "u8", order: str = "little") -> Any:
+    """Return a part that is a checksum."""
+    said = {"is": "checksum", "type": type_, "method": method, "covers": covers, "about": "A sum."}
+    return said if type_ == "u8" else {**said, "byte_order": order}
+
+
+def sealed(*tail: Any) -> Any:
+    """Return an envelope with these parts behind its fields, named one after the other."""
+    return {
+        "header": HEADER,
+        "length": LENGTH,
+        "id": ID,
+        "body": BODY,
+        **{f"end{number}": part for number, part in enumerate(tail)},
+    }
+
+
+WITH_GAP = {"header": HEADER, "gap": GAP, **sealed(checksum("inverted sum", ALL))}
+IN_FRONT = {
+    "header": HEADER,
+    "sum": checksum("inverted sum", ALL),
+    "length": LENGTH,
+    "id": ID,
+    "body": BODY,
+}
+WITH_HIDDEN = {**sealed(checksum("inverted sum", [*ALL, "extra"])), "extra": HIDDEN}
+TWO_STRETCHES = sealed(checksum("inverted sum", ["length", "body"]))
+
+# The frames of a protocol, and the test that its decoders make; none where they call for one.
+CASES = {
+    "inverted": (sealed(checksum("inverted sum", ALL)), "sum(frame) & 0xFF == 0xFE"),
+    "negated": (sealed(checksum("negated sum", ALL)), "sum(frame) & 0xFF == 0xFF"),
+    "behind a gap": (WITH_GAP, "sum(frame[3:]) & 0xFF == 0xFF"),
+    "in front": (IN_FRONT, "~sum(frame[3:]) & 0xFF == frame[2]"),
+    "in front of an end": (
+        sealed(checksum("inverted sum", ALL), END),
+        "~sum(frame[2:-2]) & 0xFF == frame[-2]",
+    ),
+    "plain": (sealed(checksum("sum", ALL)), "sum(frame[2:-1]) & 0xFF == frame[-1]"),
+    "of all": (sealed(checksum("sum", ["header", *ALL])), "sum(frame[:-1]) & 0xFF == frame[-1]"),
+    "two bytes": (
+        sealed(checksum("negated sum", ALL, "u16")),
+        "-sum(frame[2:-2]) & 0xFFFF == frame[-2] | frame[-1] << 8",
+    ),
+    "two bytes, big": (
+        sealed(checksum("crc-16/modbus", ALL, "u16", "big")),
+        "checksum_of(frame[2:-2]) == frame[-1] | frame[-2] << 8",
+    ),
+    "four bytes": (
+        sealed(checksum("crc-32/iso-hdlc", ALL, "u32", "big")),
+        'checksum_of(frame[2:-4]) == int.from_bytes(frame[-4:], "big")',
+    ),
+    "two checksums": (sealed(checksum("sum", ALL), checksum("xor", ALL)), None),
+    "two stretches": (TWO_STRETCHES, None),
+    "what is not sent": (WITH_HIDDEN, None),
+    "no checksum": (sealed(), None),
+}
+
+
+def spec_of(**frames: Any) -> Any:
+    """Return a spec with a message for each kind of frame."""
+    messages = {}
+    for number, (name, parts) in enumerate(frames.items(), 1):
+        ids = {part: number for part, said in parts.items() if said["is"] == "id"}
+        messages[f"Level{number}"] = {
+            "id": ids if len(ids) > 1 else number,
+            "frame": name,
+            "direction": "sensor -> host",
+            "summary": "A level.",
+            "cite": "paper, 1",
+            "length": 5,
+            "fields": {
+                "level": {"type": "u16", "range": "0..1000", "about": "The level."},
+                "state": {"type": "u8", "about": "The state."},
+            },
+        }
+    return {
+        "framegen": 2,
+        "protocol": {
+            "name": "made_up",
+            "title": "Made up",
+            "version": "1.0.0",
+            "authority": "paper",
+            "summary": "For the tests.",
+        },
+        "sources": {"paper": {"title": "A paper", "kind": "document"}},
+        "endpoints": {"sensor": "Reports.", "host": "Listens."},
+        "link": {"baud": 9600, "cite": "paper, 2"},
+        "byte_order": "little",
+        "frames": frames,
+        "messages": messages,
+    }
+
+
+VALUES = {"level": 500, "state": 7}
+
+
+def compiled_frames(**frames: Any) -> Compiled:
+    """Compile a spec with these kinds of frames; each message has an example."""
+    data = spec_of(**frames)
+    draft = compiled_values(data).derived
+    assert draft is not None
+    for name, layout in draft.messages.items():
+        shown = encode(layout, VALUES).hex(" ")
+        example = {"title": "A level", "hex": shown, "values": VALUES, "constructed": "Made up."}
+        data["messages"][name]["examples"] = [example]
+    return compiled_values(data)
+
+
+def test_a_test_in_place_is_one_expression() -> None:
+    models = {name: compiled_frames(one=parts).model for name, (parts, _) in CASES.items()}
+    proofs = {name: proof_in_place(model) for name, model in models.items()}
+    expected = {name: expression for name, (_, expression) in CASES.items()}
+    assert {name: proof and proof.holds for name, proof in proofs.items()} == expected
+
+
+@pytest.mark.parametrize(
+    ("method", "in_place"), [("inverted sum", True), ("sum", False)], ids=["alike", "others"]
+)
+def test_frames_of_several_kinds_are_tested_in_place_if_all_are_alike(
+    method: str, in_place: bool
+) -> None:
+    one, two = sealed(checksum("inverted sum", ALL)), sealed(checksum(method, ALL))
+    model = compiled_frames(one=one, two=two).model
+    assert (proof_in_place(model) is not None) == in_place
+
+
+@pytest.mark.parametrize("name", CASES)
+def test_a_frame_with_any_byte_changed_is_judged_as_the_reference_judges_it(name: str) -> None:
+    compiled = compiled_frames(one=CASES[name][0])
+    (message,) = compiled.model.messages.values()
+    frame = encode(message, VALUES)
+    with library(render_target(python.TARGET, compiled)) as made:
+        direction = made.Direction.SENSOR_TO_HOST
+        # So that the decoders know the head: what they have not seen is judged elsewhere.
+        assert made.decode(frame, direction).encode() == frame
+        for at in range(len(frame)):
+            for change in (1, 0x80, 0xFF):
+                bad = bytearray(frame)
+                bad[at] ^= change
+                legal = is_legal(compiled, bytes(bad))
+                assert is_read(made, bytes(bad), direction) == legal
+                events = made.StreamDecoder(direction).feed(frame + bytes(bad))
+                found = [event.encode() for event in events if isinstance(event, made.Message)]
+                assert (bytes(bad) in found) == legal
+
+
+def is_legal(compiled: Any, frame: bytes) -> bool:
+    """Return whether the reference reads a frame."""
+    try:
+        decode(compiled.model, None, frame)
+    except NotAFrame:
+        return False
+    return True
+
+
+def is_read(made: Any, frame: bytes, direction: Any) -> bool:
+    """Return whether a library reads a frame."""
+    try:
+        return bool(made.decode(frame, direction).encode() == frame)
+    except made.DecodeError:
+        return False
