@@ -94,10 +94,16 @@ class Attempt:
 
     @property
     def _is_refused(self) -> bool:
+        if self.message is None and all(
+            part.is_in(self.data[: self.offset]) for part in self.frame.ids
+        ):
+            # There is no message of these ids, and that would have been the reason.
+            return False
+        end = self.slots[-1].end if self.slots else 0
         if self.reason == TRAILING_BYTES:
-            return bool(self.slots) and self.slots[-1].end == self.offset
+            return end == self.offset
         if self.reason == TOO_SHORT:
-            return self.message is None or self.slots[-1].end > len(self.data)
+            return end > len(self.data)
         there = (placed for placed in self.slots if placed.at <= self.offset < placed.end)
         placed = next(there, None)
         if placed is None:

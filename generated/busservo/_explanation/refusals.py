@@ -5,7 +5,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from .._frame.pluralize import describe_range
+from .._frame.pluralize import describe_range, pluralize
 from .protocol import lay_out, listed
 
 TYPE_CHECKING = False
@@ -62,7 +62,7 @@ class Refused:
         if placed.slot.role == "constant" and placed.slot.at >= 0 and not placed.slot.is_field:
             return self._opening()
         if placed.at < self.frame.body_at or self._length() is None:
-            return f"the shortest frame has {self._least()} bytes"
+            return f"the shortest frame has {pluralize(self._least(), 'byte')}"
         return self._size()
 
     def _least(self) -> int:
@@ -76,8 +76,8 @@ class Refused:
         length = self._length() or 0
         size = length + self.frame.uncounted
         if self.frame.length is None:
-            return f"this frame of {self._likely_name} has {size} bytes"
-        return f"a {self.frame.length.name} of {length} makes {size} bytes"
+            return f"this frame of {self._likely_name} has {pluralize(size, 'byte')}"
+        return f"a {self.frame.length.name} of {length} makes {pluralize(size, 'byte')}"
 
     @property
     def _likely_name(self) -> str:

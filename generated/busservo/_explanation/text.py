@@ -6,6 +6,8 @@ from __future__ import annotations
 from itertools import groupby
 from textwrap import fill
 
+from .._frame.pluralize import pluralize
+
 TYPE_CHECKING = False
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
@@ -135,7 +137,7 @@ def _pointed(data: bytes, offset: int) -> Iterator[str]:
     first = max(0, at - _LINES_AROUND * _BYTES_A_LINE)
     end = at + (_LINES_AROUND + 1) * _BYTES_A_LINE
     if first:
-        yield f"  ... {first} bytes before"
+        yield f"  ... {pluralize(first, 'byte')} before"
     for start in range(first, end, _BYTES_A_LINE):
         line = data[start : start + _BYTES_A_LINE]
         if line:
@@ -143,7 +145,7 @@ def _pointed(data: bytes, offset: int) -> Iterator[str]:
         if start == at:
             yield f"  {'   ' * (offset - at)}^^ byte {offset}"
     if end < len(data):
-        yield f"  ... {len(data) - end} bytes after"
+        yield f"  ... {pluralize(len(data) - end, 'byte')} after"
 
 
 def to_hex(data: bytes) -> str:

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING
 
-from framegen.pluralize import describe_range
+from framegen.pluralize import describe_range, pluralize
 from framegen.targets.docs.address import message_page
 from framegen.targets.docs.cite import CiteView, Place, cite_view
 from framegen.targets.docs.drawing import Drawing, drawing
@@ -174,7 +174,8 @@ class MessagePage:
     def largest(self) -> str:
         """The largest frame and its time on the wire."""
         size, layout = self.layout.largest, self.layout
-        return f"{size} bytes, {milliseconds(layout.wire_seconds(size))} at {layout.link.baud} baud"
+        time = milliseconds(layout.wire_seconds(size))
+        return f"{pluralize(size, 'byte')}, {time} at {layout.link.baud} baud"
 
     @cached_property
     def cells(self) -> list[Cell]:

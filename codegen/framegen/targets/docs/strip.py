@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 from framegen.explain import explain
 from framegen.language.values import to_hex
 from framegen.model.slots import Body, Constant, Items, Number, Packed, Text
+from framegen.pluralize import pluralize
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
@@ -141,5 +142,5 @@ def given_strip(parts: Iterable[Placed], data: bytes) -> list[Cell]:
 
 def _dots(size: int) -> str:
     if size > _MOST_DOTS:
-        return f"·· … ·· ({size} bytes)"
+        return f"·· … ·· ({pluralize(size, 'byte')})"
     return " ".join(["··"] * size)

@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING
 from framegen.pluralize import pluralize
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
 
     from framegen.model.layout import MessageLayout
     from framegen.model.model import Model
@@ -56,24 +55,40 @@ def timings(model: Model) -> list[FrameTiming]:
 
 
 def round_trips(model: Model) -> list[RoundTrip]:
-    """Return the times of every request with its reply, lists of both at the same count."""
-    return [trip for message in model.messages.values() for trip in _trips(model, message)]
+    """Return the times of every request with its reply, at the sizes worth showing of both."""
+    # Where a reply lists what was asked for, it has as many elements, as far as there is room.
+    listing = {exchange.request.name for exchange in model.exchanges if exchange.most}
+    return [
+        _trip(request, reply, count, answered, is_listed=request.name in listing)
+        for request in model.messages.values()
+        if request.message.reply is not None
+        for reply in [model.messages[request.message.reply]]
+        for count in _sizes(request)
+        for answered in _answers(reply, count, is_listed=request.name in listing)
+    ]
 
 
-def _trips(model: Model, request: MessageLayout) -> Iterator[RoundTrip]:
-    if request.message.reply is None:
-        return
-    reply = model.messages[request.message.reply]
-    for count in _sizes(request):
-        answered = min(max(count, reply.counts[0]), reply.counts[-1])
-        size = request.size_at(count) + reply.size_at(answered)
-        seconds = request.wire_seconds(size)
-        what = _what(request, count)
-        if request.items is not None and answered < count:
-            what += f", {answered} of them answered"
-        yield RoundTrip(
-            request.name, reply.name, what, size, milliseconds(seconds), _trimmed(1 / seconds)
-        )
+def _answers(reply: MessageLayout, count: int, *, is_listed: bool) -> list[int]:
+    """Return the counts of a reply to a request with so many elements."""
+    if is_listed:
+        return [min(max(count, reply.counts[0]), reply.counts[-1])]
+    return sorted({reply.counts[0], reply.counts[-1]})
+
+
+def _trip(
+    request: MessageLayout, reply: MessageLayout, count: int, answered: int, *, is_listed: bool
+) -> RoundTrip:
+    size = request.size_at(count) + reply.size_at(answered)
+    seconds = request.wire_seconds(size)
+    what = [_what(request, count)]
+    if not is_listed and len(reply.counts) > 1:
+        what.append(_what(reply, answered))
+    elif is_listed and answered < count:
+        what.append(f"{answered} of them answered")
+    said = ", ".join(filter(None, what))
+    return RoundTrip(
+        request.name, reply.name, said, size, milliseconds(seconds), _trimmed(1 / seconds)
+    )
 
 
 def _timing(message: MessageLayout, count: int) -> FrameTiming:

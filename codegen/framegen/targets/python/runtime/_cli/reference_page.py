@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from .._explanation.explanation import rows_of
 from .._explanation.text import to_hex
-from .._frame.pluralize import describe_range
+from .._frame.pluralize import describe_range, pluralize
 from .examples import PROGRAM
 from .reference_topics import erratum_lines, unknown_line
 
@@ -140,7 +140,7 @@ def _facts(model: Protocol, message: Message) -> Iterator[tuple[str, str]]:
     yield "length rule:", _length_rule(message)
     link, size = model.said["link"], message.largest
     time = f"{1000 * size * link['bits_per_byte'] / link['baud']:.1f} ms at {link['baud']} baud"
-    yield "largest frame:", f"{size} bytes, {time}"
+    yield "largest frame:", f"{pluralize(size, 'byte')}, {time}"
     if "since" in said:
         yield "since:", f"version {said['since']} of the spec"
     yield "source:", _cited(model, said["cite"])
@@ -208,7 +208,7 @@ def _kind(slot: Slot) -> str:
 def _dots(size: int) -> str:
     # The ASCII of it: not every console has the dots that pages have.
     if size > _MOST_DOTS:
-        return f".. ... .. ({size} bytes)"
+        return f".. ... .. ({pluralize(size, 'byte')})"
     return " ".join([".."] * size)
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from .bytes_like import format_hex
 from .errors import Reason
-from .pluralize import describe_range
+from .pluralize import describe_range, pluralize
 from .trial import Known
 
 TYPE_CHECKING = False  # typing alone would double the time that the import takes
@@ -33,7 +33,7 @@ class WhyNot:
         verdict = self._verdict
         if verdict.kind is not None:
             name, size = verdict.kind.__name__, verdict.size
-            return f"this frame of {name} has {size} bytes, not {len(self._frame)}"
+            return f"this frame of {name} has {pluralize(size, 'byte')}, not {len(self._frame)}"
         in_the_head = {
             Reason.BAD_HEADER: self._opening,
             Reason.UNKNOWN_COMMAND: self._ids,
@@ -50,7 +50,7 @@ class WhyNot:
             if isinstance(each, Known) and found.offset == at:
                 return self._misfit(each.kind, found, prove)
         least = min((envelope.least for envelope, _ in self._table.frames), default=0)
-        return f"the shortest frame has {least} bytes"
+        return f"the shortest frame has {pluralize(least, 'byte')}"
 
     def _misfit(self, kind: type[Message], verdict: Verdict, prove: Prove) -> str:
         name, at, envelope = kind.__name__, verdict.offset, kind.FRAME
@@ -64,7 +64,7 @@ class WhyNot:
             return wrong or f"{name} has other bytes than {found} there"
         if verdict.reason is Reason.BAD_CHECKSUM:
             return self._checksum(kind, verdict.size, prove)
-        return f"a frame of {name} like this has {verdict.size} bytes, or more"
+        return f"a frame of {name} like this has {pluralize(verdict.size, 'byte')}, or more"
 
     def _checksum(self, kind: type[Message], size: int, prove: Prove) -> str:
         frame, envelope = self._frame[:size], kind.FRAME
