@@ -14,6 +14,7 @@ from framegen.cli import main
 from framegen.skeleton import skeleton, spec_path
 from framegen.writing import disk
 
+from tests.factories import ROOT, compiled_file, write_files
 from tests.timeouts import GENEROUS
 
 Capture: TypeAlias = "pytest.CaptureFixture[str]"
@@ -39,6 +40,20 @@ def workplace(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, str]:
         generate, _, _ = next_commands(text)
         assert main(generate[1:]) == 0
     return folder, text
+
+
+def assert_its_tests_pass_with(spec: Path, folder: Path) -> None:
+    """Put the library of a spec in the place of that of a new project, and run the tests of it."""
+    name = compiled_file(spec).model.spec.protocol.name
+    test = f"tests/test_{name}.py"
+    write_files({test: skeleton(name)[test]}, folder)
+    with redirect_stdout(io.StringIO()):
+        assert main(["generate", str(spec), "--out", str(folder)]) == 0
+    done = python(folder, "-m", "pytest", "-q", "-p", "no:cacheprovider", "-c", os.devnull, test)
+    assert done.returncode == 0, done.stdout
+    passed = re.search(r"(\d+) passed", done.stdout)
+    assert passed is not None
+    assert int(passed[1]) > 20
 
 
 def python(project: Path, *words: str) -> subprocess.CompletedProcess[str]:
@@ -80,6 +95,22 @@ def test_its_own_tests_pass(workplace: tuple[Path, str]) -> None:
     passed = re.search(r"(\d+) passed", done.stdout)
     assert passed is not None
     assert int(passed[1]) > 20
+
+
+def test_the_tests_of_its_library_hold_for_any_other_spec(tmp_path: Path) -> None:
+    """Among them one whose messages and fields have names that Python has taken."""
+    assert_its_tests_pass_with(ROOT / "tests" / "specs" / "taken_names.yaml", tmp_path)
+
+
+def test_a_simulator_of_other_messages_is_refused_in_words(tmp_path: Path) -> None:
+    spec = ROOT / "tests" / "specs" / "weather.yaml"
+    name = compiled_file(spec).model.spec.protocol.name
+    write_files(skeleton(name), tmp_path)
+    assert main(["generate", str(spec), "--out", str(tmp_path)]) == 0
+    done = python(tmp_path, "-m", name, "simulate")
+    assert done.returncode == 2
+    assert f"the package {name}_simulator does not fit {name}: " in done.stderr
+    assert "Traceback" not in done.stderr
 
 
 def test_there_is_nothing_to_find_in_its_spec(

@@ -4,9 +4,12 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+import pytest
+
 from tests.contract.libraries import linted, type_checked
 from tests.factories import compiled_file, library_files, write_files
 from tests.protocols.specs import FILES
+from tests.test_new_project import assert_its_tests_pass_with
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -21,3 +24,8 @@ def test_no_tool_finds_anything_in_a_library(tmp_path: Path) -> None:
         write_files({path: text for path, text in modules.items() if "/" in path}, folder)
     assert linted(folder) == {}
     assert type_checked(folder, tmp_path / "cache") == {}
+
+
+@pytest.mark.parametrize("name", FILES)
+def test_the_tests_of_a_new_project_hold_with_any_spec(name: str, tmp_path: Path) -> None:
+    assert_its_tests_pass_with(FILES[name], tmp_path)

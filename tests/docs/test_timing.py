@@ -1,4 +1,4 @@
-"""How long requests and their replies take on the line: lists of both at sizes that belong together."""
+"""How long requests and their replies take on the line, at sizes that belong together."""
 
 from __future__ import annotations
 

@@ -40,3 +40,8 @@ def _simulator() -> Any:
             f"the package {SIMULATOR} is not installed here: install it, or else make a virtual "
             f"device of {PROGRAM}.Device"
         ) from None
+    except ImportError as error:
+        raise UsageError(
+            f"the package {SIMULATOR} does not fit {PROGRAM}: {error}; mend it, or make a virtual "
+            f"device of {PROGRAM}.Device"
+        ) from None
