@@ -43,7 +43,8 @@ def test_a_finding_in_two_places_is_shown_with_both() -> None:
         "20 |     id: 7\n"
         "   |     ^^\n"
         "   = at: messages.LampRead.id\n"
-        "   = hint: mend one of the codes, or the direction"
+        "   = hint: mend one of the codes, or the direction; where both are right, only an "
+        "`always`, a `range` or a size tells them apart"
     )
 
 

@@ -100,6 +100,17 @@ def test_what_all_examples_agree_with_is_found(wrong: tuple[str, str], right: st
     assert hints_of(BUS.replace(*wrong)) == {f"all 5 examples would agree with `{right}`"}
 
 
+def test_a_frame_that_was_made_up_is_no_evidence_for_a_checksum() -> None:
+    made_up = BUS.replace("00 D9 A0 7F", "00 00 00 7F").replace(
+        "values: {station: 1, serial: 0}, cite: manual}",
+        "values: {station: 1, serial: 0}, constructed: By hand.}",
+        1,
+    )
+    assert made_up.count("constructed") == BUS.count("constructed") + 1
+    told = hints_of(made_up.replace("crc-16/modbus", "crc-16/arc"))
+    assert told == {"all 4 published examples would agree with `method: crc-16/modbus`"}
+
+
 def test_what_one_short_checksum_agrees_with_by_chance_is_not_told() -> None:
     text = BUS.replace(
         "checksum, type: u16, method: crc-16/modbus", "checksum, type: u8, method: sum"

@@ -35,7 +35,13 @@ def counter_problems(
     earlier = list(fields)[: list(fields).index(field_name)]
     if counter not in fields:
         hint = did_you_mean(counter, [*plain, *also], otherwise=_NONE if not plain else "")
-        yield Problem(path, f"{name} has no field `{counter}`", hint)
+        what = f"{name} has no field `{counter}`"
+        named = [key for key in earlier if counter in getattr(fields[key], "bits", {})]
+        if named:
+            what = f"`{counter}` is some bits of `{named[0]}`, and only a whole number counts"
+            hint = "write `sized_by` and the length part, for all that is left, or `count` if it "
+            hint += "is always as many"
+        yield Problem(path, what, hint)
     elif counter not in earlier:
         what = f"`{counter}` does not stand before the list that it counts"
         there = ((*path[:3], counter), "it is here")

@@ -37,7 +37,10 @@ def _problem(one: MessageLayout, other: MessageLayout, size: int) -> Problem:
     if one.message.id != other.message.id:
         what = f"{named} can have the same bytes, {other.direction}"
     path, first = ("messages", other.name, "id"), ("messages", one.name, "id")
-    hint = "mend one of the codes, or the direction"
+    hint = (
+        "mend one of the codes, or the direction; where both are right, only an `always`, a "
+        "`range` or a size tells them apart"
+    )
     return Problem(path, what, hint, also=(first, f"{one.name} has it first"))
 
 

@@ -35,10 +35,7 @@ def _executed(
         decoded = decode(model, message.direction, example.hex)
     except NotAFrame as error:
         what = f"this is no frame of {message.name}: {error}"
-        hint = partial(_other_order, model, message, example)
-        if error.reason == BAD_CHECKSUM:
-            hint = partial(checksum_hint, model, message, example.hex)
-        yield Problem((*path, "hex"), what, hint)
+        yield Problem((*path, "hex"), what, partial(_hint, model, message, example, error.reason))
         return
     if decoded.layout is not message:
         yield Problem((*path, "hex"), _other(message, decoded.layout))
@@ -48,6 +45,31 @@ def _executed(
     again = encode(message, decoded.values, example.hex)
     if again != example.hex:
         yield Problem((*path, "hex"), f"its values encode to {to_hex(again)}, which is not this")
+
+
+def _hint(model: Model, message: MessageLayout, example: Example, reason: str) -> str:
+    """Say what would make a frame of an example that is none."""
+    other_length = partial(_other_length, model, message, example.hex)
+    if reason == BAD_CHECKSUM:
+        return other_length() or checksum_hint(model, message, example.hex)
+    return _other_order(model, message, example) or other_length()
+
+
+def _other_length(model: Model, message: MessageLayout, data: bytes) -> str:
+    """Hint at the length that so many bytes have, where all else is right with it."""
+    frame = message.frame
+    part, length = frame.length_part, len(data) - frame.uncounted
+    if part is None or length not in message.lengths or part.read_in(data) == length:
+        return ""
+    mended = data[: part.at] + part.write(length) + data[part.at + part.size :]
+    try:
+        found = decode(model, message.direction, mended)
+    except NotAFrame:
+        return ""
+    if found.layout is not message:
+        return ""
+    wrong = f"{part.name} is {part.read_in(data)}, and {len(data)} bytes have {length}"
+    return f"{wrong}: with {to_hex(part.write(length))} there, it is one"
 
 
 def _other(message: MessageLayout, found: MessageLayout) -> str:

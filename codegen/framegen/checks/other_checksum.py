@@ -44,10 +44,15 @@ def checksum_hint(model: Model, message: MessageLayout, frame: bytes) -> str:
 
 
 def _hint(model: Model, frame: Envelope, checksum: Number, right: bytes) -> str:
-    sealed = list(_sealed(model, frame, checksum))
+    # Who made up a frame had no checksum to go by: those of others are the evidence.
+    published, made_up = (
+        list(_sealed(model, frame, checksum, published=is_so)) for is_so in (True, False)
+    )
+    sealed = published or made_up
     others = _others(frame, checksum, sealed)
     if others and len(others) <= _MOST:
-        agree = f"all {len(sealed)} examples" if len(sealed) > 1 else "this example"
+        kind = "published example" if published and made_up else "example"
+        agree = f"all {len(sealed)} {kind}s" if len(sealed) > 1 else f"the one {kind}"
         return f"{agree} would agree with {' or with '.join(others)}"
     return (
         f"if the frame was made up, write {to_hex(right)} there; if it was published, the method, "
@@ -55,14 +60,16 @@ def _hint(model: Model, frame: Envelope, checksum: Number, right: bytes) -> str:
     )
 
 
-def _sealed(model: Model, frame: Envelope, checksum: Number) -> Iterator[_Sealed]:
+def _sealed(
+    model: Model, frame: Envelope, checksum: Number, *, published: bool
+) -> Iterator[_Sealed]:
     for message in model.messages.values():
         if message.frame is not frame:
             continue
         ids = dict(zip((part.name for part in frame.ids), message.ids, strict=True))
         for example in message.message.examples:
             data = example.hex
-            if len(data) < frame.least:
+            if len(data) < frame.least or published == bool(example.constructed):
                 continue
             parts = {part.name: part.write(ids[part.name]) for part in frame.unsent}
             for slot in frame.slots:

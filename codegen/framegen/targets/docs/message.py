@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING
 
+from framegen.explanation.protocol import listed
 from framegen.pluralize import describe_range, pluralize
 from framegen.targets.docs.address import message_page
 from framegen.targets.docs.cite import CiteView, Place, cite_view
@@ -154,6 +155,13 @@ class MessagePage:
         length, rule = self.layout.frame.length_part, self.layout.formula
         value = self.lengths if self.layout.optional else rule
         return f"{'size of the frame' if length is None else length.name} = {value}"
+
+    @property
+    def without_fields(self) -> str:
+        """What is said where the fields would be, if there are none."""
+        names = [slot.name for slot in self.layout.arguments]
+        differ = f"frames differ in their {listed(names)} alone" if names else ""
+        return f"None: {differ or 'the frame is always the same'}."
 
     @property
     def varies(self) -> bool:

@@ -195,7 +195,10 @@ class _Look:
 
     def _together(self, kind: str, slots: list[Placed], *, is_last: bool) -> str:
         if kind == "values":
-            anything = "values" if self.frame.proven else "values, which may be anything"
+            free = not any(isinstance(each.slot, Number) and each.slot.narrowed for each in slots)
+            anything = "values, which may be anything"
+            if self.frame.proven or not free:
+                anything = "values"
             return "the rest of the values" if is_last else anything
         if kind == "reserved":
             return "reserved: read as anything"

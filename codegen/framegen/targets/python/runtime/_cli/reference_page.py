@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from .._explanation.explanation import rows_of
+from .._explanation.protocol import listed
 from .._explanation.text import to_hex
 from .._frame.pluralize import describe_range, pluralize
 from .examples import PROGRAM
@@ -214,7 +215,9 @@ def _dots(size: int) -> str:
 
 def _fields(sheet: Sheet, model: Protocol, message: Message) -> None:
     if not message.fields:
-        sheet.line("  None: the frame is always the same.")
+        names = [slot.name for slot in message.frame.slots if slot.role in ("address", "counter")]
+        differ = f"frames differ in their {listed(names)} alone" if names else ""
+        sheet.line(f"  None: {differ or 'the frame is always the same'}.")
     for slot in message.fields:
         if slot.role != "list":
             _field(sheet, model, slot, slot.name)
