@@ -242,3 +242,19 @@ def test_what_a_checksum_proves_is_not_in_doubt(tmp_path: Path) -> None:
             message, done = made.messages.Value(value), made.messages.Done()
             assert decoder.feed(message.encode()) == [message]
             assert decoder.feed(done.encode() + message.encode()) == [done, message]
+
+
+def test_a_frame_of_one_byte_makes_no_other_doubtful(tmp_path: Path) -> None:
+    """What nothing proves may well end as an acknowledgement begins."""
+    data = yaml.safe_load(ACKNOWLEDGED)
+    data["frames"]["normal"]["check"] = {"is": "constant", "bytes": "06"}
+    data["messages"]["Value"]["examples"][0]["hex"] = "AA 02 04 06"
+    compiled = compiled_of(data)
+    assert compiled.findings == []
+    with library(library_files(compiled), tmp_path) as made:
+        module = import_module(f"{made.__name__}._codec.careful_decoder")
+        for value in range(256):
+            decoder = module.CarefulDecoder(made.Direction.METER_TO_HOST)
+            message, done = made.messages.Value(value), made.messages.Done()
+            assert decoder.feed(message.encode()) == [message]
+            assert decoder.feed(done.encode() + message.encode()) == [done, message]
