@@ -77,6 +77,14 @@ CASES = {
         sealed(checksum("crc-32/iso-hdlc", ALL, "u32", "big")),
         'checksum_of(frame[2:-4]) == int.from_bytes(frame[-4:], "big")',
     ),
+    "seven bits": (
+        sealed(checksum("negated sum-7", ALL)),
+        "checksum_of(frame[2:-1]) == frame[-1]",
+    ),
+    "of words": (
+        sealed(checksum("word sum", ALL, "u16")),
+        "checksum_of(frame[2:-2]) == frame[-2] | frame[-1] << 8",
+    ),
     "two checksums": (sealed(checksum("sum", ALL), checksum("xor", ALL)), None),
     "two stretches": (TWO_STRETCHES, None),
     "what is not sent": (WITH_HIDDEN, None),

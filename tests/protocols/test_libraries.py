@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import pytest
 from framegen.model.codec import NotAFrame, decode, encode
+from framegen.model.slots import Items, Number
 from framegen.model.stream import ReferenceDecoder
 from hypothesis import given
 from hypothesis import strategies as st
@@ -16,6 +17,8 @@ from tests.protocols.specs import all_messages, messages_of, model_of, values_of
 from tests.protocols.streams import all_ways, lines
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from framegen.language.values import Direction
 
     from tests.protocols.peer import Values
@@ -117,3 +120,27 @@ def joined(events: Any) -> list[tuple[str, bytes, str]]:
         else:
             whole.append((kind, data, reason))
     return whole
+
+
+def _lists_of_bytes() -> list[tuple[str, str, str]]:
+    """Return every list of bare bytes: the protocol, the message and the field."""
+    return [
+        (name, message, slot.name)
+        for name, message in all_messages()
+        for slot in messages_of(name)[message].arguments
+        if isinstance(slot, Items) and slot.text is None and slot.element is None
+        if isinstance(slot.fields[0], Number) and slot.fields[0].number_type.name == "u8"
+    ]
+
+
+@pytest.mark.parametrize("convert", [bytes, bytearray, memoryview])
+@pytest.mark.parametrize(("name", "message", "field"), _lists_of_bytes())
+def test_a_list_of_bytes_may_be_given_as_bytes(
+    libraries: Libraries, name: str, message: str, field: str, convert: Callable[[bytes], Any]
+) -> None:
+    made, layout = libraries[name], messages_of(name)[message]
+    for example in layout.message.examples:
+        given = {**example.values, field: convert(bytes(example.values[field]))}
+        assert (
+            made_of(made, layout, given).encode() == made_of(made, layout, example.values).encode()
+        )

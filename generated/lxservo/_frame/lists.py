@@ -4,8 +4,9 @@
 from __future__ import annotations
 
 from itertools import repeat
-from struct import Struct, error
+from struct import Struct, error, pack, unpack
 
+from .bytes_like import as_bytes
 from .fixed import Always
 from .items import Items
 from .number import Number
@@ -25,6 +26,8 @@ if TYPE_CHECKING:
     # where its bytes are wrong, None for nowhere.
     Place: TypeAlias = tuple[int, int, "bytes | Callable[[bytes], int | None]"]
 
+_BYTES = (bytes, bytearray, memoryview)
+
 
 class List(Items["Item"]):
     """A list from `least` to `most` elements, as many as `count` says, or as bytes as `size` says.
@@ -33,7 +36,17 @@ class List(Items["Item"]):
     at least as at most, it is of a fixed size, wherever it stands.
     """
 
-    __slots__ = ("counters", "end", "pieces", "size", "tail", "tight", "unit_size")
+    __slots__ = (
+        "counters",
+        "end",
+        "is_read",
+        "narrowed",
+        "pieces",
+        "size",
+        "tail",
+        "tight",
+        "unit_size",
+    )
 
     if TYPE_CHECKING:
 
@@ -77,13 +90,16 @@ class List(Items["Item"]):
         fields: Any = vars(of)["FIELDS"] if is_class else (of,)
         constants = vars(of).get("CONSTANTS", ()) if is_class else ()
         self.pieces = sorted([*fields, *constants], key=lambda piece: piece.at)
-        # Whether `struct` packs and unpacks the values of all elements as they are.
+        # Whether `struct` unpacks the values of all elements as they are, and packs them as well.
+        self.is_read = all(map(is_read, self.pieces))
         self.tight = all(map(_is_tight, self.pieces))
         layout = "".join(map(_notation, self.pieces))
         self.unit_size = sum(map(size_of, self.pieces))
         unread: Any = count
         super().__init__(at, of, least, most, count=unread)
         self.layout = layout
+        # Whether there are numbers in it whose range is narrower than their type.
+        self.narrowed = any(getattr(field, "narrowed", False) for field in self.fields)
         self.counters = tuple(
             (number, factor)
             for number, factor in ((count, 1), (size, self.unit_size))
@@ -98,11 +114,6 @@ class List(Items["Item"]):
     def derived(self) -> tuple[str, ...]:
         """The names of what follows from it, and is not given."""
         return tuple(number.name for number, _ in self.counters)
-
-    @property
-    def narrowed(self) -> bool:
-        """Whether there are numbers in it whose range is narrower than their type."""
-        return any(getattr(field, "narrowed", False) for field in self.fields)
 
     @property
     def places(self) -> list[Place]:
@@ -123,13 +134,18 @@ class List(Items["Item"]):
 
     def numbers(self, frame: bytes) -> Any:
         """Return all values of all elements of a legal frame, in order."""
-        rows = self._rows(frame[self.at : self.end])
-        return tuple(value for row in rows for value in row)
+        data = frame[self.at : self.end]
+        if self.is_read:
+            count = len(data) // self.unit_size
+            if len(self.layout) == 1:
+                return unpack(f"{STRUCT_ORDER}{count}{self.layout}", data)
+            return unpack(STRUCT_ORDER + count * self.layout, data)
+        return tuple(value for row in self._rows(data) for value in row)
 
     def _rows(self, data: bytes) -> Iterator[tuple[Any, ...]]:
         """Return the values of each element."""
         rows = Struct(STRUCT_ORDER + self.layout).iter_unpack(data)
-        return rows if all(map(is_read, self.pieces)) else map(self._read, rows)
+        return rows if self.is_read else map(self._read, rows)
 
     def _read(self, row: tuple[Any, ...]) -> tuple[Any, ...]:
         """Return the values of an element of which `struct` knows only the bytes of some."""
@@ -139,12 +155,19 @@ class List(Items["Item"]):
         )
 
     def packed(self, values: Any) -> bytes:
-        """Return the bytes of all elements. Raises EncodeError for the first bad one."""
+        """Return the bytes of all elements. Raises EncodeError for the first bad one.
+
+        Numbers of one byte may be given as bytes.
+        """
+        if isinstance(values, _BYTES) and self.element is None and self.layout == "B":
+            values = tuple(as_bytes(values))
         if self.tight and not self.narrowed:
             flat = self.flat(values)
             try:
-                return Struct(f"{STRUCT_ORDER}{len(flat) // self.width * self.layout}").pack(*flat)
-            except error:
+                if self.layout == "B":
+                    return bytes(flat)
+                return pack(f"{STRUCT_ORDER}{len(flat) // self.width * self.layout}", *flat)
+            except (error, ValueError):
                 pass
         checked = iter(self.checked(values))
         data = b""

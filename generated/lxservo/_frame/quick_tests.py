@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+from operator import contains
 from struct import Struct
 
 from .protocol import STRUCT_ORDER
@@ -17,32 +18,47 @@ if TYPE_CHECKING:
     from .number import Number
 
 
+# So many numbers are checked by one call: most messages have no more.
+_AT_ONCE = 3
+
+
 def checker(fields: Sequence[Number | Float]) -> Callable[..., None]:
     """Return a function that raises EncodeError for the first wrong one of the numbers given.
 
     Good ones are passed over. Any others are looked at one by one, and are either numbers of
     another kind, such as NumPy's, or explained.
     """
-    lows, highs = [field.low for field in fields], [field.high for field in fields]
-    kinds = [float if isinstance(field.low, float) else int for field in fields]
+    if len(fields) > _AT_ONCE:
+        first, others = checker(fields[:_AT_ONCE]), checker(fields[_AT_ONCE:])
 
-    def explain(numbers: tuple[Any, ...]) -> None:
-        for field, number in zip(fields, numbers, strict=True):
-            field.checked(number, field.name)
+        def check_all(*numbers: Any) -> None:
+            first(*numbers[:_AT_ONCE])
+            others(*numbers[_AT_ONCE:])
 
-    def check_all(*numbers: Any) -> None:
-        for number, kind, low, high in zip(numbers, kinds, lows, highs, strict=False):
-            if type(number) is not kind or not low <= number <= high:
-                return explain(numbers)
-        return None
+        return check_all
+    # What is not given is zero, and good.
+    bounds: list[tuple[Any, float, float]]
+    bounds = [(_kind(field), field.low, field.high) for field in fields]
+    bounds += [(int, 0, 0)] * (_AT_ONCE - len(bounds))
+    (kind, low, high), (kind_2, low_2, high_2), (kind_3, low_3, high_3) = bounds
 
-    def check(*numbers: Any) -> None:
-        for number, low, high in zip(numbers, lows, highs):
-            if type(number) is not int or number < low or number > high:
-                return explain(numbers)
-        return None
+    def check(number: Any, second: Any = 0, third: Any = 0) -> None:
+        if (
+            type(number) is not kind
+            or type(second) is not kind_2
+            or type(third) is not kind_3
+            or not (
+                low <= number <= high and low_2 <= second <= high_2 and low_3 <= third <= high_3
+            )
+        ):
+            for field, each in zip(fields, (number, second, third), strict=False):
+                field.checked(each, field.name)
 
-    return check if set(kinds) == {int} else check_all
+    return check
+
+
+def _kind(field: Number | Float) -> type:
+    return float if isinstance(field.low, float) else int
 
 
 def range_test(numbers: Sequence[Number]) -> Callable[[bytes], bool]:
@@ -66,15 +82,8 @@ def range_test(numbers: Sequence[Number]) -> Callable[[bytes], bool]:
             return low <= first <= high and least <= second <= most
 
         return both_inside
-    lows, highs = [number.low for number in numbers], [number.high for number in numbers]
-
-    def all_inside(frame: bytes) -> bool:
-        for value, low, high in zip(unpack(frame), lows, highs):
-            if value < low or value > high:
-                return False
-        return True
-
-    return all_inside
+    ranges = [range(number.low, number.high + 1) for number in numbers]
+    return lambda frame: all(map(contains, ranges, unpack(frame)))
 
 
 def place_test(places: Sequence[Place], tail: int) -> Callable[[bytes], bool]:

@@ -32,7 +32,7 @@ class ProofView:
         It is in the way of every frame, where each call or slice costs half as much as a sum.
         """
         row = CHECKSUMS[self.checksum.method]
-        if not isinstance(row, Sum):
+        if self.calls or not isinstance(row, Sum):
             return f"checksum_of({self._covered}) == {self._number}"
         mask = (1 << 8 * self.checksum.size) - 1
         if row.factor == -1 and self.checksum.size == 1 and self.end == self.checksum.at == -1:
@@ -53,14 +53,14 @@ class ProofView:
         return total if at == self.start else None
 
     @property
-    def method(self) -> str:
-        """How it is worked out."""
-        return ChecksumView(self.checksum.method, 8 * self.checksum.size).made
-
-    @property
     def calls(self) -> bool:
         """Whether it calls what works the checksum out, and does not do so itself."""
-        return not isinstance(CHECKSUMS[self.checksum.method], Sum)
+        return self.method.name != "Sum"
+
+    @property
+    def method(self) -> ChecksumView:
+        """How it is worked out."""
+        return ChecksumView(self.checksum.method, 8 * self.checksum.size)
 
     @property
     def _covered(self) -> str:

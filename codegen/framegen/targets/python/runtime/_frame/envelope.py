@@ -269,6 +269,9 @@ def _sealer(envelope: Envelope) -> Callable[[bytes, Ids], bytes]:
         # By far the most usual, and in the way of every message that is made.
         (part,) = checksums
         make, size, order = part.maker((), ()), part.size, part.order
+        if len(part.covers) == 1 and isinstance(part.covers[0], tuple):
+            of, covered = part.method.of, slice(*part.covers[0])
+            return lambda frame, _: frame[:-size] + of(frame[covered]).to_bytes(size, order)
         return lambda frame, _: frame[:-size] + make(frame).to_bytes(size, order)
 
     def sealed(frame: bytes, ids: Ids) -> bytes:
