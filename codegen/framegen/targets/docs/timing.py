@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING
 from framegen.pluralize import pluralize
 
 if TYPE_CHECKING:
-
     from framegen.model.layout import MessageLayout
     from framegen.model.model import Model
 
