@@ -1,17 +1,24 @@
 """The library names the protocols that are easily taken for it: by their frames, in any company."""
 
+from collections.abc import Iterator
 from pathlib import Path
+from types import ModuleType
+from typing import Any
 
 import pytest
 from busservo import Message, strategies
 from busservo._codec import lookalikes
+from framegen.explain import explain
 from framegen.explanation.lookalikes import recognise
+from framegen.explanation.text import as_text
+from framegen.model.checksums import CHECKSUMS
 from framegen.model.model import Model
 from framegen.targets.python.library_view import LibraryView
 from hypothesis import given
 from hypothesis import strategies as st
 
 from tests.factories import BUSSERVO, DEMO, data_of, files_of, layout_of, library
+from tests.protocols.specs import FILES
 
 LAYOUT = layout_of(data_of(BUSSERVO))
 SERVO_BUS = "LX-16A bus servo protocol"
@@ -87,3 +94,147 @@ def test_another_protocol_has_look_alikes_of_its_own(tmp_path: Path) -> None:
 def test_a_spec_without_look_alikes_has_none() -> None:
     data = {key: value for key, value in data_of(BUSSERVO).items() if key != "lookalikes"}
     assert LibraryView(layout_of(data)).lookalikes.endswith(" = ()")
+
+
+# Look-alikes by their checksums, each with a header of its own: the method, the type, what it
+# covers, and the byte order of the numbers; that of the protocol is little.
+PROVEN = {
+    "C1": ("crc-16/modbus", "u16", ["length", "command", "parameters"], "little"),
+    "C2": ("crc-16/xmodem", "u16", ["header", "length", "command", "parameters"], "big"),
+    "C3": ("fletcher-8", "u16", ["command", "parameters"], "little"),
+    "C4": ("crc-8/trinamic", "u8", ["parameters", "command"], "big"),
+    "C5": ("word xor", "u16", ["length", "command", "parameters"], "little"),
+    "C6": ("inverted sum", "u16", ["length", "command", "parameters"], "big"),
+}
+
+
+def frame_by(method: str, type_: str, covers: list[str], order: Any) -> dict[str, Any]:
+    return {
+        "header": {"is": "constant", "bytes": "C0"},
+        "length": {"is": "length", "type": "u16", "counts": ["parameters"], "byte_order": order},
+        "command": {"is": "id", "type": "u8"},
+        "spare": {"is": "reserved", "bytes": "00"},
+        "parameters": {"is": "body"},
+        "check": {
+            "is": "checksum",
+            "type": type_,
+            "method": method,
+            "covers": covers,
+            "byte_order": order,
+        },
+    }
+
+
+def proven_frame(header: str, parameters: bytes, command: int = 9, spare: int = 0) -> bytes:
+    method, type_, covers, order = PROVEN[header]
+    parts = {
+        "header": bytes.fromhex(header),
+        "length": len(parameters).to_bytes(2, order),  # type: ignore[arg-type]
+        "command": bytes([command]),
+        "spare": bytes([spare]),
+        "parameters": parameters,
+    }
+    width = int(type_[1:])
+    check = CHECKSUMS[method].of(b"".join(parts[name] for name in covers), width)
+    return b"".join(parts.values()) + check.to_bytes(width // 8, order)  # type: ignore[arg-type]
+
+
+def with_proven_look_alikes() -> dict[str, Any]:
+    data = data_of(BUSSERVO)
+    for header, how in PROVEN.items():
+        frame = frame_by(*how)
+        frame["header"]["bytes"] = header
+        example = {"title": "One", "hex": proven_frame(header, b"abc").hex(" ").upper()}
+        data["lookalikes"][f"proven_{header.lower()}"] = {
+            "title": f"By {header}",
+            "about": "Its checksum.",
+            "cite": "vendor",
+            "frame": frame,
+            "examples": [example],
+        }
+    return data
+
+
+@pytest.fixture(scope="module")
+def proven(tmp_path_factory: pytest.TempPathFactory) -> Iterator[ModuleType]:
+    """Return the module that recognises them, of a library of its own."""
+    folder = tmp_path_factory.mktemp("proven")
+    with library(files_of(with_proven_look_alikes()), folder) as made:
+        yield __import__(f"{made.__name__}._codec.lookalikes", fromlist=["recognise"])
+
+
+@pytest.fixture(scope="module")
+def proven_model() -> Model:
+    return layout_of(with_proven_look_alikes())
+
+
+@pytest.mark.parametrize("header", PROVEN)
+@given(
+    parameters=st.binary(max_size=20),
+    times=st.integers(1, 4),
+    at=st.integers(0),
+    spare=st.integers(0, 255),
+)
+def test_a_look_alike_is_recognised_by_any_checksum(
+    proven: ModuleType,
+    proven_model: Model,
+    header: str,
+    parameters: bytes,
+    times: int,
+    at: int,
+    spare: int,
+) -> None:
+    frame = proven_frame(header, parameters, spare=spare)
+    assert proven.recognise(times * frame) == f"By {header}"
+    found = recognise(proven_model.plain, frame)
+    assert found is not None
+    assert found.lookalike.title == f"By {header}"
+    # Any bit of what it covers, or of the checksum itself.
+    covered = [*range(1, 4), *range(5, len(frame))] if header != "C3" else range(5, len(frame))
+    covered = range(5, len(frame)) if header == "C4" else covered
+    place = [*covered][at % len(covered)]
+    wrong = frame[:place] + bytes([frame[place] ^ 0x10]) + frame[place + 1 :]
+    assert proven.recognise(wrong) is None
+    assert recognise(proven_model.plain, wrong) is None
+
+
+def test_what_proves_a_look_alike_is_said_of_its_frame(proven_model: Model) -> None:
+    data = proven_frame("C2", b"ab")
+    said = as_text(explain(proven_model, data, proven_model.directions))
+    assert "By C2" in said
+
+
+def test_headers_of_a_look_alike_that_claim_much_are_not_summed_again_and_again(
+    proven: ModuleType, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    summed = 0
+    [found] = [each for each in proven.LOOKALIKES if each.title == "By C2"]
+    kind = type(found.methods[0].running())
+    go_on = kind._go_on
+
+    def counting(self: Any, data: bytes) -> None:
+        nonlocal summed
+        summed += len(data)
+        go_on(self, data)
+
+    monkeypatch.setattr(kind, "_go_on", counting)
+    # Each of them says that some thousand bytes follow.
+    data = bytes.fromhex("C2 10 00 09") * 3000
+    assert proven.recognise(data) is None
+    assert summed <= 2 * len(data)
+
+
+@pytest.mark.parametrize("name", ["modbus", "ubx"])
+def test_a_look_alike_in_frames_that_cannot_be_searched_for_is_left_out(name: str) -> None:
+    data = data_of(FILES[name])
+    data["lookalikes"] = {
+        "other": {
+            "title": "Another",
+            "about": "Other ids.",
+            "cite": next(iter(data["sources"])),
+            "commands": {200: "does something"},
+        }
+    }
+    code = LibraryView(layout_of(data)).lookalikes
+    assert ("methods=(Fletcher(16, 256),)" in code) == (name == "ubx")
+    assert code.endswith(" = ()") == (name == "modbus")

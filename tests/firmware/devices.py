@@ -72,27 +72,37 @@ class Observed:
         self._behind.close()
 
 
-def by_the_reference(model: Model) -> Answer:
-    """Return a device that decodes as the reference does, and replies as the spec's examples do."""
+def by_the_reference(model: Model, device: int | None = None) -> Answer:
+    """Return a device that decodes as the reference does, and replies as the spec's examples do.
+
+    It has every address, or that of a `device`. Where silence divides frames, each write is one.
+    """
     held = b""
     line = ReferenceDecoder(model, [model.roles.sent])
+    begins = all(each.frame.header for each in model.candidates([model.roles.sent]))
 
     def answer(data: bytes) -> list[tuple[float, bytes]]:
         nonlocal held
         held += data
-        events = line.decode_so_far(held)
+        events = line.decode_so_far(held) if begins else line.decode(held)
         held = held[sum(len(event.data) for event in events) :]
-        return [(0.001, reply) for event in events for reply in _replies(model, event)]
+        return [(0.001, reply) for event in events for reply in _replies(model, event, device)]
 
     return answer
 
 
-def _replies(model: Model, event: Any) -> Iterator[bytes]:
+def _replies(model: Model, event: Any, device: int | None) -> Iterator[bytes]:
     exchange = next((each for each in model.exchanges if each.request == event.message), None)
     if exchange is None or exchange.reply is None:
         return
     values = dict(exchange.reply.message.examples[0].values)
     requested = values_of(exchange.request, event.data)
+    if exchange.address is not None:
+        to = requested[exchange.address.name]
+        if to in exchange.address.silent or device not in (None, to):
+            return
+    for part, here in zip(exchange.reply.frame.given, exchange.request.frame.given, strict=False):
+        values[part.name] = requested[here.name]
     for one, other in exchange.echoed:
         name, _, inner = other.partition(".")
         first = values[name][0] if inner else None

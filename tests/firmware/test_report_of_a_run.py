@@ -65,6 +65,7 @@ def test_json_holds_all_of_a_run() -> None:
         "device": "controller",
         "port": "a line",
         "baud": 9600,
+        "address": None,
         "will_send": ["BatteryVoltageRead", "ServoPositionsRead"],
         "will_not_send": [
             "ServoMove",

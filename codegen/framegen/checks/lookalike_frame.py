@@ -6,8 +6,7 @@ from typing import TYPE_CHECKING
 
 from framegen.checks.frames import checksum_problems, part_problems
 from framegen.checks.rule import Problem, StructureRule
-from framegen.language.number_types import NUMBER_TYPES
-from framegen.language.spec import BodyPart, ChecksumPart, ConstantPart, ReservedPart
+from framegen.language.spec import ConstantPart
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -25,10 +24,10 @@ def _look(spec: Spec) -> Iterator[Problem]:
             *part_problems(path, lookalike.frame),
             *checksum_problems(path, lookalike.frame),
         ]
-        yield from problems or _recognisable(path, lookalike.frame, spec.byte_order)
+        yield from problems or _recognisable(path, lookalike.frame)
 
 
-def _recognisable(path: KeyPath, frame: Frame, order: str) -> Iterator[Problem]:
+def _recognisable(path: KeyPath, frame: Frame) -> Iterator[Problem]:
     """Refuse what a library could not recognise: it looks for simple frames alone."""
     first = next(iter(frame.values()))
     if not isinstance(first, ConstantPart):
@@ -38,21 +37,6 @@ def _recognisable(path: KeyPath, frame: Frame, order: str) -> Iterator[Problem]:
         if not any(part.is_ == kind for part in frame.values()):
             what = f"a look-alike is recognised by the {kind} of its frames, and they have none"
             yield Problem(path, what, "leave out its `frame`, and say in `about` how to tell it")
-    for name, part in frame.items():
-        if isinstance(part, ChecksumPart) and part.method != "inverted sum":
-            yield Problem(
-                (*path, name, "method"),
-                f"a look-alike is recognised by an `inverted sum`, and by no `{part.method}`",
-                f"make `{name}` a part of the body: leave it out here, and in `counts`",
-            )
-        if isinstance(part, ConstantPart | ReservedPart | BodyPart):
-            continue
-        if part.byte_order not in (None, order) and NUMBER_TYPES[part.type].size > 1:
-            yield Problem(
-                (*path, name, "byte_order"),
-                f"the numbers of a look-alike's frame have the byte order of this spec, {order}",
-                "leave out its `frame`, and say in `about` how to tell it",
-            )
 
 
 RULE = StructureRule(

@@ -16,6 +16,7 @@ from framegen.conformance.device.recording import Recording
 from framegen.conformance.device.report import Report
 from framegen.conformance.device.run import Progress, Run
 from framegen.conformance.device.session import Session, Timing
+from framegen.conformance.device.step import Step
 from framegen.reading.yamltree import Unusable
 
 if TYPE_CHECKING:
@@ -23,13 +24,15 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
 
     from framegen.conformance.device.permission import Permission
-    from framegen.conformance.device.step import Request, Step
+    from framegen.conformance.device.step import Request
     from framegen.conformance.device.transport import Transport
     from framegen.language.spec import Link
     from framegen.model.model import Model
 
 # Seconds that a device may take for a reply, besides those on the wire.
 TIMEOUT = 0.25
+# Seconds in which a device that nobody asks has to report something.
+LISTENING = 3.0
 _LOST = "see to the cable and the power, then run this again"
 
 
@@ -59,6 +62,12 @@ def add_arguments(parser: ArgumentParser) -> None:
         help="send the examples of this message as well, which a device carries out",
     )
     parser.add_argument(
+        "--address",
+        type=_address,
+        metavar="N",
+        help="the address of the device, if it is not that of the spec's examples",
+    )
+    parser.add_argument(
         "--log", type=Path, metavar="FILE", help="record all traffic of the line in a new file"
     )
 
@@ -69,10 +78,17 @@ def _rate(text: str) -> int:
     return int(text)
 
 
+def _address(text: str) -> int:
+    try:
+        return int(text, 0)
+    except ValueError:
+        raise argparse.ArgumentTypeError(f"{text!r} is no address: a whole number") from None
+
+
 def refuse_without_port(arguments: Namespace) -> None:
     """Refuse options about a port where none is named. Raises Unusable."""
-    for name in ("baud", "malformed", "allow", "log"):
-        if getattr(arguments, name):
+    for name in ("baud", "malformed", "allow", "address", "log"):
+        if getattr(arguments, name) not in (None, False, []):
             raise Unusable(f"--{name} is for firmware", hint="name its port, as by --port COM5")
 
 
@@ -89,9 +105,9 @@ def run(
     """
     if arguments.format not in ("text", "json"):
         raise Unusable(f"there is no {arguments.format} for firmware", hint="--format text or json")
-    permission = permit(model, arguments.allow)
+    permission = permit(model, arguments.allow, arguments.address)
     after = min(requests(permission), key=lambda request: len(request.frame), default=None)
-    steps = list(_steps(permission, after, malformed=arguments.malformed))
+    steps = list(_steps(permission, after, arguments))
     link = model.spec.link
     baud = arguments.baud or link.baud
     timing = Timing(baud, link.bits_per_byte, arguments.timeout or TIMEOUT)
@@ -115,10 +131,16 @@ def run(
     return 0 if report.has_passed else 1
 
 
-def _steps(permission: Permission, after: Request | None, *, malformed: bool) -> Iterator[Step]:
+def _steps(permission: Permission, after: Request | None, arguments: Namespace) -> Iterator[Step]:
     yield from query_steps(permission)
-    if malformed:
+    if after is None and permission.reports:
+        seconds = max(arguments.timeout or 0, LISTENING)
+        yield Step(f"what comes within {seconds:g} s", (), seconds)
+    if arguments.malformed:
         if after is None:
-            raise Unusable("nothing malformed can be sent: there is no query that could follow it")
+            raise Unusable(
+                "nothing malformed can be sent: there is no query that could follow it",
+                hint="leave --malformed out",
+            )
         yield from malformed_steps(permission, after)
     yield from command_steps(permission, after)

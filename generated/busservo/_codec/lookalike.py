@@ -9,7 +9,15 @@ from .codec import decode
 
 TYPE_CHECKING = False  # typing alone would double the time that the import takes
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Iterator
+    from collections.abc import Iterable, Iterator, Sequence
+    from typing import Any, Protocol
+
+    class Method(Protocol):
+        """What works out a checksum."""
+
+        def running(self) -> Any:
+            """Return what works it out along a stream."""
+
 
 # Bytes enough to recognise one; a search through more would only take longer.
 _SEARCHED = 16384
@@ -21,7 +29,8 @@ class Lookalike:
     `constants` are places with the bytes that stand there; `length` is the place of a number that
     says how many bytes a frame has besides `uncounted`; `least` is the size of the smallest frame;
     `command` is the place of its command, and `commands` are those known, empty for any.
-    `checksums` are places, each with the places whose inverted sum stands there.
+    `checksums` are places, each with the places whose inverted sum stands there, or what one of the
+    `methods` makes of them. A number in the other byte order has a place that goes backwards.
     """
 
     __slots__ = (
@@ -31,6 +40,7 @@ class Lookalike:
         "constants",
         "least",
         "length",
+        "methods",
         "title",
         "uncounted",
     )
@@ -46,6 +56,7 @@ class Lookalike:
         command: slice,
         commands: tuple[int, ...],
         checksums: tuple[tuple[slice, tuple[slice, ...]], ...],
+        methods: tuple[Method, ...] = (),
     ) -> None:
         self.title = title
         self.constants = constants
@@ -55,40 +66,49 @@ class Lookalike:
         self.command = command
         self.commands = frozenset(commands)
         self.checksums = checksums
+        self.methods = methods
 
     def covered(self, data: bytes) -> int:
         """Return how many bytes of `data` are frames of this protocol."""
         found = at = 0
         header = next((text for place, text in self.constants if place.start == 0), b"")
+        # Whatever claims to be a frame, no byte is summed again and again.
+        running = [method.running() for method in self.methods]
         while (at := data.find(header, at)) >= 0 and at + self.least <= len(data):
-            frame = data[at : at + self._size(data, at)]
+            size = self.uncounted + read_number(data[at : at + self.least][self.length])
+            frame = data[at : at + size]
             # Without a checksum, a frame with another header in it proves nothing.
-            if self._is_frame(frame) and (self.checksums or frame.rfind(header) <= 0):
+            if (
+                self._is_frame(frame)
+                and self._is_sealed(frame, data, at, running)
+                and (self.checksums or frame.rfind(header) <= 0)
+                and not _is_message(frame)
+            ):
                 found += len(frame)
                 at += len(frame)
             else:
                 at += 1
         return found
 
-    def _size(self, data: bytes, at: int) -> int:
-        """Return the size that the frame at `at` claims, or that of all the rest."""
-        if self.length.start < 0:
-            return len(data) - at
-        return self.uncounted + read_number(data[at + self.length.start : at + self.length.stop])
-
     def _is_frame(self, frame: bytes) -> bool:
         if len(frame) < self.least or any(frame[place] != text for place, text in self.constants):
             return False
         if read_number(frame[self.length]) + self.uncounted != len(frame):
             return False
-        if self.commands and read_number(frame[self.command]) not in self.commands:
-            return False
-        for place, covered in self.checksums:
-            total = sum(sum(frame[each]) for each in covered)
-            mask = (1 << 8 * len(frame[place])) - 1
-            if read_number(frame[place]) != ~total & mask:
+        return not self.commands or read_number(frame[self.command]) in self.commands
+
+    def _is_sealed(self, frame: bytes, data: bytes, at: int, running: Sequence[Any]) -> bool:
+        for number, (place, covered) in enumerate(self.checksums):
+            if running:
+                pieces = (each.indices(len(frame)) for each in covered)
+                moved = [(at + start, at + end) for start, end, _ in pieces]
+                value = running[number].of(data, 0, *moved)
+            else:
+                mask = (1 << 8 * len(frame[place])) - 1
+                value = ~sum(sum(frame[each]) for each in covered) & mask
+            if read_number(frame[place]) != value:
                 return False
-        return not _is_message(frame)
+        return True
 
 
 def most_likely(lookalikes: Iterable[Lookalike], data: bytes) -> str | None:

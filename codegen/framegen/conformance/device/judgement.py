@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Literal, TypeAlias
 
 from framegen.conformance.device.step import Malformed, data_of, excess, requests_of
+from framegen.conformance.language import fields
+from framegen.explanation.refusals import TOO_SHORT
 from framegen.language.values import to_hex
 from framegen.model.codec import values_of
 from framegen.model.verdict import weigh
@@ -17,6 +20,7 @@ if TYPE_CHECKING:
     from framegen.conformance.device.receiver import Received
     from framegen.conformance.device.session import Transcript
     from framegen.conformance.device.step import Request
+    from framegen.model.envelope import Envelope
     from framegen.model.model import Model
 
 # What is a fault of a device; the words of the report.
@@ -53,6 +57,41 @@ def judge(model: Model, transcript: Transcript) -> Judgement:
     return _Judge(model, transcript).judged()
 
 
+def _begins(frame: Envelope, data: bytes) -> bool:
+    """Tell whether a frame may begin here, as far as its header goes."""
+    return data.startswith(frame.header) if frame.header else data[0] in frame.first_bytes
+
+
+def judge_reports(model: Model, transcript: Transcript, seconds: float) -> Judgement:
+    """Judge what a device sends that nobody asks."""
+    found, counted = Judgement(), Counter[str]()
+    events = [each.event for each in transcript.received]
+    # The last frame may not be over.
+    if events and events[-1].reason == TOO_SHORT:
+        events.pop()
+    for event in events:
+        if event.message is not None:
+            counted[event.message.name] += 1
+        elif event.kind == "unknown":
+            found.notes.append(f"unknown frame: {_shown(event.data)}")
+        elif counted:
+            refusal = weigh(model, [model.roles.received], event.data).refusal
+            what = f"{_shown(event.data)} came between frames: {refusal}"
+            found.faults.append(Fault("no frame", what))
+        else:
+            found.notes.append(f"before the first frame: {_shown(event.data)}")
+    if not counted:
+        kind: FaultKind = "no frame" if events else "silence"
+        found.faults.append(Fault(kind, f"no report within {seconds:g} s"))
+    found.notes += [f"{name} came {pluralize(times, 'time')}" for name, times in counted.items()]
+    return found
+
+
+def _shown(data: bytes) -> str:
+    dots = " ..." if len(data) > _SHOWN else ""
+    return f"{pluralize(len(data), 'byte')}, {to_hex(data[:_SHOWN])}{dots}"
+
+
 class _Judge:
     """One pass through a transcript, event by event."""
 
@@ -75,7 +114,7 @@ class _Judge:
             message = received.event.message
             if message is None:
                 self._noise(received)
-            elif self.model.kind(message.name) == "reply":
+            elif self.model.kind(message.name) == "reply" or message.name in self.model.refuses:
                 self._reply(received)
             else:
                 self.reported.add(message.name)
@@ -93,7 +132,7 @@ class _Judge:
 
     def _reply(self, received: Received) -> None:
         message = received.event.message
-        due = [index for index, (each, _) in enumerate(self.pending) if each.reply == message]
+        due = [index for index, (each, _) in enumerate(self.pending) if message in each.answers]
         if message is None or not due:
             self._unsolicited(received)
             return
@@ -109,6 +148,7 @@ class _Judge:
         if seconds > limit:
             took = f"{message.name} came after {seconds:.3f} s, and was due within {limit:.3f} s"
             self._fault("late reply", took)
+        self._refused(request, received)
         self._left_out(request, received)
 
     def _in_order(self, request: Request, name: str) -> None:
@@ -129,6 +169,12 @@ class _Judge:
         if message is None:
             return
         values = values_of(message, received.event.data)
+        other, part = request.other_device(message, values), request.exchange.address
+        if other is not None and part is not None:
+            asked = f"{message.name} comes from {part.name} {other}"
+            what = f"{asked}, and {request.values[part.name]} was asked"
+            self._fault("wrong reply", what)
+            return
         for requested, reported in request.exchange.echoed:
             beyond = excess(request, requested, reported, values)
             if beyond:
@@ -136,11 +182,26 @@ class _Judge:
                 what = f"{message.name} reports {reported} {these}, which was not requested"
                 self._fault("wrong reply", what)
 
+    def _refused(self, request: Request, received: Received) -> None:
+        """Note what a device does not do, which it says in a reply of the right form."""
+        message = received.event.message
+        if message is None:
+            return
+        values = values_of(message, received.event.data)
+        if message != request.reply:
+            said = " ".join([message.name, *fields(message, values)])
+            self.found.notes.append(f"{request.message.name} is refused: {said}")
+        elif (failure := request.exchange.failure) is not None and values[failure.name]:
+            said = f"{failure.name} {values[failure.name]}"
+            self.found.notes.append(f"{request.message.name} failed: {said}")
+
     def _left_out(self, request: Request, received: Received) -> None:
         """Note how much of the request a reply omits, which is allowed."""
         message = received.event.message
         items = request.message.items
-        if message is None or message.items is None or items is None or not request.exchange.most:
+        if message is None or message != request.reply or message.items is None:
+            return
+        if items is None or not request.exchange.most:
             return
         values = values_of(message, received.event.data)
         reported, requested = len(values[message.items.name]), len(request.values[items.name])
@@ -152,7 +213,7 @@ class _Judge:
         if message is None:
             return
         what = f"{message.name} came once more than it was requested"
-        if message not in [each.reply for each in self.queries]:
+        if not any(message in each.answers for each in self.queries):
             what = f"{message.name} came unsolicited"
         if any(isinstance(piece, Malformed) for piece in self.transcript.burst):
             what += ": does it answer what is no frame?"
@@ -167,9 +228,8 @@ class _Judge:
             self.found.notes.append("the line gives back what is sent")
             return
         self.noise.append(received)
-        shown = to_hex(data[:_SHOWN]) + (" ..." if len(data) > _SHOWN else "")
         kind = "unknown frame" if event.kind == "unknown" else f"noise, {event.reason}"
-        self.found.notes.append(f"{kind}: {pluralize(len(data), 'byte')}, {shown}")
+        self.found.notes.append(f"{kind}: {_shown(data)}")
 
     def _missing(self, request: Request, limit: float) -> None:
         name = "" if request.reply is None else request.reply.name
@@ -186,12 +246,14 @@ class _Judge:
 
     def _broken(self, noise: Iterable[Received]) -> str:
         """Return why the first noise with a header is no frame; empty without such noise."""
-        header = self.model.frame.header
+        way = [self.model.roles.received]
+        frames = [each.frame for each in self.model.candidates(way)]
         for each in noise:
-            at = each.event.data.find(header)
-            if at >= 0 and each.event.kind == "noise":
-                data = each.event.data[at:]
-                return weigh(self.model, [self.model.roles.received], data).refusal
+            data = each.event.data
+            if each.event.kind == "noise":
+                for at in range(len(data)):
+                    if any(_begins(frame, data[at:]) for frame in frames):
+                        return weigh(self.model, way, data[at:]).refusal
         return ""
 
     def _fault(self, kind: FaultKind, text: str) -> None:

@@ -11,13 +11,15 @@ from typing import TYPE_CHECKING
 from framegen.conformance.device.queries import requests
 from framegen.conformance.device.step import Malformed, Step
 from framegen.explanation.refusals import (
+    BAD_CHECKSUM,
+    BAD_TRAILER,
     COUNT_MISMATCH,
     LENGTH_MISMATCH,
     OUT_OF_RANGE,
     TOO_SHORT,
     UNKNOWN_COMMAND,
 )
-from framegen.model.slots import Number
+from framegen.model.slots import Constant, Number
 from framegen.model.stream import ReferenceDecoder
 from framegen.model.verdict import weigh
 
@@ -35,9 +37,11 @@ def malformed_steps(permission: Permission, after: Request) -> Iterator[Step]:
     """Yield a step for each way to be malformed; none where no query can be malformed so."""
     for about, reason, make in _WAYS:
         found = _first(permission, after, about, reason, make)
-        if found is not None:
-            title = f"{about}, and {after.message.name} at once"
-            yield Step(title, ((found, after),))
+        if found is not None and after.message.frame.header:
+            yield Step(f"{about}, and {after.message.name} at once", ((found, after),))
+        elif found is not None:
+            # Where silence divides frames, what follows at once belongs to it.
+            yield Step(f"{about}, then {after.message.name}", ((found,), (after,)))
 
 
 def _first(
@@ -59,24 +63,28 @@ def _is_fit(permission: Permission, data: bytes, reason: str, after: Request) ->
     around = after.frame + data + after.frame
     if permission.objection(around + after.frame):
         return False
-    received = [
-        event.data for event in ReferenceDecoder(model, sent).decode_so_far(around) if event.message
-    ]
-    return received == [after.frame, after.frame]
+    decoder, quiet = ReferenceDecoder(model, sent), [*[None] * (not after.message.frame.header)]
+    parts = [after.frame, *quiet, data, *quiet, after.frame]
+    events = (event for event in decoder.follow(parts) if event is not None)
+    return [event.data for event in events if event.message] == [after.frame, after.frame]
 
 
-def _cut_in_fields(permission: Permission, request: Request) -> Iterator[bytes]:
-    for size in range(len(request.frame) - 1, permission.frame.body_at - 1, -1):
+def _cut_in_fields(_permission: Permission, request: Request) -> Iterator[bytes]:
+    for size in range(len(request.frame) - 1, request.message.frame.body_at - 1, -1):
         yield request.frame[:size]
 
 
-def _cut_before(permission: Permission, request: Request) -> Iterator[bytes]:
-    for size in range(permission.frame.body_at - 1, len(permission.frame.header), -1):
+def _cut_before(_permission: Permission, request: Request) -> Iterator[bytes]:
+    frame = request.message.frame
+    for size in range(frame.body_at - 1, len(frame.header), -1):
         yield request.frame[:size]
 
 
 def _changed(role: str, by: int) -> Maker:
-    """Add to the number with this role, where the sum still fits."""
+    """Add to the number with this role, where the sum still fits.
+
+    With the checksum that this makes, nothing else is wrong.
+    """
 
     def make(_permission: Permission, request: Request) -> Iterator[bytes]:
         for placed, slot in _numbers(request):
@@ -95,8 +103,25 @@ def _outside(_permission: Permission, request: Request) -> Iterator[bytes]:
 
 def _unknown(permission: Permission, request: Request) -> Iterator[bytes]:
     for placed, slot in _numbers(request):
-        if slot.role == "id" and permission.unknown_id is not None:
-            yield from _with(request, placed, slot, permission.unknown_id)
+        unknown = permission.unknown_id(request.message)
+        if slot is request.message.frame.id_part and unknown is not None:
+            yield from _with(request, placed, slot, unknown)
+
+
+def _checksum(_permission: Permission, request: Request) -> Iterator[bytes]:
+    for placed, slot in _numbers(request):
+        if slot.role == "checksum":
+            for bit in range(8):
+                wrong = slot.read(placed.of(request.frame)) ^ 1 << bit
+                yield request.frame[: placed.at] + slot.write(wrong) + request.frame[placed.end :]
+
+
+def _trailer(_permission: Permission, request: Request) -> Iterator[bytes]:
+    for placed in request.message.lay_out(request.message.count_of(request.frame)):
+        if isinstance(placed.slot, Constant) and placed.slot in request.message.frame.tail:
+            for bit in range(8):
+                wrong = bytes([request.frame[placed.at] ^ 1 << bit])
+                yield request.frame[: placed.at] + wrong + request.frame[placed.at + 1 :]
 
 
 def _numbers(request: Request) -> Iterator[tuple[Placed, Number]]:
@@ -108,7 +133,9 @@ def _numbers(request: Request) -> Iterator[tuple[Placed, Number]]:
 def _with(request: Request, placed: Placed, slot: Number, value: int) -> Iterator[bytes]:
     """Replace the value at one place of a frame, where there is room for it."""
     if slot.number_type.low <= value <= slot.number_type.high:
-        yield request.frame[: placed.at] + slot.write(value) + request.frame[placed.end :]
+        data = request.frame[: placed.at] + slot.write(value) + request.frame[placed.end :]
+        # As an unknown message it would be one that a device may refuse.
+        yield data if slot.role == "id" else request.message.sealed(data)
 
 
 _WAYS: tuple[tuple[str, str, Maker], ...] = (
@@ -120,4 +147,6 @@ _WAYS: tuple[tuple[str, str, Maker], ...] = (
     ("a count that is one too few", COUNT_MISMATCH, _changed("count", -1)),
     ("a value out of its range", OUT_OF_RANGE, _outside),
     ("an id that nobody has", UNKNOWN_COMMAND, _unknown),
+    ("a checksum that is wrong", BAD_CHECKSUM, _checksum),
+    ("an end that is another", BAD_TRAILER, _trailer),
 )

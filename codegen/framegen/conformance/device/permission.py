@@ -12,6 +12,7 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING
 
+from framegen.conformance.device.danger import Danger
 from framegen.language.values import to_hex
 from framegen.model.verdict import weigh
 from framegen.reading.findings import did_you_mean
@@ -21,18 +22,22 @@ if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator
 
     from framegen.language.values import Direction
-    from framegen.model.envelope import Envelope
     from framegen.model.exchanges import Exchange
     from framegen.model.layout import MessageLayout
     from framegen.model.model import Model
+    from framegen.model.slots import Number
 
 
 @dataclass(frozen=True)
 class Permission:
-    """What may be sent: every query of the client, and the messages that the user named."""
+    """What may be sent: every query of the client, and the messages that the user named.
+
+    `device` is the address of the device, where it is not that of the examples.
+    """
 
     model: Model
     named: tuple[str, ...] = ()
+    device: int | None = None
 
     @cached_property
     def queries(self) -> list[str]:
@@ -62,17 +67,24 @@ class Permission:
         return exchange.method.result in told or (alone and bool(told))
 
     @cached_property
-    def frame(self) -> Envelope:
-        """The one kind of frame that the client sends. Raises Unusable."""
-        kinds = self.model.candidates(self._ways)
-        if len(kinds) == 1 and kinds[0].frame.id_part is not None:
-            return kinds[0].frame
-        why = "has several kinds" if len(kinds) > 1 else "has no id"
-        name = self.model.spec.protocol.name
-        raise Unusable(
-            f"what a device of {name} would take for a command cannot be told: what is sent {why}",
-            hint="test its codec: `framegen conform SPEC -- PROGRAM`",
-        )
+    def reports(self) -> list[str]:
+        """The messages that a device sends without being asked."""
+        model = self.model
+        sent = [message.name for message in model.sent(model.roles.received)]
+        return [each for each in sent if model.kind(each) == "report" and each not in model.refuses]
+
+    @cached_property
+    def address(self) -> Number | None:
+        """The part of what the client sends that says for which device it is."""
+        found = (each.frame.address for each in self.model.candidates(self._ways))
+        return next((part for part in found if part is not None), None)
+
+    @cached_property
+    def is_shared(self) -> bool:
+        """Whether the line carries one thing at a time: a bus, or frames divided by silence."""
+        frames = [each.frame for each in self.model.candidates(self._ways)]
+        echo = self.model.spec.link.local_echo
+        return echo or any(frame.address is not None or not frame.header for frame in frames)
 
     @cached_property
     def allowed(self) -> list[str]:
@@ -88,27 +100,31 @@ class Permission:
     def objection(self, data: bytes) -> str:
         """Return why `data` must not be sent; empty if it may.
 
-        A device that goes by header and id, and tests neither length nor count, must find only
+        A device that goes by constants and ids alone, and tests nothing else, must find only
         allowed messages in it. If any one byte is lost on the way, there must still be no legal
         frame in it that is not allowed.
         """
-        head = self.frame.id.at + self.frame.id.size
-        for at in self._headers(data, range(len(data))):
-            found = self._dangerous.get(self._id(data, at))
-            if found is not None:
-                return f"it holds {to_hex(data[at : at + head])}, which begins {found}"
-        begun = self._begun(data, range(len(data)))
-        if name := self._holds(data, begun):
+        for danger in self._dangers:
+            if begun := danger.begun(data):
+                return f"it holds {begun}"
+        begun_at = [(danger, danger.places(data, range(len(data)))) for danger in self._dangers]
+        if name := self._holds(data, (at for _, places in begun_at for at in places)):
             return f"it holds a frame of {name}"
         for lost in range(len(data)):
             left = data[:lost] + data[lost + 1 :]
-            # Frames that end before it, or begin behind it, are as they were.
-            before = [at for at in begun if lost - self._largest <= at <= lost - head]
-            across = self._begun(left, range(max(0, lost - head + 1), lost + 1))
-            if name := self._holds(left, [*before, *across]):
+            places = [at for each in begun_at for at in self._affected(*each, left, lost)]
+            if name := self._holds(left, places):
                 byte, front = to_hex(data[lost : lost + 1]), to_hex(data[max(0, lost - 4) : lost])
                 return f"it holds a frame of {name} if the {byte} behind {front} is lost"
         return ""
+
+    def _affected(self, danger: Danger, begun: list[int], left: bytes, lost: int) -> Iterator[int]:
+        """Yield where a frame may begin that a lost byte changes.
+
+        Those that end before it, or begin behind it, are as they were.
+        """
+        yield from (at for at in begun if lost - self._largest <= at <= lost - danger.head)
+        yield from danger.places(left, range(max(0, lost - danger.head + 1), lost + 1))
 
     def _holds(self, data: bytes, places: Iterable[int]) -> str:
         """Return the first forbidden message that begins at one of these places."""
@@ -119,21 +135,18 @@ class Permission:
                     return message.name
         return ""
 
-    def _begun(self, data: bytes, places: range) -> list[int]:
-        """Return where the header and the id of a forbidden message stand."""
-        return [at for at in self._headers(data, places) if self._id(data, at) in self._forbidden]
+    def unknown_id(self, message: MessageLayout) -> int | None:
+        """Return a last id that makes those of a message unknown, to look-alikes as well."""
+        of_it = (each for each in self._dangers if each.frame is message.frame)
+        return next((danger.unknown(message) for danger in of_it), None)
 
-    def _headers(self, data: bytes, places: range) -> Iterator[int]:
-        header = self.frame.header
-        at = data.find(header, places.start)
-        while 0 <= at < places.stop:
-            yield at
-            at = data.find(header, at + 1)
-
-    def _id(self, data: bytes, at: int) -> int:
-        """Return the id of what begins at `at`; -1 where there is none yet."""
-        place, begun = self.frame.id, data[at : at + self.frame.body_at]
-        return place.read_in(begun) if place.is_in(begun) else -1
+    @cached_property
+    def _dangers(self) -> list[Danger]:
+        allowed = self.allowed
+        return [
+            Danger(self.model, candidates, allowed)
+            for candidates in self.model.candidates(self._ways)
+        ]
 
     @cached_property
     def _ways(self) -> list[Direction]:
@@ -145,51 +158,13 @@ class Permission:
     def _largest(self) -> int:
         return self.model.largest(self._ways)
 
-    @cached_property
-    def _forbidden(self) -> dict[int, MessageLayout]:
-        """By id, every message that a device may receive and that is not allowed."""
-        return {
-            message.id: message
-            for way in self._ways
-            for message in self.model.sent(way)
-            if message.name not in self.allowed
-        }
 
-    @cached_property
-    def _dangerous(self) -> dict[int, str]:
-        """By id, what a device might do that no query does."""
-        spec = self.model.spec
-        received = self.model.roles.received
-        found = {
-            code: f"a frame of id {code}, as in {lookalike.title}"
-            for lookalike in spec.lookalikes.values()
-            for code in lookalike.commands
-        }
-        found |= {
-            each.id.one: f"a frame of the reserved id {each.id}"
-            for each in spec.reserved
-            if each.id is not None and each.id.one is not None and each.direction != received
-        }
-        found |= {code: f"a frame of {message.name}" for code, message in self._forbidden.items()}
-        harmless = {self.model.messages[name].id for name in self.allowed}
-        return {code: what for code, what in found.items() if code not in harmless}
-
-    @cached_property
-    def unknown_id(self) -> int | None:
-        """An id that no message and no look-alike uses; None where there is none."""
-        place = self.frame.id
-        messages = self.model.messages.values()
-        known = {message.id for message in messages if message.frame.id_part is not None}
-        # A header byte there could begin a header.
-        taken = known | self._dangerous.keys() | set(self.frame.header)
-        free = (code for code in range(place.high, -1, -1) if code not in taken)
-        return next(free, None)
-
-
-def permit(model: Model, names: Iterable[str]) -> Permission:
+def permit(model: Model, names: Iterable[str], device: int | None = None) -> Permission:
     """Allow all queries, and the named messages. Raises Unusable for names of no use."""
-    permission = Permission(model, tuple(names))
+    permission = Permission(model, tuple(names), device)
     can = [each.request.name for each in model.exchanges]
+    if device is not None:
+        _check_address(permission, device)
     for name in permission.named:
         if name in can:
             continue
@@ -205,13 +180,28 @@ def permit(model: Model, names: Iterable[str]) -> Permission:
             f"there is no message `{name}` to be allowed",
             hint=did_you_mean(name, permission.commands, otherwise=_choices(permission)),
         )
-    if not can or not permission.allowed:
+    if not permission.allowed and not permission.reports:
         raise Unusable(
             f"{model.spec.protocol.name} has no query",
             hint=f"name what may be sent, as by --allow {can[0]}" if can else "",
         )
-    _ = permission.frame  # Refused before anything is sent.
     return permission
+
+
+def _check_address(permission: Permission, device: int) -> None:
+    part, name = permission.address, permission.model.spec.protocol.name
+    if part is None:
+        raise Unusable(f"devices of {name} have no address", hint="leave --address out")
+    if not part.holds(device):
+        bounds = f"{part.low}..{part.high}"
+        raise Unusable(
+            f"no device of {name} has the address {device}", hint=f"write one of {bounds}"
+        )
+    if device in part.silent:
+        raise Unusable(
+            f"{device} is no device's own address: nobody answers what is sent there",
+            hint="write the address of the device that is at the port",
+        )
 
 
 def _choices(permission: Permission) -> str:

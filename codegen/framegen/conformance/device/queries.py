@@ -30,7 +30,7 @@ def query_steps(permission: Permission) -> Iterator[Step]:
     firsts = list({request.message.name: request for request in reversed(queries)}.values())[::-1]
     for request in firsts:
         yield Step(f"{_titled(request)}, twice in a row", ((request,), (request,)))
-    for one, other in _pairs(firsts):
+    for one, other in () if permission.is_shared else _pairs(firsts):
         title = f"{one.message.name} and {other.message.name} at once"
         yield Step(title, ((one, other),))
 
@@ -47,8 +47,10 @@ def requests(permission: Permission) -> list[Request]:
     """Return every query that is sent: those of the examples, and one for each size of list."""
     found: dict[bytes, Request] = {}
     for exchange in _of(permission.model, permission.queries):
-        for request in [*_examples(exchange), *_sized(exchange)]:
-            found.setdefault(request.frame, request)
+        for request in [*_examples(exchange, permission), *_sized(exchange, permission)]:
+            # What nobody answers shows nothing.
+            if not request.is_silent:
+                found.setdefault(request.frame, request)
     return list(found.values())
 
 
@@ -56,7 +58,7 @@ def commands(permission: Permission) -> list[Request]:
     """Return the examples of the messages that the user allowed, and nothing made of them."""
     names = [name for name in permission.allowed if name in permission.commands]
     exchanges = _of(permission.model, names)
-    return [request for exchange in exchanges for request in _examples(exchange)]
+    return [request for exchange in exchanges for request in _examples(exchange, permission)]
 
 
 def _of(model: Model, names: list[str]) -> list[Exchange]:
@@ -73,20 +75,20 @@ def _pairs(firsts: list[Request]) -> Iterator[tuple[Request, Request]]:
         yield one, firsts[(index + 1) % len(firsts)]
 
 
-def _examples(exchange: Exchange) -> Iterator[Request]:
+def _examples(exchange: Exchange, permission: Permission) -> Iterator[Request]:
     message = exchange.request
     for number, example in enumerate(message.message.examples, 1):
-        frame = encode(message, example.values)
-        yield Request(exchange, example.values, frame, f"example {number}")
+        values = _addressed(exchange, example.values, permission)
+        yield Request(exchange, values, encode(message, values), f"example {number}")
 
 
-def _sized(exchange: Exchange) -> Iterator[Request]:
+def _sized(exchange: Exchange, permission: Permission) -> Iterator[Request]:
     """Make requests with one element, with two, and with as many as a reply can report.
 
     A query without a list is only made up where no example shows it.
     """
     message = exchange.request
-    pattern = _pattern(exchange)
+    pattern = _addressed(exchange, _pattern(exchange), permission)
     if message.items is None:
         if not message.message.examples:
             yield Request(exchange, pattern, encode(message, pattern), "lowest values")
@@ -100,13 +102,32 @@ def _sized(exchange: Exchange) -> Iterator[Request]:
             yield Request(exchange, values, encode(message, values), about)
 
 
+def _addressed(
+    exchange: Exchange, values: Mapping[str, Any], permission: Permission
+) -> Mapping[str, Any]:
+    """Return values with the address of the device, and a running number.
+
+    A command to those who do not answer goes to them as it is.
+    """
+    part, counter = exchange.address, exchange.counter
+    found = dict(values) if counter is None else {counter.name: 0, **values}
+    if part is None or permission.device is None:
+        return found
+    if exchange.request.name in permission.queries or found[part.name] not in part.silent:
+        found[part.name] = permission.device
+    return found
+
+
 def _pattern(exchange: Exchange) -> Mapping[str, Any]:
     """Return values to vary: those of the first example, or else the lowest of each field."""
-    message = exchange.request
+    message, part = exchange.request, exchange.address
     if message.message.examples:
         return message.message.examples[0].values
     values = values_at(message, "low", message.counts[0])
     values |= _zeros(message.arguments)
+    if part is not None:
+        devices = (each for each in range(part.low, part.high + 1) if each not in part.silent)
+        values[part.name] = next(devices, part.low)
     return values if message.items is None else {**values, message.items.name: []}
 
 

@@ -31,9 +31,16 @@ class Receiver:
         self._held = b""
         # When each of the bytes held has come.
         self._times: list[float] = []
+        # What was sent and has not come back yet, on a line with an echo.
+        self._echo = b""
+
+    def expect(self, echo: bytes) -> None:
+        """Leave out the next bytes that arrive, where they are these."""
+        self._echo = echo
 
     def feed(self, data: bytes, now: float) -> list[Received]:
         """Take bytes in, and return the events that are decided, up to the last frame."""
+        data = self._behind_echo(data)
         self._held += data
         self._times += [now] * len(data)
         events = self._line.decode_so_far(self._held)
@@ -42,6 +49,15 @@ class Receiver:
             while events and events[-1].kind == "noise":
                 events.pop()
         return self._taken(events)
+
+    def _behind_echo(self, data: bytes) -> bytes:
+        """Return what arrives besides the echo. One that is another is left for all to see."""
+        size = min(len(data), len(self._echo))
+        if data[:size] != self._echo[:size]:
+            self._echo = b""
+            return data
+        self._echo = self._echo[size:]
+        return data[size:]
 
     def flush(self) -> list[Received]:
         """Return the events of the bytes held, now that the line is quiet."""

@@ -77,7 +77,10 @@ def opening(report: Report, steps: Iterable[Step]) -> Iterator[str]:
     link, permission = report.model.spec.link, report.permission
     frames = f"{link.data_bits}{link.parity[0].upper()}{link.stop_bits}"
     device = report.model.roles.device
-    yield f"{report.model.spec.protocol.title}: {device} at {report.port}, {report.baud} {frames}"
+    place = f"{report.port}, {report.baud} {frames}"
+    if permission.address is not None and permission.device is not None:
+        place += f", {permission.address.name} {permission.device}"
+    yield f"{report.model.spec.protocol.title}: {device} at {place}"
     yield f"will send: {_names_of(permission.allowed)}"
     pieces = [piece for step in steps for burst in step.bursts for piece in burst]
     for piece in pieces:
@@ -180,6 +183,7 @@ def as_json(report: Report) -> dict[str, Any]:
         "device": model.roles.device,
         "port": report.port,
         "baud": report.baud,
+        "address": permission.device,
         "will_send": permission.allowed,
         "will_not_send": permission.refused,
         "passed": report.has_passed,

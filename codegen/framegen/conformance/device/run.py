@@ -7,7 +7,7 @@ import sys
 from itertools import chain
 from typing import TYPE_CHECKING
 
-from framegen.conformance.device.judgement import Judgement, judge
+from framegen.conformance.device.judgement import Judgement, judge, judge_reports
 from framegen.conformance.device.report import (
     Result,
     as_json,
@@ -45,7 +45,8 @@ class Run:
 
     def go(self, steps: Sequence[Step], progress: Progress) -> None:
         """Try all steps, or stop where going on is useless. Raises OSError."""
-        self._report.unsolicited = self._session.listen()
+        if not any(step.seconds for step in steps):
+            self._report.unsolicited = self._session.listen().received
         progress.say(unsolicited(self._report))
         for step in steps:
             self._recording.note(step.title)
@@ -53,14 +54,17 @@ class Run:
             self._report.results.append(result)
             progress.say(line_of(result))
             if self._is_silent():
-                self._report.stopped = (
-                    "nothing comes at all: is the device switched on, and is this its port?"
-                )
+                self._report.stopped = self._silent()
             if self._report.stopped:
                 return
 
     def _try(self, step: Step) -> Result:
         result = Result(step)
+        if step.seconds:
+            transcript = self._session.listen(step.seconds)
+            judgement = judge_reports(self._report.model, transcript, step.seconds)
+            result.bursts.append((transcript, judgement))
+            return result
         result.not_sent = self._objection(step)
         for burst in () if result.not_sent else step.bursts:
             transcript = self._session.send(burst)
@@ -97,6 +101,13 @@ class Run:
     def _has_echo(self) -> bool:
         results = self._report.results
         return any(judgement.has_echo for result in results for _, judgement in result.bursts)
+
+    def _silent(self) -> str:
+        what = "nothing comes at all: is the device switched on, and is this its port?"
+        permission = self._session.permission
+        if permission.address is None or permission.device is not None:
+            return what
+        return f"{what} If it has another {permission.address.name}, name it by --address"
 
     def _is_silent(self) -> bool:
         results = [result for result in self._report.results if result.bursts]

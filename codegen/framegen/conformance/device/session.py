@@ -97,10 +97,11 @@ class Session:
         """Return why a burst must not be sent now; empty if it may."""
         return self.permission.objection(self._sent + data_of(burst))
 
-    def listen(self) -> list[Received]:
-        """Read what a device sends unsolicited, before anything is sent."""
-        self._read_until(self.now + _LISTENING)
-        return self._end()
+    def listen(self, seconds: float = _LISTENING) -> Transcript:
+        """Read what a device sends unsolicited, where nothing is sent."""
+        at = self.now
+        self._read_until(at + seconds)
+        return Transcript(at, (), [], self._end())
 
     def send(self, burst: Burst) -> Transcript:
         """Send a burst, and read until its replies have arrived or are given up."""
@@ -110,15 +111,17 @@ class Session:
         at, limits = self.now, self.timing.limits(burst)
         # Noted first: what cannot be noted is not sent.
         self._recording.sent(burst, at)
+        if self.permission.model.spec.link.local_echo:
+            self._receiver.expect(data)
         self._transport.write(data)
         self._sent = (self._sent + data)[-self._most :]
-        due = [request.reply for request in requests_of(burst) if request.reply is not None]
+        due = [request.answers for request in requests_of(burst) if request.answers]
         until = at + max(limits, default=self.timing.timeout)
         # Longer, to recognise a late reply; and a beginning of none may hold back one in time.
         self._read_until(until + _LATE * self.timing.timeout if due else until, due)
         return Transcript(at, burst, limits, self._end())
 
-    def _read_until(self, moment: float, due: Sequence[MessageLayout] = ()) -> None:
+    def _read_until(self, moment: float, due: Sequence[Sequence[MessageLayout]] = ()) -> None:
         """Read until then, or until as many replies have arrived as are due."""
         while not (due and _has(due, self._received)) and (left := moment - self.now) > 0:
             self._read(left)
@@ -145,6 +148,7 @@ class Session:
         self._received += received
 
 
-def _has(due: Sequence[MessageLayout], received: list[Received]) -> bool:
+def _has(due: Sequence[Sequence[MessageLayout]], received: list[Received]) -> bool:
     """Tell whether as many replies have arrived as are due, whatever they say."""
-    return sum(each.event.message in due for each in received) >= len(due)
+    answers = [message for each in due for message in each]
+    return sum(each.event.message in answers for each in received) >= len(due)

@@ -30,8 +30,19 @@ class Request:
 
     @property
     def reply(self) -> MessageLayout | None:
-        """The message that is due as its reply."""
-        return self.exchange.reply
+        """The message that is due as its reply; None where nobody answers its address."""
+        return None if self.is_silent else self.exchange.reply
+
+    @property
+    def is_silent(self) -> bool:
+        """Whether it goes to an address that nobody answers."""
+        part = self.exchange.address
+        return part is not None and self.values[part.name] in part.silent
+
+    @property
+    def answers(self) -> list[MessageLayout]:
+        """What may come back: the reply, or the refusal."""
+        return [] if self.reply is None else self.exchange.answers
 
     @property
     def text(self) -> str:
@@ -39,10 +50,20 @@ class Request:
         return " ".join([self.message.name, *fields(self.message, self.values)])
 
     def answered_by(self, message: MessageLayout, values: Mapping[str, Any]) -> bool:
-        """Tell whether a message can be its reply: it reports only what was requested."""
-        return message == self.reply and not any(
+        """Tell whether a message can answer it: its device reports only what was requested."""
+        if message not in self.answers or self.other_device(message, values) is not None:
+            return False
+        return message != self.reply or not any(
             excess(self, path, reported, values) for path, reported in self.exchange.echoed
         )
+
+    def other_device(self, message: MessageLayout, values: Mapping[str, Any]) -> int | None:
+        """Return the address that a message comes from, where another one was asked."""
+        asked, part = self.exchange.address, message.frame.address
+        if asked is None or part is None or values[part.name] == self.values[asked.name]:
+            return None
+        address: int = values[part.name]
+        return address
 
     @property
     def reply_size(self) -> int:
@@ -74,10 +95,14 @@ Burst: TypeAlias = tuple[Piece, ...]
 
 @dataclass(frozen=True, slots=True)
 class Step:
-    """Bursts to send, each once the replies to the one before it have arrived."""
+    """Bursts to send, each once the replies to the one before it have arrived.
+
+    Where nothing is sent, the line is listened to for so many `seconds`.
+    """
 
     title: str
     bursts: tuple[Burst, ...]
+    seconds: float = 0
 
     @property
     def is_malformed(self) -> bool:

@@ -104,4 +104,5 @@ def _used(library: LibraryView, client: ClientView) -> set[str]:
     }
     used = {name for what, there in has.items() if there for name in ONLY_WITH[what]}
     used |= {f"_frame/{name}.py" for name in library.modules}
-    return used.union(*(sums.files for sums in checksums_of(library.model)))
+    methods = [*checksums_of(library.model), *library.lookalike_methods]
+    return used.union(*(method.files for method in methods))

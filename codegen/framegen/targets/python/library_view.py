@@ -34,6 +34,7 @@ if TYPE_CHECKING:
     from framegen.language.spec import Link
     from framegen.language.values import Direction
     from framegen.model.model import Model
+    from framegen.targets.python.checksum_view import ChecksumView
     from framegen.targets.python.command_lines import VerbView
     from framegen.targets.python.element_view import ElementView
     from framegen.targets.python.proof_view import ProofView
@@ -309,14 +310,31 @@ class LibraryView:
     @property
     def lookalikes(self) -> str:
         """The tuple of the look-alikes, as code."""
-        entries = [
-            LookalikeView(lookalike, self.model.lookalikes[name]).entry
-            for name, lookalike in self.model.spec.lookalikes.items()
-            # With neither a frame nor commands of its own, there is nothing to tell it by.
-            if lookalike.frame or lookalike.commands
-        ]
         before = "LOOKALIKES: tuple[Lookalike, ...] = ("
+        entries = [each.entry for each in self._lookalikes]
         return Bracketed(before, entries, ")", lone=",").fitted(0)
+
+    @property
+    def lookalike_methods(self) -> list[ChecksumView]:
+        """What works out the checksums of look-alikes, but for the most usual one."""
+        return [method for each in self._lookalikes for method in each.methods]
+
+    @property
+    def import_for_lookalikes(self) -> list[str]:
+        """The imports of what recognises look-alikes."""
+        parts = {"bytes_like": {"as_bytes"}}
+        for method in self.lookalike_methods:
+            parts.setdefault(method.module, set()).add(method.name)
+        return [relative_import(f"._frame.{module}", parts[module]) for module in sorted(parts)]
+
+    @property
+    def _lookalikes(self) -> list[LookalikeView]:
+        spec = self.model.spec
+        every = (
+            LookalikeView(lookalike, self.model.lookalikes[name], spec.byte_order)
+            for name, lookalike in spec.lookalikes.items()
+        )
+        return [each for each in every if each.is_recognisable]
 
     @property
     def link(self) -> Link:

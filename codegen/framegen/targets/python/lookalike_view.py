@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from framegen.model.slots import Body, Constant, Number
+from framegen.targets.python.checksum_view import ChecksumView
 from framegen.targets.python.escape import Bracketed, Part, Text, byte_literal
 
 if TYPE_CHECKING:
@@ -13,16 +14,20 @@ if TYPE_CHECKING:
 
     from framegen.language.spec import Lookalike
     from framegen.model.envelope import Envelope
+    from framegen.model.slots import ByteOrder
 
 _Place = tuple[int, int]
+# What a library works out without any method.
+_USUAL = "inverted sum"
 
 
 @dataclass(frozen=True, slots=True)
 class LookalikeView:
-    """A look-alike, and the envelope of its frames."""
+    """A look-alike, the envelope of its frames, and the byte order of the protocol."""
 
     lookalike: Lookalike
     frame: Envelope
+    order: ByteOrder
 
     @property
     def entry(self) -> Bracketed:
@@ -37,6 +42,9 @@ class LookalikeView:
             Bracketed("commands=(", commands, ")", lone=","),
             Bracketed("checksums=(", self._checksums, ")", lone=","),
         ]
+        if self.methods:
+            made = [method.made for method in self.methods]
+            described.append(Bracketed("methods=(", [*made], ")", lone=","))
         items = [Text(self.lookalike.title), *described]
         return Bracketed("Lookalike(", items, ")")
 
@@ -45,16 +53,35 @@ class LookalikeView:
         return [
             Bracketed("(", [self._slice(slot), byte_literal(slot.data)], ")")
             for slot in self.frame.slots
-            if isinstance(slot, Constant)
+            if isinstance(slot, Constant) and slot.role == "constant"
         ]
 
     @property
     def _checksums(self) -> list[Bracketed]:
         return [
-            Bracketed("(", [self._slice(slot), self._covered(slot)], ")")
-            for slot in self.frame.slots
-            if isinstance(slot, Number) and slot.role == "checksum"
+            Bracketed("(", [self._slice(slot), self._covered(slot)], ")") for slot in self._proofs
         ]
+
+    @property
+    def methods(self) -> list[ChecksumView]:
+        """What works out its checksums; nothing where these are inverted sums."""
+        made = [ChecksumView(slot.method, 8 * slot.size) for slot in self._proofs]
+        return made if any(each.method != _USUAL for each in made) else []
+
+    @property
+    def is_recognisable(self) -> bool:
+        """Whether its frames can be found, and tell what they are."""
+        # With neither a frame nor commands of its own, there is nothing to tell it by.
+        own = self.lookalike.frame is not None or bool(self.lookalike.commands)
+        parts = self.frame.header and self.frame.length_part and self.frame.id_part
+        return own and bool(parts)
+
+    @property
+    def _proofs(self) -> list[Number]:
+        """The checksums; one over an id that is not sent tells nothing."""
+        unsent = {part.name for part in self.frame.unsent}
+        found = (slot for slot in self.frame.slots if isinstance(slot, Number))
+        return [each for each in found if each.role == "checksum" and not unsent & {*each.of}]
 
     def _covered(self, checksum: Number) -> Bracketed:
         """Return the places that a checksum is computed from."""
@@ -62,8 +89,13 @@ class LookalikeView:
         places = _joined(self._place(slots[name]) for name in checksum.of)
         return Bracketed("(", [_slice(place) for place in places], ")", lone=",")
 
-    def _slice(self, slot: Constant | Number | Body) -> str:
-        return _slice(self._place(slot))
+    def _slice(self, slot: Constant | Number) -> str:
+        """Return the place of a slot; backwards, where the other byte of a number comes first."""
+        start, end = self._place(slot)
+        if isinstance(slot, Number) and slot.size > 1 and slot.order != self.order:
+            # In front of the first byte, or behind the last one from the end.
+            return f"slice({end - 1}, {start - 1 if start else None}, -1)"
+        return _slice((start, end))
 
     def _place(self, slot: Constant | Number | Body) -> _Place:
         """Return where a slot begins and ends: from the front, or behind the body from the end."""
