@@ -62,7 +62,7 @@ def _whole(digits: str) -> float:
 
 
 def _meant(found: dict[str, Any]) -> Any:
-    if found.keys() != {"number"}:
+    if found.keys() != {"number"} or not isinstance(found["number"], str):
         return found
     text = found["number"].replace("Infinity", "inf")
     return int(text) if text.lstrip("-").isdigit() else float(text)

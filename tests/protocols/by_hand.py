@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import struct
+from binascii import crc_hqx
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
@@ -43,6 +44,24 @@ def _crc_x25_without_inversion(data: bytes) -> int:
         step = (step ^ step << 4) & 0xFF
         crc = crc >> 8 ^ step << 8 ^ step << 3 ^ step >> 4
     return crc
+
+
+def _camera(opening: str, values: Values) -> bytes:
+    """Write the values as bytes between the beginning of a frame and its end."""
+    found = bytearray.fromhex(opening)
+    for value in values.values():
+        found += bytes(value if isinstance(value, list) else [value])
+    return bytes(found) + b"\xff"
+
+
+def _motor_answer(command: int, layout: str, values: Values) -> bytes:
+    data = _pack(layout, values)
+    return data + struct.pack(">H", crc_hqx(bytes([0x80, command]) + data, 0))
+
+
+def _motor_question(command: int) -> bytes:
+    question = bytes([0x80, command])
+    return question + struct.pack(">H", crc_hqx(question, 0))
 
 
 # --- Frames --------------------------------------------------------------------------------------
@@ -213,5 +232,32 @@ BY_HAND: dict[str, dict[str, Callable[[Values], bytes]]] = {
         "Timesync": lambda values: _mavlink(
             values, 111, 34, _pack("<qq", values, "answered_ns", "asked_ns")
         ),
+    },
+    "visca": {
+        "PowerSet": lambda values: _camera("81 01 04 00", values),
+        "ZoomTo": lambda values: _camera("81 01 04 47", values),
+        "Turn": lambda values: _camera("81 01 06 01", values),
+        "PowerRead": lambda values: _camera("81 09 04 00", values),
+        "ZoomRead": lambda values: _camera("81 09 04 47", values),
+        "AimRead": lambda values: _camera("81 09 06 12", values),
+        "AddressSet": lambda values: _camera("88 30", values),
+        "Accepted": lambda values: _camera("90 41", values),
+        "Completed": lambda values: _camera("90 51", values),
+        "Refused": lambda values: _camera("90 60", values),
+        "Power": lambda values: _camera("90 50", values),
+        "Zoom": lambda values: _camera("90 50", values),
+        "Aim": lambda values: _camera("90 50", values),
+    },
+    "roboclaw": {
+        "EncoderOneRead": lambda _: _motor_question(16),
+        "EncoderTwoRead": lambda _: _motor_question(17),
+        "VersionRead": lambda _: _motor_question(21),
+        "VoltageRead": lambda _: _motor_question(24),
+        "EncoderOne": lambda values: _motor_answer(16, ">IB", values),
+        "EncoderTwo": lambda values: _motor_answer(17, ">IB", values),
+        "Version": lambda values: _motor_answer(
+            21, "28s", {"text": values["text"].encode("ascii")}
+        ),
+        "Voltage": lambda values: _motor_answer(24, ">H", values),
     },
 }

@@ -116,7 +116,10 @@ class ReferenceDecoder:
 
     def _is_header(self, data: bytes) -> bool:
         """Tell whether a frame may begin here as far as its header goes."""
+        largest = self.max_frame
         frames = (each.frame for each in self.model.candidates(self.directions))
+        if largest is not None:
+            frames = (frame for frame in frames if frame.least <= largest)
         return any(
             data.startswith(frame.header) if frame.header else data[0] in frame.first_bytes
             for frame in frames
