@@ -10,11 +10,13 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import pytest
+from busservo_simulator import VirtualClock
 from framegen.conformance.device.permission import Permission, permit
 from framegen.conformance.device.queries import requests
 from framegen.model.codec import encode, values_of
 from framegen.model.verdict import weigh
 from framegen.reading.yamltree import Unusable
+from lxservo_simulator import VirtualBus
 
 from tests.factories import compiled_file, data_of, layout_of, library, library_files
 from tests.firmware.devices import VirtualLine, by_the_reference
@@ -144,6 +146,28 @@ def test_the_generated_device_passes(name: str) -> None:
     with ExitStack() as until:
         done = on(name, generated(name, until), "--malformed")
     assert (done.code, done.faults) == (0, [])
+
+
+class LineOf:
+    """The end of the line of virtual servos, with its clock."""
+
+    def __init__(self, bus: VirtualBus, clock: VirtualClock) -> None:
+        self.read = bus.transport.read
+        self.write = bus.transport.write
+        self.close = bus.transport.close
+        self.clock = clock.now
+
+
+@pytest.mark.parametrize("echo", [False, True])
+def test_the_simulator_of_servos_passes(echo: bool) -> None:
+    data = data_of(SPECS["lxservo"])
+    data["link"] = {**data["link"], "local_echo": echo}
+    clock = VirtualClock(follow_reads=True)
+    with VirtualBus(servos=[5, 6], baud=115200, clock=clock, local_echo=echo) as bus:
+        line = LineOf(bus, clock)
+        done = run(layout_of(data), line, "--malformed", "--address", "5")
+    assert (done.code, done.faults) == (0, [])
+    assert sum(step["malformed"] for step in done.report["steps"]) == 6
 
 
 # --- Mutants of a device -------------------------------------------------------------------------
