@@ -160,12 +160,12 @@ class LineOf:
 
 @pytest.mark.parametrize("echo", [False, True])
 def test_the_simulator_of_servos_passes(echo: bool) -> None:
-    data = data_of(SPECS["lxservo"])
-    data["link"] = {**data["link"], "local_echo": echo}
+    model = model_of(SPECS["lxservo"])
     clock = VirtualClock(follow_reads=True)
     with VirtualBus(servos=[5, 6], baud=115200, clock=clock, local_echo=echo) as bus:
         line = LineOf(bus, clock)
-        done = run(layout_of(data), line, "--malformed", "--address", "5")
+        options = ["--local-echo"] if echo else []
+        done = run(model, line, "--malformed", "--address", "5", *options)
     assert (done.code, done.faults) == (0, [])
     assert sum(step["malformed"] for step in done.report["steps"]) == 6
 
