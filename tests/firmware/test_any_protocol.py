@@ -13,7 +13,7 @@ import pytest
 from busservo_simulator import VirtualClock
 from framegen.conformance.device.permission import Permission, permit
 from framegen.conformance.device.queries import requests
-from framegen.model.codec import encode, values_of
+from framegen.model.codec import decode, encode, values_of
 from framegen.model.verdict import weigh
 from framegen.reading.yamltree import Unusable
 from lxservo_simulator import VirtualBus
@@ -368,6 +368,14 @@ def test_a_failure_is_noted() -> None:
     done = on("dynamixel1", failing)
     assert (done.code, done.faults) == (0, [])
     assert "Read failed: error 8" in done.report["steps"][0]["notes"]
+
+
+def test_frames_are_numbered_in_turn() -> None:
+    model = model_of(SPECS["everything"])
+    done = on("everything", lambda _: [], "--allow", "Numbers", "--allow", "Lists")
+    sent = [decode(model, model.roles.sent, data).values["sequence"] for data in done.written]
+    assert len(sent) > 1
+    assert sent == [*range(len(sent))]
 
 
 # What is refused of frames of two kinds, one of which only its size tells.

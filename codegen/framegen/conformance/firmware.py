@@ -16,7 +16,7 @@ from framegen.conformance.device.recording import Recording
 from framegen.conformance.device.report import Report
 from framegen.conformance.device.run import Progress, Run
 from framegen.conformance.device.session import Session, Timing
-from framegen.conformance.device.step import Step
+from framegen.conformance.device.step import Step, numbered
 from framegen.reading.yamltree import Unusable
 
 if TYPE_CHECKING:
@@ -117,7 +117,7 @@ def run(
         raise Unusable(f"there is no {arguments.format} for firmware", hint="--format text or json")
     permission = permit(model, arguments.allow, arguments.address, echo=arguments.local_echo)
     after = min(requests(permission), key=lambda request: len(request.frame), default=None)
-    steps = list(_steps(permission, after, arguments))
+    steps = list(numbered(_steps(permission, after, arguments)))
     link = model.spec.link
     baud = arguments.baud or link.baud
     timing = Timing(baud, link.bits_per_byte, arguments.timeout or TIMEOUT)
