@@ -23,6 +23,8 @@ OURS += $(addprefix --editable ,$(LIBRARIES))
 PINS := --constraint constraints.txt
 BENCH_VENV := .tools/bench
 MUTATION_VENV := .tools/mutation
+# What is installed without what it asks for: a toolkit of windows, which it does not use.
+ALONE_test := pylx16a
 PINS_VENV := .tools/pins
 # How many tests run at once. Many only wait, so more than there are cores; 0 is one after another.
 WORKERS = 3
@@ -173,6 +175,7 @@ $(VENV)/.ready-%: $(READY)
 	@echo "Installing what \`$*\` needs (only the first time)"
 	@$(IN)/python -m pip install -qq --upgrade "pip>=25.1"
 	@$(IN)/python -m pip install -qq $(PINS) --group $*
+	@$(if $(ALONE_$*),$(IN)/python -m pip install -qq $(PINS) --no-deps $(ALONE_$*))
 	@touch $@
 
 clean:  ## Remove everything that these commands make, the virtual environments included

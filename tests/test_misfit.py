@@ -140,6 +140,22 @@ def test_another_word_for_a_type_is_none_and_its_hint_is_one(word: str, type_: s
 
 
 @pytest.mark.parametrize(
+    ("word", "hint"),
+    [
+        (
+            "BCD",
+            "write `type: u4, count: 2, range: 0..9, byte_order: big` for two digits in a byte",
+        ),
+        ("string", "write `type: u8, count: 16, text: ascii`, or with `sized_by` instead of"),
+    ],
+)
+def test_a_word_for_a_type_that_takes_more_keys_is_answered_with_these(
+    word: str, hint: str
+) -> None:
+    assert other_type(word).startswith(hint)
+
+
+@pytest.mark.parametrize(
     ("keys", "kind"),
     [
         ({"bytes": "AA"}, "constant"),

@@ -100,6 +100,18 @@ def test_what_all_examples_agree_with_is_found(wrong: tuple[str, str], right: st
     assert hints_of(BUS.replace(*wrong)) == {f"all 5 examples would agree with `{right}`"}
 
 
+def test_an_unusual_sum_is_not_told_of_where_a_usual_one_agrees() -> None:
+    text = (ROOT / "tests" / "firmware" / "pumps_of_two_kinds.yaml").read_text(encoding="utf-8")
+    wrong = text.replace("method: sum,", "method: crc-8/smbus,")
+    told = {finding.hint for finding in compile_spec(Source("pumps.yaml", wrong)).findings}
+    assert "all 3 examples would agree with `method: sum`" in told
+    # These agree with no plain sum.
+    text = text.replace("E8 03 EF", "E8 83 70").replace("flow: 1000", "flow: 33768")
+    wrong = text.replace("method: sum,", "method: crc-8/smbus,")
+    told = {finding.hint for finding in compile_spec(Source("pumps.yaml", wrong)).findings}
+    assert "all 3 examples would agree with `method: carried sum`" in told
+
+
 def test_a_frame_that_was_made_up_is_no_evidence_for_a_checksum() -> None:
     made_up = BUS.replace("00 D9 A0 7F", "00 00 00 7F").replace(
         "values: {station: 1, serial: 0}, cite: manual}",

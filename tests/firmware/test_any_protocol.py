@@ -10,11 +10,13 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import pytest
+from busservo_simulator import VirtualClock
 from framegen.conformance.device.permission import Permission, permit
 from framegen.conformance.device.queries import requests
-from framegen.model.codec import encode, values_of
+from framegen.model.codec import decode, encode, values_of
 from framegen.model.verdict import weigh
 from framegen.reading.yamltree import Unusable
+from lxservo_simulator import VirtualBus
 
 from tests.factories import compiled_file, data_of, layout_of, library, library_files
 from tests.firmware.devices import VirtualLine, by_the_reference
@@ -144,6 +146,28 @@ def test_the_generated_device_passes(name: str) -> None:
     with ExitStack() as until:
         done = on(name, generated(name, until), "--malformed")
     assert (done.code, done.faults) == (0, [])
+
+
+class LineOf:
+    """The end of the line of virtual servos, with its clock."""
+
+    def __init__(self, bus: VirtualBus, clock: VirtualClock) -> None:
+        self.read = bus.transport.read
+        self.write = bus.transport.write
+        self.close = bus.transport.close
+        self.clock = clock.now
+
+
+@pytest.mark.parametrize("echo", [False, True])
+def test_the_simulator_of_servos_passes(echo: bool) -> None:
+    model = model_of(SPECS["lxservo"])
+    clock = VirtualClock(follow_reads=True)
+    with VirtualBus(servos=[5, 6], baud=115200, clock=clock, local_echo=echo) as bus:
+        line = LineOf(bus, clock)
+        options = ["--local-echo"] if echo else []
+        done = run(model, line, "--malformed", "--address", "5", *options)
+    assert (done.code, done.faults) == (0, [])
+    assert sum(step["malformed"] for step in done.report["steps"]) == 6
 
 
 # --- Mutants of a device -------------------------------------------------------------------------
@@ -344,6 +368,14 @@ def test_a_failure_is_noted() -> None:
     done = on("dynamixel1", failing)
     assert (done.code, done.faults) == (0, [])
     assert "Read failed: error 8" in done.report["steps"][0]["notes"]
+
+
+def test_frames_are_numbered_in_turn() -> None:
+    model = model_of(SPECS["everything"])
+    done = on("everything", lambda _: [], "--allow", "Numbers", "--allow", "Lists")
+    sent = [decode(model, model.roles.sent, data).values["sequence"] for data in done.written]
+    assert len(sent) > 1
+    assert sent == [*range(len(sent))]
 
 
 # What is refused of frames of two kinds, one of which only its size tells.

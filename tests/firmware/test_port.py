@@ -79,6 +79,8 @@ def test_the_command_tests_firmware(capsys: pytest.CaptureFixture[str], tmp_path
 # What is said of a command line, and how to mend it.
 SLIPS = [
     (["--log", "run.hex"], "--log is for firmware", "name its port, as by --port COM5"),
+    (["--local-echo"], "--local-echo is for firmware", "name its port, as by --port COM5"),
+    (["--address", "0"], "--address is for firmware", "name its port, as by --port COM5"),
     (["--malformed", "--questions"], "--malformed is for firmware", "name its port"),
     (["--allow", "ServoMove", "--", "x"], "--allow is for firmware", "name its port"),
     (["--port", "", "--allow", "x"], "there is no message `x`", "choose one of `ServoMove`"),

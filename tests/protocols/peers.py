@@ -2,9 +2,6 @@
 
 A peer is asked for as many messages as it knows, on a line that ends in this process. What it
 cannot say is narrowed to what it can.
-
-There is one more client of the servo bus, `pylx16a`. It asks for a toolkit of windows that it does
-not use, and so is not installed; what it does on the wire is what these two do, too.
 """
 
 from __future__ import annotations
@@ -14,9 +11,9 @@ from typing import TYPE_CHECKING
 from tests.protocols.actuator_sdk import DynamixelSdk
 from tests.protocols.receiver_messages import Pyubx2
 from tests.protocols.register_messages import Pymodbus
-from tests.protocols.servo_clients import Lewanlib, LewansoulLx16a
+from tests.protocols.servo_clients import Lewanlib, LewansoulLx16a, Pylx16a
 
 if TYPE_CHECKING:
     from tests.protocols.peer import Peer
 
-PEERS: list[type[Peer]] = [LewansoulLx16a, Lewanlib, DynamixelSdk, Pymodbus, Pyubx2]
+PEERS: list[type[Peer]] = [LewansoulLx16a, Lewanlib, Pylx16a, DynamixelSdk, Pymodbus, Pyubx2]

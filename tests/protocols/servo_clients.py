@@ -1,7 +1,11 @@
-"""Clients of the LX-16A servo bus, from the package index: `lewansoul-lx16a` and `lewanlib`."""
+"""Clients of the LX-16A servo bus, from the package index.
+
+They are `lewansoul-lx16a`, `lewanlib` and `pylx16a`.
+"""
 
 from __future__ import annotations
 
+from contextlib import contextmanager
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any, TypeAlias
 
@@ -11,7 +15,7 @@ from tests.protocols.peer import Peer, Values, as_is, with_values
 from tests.protocols.specs import messages_of
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable
+    from collections.abc import Callable, Iterable, Iterator
 
 # What tells a servo something, and what asks it; a client, the servo, and values by their names.
 Tell: TypeAlias = "Callable[[Any, int, Values], object]"
@@ -252,3 +256,137 @@ class Lewanlib(Peer):
     def read(self, message: str, frame: bytes) -> Values:
         self.wire.reply = frame
         return {"servo_id": frame[2], **_ASKS_IN_DEGREES[message](self.bus, frame[2])}
+
+
+# --- pylx16a -------------------------------------------------------------------------------------
+
+
+def _angle(position: int) -> float:
+    return position * 0.24
+
+
+_TELLS_IN_ANGLES: dict[str, Tell] = {
+    "Move": lambda servo, _, told: servo.move(_angle(told["position"]), told["time_ms"]),
+    "MovePrepare": lambda servo, _, told: servo.move(
+        _angle(told["position"]), told["time_ms"], wait=True
+    ),
+    "MoveStart": lambda servo, *_: servo.move_start(),
+    "ServoIdWrite": lambda servo, _, told: servo.set_id(told["new_id"]),
+    "OffsetAdjust": lambda servo, _, told: servo.set_angle_offset(_angle(told["offset"])),
+    "OffsetSave": lambda servo, *_: servo.set_angle_offset(0, permanent=True),
+    "PositionLimitsWrite": lambda servo, _, told: servo.set_angle_limits(
+        _angle(told["lowest"]), _angle(told["highest"])
+    ),
+    "VoltageLimitsWrite": lambda servo, _, told: servo.set_vin_limits(
+        told["lowest_mv"], told["highest_mv"]
+    ),
+    "TemperatureLimitWrite": lambda servo, _, told: servo.set_temp_limit(told["highest"]),
+    "ModeWrite": lambda servo, _, told: (
+        servo.motor_mode(told["speed"]) if told["mode"] else servo.servo_mode()
+    ),
+    "TorqueWrite": lambda servo, _, told: (
+        servo.enable_torque() if told["torque"] else servo.disable_torque()
+    ),
+    "LedWrite": lambda servo, _, told: (
+        servo.led_power_off() if told["led"] else servo.led_power_on()
+    ),
+    "LedErrorsWrite": lambda servo, _, told: servo.set_led_error_triggers(
+        *(bool(told["errors"] & bit) for bit in (1, 2, 4))
+    ),
+}
+_ASKS_IN_ANGLES: dict[str, Ask] = {
+    "LastMove": lambda servo, _: _moved(*servo.get_last_instant_move_hw()),
+    "PreparedMove": lambda servo, _: _moved(*servo.get_last_delayed_move_hw()),
+    "ServoId": lambda servo, _: {"own_id": servo.get_id(poll_hardware=True)},
+    "Offset": lambda servo, _: {"offset": _steps(servo.get_angle_offset(poll_hardware=True))},
+    "PositionLimits": lambda servo, _: _two(
+        "lowest", "highest", map(_steps, servo.get_angle_limits(poll_hardware=True))
+    ),
+    "VoltageLimits": lambda servo, _: _two(
+        "lowest_mv", "highest_mv", servo.get_vin_limits(poll_hardware=True)
+    ),
+    "TemperatureLimit": lambda servo, _: {"highest": servo.get_temp_limit(poll_hardware=True)},
+    "Temperature": lambda servo, _: {"temperature": servo.get_temp()},
+    "Voltage": lambda servo, _: {"voltage_mv": servo.get_vin()},
+    "Position": lambda servo, _: {"position": _steps(servo.get_physical_angle())},
+    "Mode": lambda servo, _: {
+        "mode": int(servo.is_motor_mode(poll_hardware=True)),
+        "speed": servo.get_motor_speed(poll_hardware=True) or 0,
+    },
+    "Torque": lambda servo, _: {"torque": int(servo.is_torque_enabled(poll_hardware=True))},
+    "Led": lambda servo, _: {"led": int(not servo.is_led_power_on(poll_hardware=True))},
+    "LedErrors": lambda servo, _: _errors(*servo.get_led_error_triggers(poll_hardware=True)[::-1]),
+}
+
+
+def _moved(degrees: float, time_ms: int) -> Values:
+    return {"position": _steps(degrees), "time_ms": time_ms}
+
+
+def _in_turn(lowest: str, highest: str) -> Callable[[Values], Values]:
+    """Return what puts two limits into the order that alone it takes."""
+
+    def narrowed(values: Values) -> Values:
+        low, high = sorted((values[lowest], values[highest]))
+        return _to_one(values | {lowest: low, highest: high})
+
+    return narrowed
+
+
+class Pylx16a(Peer):
+    """The client `pylx16a`: one servo each, in degrees. It asks a servo for all when it is made."""
+
+    protocol = "lxservo"
+    package = "pylx16a.lx16a"
+    writes = (
+        dict.fromkeys(_TELLS_IN_ANGLES, _to_one)
+        | {name: _to_one for name, reply in _questions().items() if reply in _ASKS_IN_ANGLES}
+        | {
+            "ModeWrite": lambda values: _to_one(_mode(values)),
+            "PositionLimitsWrite": _in_turn("lowest", "highest"),
+            "VoltageLimitsWrite": _in_turn("lowest_mv", "highest_mv"),
+            "TorqueWrite": lambda values: _to_one(_TORQUE(values)),
+            "LedWrite": lambda values: _to_one(_LED(values)),
+            "LedErrorsWrite": lambda values: _to_one(values | {"errors": values["errors"] & 7}),
+        }
+    )
+    reads = dict.fromkeys(_ASKS_IN_ANGLES, _to_one) | {
+        # To it, what is more is negative.
+        "Offset": lambda values: _to_one(values | {"offset": min(values["offset"], 125)}),
+        "Mode": lambda values: _to_one(_mode(values)),
+        "Torque": lambda values: _to_one(_TORQUE(values)),
+        "Led": lambda values: _to_one(_LED(values)),
+        "LedErrors": lambda values: _to_one(values | {"errors": values["errors"] & 7}),
+    }
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.wire = Wire()
+
+    @contextmanager
+    def servo(self, number: int) -> Iterator[Any]:
+        """Return one that has been asked already: it may move, start, and tell its speed."""
+        servo = self.module.LX16A.__new__(self.module.LX16A)
+        servo._id, servo._angle_limits, servo._torque_enabled = number, (0, 1000), True
+        servo._motor_mode, servo._waiting_for_move, servo._waiting_angle = False, True, 0
+        # All of them have one line.
+        self.module.LX16A._controller = self.wire
+        try:
+            yield servo
+        finally:
+            self.module.LX16A._controller = None
+
+    def write(self, message: str, values: Values) -> bytes:
+        with self.servo(values["servo_id"]) as servo:
+            if message in _TELLS_IN_ANGLES:
+                _TELLS_IN_ANGLES[message](servo, servo._id, values)
+            else:
+                with pytest.raises(self.module.ServoTimeoutError):
+                    _ASKS_IN_ANGLES[_questions()[message]](servo, servo._id)
+        return self.wire.written
+
+    def read(self, message: str, frame: bytes) -> Values:
+        self.wire.reply = frame
+        with self.servo(frame[2]) as servo:
+            servo._motor_mode = message == "Mode"
+            return {"servo_id": frame[2], **_ASKS_IN_ANGLES[message](servo, frame[2])}

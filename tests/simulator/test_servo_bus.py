@@ -197,6 +197,31 @@ def test_clients_of_others_are_happy_with_it(echo: bool) -> None:
         assert theirs.get_position_limits(2) == (0, 1000)
 
 
+@pytest.mark.skipif(sys.platform == "win32", reason="Windows has no pty")
+def test_a_client_that_asks_a_servo_for_all_is_happy_with_it() -> None:
+    theirs = pytest.importorskip("pylx16a.lx16a").LX16A
+    with VirtualBus("pty", servos=[1, 2]) as bus:
+        theirs.initialize(bus.port, timeout=GENEROUS)
+        try:
+            first, second = theirs(1), theirs(2, disable_torque=True)
+            await_that(lambda: not bus.servos[2].loaded)
+            first.move(192, time=0)
+            arrived(bus, 1, 800)
+            assert first.get_physical_angle() == 192
+            assert second.get_vin() == bus.servos[2].voltage_mv
+            assert second.get_id(poll_hardware=True) == 2
+            first.set_angle_limits(24, 120)
+            assert first.get_angle_limits(poll_hardware=True) == (24, 120)
+            second.enable_torque()
+            second.motor_mode(-400)
+            assert second.is_motor_mode(poll_hardware=True)
+            assert second.get_motor_speed(poll_hardware=True) == -400
+            assert bus.rejected == 0
+        finally:
+            theirs._controller.close()
+            theirs._controller = None
+
+
 @pytest.mark.parametrize(
     ("words", "said"),
     [

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from framegen.language.values import to_hex
-from framegen.model.checksums import CHECKSUMS
+from framegen.model.checksums import CHECKSUMS, UNUSUAL
 from framegen.model.slots import Body
 
 if TYPE_CHECKING:
@@ -84,11 +84,10 @@ def _others(frame: Envelope, checksum: Number, sealed: Sequence[_Sealed]) -> lis
     bits = 8 * checksum.size * len(sealed)
     if bits < _BITS:
         return []
-    found = [
-        _keys(checksum, method, order, checksum.of)
-        for method, order in _methods(checksum)
-        if _agree(method, order, checksum.of, sealed)
-    ]
+    agreeing = [each for each in _methods(checksum) if _agree(*each, checksum.of, sealed)]
+    # A sum with carries is a plain one as long as there are none.
+    usual = [each for each in agreeing if each[0] not in UNUSUAL] or agreeing
+    found = [_keys(checksum, *each, checksum.of) for each in usual]
     if found or bits < _MORE_BITS:
         return found
     names = [slot.name for slot in frame.slots if slot.name != checksum.name]

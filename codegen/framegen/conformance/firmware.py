@@ -16,7 +16,7 @@ from framegen.conformance.device.recording import Recording
 from framegen.conformance.device.report import Report
 from framegen.conformance.device.run import Progress, Run
 from framegen.conformance.device.session import Session, Timing
-from framegen.conformance.device.step import Step
+from framegen.conformance.device.step import Step, numbered
 from framegen.reading.yamltree import Unusable
 
 if TYPE_CHECKING:
@@ -68,6 +68,11 @@ def add_arguments(parser: ArgumentParser) -> None:
         help="the address of the device, if it is not that of the spec's examples",
     )
     parser.add_argument(
+        "--local-echo",
+        action="store_true",
+        help="the line gives back what is sent, as many half-duplex adapters do",
+    )
+    parser.add_argument(
         "--log", type=Path, metavar="FILE", help="record all traffic of the line in a new file"
     )
 
@@ -87,9 +92,14 @@ def _address(text: str) -> int:
 
 def refuse_without_port(arguments: Namespace) -> None:
     """Refuse options about a port where none is named. Raises Unusable."""
-    for name in ("baud", "malformed", "allow", "address", "log"):
-        if getattr(arguments, name) not in (None, False, []):
-            raise Unusable(f"--{name} is for firmware", hint="name its port, as by --port COM5")
+    for name in ("baud", "malformed", "allow", "address", "local_echo", "log"):
+        said = getattr(arguments, name)
+        # An address may be 0.
+        if said or (said is not None and name == "address"):
+            raise Unusable(
+                f"--{name.replace('_', '-')} is for firmware",
+                hint="name its port, as by --port COM5",
+            )
 
 
 def run(
@@ -105,9 +115,9 @@ def run(
     """
     if arguments.format not in ("text", "json"):
         raise Unusable(f"there is no {arguments.format} for firmware", hint="--format text or json")
-    permission = permit(model, arguments.allow, arguments.address)
+    permission = permit(model, arguments.allow, arguments.address, echo=arguments.local_echo)
     after = min(requests(permission), key=lambda request: len(request.frame), default=None)
-    steps = list(_steps(permission, after, arguments))
+    steps = list(numbered(_steps(permission, after, arguments)))
     link = model.spec.link
     baud = arguments.baud or link.baud
     timing = Timing(baud, link.bits_per_byte, arguments.timeout or TIMEOUT)

@@ -238,7 +238,7 @@ def other_type(name: str) -> str:
     if word in _words(_TEXTS):
         return "write `type: u8, count: 16, text: ascii`, or with `sized_by` instead of `count`"
     if word == "bcd":
-        return "there is no BCD: write `type: u8`, and say in `about` how to read it"
+        return "write `type: u4, count: 2, range: 0..9, byte_order: big` for two digits in a byte"
     return ""
 
 

@@ -411,6 +411,9 @@ CHECKSUMS: Mapping[str, Checksum] = {
 }
 """Every method, by the name that a spec gives it."""
 
+UNUSUAL = frozenset(method.name for method in _UNUSUAL_SUMS)
+"""Those that agree with a more usual one as long as the bytes are few and small."""
+
 # What others call them; a spec uses one name for one method.
 _OTHER_NAMES = {
     "sum": "sum-8, sum-16, sum-32, checksum, checksum-8, checksum-16, additive",

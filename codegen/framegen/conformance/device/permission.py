@@ -32,12 +32,14 @@ if TYPE_CHECKING:
 class Permission:
     """What may be sent: every query of the client, and the messages that the user named.
 
-    `device` is the address of the device, where it is not that of the examples.
+    `device` is the address of the device, where it is not that of the examples; with `echo`, the
+    line gives back what is sent.
     """
 
     model: Model
     named: tuple[str, ...] = ()
     device: int | None = None
+    echo: bool = False
 
     @cached_property
     def queries(self) -> list[str]:
@@ -83,8 +85,7 @@ class Permission:
     def is_shared(self) -> bool:
         """Whether the line carries one thing at a time: a bus, or frames divided by silence."""
         frames = [each.frame for each in self.model.candidates(self._ways)]
-        echo = self.model.spec.link.local_echo
-        return echo or any(frame.address is not None or not frame.header for frame in frames)
+        return self.echo or any(frame.address is not None or not frame.header for frame in frames)
 
     @cached_property
     def allowed(self) -> list[str]:
@@ -159,9 +160,11 @@ class Permission:
         return self.model.largest(self._ways)
 
 
-def permit(model: Model, names: Iterable[str], device: int | None = None) -> Permission:
+def permit(
+    model: Model, names: Iterable[str], device: int | None = None, *, echo: bool = False
+) -> Permission:
     """Allow all queries, and the named messages. Raises Unusable for names of no use."""
-    permission = Permission(model, tuple(names), device)
+    permission = Permission(model, tuple(names), device, echo or model.spec.link.local_echo)
     can = [each.request.name for each in model.exchanges]
     if device is not None:
         _check_address(permission, device)

@@ -111,7 +111,7 @@ class Session:
         at, limits = self.now, self.timing.limits(burst)
         # Noted first: what cannot be noted is not sent.
         self._recording.sent(burst, at)
-        if self.permission.model.spec.link.local_echo:
+        if self.permission.echo:
             self._receiver.expect(data)
         self._transport.write(data)
         self._sent = (self._sent + data)[-self._most :]

@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from itertools import count
 from typing import TYPE_CHECKING, Any, TypeAlias
 
 from framegen.conformance.language import fields
+from framegen.model.codec import encode
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
+    from collections.abc import Iterable, Iterator, Mapping
 
     from framegen.model.exchanges import Exchange
     from framegen.model.layout import MessageLayout
@@ -22,6 +24,14 @@ class Request:
     values: Mapping[str, Any]
     frame: bytes
     about: str
+
+    def numbered(self, number: int) -> Request:
+        """Return it with a running number, where its frame has one."""
+        part = self.exchange.counter
+        if part is None:
+            return self
+        values = {**self.values, part.name: number % (part.high + 1)}
+        return replace(self, values=values, frame=encode(self.message, values))
 
     @property
     def message(self) -> MessageLayout:
@@ -108,6 +118,20 @@ class Step:
     def is_malformed(self) -> bool:
         """Whether any of it is malformed."""
         return any(isinstance(piece, Malformed) for burst in self.bursts for piece in burst)
+
+
+def numbered(steps: Iterable[Step]) -> Iterator[Step]:
+    """Yield steps whose requests are numbered in turn, as by a client."""
+    number = count()
+    for step in steps:
+        bursts = (
+            tuple(
+                piece.numbered(next(number)) if isinstance(piece, Request) else piece
+                for piece in burst
+            )
+            for burst in step.bursts
+        )
+        yield replace(step, bursts=tuple(bursts))
 
 
 def data_of(burst: Burst) -> bytes:
