@@ -77,6 +77,26 @@ CASES = {
         sealed(checksum("crc-32/iso-hdlc", ALL, "u32", "big")),
         'checksum_of(frame[2:-4]) == int.from_bytes(frame[-4:], "big")',
     ),
+    "divided on": (
+        sealed(checksum("crc-16/modbus", ["header", *ALL], "u16")),
+        "checksum_of(frame) == 0x0",
+    ),
+    "divided on, inverted": (
+        sealed(checksum("crc-16/ibm-sdlc", ALL, "u16")),
+        "checksum_of(frame[2:]) == 0xF47",
+    ),
+    "divided on, big": (
+        sealed(checksum("crc-16/genibus", ALL, "u16", "big")),
+        "checksum_of(frame[2:]) == 0xE2F0",
+    ),
+    "divided on, four bytes": (
+        sealed(checksum("crc-32/iso-hdlc", ALL, "u32")),
+        "checksum_of(frame[2:]) == 0x2144DF1C",
+    ),
+    "one byte": (
+        sealed(checksum("crc-8/maxim-dow", ALL)),
+        "checksum_of(frame[2:-1]) == frame[-1]",
+    ),
     "seven bits": (
         sealed(checksum("negated sum-7", ALL)),
         "checksum_of(frame[2:-1]) == frame[-1]",
