@@ -125,7 +125,7 @@ def everything(
     parts += _remarks(results, checking)
     ours = _against_targets(results)
     if ours:
-        parts += ["### busservo against bar and goal", ours]
+        parts += ["### Ours against bar and goal", ours]
     return "\n\n".join(parts)
 
 

@@ -4,7 +4,16 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from benchmarks.results import AS_COLUMNS, AT_HAND, BY_CLASS, CLIENT, EVERY_FIELD, IN_USE, OURS
+from benchmarks.results import (
+    AS_COLUMNS,
+    AT_HAND,
+    BY_CLASS,
+    CLIENT,
+    EVERY_FIELD,
+    GENERATED,
+    IN_USE,
+    OURS,
+)
 
 
 @dataclass(frozen=True)
@@ -53,6 +62,16 @@ TARGETS = (
     Target(
         "noise-flipped", OURS, "stream with flipped bits, against our own clean one", 1.10, 1.05
     ),
+    Target("lxservo-decode", GENERATED, "a sum: decode Move, 10 bytes, two ranges", 2.4, 2.1),
+    Target("lxservo-reply", GENERATED, "a sum: decode PreparedMove, 10 bytes", 2.4, 1.6),
+    Target("lxservo-stream", GENERATED, "a sum: stream of Move", 1.3, 1.2),
+    Target("dynamixel1-decode", GENERATED, "a sum: decode Status, 10 bytes, a list", 2.4, 1.6),
+    Target("dynamixel1-stream", GENERATED, "a sum: stream of Status", 1.3, 1.2),
+    Target("modbus-decode", GENERATED, "a table CRC: decode Holding, 11 bytes, a list", 1.7, 1.5),
+    Target("modbus-question", GENERATED, "a table CRC: decode HoldingRead, 8 bytes", 1.7, 1.6),
+    Target("modbus-stream", GENERATED, "a table CRC: stream of Holding", 1.3, 1.2),
+    Target("ubx-decode", GENERATED, "two sums: decode AckAck, 10 bytes"),
+    Target("ubx-stream", GENERATED, "two sums: stream of AckAck"),
     Target("import", OURS, "import, ms over bare Python", 5.0, 0.2),
     Target("import", IN_USE, "import what decodes, ms over bare Python", goal=4.5),
     Target("import", CLIENT, "import the client, ms over bare Python", goal=15),

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from framegen.model.checksums import CHECKSUMS, Sum
+from framegen.model.checksums import CHECKSUMS, Crc, Sum
 from framegen.model.slots import Constant
 from framegen.targets.python.checksum_view import ChecksumView
 from framegen.targets.python.escape import literal
@@ -32,13 +32,16 @@ class ProofView:
         It is in the way of every frame, where each call or slice costs half as much as a sum.
         """
         row = CHECKSUMS[self.checksum.method]
+        if isinstance(row, Crc) and self._is_divided_on:
+            # A number with its remainder behind it has always the same one.
+            return f"checksum_of({self._rest}) == 0x{self._residue(row):X}"
         if self.calls or not isinstance(row, Sum):
             return f"checksum_of({self._covered}) == {self._number}"
         mask = (1 << 8 * self.checksum.size) - 1
         if row.factor == -1 and self.checksum.size == 1 and self.end == self.checksum.at == -1:
             # What was subtracted is there again; and what stands in front is always the same.
             if self._in_front is None:
-                return f"sum(frame[{self.start}:]) & 0xFF == 0x{row.offset & mask:02X}"
+                return f"sum({self._rest}) & 0xFF == 0x{row.offset & mask:02X}"
             return f"sum(frame) & 0xFF == 0x{row.offset + self._in_front & mask:02X}"
         sign = {1: "", -1: "~" if row.offset else "-"}[row.factor]
         return f"{sign}sum({self._covered}) & 0x{mask:X} == {self._number}"
@@ -61,6 +64,24 @@ class ProofView:
     def method(self) -> ChecksumView:
         """How it is worked out."""
         return ChecksumView(self.checksum.method, 8 * self.checksum.size)
+
+    @property
+    def _is_divided_on(self) -> bool:
+        """Whether a CRC stands behind what it covers, in the order in which this is divided."""
+        row, (at, size) = CHECKSUMS[self.checksum.method], (self.checksum.at, self.checksum.size)
+        if not isinstance(row, Crc) or row.mixed or size < 2:
+            return False
+        order = "little" if row.reflected else "big"
+        return self.end == at == -size and self.checksum.order == order
+
+    def _residue(self, row: Crc) -> int:
+        width = 8 * self.checksum.size
+        return row.of(self.checksum.write(row.of(b"", width)), width)
+
+    @property
+    def _rest(self) -> str:
+        """What is covered, and all behind it."""
+        return f"frame[{self.start}:]" if self.start else "frame"
 
     @property
     def _covered(self) -> str:

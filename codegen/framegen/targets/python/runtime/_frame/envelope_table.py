@@ -56,7 +56,16 @@ class Table(dict[bytes, "Entry"]):
     `largest`.
     """
 
-    __slots__ = ("_trials", "frames", "largest", "messages", "reach", "verdicts", "waits")
+    __slots__ = (
+        "_proofs",
+        "_trials",
+        "frames",
+        "largest",
+        "messages",
+        "reach",
+        "verdicts",
+        "waits",
+    )
 
     def __init__(self, messages: Sequence[type[Message]], largest: int) -> None:
         super().__init__()
@@ -71,6 +80,8 @@ class Table(dict[bytes, "Entry"]):
         self.reach = max((_reach(kind, largest) for kind in messages), default=0)
         # What the heads seen so far may belong to; the verdicts on those that decide alone.
         self._trials: dict[bytes, list[Trial]] = {}
+        # What says whether the checksums of a message are right, where its entries do not.
+        self._proofs: dict[type[Message], Callable[[bytes], bool] | None] = {}
         self.verdicts: dict[bytes, Verdict] = {}
         # The beginnings of frames seen so far, and the size at which each can be judged further.
         self.waits: dict[bytes, int] = {}
@@ -112,13 +123,29 @@ class Table(dict[bytes, "Entry"]):
 
     def find(self, frame: bytes) -> Message | None:
         """Return the message of `frame`, with nothing after it; None if there is none."""
-        verdict = self.weigh(frame)
-        kind = verdict.kind
-        if kind is None or verdict.size != len(frame):
-            return None
+        kind = self._seen(frame)
+        if kind is None:
+            verdict = self.weigh(frame)
+            kind = verdict.kind
+            if kind is None or verdict.size != len(frame):
+                return None
         message = _new(kind)
         message._frame = frame
         return message
+
+    def _seen(self, frame: bytes) -> type[Message] | None:
+        """Return the message of `frame`, by an entry for its head; None if none says so."""
+        entry = self.get(frame[:HEAD])
+        if entry is not None and not entry[0]:
+            entry = measured(entry, frame, 0)
+        if entry is None:
+            return None
+        size, at, until, count, kind, holds, _ = entry
+        if len(frame) != size or (count and frame[at:until] != count):
+            return None
+        proves = self._proofs[kind]
+        right = (holds is None or holds(frame)) and (proves is None or proves(frame))
+        return kind if right else None
 
     def all_of(self, frame: bytes) -> list[type[Message]]:
         """Return every message that a whole frame may be."""
@@ -171,6 +198,8 @@ class Table(dict[bytes, "Entry"]):
             if not each.size and (len(trials) > 1 or largest_of([each.kind]) > self.largest):
                 return None
             kind = each.kind
+            proofs = kind.FRAME.provers(kind.IDS) if PROVEN_IN_PLACE else []
+            self._proofs[kind] = together(proofs)
             entry = (each.size, *_counted(kind, each.count), kind, _holds(kind), entry)
         return entry
 

@@ -18,7 +18,7 @@ from .text import Text, misspelt
 
 TYPE_CHECKING = False  # typing alone would double the time that the import takes
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator, Sequence
+    from collections.abc import Callable, Iterable, Iterator, Sequence
     from typing import Any, TypeAlias
 
     from .lists import Place
@@ -47,6 +47,7 @@ class Shape:
     __slots__ = (
         "_counters",
         "_kind",
+        "_known",
         "_varying",
         "check",
         "counter",
@@ -96,6 +97,8 @@ class Shape:
         first = min((number for number, _ in self._counters), key=_at, default=None)
         self.counter = None if first is None else (first.at, first.at + first.struct.size)
         self.sizes = _Sizes(self)
+        # The places in frames of each count, where this is that of fields that may be absent.
+        self._known: dict[int, list[Judged]] = {}
         body = [each for each in fields if each.name not in outside]
         self.parts: list[Any] = sorted([*body, *kind.CONSTANTS], key=_at)
         self.tests = [*self._tested()]
@@ -128,11 +131,19 @@ class Shape:
         size: int = self._kind.FRAME.size(self.lengths[self.counts.index(count)])
         return size
 
-    def places(self, count: int, since: int = 0) -> Iterator[Judged]:
-        """Yield all that can be wrong in the fields of a frame with this count, in its order.
+    def places(self, count: int, since: int = 0) -> Iterable[Judged]:
+        """Return all that can be wrong in the fields of a frame with this count, in its order.
 
         What ends at `since` or before it is left out.
         """
+        if self._varying is not None:
+            return self._places_at(count, since)
+        known = self._known.get(count)
+        if known is None:
+            known = self._known[count] = [*self._places_at(count, 0)]
+        return [place for place in known if place[1] > since] if since else known
+
+    def _places_at(self, count: int, since: int) -> Iterator[Judged]:
         until = self._end(count)
         for part in map(_there, self.parts):
             if part.at >= until or part is self._varying:
