@@ -22,6 +22,8 @@ from framegen.model.checksums import (
 from hypothesis import given
 from hypothesis import strategies as st
 
+from tests.few_each import few_each
+
 CRCS = [method for method in CHECKSUMS.values() if isinstance(method, Crc)]
 PUBLISHED = {kind._names[0].lower(): kind for kind in ALLCRCCLASSES if kind._width % 8 == 0}
 # Of vendors, whose documents give a table, or code.
@@ -52,6 +54,7 @@ def test_the_catalogue_has_every_published_crc_of_whole_numbers() -> None:
 
 
 @pytest.mark.parametrize("method", CRCS, ids=named)
+@few_each
 @given(data=st.binary(max_size=40))
 def test_a_crc_is_what_crccheck_makes_of_the_same_data(method: Crc, data: bytes) -> None:
     # By its published name where there is one: then the row's own numbers are in question, too.

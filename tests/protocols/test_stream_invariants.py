@@ -12,6 +12,7 @@ from framegen.model.stream import ReferenceDecoder
 from hypothesis import given
 from hypothesis import strategies as st
 
+from tests.few_each import few_each
 from tests.protocols.libraries import Libraries, direction_of
 from tests.protocols.specs import FILES, model_of
 from tests.protocols.streams import all_ways, lines
@@ -65,6 +66,7 @@ def drawn_line(data: st.DataObject, name: str) -> bytes:
 
 
 @each_protocol
+@few_each
 @given(data=st.data())
 def test_messages_come_as_soon_as_they_are_certain(
     libraries: Libraries, name: str, data: st.DataObject
@@ -95,6 +97,7 @@ def test_messages_come_as_soon_as_they_are_certain(
 
 
 @each_way
+@few_each
 @given(data=st.data())
 def test_a_copy_goes_on_by_itself(
     libraries: Libraries, name: str, way: Direction, data: st.DataObject
