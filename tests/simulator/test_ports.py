@@ -236,7 +236,12 @@ def test_over_tcp_a_host_that_comes_as_another_leaves_is_let_in(size: int) -> No
     assert end.receive() == b""
     end._guest = Hasty(end._guest, leave)  # type: ignore[assignment, arg-type]
     received = bytearray()
-    await_that(lambda: received.extend(end.receive()) or received.endswith(b"second"))
+
+    def all_is_there() -> bool:
+        received.extend(end.receive())
+        return received.endswith(b"second")
+
+    await_that(all_is_there)
     assert received == bytes(size) + b"second"
     end.close()
     others[0].close()
