@@ -6,7 +6,8 @@ and what is named is run: a file of tests/all, or any test with `::`.
 
 The profiles of Hypothesis are `ci`, the same examples in every run; `quick`, fewer of them; `all`,
 many of them; and `fuzz`, a long search for others. One is chosen by HYPOTHESIS_PROFILE or
---hypothesis-profile. No test sets max_examples of its own: that would hold the search back.
+--hypothesis-profile. No test sets max_examples of its own: that would hold the search back. What
+each of many cases is held to is given a share of them: tests/few_each.py.
 """
 
 from __future__ import annotations

@@ -20,6 +20,7 @@ from tests.cases import (
     each_bad_frame,
     each_case,
 )
+from tests.few_each import few_each
 from tests.strategies import HEADS, damaged_frames, directions
 
 COMMANDS = ", ".join(
@@ -283,6 +284,7 @@ def test_any_bytes_are_a_message_or_a_decode_error(
 
 
 @each_message
+@few_each
 @given(frame=damaged_frames() | st.binary(max_size=12))
 def test_any_bytes_are_the_message_of_a_class_or_a_decode_error(
     kind: type[Message], frame: bytes

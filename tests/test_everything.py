@@ -17,6 +17,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from tests.factories import compiled_file, library, library_files
+from tests.few_each import few_each
 from tests.protocols.specs import FILES, messages_of
 
 if TYPE_CHECKING:
@@ -390,6 +391,7 @@ def test_the_strategies_make_messages_of_every_kind(everything: Any, data: st.Da
 
 
 @pytest.mark.parametrize("name", ["lists", "numbers", "rest", "tail", "texts", "flags"])
+@few_each
 @given(data=st.data())
 def test_each_message_has_a_strategy(everything: Any, name: str, data: st.DataObject) -> None:
     strategies = __import__(f"{everything.__name__}.strategies", fromlist=["messages"])

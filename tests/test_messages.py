@@ -332,21 +332,14 @@ def test_a_message_cannot_be_changed(case: Case) -> None:
 
 
 @each_case
-@pytest.mark.parametrize(
-    "copied",
-    [copy.copy, copy.deepcopy]
-    + [
-        lambda message, protocol=protocol: pickle.loads(pickle.dumps(message, protocol))  # noqa: S301
+def test_a_message_can_be_copied_and_pickled(case: Case) -> None:
+    pickled = [
+        pickle.loads(pickle.dumps(case.message, protocol))  # noqa: S301
         for protocol in range(pickle.HIGHEST_PROTOCOL + 1)
-    ],
-)
-def test_a_message_can_be_copied_and_pickled(
-    case: Case, copied: Callable[[Message], Message]
-) -> None:
-    twin = copied(case.message)
-
-    assert twin == case.message
-    assert type(twin) is type(case.message)
+    ]
+    for twin in (copy.copy(case.message), copy.deepcopy(case.message), *pickled):
+        assert twin == case.message
+        assert type(twin) is type(case.message)
 
 
 @each_case

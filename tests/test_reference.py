@@ -17,6 +17,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from tests.factories import BUSSERVO, DEMO, data_of, files_of, layout_of, library
+from tests.few_each import few_each
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
@@ -202,6 +203,7 @@ each_spec = pytest.mark.parametrize("name", SPECS)
 
 
 @each_spec
+@few_each
 @given(data=st.data())
 def test_a_stream_decoder_agrees_with_the_reference(name: str, data: st.DataObject) -> None:
     model = MODELS[name]
@@ -233,6 +235,7 @@ def messages(found: list[Found]) -> list[Found]:
 
 
 @each_spec
+@few_each
 @given(data=st.data())
 def test_decode_gives_the_reason_and_the_offset_of_the_reference(
     name: str, data: st.DataObject

@@ -15,6 +15,8 @@ from framegen.targets.python.files import ONLY_WITH
 from hypothesis import given
 from hypothesis import strategies as st
 
+from tests.few_each import few_each
+
 RUNTIME = Path(target).parent / "runtime" / "_frame"
 METHODS = [(name, width) for name, row in CHECKSUMS.items() for width in row.widths]
 # One of each class, and of each way through it.
@@ -98,6 +100,7 @@ def test_a_method_is_made_of_what_sets_it_apart(method: str, width: int, made: s
 
 
 @pytest.mark.parametrize(("method", "width"), METHODS)
+@few_each
 @given(data=st.binary(max_size=300))
 def test_a_checksum_is_the_one_of_the_catalogue(method: str, width: int, data: bytes) -> None:
     checksum, row = make(method, width), CHECKSUMS[method]
@@ -131,6 +134,7 @@ def inquiries(draw: st.DrawFn) -> tuple[bytes, list[tuple[int, list[tuple[int, i
 
 
 @pytest.mark.parametrize(("method", "width"), KINDS)
+@few_each
 @given(inquiry=inquiries(), copied=st.integers(0, 30))
 def test_any_stretch_of_a_stream_has_the_checksum_of_the_catalogue(
     method: str,

@@ -11,6 +11,8 @@ from busservo_simulator.backlog import Backlog
 from busservo_simulator.waker import Waker
 
 CHUNK = 4096
+# More than a connection holds of what a host sent before it left.
+_PARTING = 1 << 24
 LOOPBACK = "127.0.0.1"
 
 
@@ -90,11 +92,16 @@ class TcpEnd:
     def receive(self) -> bytes:
         """Read the bytes that are there; then accept a waiting host, if the one before has left."""
         self.deliver(b"")
+        found = self._read()
+        # Of a guest who has sent more than that, it is not known yet whether he has left.
+        if self._listener is not None and len(found) < CHUNK:
+            found += self._admit(self._listener)
+        return found
+
+    def _read(self) -> bytes:
         found = b""
         while self._guest and len(found) < CHUNK and (data := self._receive(self._guest)):
             found += data
-        if self._listener is not None:
-            self._admit(self._listener)
         return found
 
     def _receive(self, guest: socket.socket) -> bytes:
@@ -117,15 +124,21 @@ class TcpEnd:
         self.unplug()
         self._waker.close()
 
-    def _admit(self, listener: socket.socket) -> None:
+    def _admit(self, listener: socket.socket) -> bytes:
+        """Accept a waiting host; return what the one before has still sent, if he left for it."""
+        left = b""
         with contextlib.suppress(OSError):
             caller, _ = listener.accept()
+            # Whoever left before this one called may have done so after he was read.
+            while self._guest is not None and len(left) < _PARTING and (more := self._read()):
+                left += more
             if self._guest is not None:
                 caller.close()
-                return
+                return left
             self._guest = caller
             caller.setblocking(False)
             caller.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
+        return left
 
     def _hang_up(self) -> None:
         guest, self._guest = self._guest, None

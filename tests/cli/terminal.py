@@ -24,6 +24,7 @@ ENVIRONMENT = {
     "PYTHONPATH": os.pathsep.join(filter(None, sys.path)),
     "TERM": "xterm",
 }
+_LOCAL_MODES = 3  # where tcgetattr has them
 # What a shell does for its programs: the terminal becomes the one that sends SIGINT for Ctrl-C, and
 # SIGINT does something, even where the tests themselves run in the background and ignore it.
 # A wait is shown soon, as no test is about how long one goes on before that.
@@ -43,6 +44,10 @@ class OnTerminal:
     def __init__(self, *words: str, **environment: str) -> None:
         self.shown = ""
         self._screen, terminal = pty.openpty()
+        modes = termios.tcgetattr(terminal)
+        # Ctrl-C would discard what was printed and not yet read here, line ends and all.
+        modes[_LOCAL_MODES] |= termios.NOFLSH
+        termios.tcsetattr(terminal, termios.TCSANOW, modes)
         self._before = termios.tcgetattr(terminal)
         self._process = subprocess.Popen(
             [sys.executable, "-c", _PROGRAM, *words],

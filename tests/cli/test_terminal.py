@@ -159,7 +159,8 @@ def test_send_shows_that_it_waits_and_ctrl_c_ends_it_on_a_line_of_its_own() -> N
         send.wait_for("waiting for BatteryVoltage, [0-9]+ s")
         send.type(CTRL_C)
         assert send.end() == 130
-        assert send.lines == ["", ""]
+        # Linux sends the signal first: then ^C may come when the line is cleared already.
+        assert send.lines in (["", ""], ["^C", ""])
 
 
 def test_ctrl_c_ends_a_replay_and_says_how_far_it_got(

@@ -420,6 +420,38 @@ def test_a_call_that_is_interrupted_leaves_the_line_usable() -> None:
         assert controller.counters.unsolicited == 1
 
 
+def test_ctrl_c_as_the_line_is_given_to_others_leaves_it_usable() -> None:
+    class Interrupting:
+        """The lock of a client; Ctrl-C comes as soon as it has been released to read."""
+
+        def __init__(self, lock: Any) -> None:
+            self._lock = lock
+            self.acquire = lock.acquire
+
+        def __enter__(self) -> object:
+            return self._lock.__enter__()
+
+        def __exit__(self, *error: object) -> None:
+            self._lock.__exit__(*error)
+
+        def release(self) -> None:
+            self._lock.release()
+            raise KeyboardInterrupt
+
+    line = VirtualLine(lambda message: [(0.1, each) for each in answered(message)])
+    with Controller(line, background=False, clock=line.clock, settle=0) as controller:
+        whole = controller._lock
+        controller._lock = Interrupting(whole)  # type: ignore[assignment]
+        try:
+            with pytest.raises(KeyboardInterrupt):
+                controller.read_battery_voltage()
+        finally:
+            controller._lock = whole
+        with ThreadPoolExecutor() as pool:
+            # Also from another thread, which it would keep waiting.
+            assert pool.submit(controller.read_battery_voltage).result(GENEROUS) == 7500
+
+
 def test_pending_frames_are_sent_although_the_machine_pauses_while_closing() -> None:
     line = VirtualLine()
     # Each look at the clock may be the one before which the machine pauses.

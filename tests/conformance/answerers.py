@@ -21,9 +21,9 @@ if TYPE_CHECKING:
 ANSWER = Path(__file__).parent / "answer.js"
 
 
-def of_the_library(compiled: Compiled, folder: Path, questions: Sequence[str]) -> list[list[str]]:
-    """Write the library to `folder`; return what its verb `answer` prints for each question."""
-    with library(library_files(compiled), folder) as module:
+def of_the_library(compiled: Compiled, _folder: Path, questions: Sequence[str]) -> list[list[str]]:
+    """Import the library; return what its verb `answer` prints for each question."""
+    with library(library_files(compiled)) as module:
         answer = import_module(f"{module.__name__}._cli.answer").answer
         return [answer(question) for question in questions]
 

@@ -20,6 +20,7 @@ from hypothesis import strategies as st
 from tests import oracle
 from tests.conformance.strategies import lines_of, parts_of
 from tests.factories import BUSSERVO, DEMO, data_of, files_of, layout_of, library
+from tests.few_each import few_each
 from tests.strategies import directions, lines, oracles
 
 SERVO = layout_of(data_of(BUSSERVO))
@@ -92,6 +93,7 @@ def model_of(name: str) -> Model:
 
 
 @pytest.mark.parametrize("name", ["busservo", *OTHERS])
+@few_each
 @given(data=st.data())
 def test_a_library_answers_as_the_reference_does(
     name: str, answers: Answers, data: st.DataObject

@@ -21,6 +21,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from tests.factories import BUSSERVO, compiled_file
+from tests.few_each import few_each
 from tests.guess.traffic import traffic
 from tests.guess.truth import wrong
 from tests.protocols.specs import FILES
@@ -193,6 +194,7 @@ def test_noise_decides_nothing(seed: int) -> None:
 
 
 @pytest.mark.parametrize(("method", "width"), METHODS)
+@few_each
 @given(data=st.binary(min_size=1, max_size=20))
 def test_checksums_of_all_beginnings_are_those_of_the_catalogue(
     method: str, width: int, data: bytes

@@ -12,6 +12,7 @@ from framegen.model.stream import ReferenceDecoder
 from hypothesis import given
 from hypothesis import strategies as st
 
+from tests.few_each import few_each
 from tests.protocols.libraries import Libraries, direction_of, made_of, values_in
 from tests.protocols.specs import all_messages, messages_of, model_of, values_of
 from tests.protocols.streams import all_ways, lines
@@ -43,6 +44,7 @@ def test_a_published_frame_is_read_and_written_again(
 
 @pytest.mark.each_protocol
 @pytest.mark.parametrize(("name", "message"), all_messages())
+@few_each
 @given(data=st.data())
 def test_what_is_written_is_read(
     libraries: Libraries, name: str, message: str, data: st.DataObject
@@ -57,6 +59,7 @@ def test_what_is_written_is_read(
 
 @pytest.mark.each_protocol
 @pytest.mark.parametrize(("name", "way"), WAYS)
+@few_each
 @given(data=st.data())
 def test_bytes_are_refused_for_the_same_reason(
     libraries: Libraries, name: str, way: Direction, data: st.DataObject
@@ -82,6 +85,7 @@ def _judged(name: str, way: Direction, line: bytes) -> Values | tuple[str, int]:
 
 @pytest.mark.each_protocol
 @pytest.mark.parametrize(("name", "way"), WAYS)
+@few_each
 @given(data=st.data())
 def test_a_stream_is_read_as_the_reference_reads_it(
     libraries: Libraries, name: str, way: Direction, data: st.DataObject

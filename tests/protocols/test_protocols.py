@@ -10,6 +10,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from tests.factories import compiled_file
+from tests.few_each import few_each
 from tests.protocols.by_hand import BY_HAND
 from tests.protocols.peers import PEERS
 from tests.protocols.specs import (
@@ -49,6 +50,7 @@ def test_a_published_frame_is_read_and_written_again(name: str, message: str, nu
 
 @pytest.mark.each_protocol
 @pytest.mark.parametrize(("name", "message"), all_messages())
+@few_each
 @given(data=st.data())
 def test_what_is_written_is_read(name: str, message: str, data: st.DataObject) -> None:
     layout = messages_of(name)[message]
@@ -66,6 +68,7 @@ def _with_peers(what: str) -> list[Any]:
 
 
 @pytest.mark.parametrize(("kind", "message"), _with_peers("writes"))
+@few_each
 @given(data=st.data())
 def test_a_peer_writes_the_same_bytes(kind: type[Peer], message: str, data: st.DataObject) -> None:
     layout = messages_of(kind.protocol)[message]
@@ -74,6 +77,7 @@ def test_a_peer_writes_the_same_bytes(kind: type[Peer], message: str, data: st.D
 
 
 @pytest.mark.parametrize(("kind", "message"), _with_peers("reads"))
+@few_each
 @given(data=st.data())
 def test_a_peer_reads_the_same_values(kind: type[Peer], message: str, data: st.DataObject) -> None:
     layout = messages_of(kind.protocol)[message]
@@ -84,6 +88,7 @@ def test_a_peer_reads_the_same_values(kind: type[Peer], message: str, data: st.D
 @pytest.mark.parametrize(
     ("name", "message"), [(name, message) for name in BY_HAND for message in BY_HAND[name]]
 )
+@few_each
 @given(data=st.data())
 def test_a_frame_written_by_hand_has_the_same_bytes(
     name: str, message: str, data: st.DataObject

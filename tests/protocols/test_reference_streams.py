@@ -10,6 +10,7 @@ from framegen.model.stream import Event, ReferenceDecoder
 from hypothesis import given
 from hypothesis import strategies as st
 
+from tests.few_each import few_each
 from tests.protocols.specs import model_of
 from tests.protocols.streams import all_ways, frames, lines, noise, proven, published
 
@@ -35,6 +36,7 @@ def overlapping(events: list[Event], at: int, size: int) -> list[Event]:
 
 
 @pytest.mark.parametrize(("name", "way"), WAYS)
+@few_each
 @given(data=st.data())
 def test_1_nothing_is_lost(name: str, way: Direction, data: st.DataObject) -> None:
     line = data.draw(lines(name, way))
@@ -43,6 +45,7 @@ def test_1_nothing_is_lost(name: str, way: Direction, data: st.DataObject) -> No
 
 
 @pytest.mark.parametrize(("name", "way"), WAYS)
+@few_each
 @given(data=st.data())
 def test_2_what_is_certain_stands_whatever_follows(
     name: str, way: Direction, data: st.DataObject
@@ -56,6 +59,7 @@ def test_2_what_is_certain_stands_whatever_follows(
 
 
 @pytest.mark.parametrize(("name", "way"), WAYS)
+@few_each
 @given(data=st.data())
 def test_3_a_frame_behind_garbage_is_lost_to_another_frame_alone(
     name: str, way: Direction, data: st.DataObject
@@ -67,6 +71,7 @@ def test_3_a_frame_behind_garbage_is_lost_to_another_frame_alone(
 
 
 @pytest.mark.parametrize(("name", "way"), WAYS)
+@few_each
 @given(data=st.data())
 def test_3_frames_behind_each_other_are_all_found(
     name: str, way: Direction, data: st.DataObject

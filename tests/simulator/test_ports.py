@@ -195,17 +195,56 @@ def test_tcp_serves_one_host_at_a_time_and_then_the_next() -> None:
             assert first.recv(100) == VOLTAGE.encode()
             with socket.create_connection(address, timeout=GENEROUS) as second:
                 assert second.recv(100) == b""
-        deadline = time.monotonic() + GENEROUS
-        while time.monotonic() < deadline:
-            with socket.create_connection(address, timeout=GENEROUS) as third:
-                try:
-                    third.sendall(ASK.encode())
-                    data = third.recv(100)
-                except ConnectionError:
-                    data = b""
-                if data:
-                    break
-        assert data == VOLTAGE.encode()
+        with socket.create_connection(address, timeout=GENEROUS) as third:
+            third.sendall(ASK.encode())
+            assert third.recv(100) == VOLTAGE.encode()
+
+
+class Hasty:
+    """The connection of a host that leaves as soon as it has been read, for another to come."""
+
+    def __init__(self, guest: socket.socket, leave: Callable[[], object]) -> None:
+        self._guest = guest
+        self._leave = leave
+
+    def recv(self, most: int) -> bytes:
+        try:
+            return self._guest.recv(most)
+        except BlockingIOError:
+            self._leave()
+            raise
+
+    def __getattr__(self, name: str) -> Any:
+        return getattr(self._guest, name)
+
+
+@pytest.mark.parametrize("size", [0, 3, 20_000])
+def test_over_tcp_a_host_that_comes_as_another_leaves_is_let_in(size: int) -> None:
+    end = TcpEnd()
+    end.plug_in()
+    address = ("127.0.0.1", int(end.port.rpartition(":")[2]))
+    first = socket.create_connection(address, GENEROUS)
+    others: list[socket.socket] = []
+
+    def leave() -> None:
+        if not others:
+            first.sendall(bytes(size))
+            first.close()
+            others.append(socket.create_connection(address, GENEROUS))
+            others[0].sendall(b"second")
+
+    assert end.receive() == b""
+    end._guest = Hasty(end._guest, leave)  # type: ignore[assignment, arg-type]
+    received = bytearray()
+
+    def all_is_there() -> bool:
+        received.extend(end.receive())
+        return received.endswith(b"second")
+
+    await_that(all_is_there)
+    assert received == bytes(size) + b"second"
+    end.close()
+    others[0].close()
 
 
 def test_over_tcp_a_connected_host_receives_all_that_is_sent() -> None:

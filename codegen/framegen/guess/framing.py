@@ -179,13 +179,14 @@ def _places(data: bytes, header: bytes) -> Iterator[int]:
 
 def _voted(data: bytes, header: bytes, places: Sequence[int]) -> Iterator[LengthFit | int]:
     """Yield the lengths, or the one size, that most headers are followed by another with."""
-    votes: Counter[LengthFit | int] = Counter()
+    # A length as its offset, the number of its kind, and what it does not count.
+    votes: Counter[tuple[int, int, int] | int] = Counter()
     voting = [place for place in places if place < _VOTING]
     for number, start in enumerate(voting):
         values = [
-            (at, kind, kind.read(data, start + at))
+            (at, at + kind.size, which, kind.read(data, start + at))
             for at in range(len(header), len(header) + MOST_BEFORE)
-            for kind in KINDS
+            for which, kind in enumerate(KINDS)
             if start + at + kind.size <= len(data)
         ]
         for there in (*places[number + 1 : number + _NEAR], len(data)):
@@ -193,11 +194,17 @@ def _voted(data: bytes, header: bytes, places: Sequence[int]) -> Iterator[Length
             if gap < LEAST_FRAME:
                 continue
             votes[gap] += 1
-            for at, kind, value in values:
-                if 0 <= gap - value <= MOST_UNCOUNTED and at + kind.size <= gap:
-                    votes[LengthFit(at, kind, gap - value)] += 1
+            for at, end, which, value in values:
+                if 0 <= gap - value <= MOST_UNCOUNTED and end <= gap:
+                    votes[at, which, gap - value] += 1
     enough = len(voting) // 4
-    yield from (length for length, count in votes.most_common(_TRIED) if count > max(2, enough))
+    for length, count in votes.most_common(_TRIED):
+        if count > max(2, enough):
+            yield length if isinstance(length, int) else _length(*length)
+
+
+def _length(at: int, which: int, uncounted: int) -> LengthFit:
+    return LengthFit(at, KINDS[which], uncounted)
 
 
 def _chained(data: bytes, header: bytes, length: LengthFit | int) -> Framing:

@@ -37,38 +37,61 @@ _FOR_A_FRAME = 4
 _LOOKED_AT = 8192
 
 
+class _Ends:
+    """Where the checksums by one method stand behind what they cover.
+
+    Each place is searched once: readings with other bytes left out begin to cover at the same.
+    """
+
+    def __init__(self, data: bytes, method: str, width: int) -> None:
+        self.data = data
+        self.width = width
+        self.longest = _LONGEST.get(width, _LONGEST_OF_ALL)
+        self._method = method
+        self._found: dict[int, dict[Order, list[int]]] = {}
+
+    def behind(self, first: int, order: Order) -> list[int]:
+        """Return the ends of checksums in this order of all bytes from `first` on."""
+        if first not in self._found:
+            self._found[first] = self._search(first)
+        return self._found[first][order]
+
+    def _search(self, first: int) -> dict[Order, list[int]]:
+        data, size = self.data, self.width // 8
+        covered = data[first : max(0, min(first + self.longest, len(data)) - size)]
+        values = running(self._method, self.width, covered)
+        found: dict[Order, list[int]] = {}
+        for order in orders(self.width):
+            # Most are ruled out by the first byte alone.
+            shift = 0 if order == "little" else self.width - 8
+            near = zip(data[first + 1 : first + self.longest], values, strict=False)
+            found[order] = [
+                end + size
+                for end, (byte, value) in enumerate(near, first + 1)
+                if byte == value >> shift & 0xFF
+                and read_number(data[end : end + size], order) == value
+            ]
+        return found
+
+
 @dataclass(frozen=True)
 class _Trial:
-    """A method, its width in bits, the order of its bytes, and how many bytes it leaves out."""
+    """A method, the order of the bytes of its checksum, and how many bytes it leaves out."""
 
-    data: bytes
-    method: str
-    width: int
+    checksums: _Ends
     order: Order
     left_out: int
 
     def ends(self, at: int) -> Iterator[int]:
         """Yield where a frame that begins here may end."""
-        size, first = self.width // 8, at + self.left_out
-        covered = self.data[first : at + self._longest - size]
-        little = self.order == "little"
-        data = self.data
-        for number, value in enumerate(running(self.method, self.width, covered)):
-            end = first + number + 1
-            # Most are ruled out by the first byte alone.
-            if end + size > len(data):
-                return
-            digits = value & 0xFF if little else value >> self.width - 8
-            if (
-                data[end] == digits
-                and end + size - at >= LEAST_FRAME
-                and read_number(data[end : end + size], self.order) == value
-            ):
-                yield end + size
+        least, most = at + LEAST_FRAME, at + self.checksums.longest
+        for end in self.checksums.behind(at + self.left_out, self.order):
+            if least <= end <= most:
+                yield end
 
     def has_row(self, at: int, frames: int = _ROW) -> bool:
         """Return whether so many frames follow each other from here on, or as many as there are."""
-        if frames == 0 or (at == len(self.data) and frames < _ROW):
+        if frames == 0 or (at == len(self._data) and frames < _ROW):
             return True
         return any(self.has_row(end, frames - 1) for end in self.ends(at))
 
@@ -79,19 +102,19 @@ class _Trial:
         if length is None:
             return chosen
         places, at = [], chosen.places[0][0]
-        while at < len(self.data):
-            end = at + (length.size_of(self.data, at) or 0)
+        while at < len(self._data):
+            end = at + (length.size_of(self._data, at) or 0)
             if end > at and end in self.ends(at):
                 places.append((at, end))
                 at = end
             else:
                 at += 1
-        told = Framing(self.data, tuple(places), is_proven=True)
+        told = Framing(self._data, tuple(places), is_proven=True)
         return told if told.covered >= _ENOUGH * chosen.covered else chosen
 
     def _chosen(self) -> Framing:
         """Return the frames that cover most, and are many: large ones may be chance."""
-        data, size = self.data, len(self.data)
+        data, size = self._data, len(self._data)
         best = [0] * (size + 1)
         taken = [0] * (size + 1)
         for at in range(size - 1, -1, -1):
@@ -105,11 +128,13 @@ class _Trial:
             if taken[at]:
                 places.append((at, taken[at]))
             at = taken[at] or at + 1
-        return Framing(data, tuple(places), is_proven=True, chosen_bits=self._longest.bit_length())
+        return Framing(
+            data, tuple(places), is_proven=True, chosen_bits=self.checksums.longest.bit_length()
+        )
 
     @property
-    def _longest(self) -> int:
-        return _LONGEST.get(self.width, _LONGEST_OF_ALL)
+    def _data(self) -> bytes:
+        return self.checksums.data
 
 
 def framed_by_checksum(data: bytes) -> list[Framing]:
@@ -129,9 +154,10 @@ def framed_by_checksum(data: bytes) -> list[Framing]:
 
 def _trials(data: bytes) -> Iterator[_Trial]:
     for method, width in METHODS:
+        checksums = _Ends(data, method, width)
         for order in orders(width):
             for left_out in range(4):
-                yield _Trial(data, method, width, order, left_out)
+                yield _Trial(checksums, order, left_out)
 
 
 def _length(frames: Sequence[bytes]) -> LengthFit | None:

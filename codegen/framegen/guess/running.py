@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from functools import cache
+from functools import cache, lru_cache
 from itertools import accumulate
 from operator import xor
 from typing import TYPE_CHECKING
@@ -33,6 +33,8 @@ def running(method: str, width: int, data: bytes) -> Sequence[int]:
     raise AssertionError(f"{method} is of no known kind")
 
 
+# It is compared in one order, and then in the other.
+@lru_cache(maxsize=256)
 def checksum(method: str, width: int, data: bytes) -> int:
     """Return the checksum of some bytes, as CHECKSUMS has it, but faster."""
     return running(method, width, data)[-1] if data else CHECKSUMS[method].of(data, width)

@@ -182,9 +182,10 @@ class ThreadClient(BaseClient):
         data, arrived = b"", began
         # Single bytes are not worth waking up for, each by itself.
         rest = self._session.resting_until(began) - began if self._real_time else 0.0
-        self._reading = True
-        self._lock.release()
         try:
+            self._reading = True
+            # Ctrl-C may come as soon as it is released.
+            self._lock.release()
             if rest > 0:
                 time.sleep(min(rest, timeout))
                 began = self._clock()

@@ -1,0 +1,9 @@
+"""How long a property is searched that each message, protocol or method is held to.
+
+All of these share what holds them, so that together they search longer than a property that is
+searched once; and a number of examples that stood here would hold the long searches back.
+"""
+
+from hypothesis import settings
+
+few_each = settings(max_examples=max(1, settings().max_examples * 2 // 5))
