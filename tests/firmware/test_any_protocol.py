@@ -5,7 +5,7 @@ from __future__ import annotations
 import importlib
 from collections.abc import Callable
 from contextlib import ExitStack
-from itertools import chain
+from itertools import chain, cycle
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -14,15 +14,19 @@ from busservo_simulator import VirtualClock
 from framegen.conformance.device.permission import Permission, permit
 from framegen.conformance.device.queries import requests
 from framegen.model.codec import decode, encode, values_of
+from framegen.model.stream import ReferenceDecoder
 from framegen.model.verdict import weigh
 from framegen.reading.yamltree import Unusable
+from hypothesis import assume, given
+from hypothesis import strategies as st
 from lxservo_simulator import VirtualBus
 
-from tests.factories import compiled_file, data_of, layout_of, library, library_files
+from tests.factories import compiled_file, compiled_of, data_of, layout_of, library, library_files
 from tests.firmware.devices import VirtualLine, by_the_reference
 from tests.firmware.runs import Run, model_of, run
 from tests.protocols.libraries import made_of, values_in
 from tests.protocols.specs import FILES
+from tests.random_specs import WAYS, specs, with_examples
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -30,6 +34,7 @@ if TYPE_CHECKING:
     from framegen.model.exchanges import Exchange
     from framegen.model.model import Model
 
+    from tests.factories import Data
     from tests.firmware.devices import Answer
 
 PUMPS = Path(__file__).with_name("pumps_of_two_kinds.yaml")
@@ -89,6 +94,30 @@ def received(done: Run) -> list[dict[str, Any]]:
     """Return all that was received."""
     bursts = [burst for step in done.report["steps"] for burst in step["bursts"]]
     return [each for burst in bursts for each in burst["received"]]
+
+
+@given(specs(), st.booleans())
+def test_a_device_of_any_spec_passes_by_what_it_may_be_sent(spec: Data, everything: bool) -> None:
+    ways = {
+        way: [name for name, each in spec["messages"].items() if each["direction"] == way]
+        for way in WAYS
+    }
+    asked, answers = ways.values()
+    assume(asked and answers)
+    for name, reply in zip(asked, cycle(answers)):
+        spec["messages"][name]["reply"] = reply
+    compiled = compiled_of(with_examples(spec))
+    assume(not compiled.findings)
+    model = compiled.model
+    queries = Permission(model).queries
+    assume(queries)
+    commands = [name for name in asked if name not in queries] if everything else []
+    allowed = chain(*(("--allow", name) for name in commands))
+    done = run(model, VirtualLine(by_the_reference(model)), "--malformed", *allowed)
+    assert (done.code, done.faults) == (0, [])
+    sent = {model.roles.sent, *(way for way in model.directions if way != model.roles.received)}
+    found = ReferenceDecoder(model, [*sent]).decode(b"".join(done.written))
+    assert {each.message.name for each in found if each.message} <= {*queries, *commands}
 
 
 # --- What is generated ---------------------------------------------------------------------------

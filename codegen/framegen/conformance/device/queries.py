@@ -95,6 +95,8 @@ def _sized(exchange: Exchange, permission: Permission) -> Iterator[Request]:
         return
     most = min(message.counts[-1], exchange.most or message.counts[-1], _MOST_ELEMENTS)
     elements = _elements(exchange, pattern[message.items.name])[:most]
+    if not elements:
+        return
     sizes = {1: "one element", 2: "two elements", len(elements): f"{len(elements)} elements"}
     for size, about in sizes.items():
         if size in message.counts and size <= len(elements):
