@@ -45,7 +45,7 @@ QUICK_SECONDS = 0.005
 QUICK_STREAM_SECONDS = 0.01
 QUICK_STRETCH = captures.PIECE // 8
 
-_GENERATE = [sys.executable, "-m", "framegen", "generate", "--out"]
+_GENERATE = [sys.executable, "-m", "framegen", "generate", "spec/busservo.yaml", "--out"]
 _DECODE = [sys.executable, "-m", "busservo", "decode"]
 
 

@@ -178,8 +178,8 @@ class Shape:
         if varying is None:
             return
         unit = 1 if isinstance(varying, Text) else varying.unit_size
-        if len(self._counters) > 1:
-            yield count_test(self._counters, varying.at + varying.tail, unit)
+        for number, factor in sorted(self._counters, key=lambda each: each[0].at)[1:]:
+            yield count_test(number, factor, varying.at + varying.tail, unit)
         at, end = varying.at, -varying.tail or None
         if isinstance(varying, Text):
             yield lambda frame: frame[at:end].isascii()

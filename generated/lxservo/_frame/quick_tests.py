@@ -105,21 +105,15 @@ def place_test(places: Sequence[Place], tail: int) -> Callable[[bytes], bool]:
     return all_right
 
 
-def count_test(
-    counters: Sequence[tuple[Number, int]], around: int, unit: int
-) -> Callable[[bytes], bool]:
-    """Return a function that says whether all counters of a list are right.
+def count_test(number: Number, factor: int, around: int, unit: int) -> Callable[[bytes], bool]:
+    """Return a function that says whether the counter of a list is right.
 
-    Each counts an element as a number of its own. An element has `unit` bytes, and `around` ones of
-    the frame are not of the list.
+    Each element counts `factor` and has `unit` bytes, and `around` ones of the frame are not of the
+    list.
     """
-    counted = [(number.struct.unpack_from, number.at, factor) for number, factor in counters]
-
-    def all_agree(frame: bytes) -> bool:
-        count = (len(frame) - around) // unit
-        return all(unpack(frame, at)[0] == count * factor for unpack, at, factor in counted)
-
-    return all_agree
+    unpack: Callable[[bytes, int], tuple[int, ...]] = number.struct.unpack_from
+    at = number.at
+    return lambda frame: unpack(frame, at)[0] == (len(frame) - around) // unit * factor
 
 
 def item_test(numbers: Callable[[bytes], Sequence[int]], each: Number) -> Callable[[bytes], bool]:

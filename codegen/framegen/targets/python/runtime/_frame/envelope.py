@@ -155,6 +155,10 @@ class Checksum(NumberPart):
         if len(pieces) == 1 and isinstance(pieces[0], tuple):
             covered = slice(*pieces[0])
             return lambda frame: of(frame[covered])
+        if len(pieces) == 2 and isinstance(pieces[0], tuple) and isinstance(pieces[1], bytes):
+            # What is not sent stands behind the rest.
+            covered, behind = slice(*pieces[0]), pieces[1]
+            return lambda frame: of(frame[covered] + behind)
         return lambda frame: of(
             b"".join(each if isinstance(each, bytes) else frame[slice(*each)] for each in pieces)
         )
