@@ -82,6 +82,7 @@ def decode(frame: bytes | bytearray | memoryview, direction: Direction | None) -
             if (
                 len(frame) == size
                 and (not count or frame[at:until] == count)
+                # Added up together with its checksum, any frame makes the same.
                 and sum(frame) & 0xFF == 0xA9
                 and (holds is None or holds(frame))
             ):

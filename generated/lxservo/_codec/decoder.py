@@ -130,6 +130,7 @@ class StreamDecoder:
                 if end > size:
                     break
                 frame = data[at:end]
+                # Added up together with its checksum, any frame makes the same.
                 right = sum(frame) & 0xFF == 0xA9
                 if not right or (holds is not None and not holds(frame)):
                     summed = max(summed, end)

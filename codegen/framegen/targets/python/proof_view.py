@@ -38,13 +38,22 @@ class ProofView:
         if self.calls or not isinstance(row, Sum):
             return f"checksum_of({self._covered}) == {self._number}"
         mask = (1 << 8 * self.checksum.size) - 1
-        if row.factor == -1 and self.checksum.size == 1 and self.end == self.checksum.at == -1:
+        if self._is_added_on:
             # What was subtracted is there again; and what stands in front is always the same.
             if self._in_front is None:
                 return f"sum({self._rest}) & 0xFF == 0x{row.offset & mask:02X}"
             return f"sum(frame) & 0xFF == 0x{row.offset + self._in_front & mask:02X}"
         sign = {1: "", -1: "~" if row.offset else "-"}[row.factor]
         return f"{sign}sum({self._covered}) & 0x{mask:X} == {self._number}"
+
+    @property
+    def why(self) -> str:
+        """What the expression says, where it shows only at second sight."""
+        if self._is_divided_on:
+            return "Divided together with the CRC behind it, any frame leaves the same."
+        if self._is_added_on:
+            return "Added up together with its checksum, any frame makes the same."
+        return "The checksum of what it covers is the one that is there."
 
     @property
     def _in_front(self) -> int | None:
@@ -73,6 +82,13 @@ class ProofView:
             return False
         order = "little" if row.reflected else "big"
         return self.end == at == -size and self.checksum.order == order
+
+    @property
+    def _is_added_on(self) -> bool:
+        """Whether one byte behind what it covers takes away what that adds up to."""
+        row = CHECKSUMS[self.checksum.method]
+        is_taken = not self.calls and isinstance(row, Sum) and row.factor == -1
+        return is_taken and self.checksum.size == 1 and self.end == self.checksum.at == -1
 
     def _residue(self, row: Crc) -> int:
         width = 8 * self.checksum.size
