@@ -7,6 +7,7 @@ from typing import Any
 
 from framegen.conformance.device.step import column
 from framegen.model.codec import encode, values_of
+from framegen.model.exchanges import Exchange
 from framegen.model.model import Model
 from framegen.model.stream import ReferenceDecoder
 
@@ -91,6 +92,14 @@ def by_the_reference(model: Model, device: int | None = None) -> Answer:
     return answer
 
 
+def in_reply_to(exchange: Exchange, requested: dict[str, Any]) -> dict[str, Any]:
+    """Return the address and the running number of a reply: those of the request."""
+    assert exchange.reply is not None
+    given = {part.role: requested[part.name] for part in exchange.request.frame.given}
+    parts = exchange.reply.frame.given
+    return {part.name: given[part.role] for part in parts if part.role in given}
+
+
 def _replies(model: Model, event: Any, device: int | None) -> Iterator[bytes]:
     exchange = next((each for each in model.exchanges if each.request == event.message), None)
     if exchange is None or exchange.reply is None:
@@ -101,8 +110,7 @@ def _replies(model: Model, event: Any, device: int | None) -> Iterator[bytes]:
         to = requested[exchange.address.name]
         if to in exchange.address.silent or device not in (None, to):
             return
-    for part, here in zip(exchange.reply.frame.given, exchange.request.frame.given, strict=False):
-        values[part.name] = requested[here.name]
+    values |= in_reply_to(exchange, requested)
     for one, other in exchange.echoed:
         name, _, inner = other.partition(".")
         first = values[name][0] if inner else None

@@ -22,7 +22,7 @@ from hypothesis import strategies as st
 from lxservo_simulator import VirtualBus
 
 from tests.factories import compiled_file, compiled_of, data_of, layout_of, library, library_files
-from tests.firmware.devices import VirtualLine, by_the_reference
+from tests.firmware.devices import VirtualLine, by_the_reference, in_reply_to
 from tests.firmware.runs import Run, model_of, run
 from tests.protocols.libraries import made_of, values_in
 from tests.protocols.specs import FILES
@@ -160,8 +160,7 @@ def values_in_reply(exchange: Exchange, asked: dict[str, Any]) -> dict[str, Any]
     reply = exchange.reply
     assert reply is not None
     values = dict(reply.message.examples[0].values)
-    for part, here in zip(reply.frame.given, exchange.request.frame.given, strict=False):
-        values[part.name] = asked[here.name]
+    values |= in_reply_to(exchange, asked)
     for one, other in exchange.echoed:
         name, _, inner = other.partition(".")
         values[name] = (
