@@ -11,6 +11,7 @@ from framegen.guess.spec_text import spec_text
 from framegen.reading.source import Source
 
 from tests.factories import BUSSERVO, compiled_file
+from tests.guess.test_guess import IN_PART
 from tests.guess.traffic import traffic
 from tests.guess.truth import wrong
 from tests.protocols.specs import FILES
@@ -53,6 +54,8 @@ def test_what_is_decided_is_right(
     model, chance = compiled_file(SPECS[protocol]).model, Random(seed)  # noqa: S311
     data = damage(traffic(model, chance), chance)
     found = guess(Capture(data, (data,)))
+    if found is None and protocol in IN_PART:
+        return  # nothing is said, and so nothing wrong
     assert found is not None
     assert wrong(found, model) == []
     assert compile_spec(Source("guess.yaml", spec_text(found, "line.bin"))).findings == []

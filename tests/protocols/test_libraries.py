@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from doctest import testmod
+from importlib import import_module
 from itertools import pairwise
 from typing import TYPE_CHECKING, Any
 
@@ -14,7 +16,7 @@ from hypothesis import strategies as st
 
 from tests.few_each import few_each
 from tests.protocols.libraries import Libraries, direction_of, made_of, values_in
-from tests.protocols.specs import all_messages, messages_of, model_of, values_of
+from tests.protocols.specs import FILES, all_messages, messages_of, model_of, values_of
 from tests.protocols.streams import all_ways, lines
 
 if TYPE_CHECKING:
@@ -148,3 +150,12 @@ def test_a_list_of_bytes_may_be_given_as_bytes(
         assert (
             made_of(made, layout, given).encode() == made_of(made, layout, example.values).encode()
         )
+
+
+@pytest.mark.each_protocol
+@pytest.mark.parametrize("name", FILES)
+def test_the_examples_of_a_library_are_true(libraries: Libraries, name: str) -> None:
+    messages = import_module(f"{libraries[name].__name__}.messages")
+    found = testmod(messages)
+    assert found.failed == 0
+    assert found.attempted >= len(messages_of(name))

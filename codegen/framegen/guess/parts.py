@@ -64,7 +64,9 @@ class Layout:
         They are neighbours, and all readings that leave out as many bytes are the same on the wire.
         """
         parts = self.parts
-        own = next(number for number, part in enumerate(parts) if part.is_ == "length")
+        own = next((at for at, part in enumerate(parts) if part.is_ == "length"), None)
+        if own is None:  # it stands behind the shortest frame
+            return []
         body = parts.index(self.body)
         runs = [
             (first, last)

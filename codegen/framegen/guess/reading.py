@@ -28,6 +28,9 @@ _NEARLY = 0.5
 _MOST_UNPROVEN = 0.75
 # So much of a recording has to be in frames, or else it is looked for others.
 _MOST = 0.9
+# Frames that were chosen by a checksum of a byte are many before they are no chance: there are
+# hundreds of methods and ways to cut a line.
+_LEAST_BITS = 64
 # Fewer frames show nothing.
 _ENOUGH_FRAMES = 3
 # Two sizes may agree with a number by chance.
@@ -141,6 +144,8 @@ class Reading:
     @property
     def is_enough(self) -> bool:
         """Whether it explains so much that it is no chance."""
+        if self.framing.chosen_bits and self.weight < _LEAST_BITS:
+            return False
         share = self.framing.covered / len(self.framing.data)
         return share >= (_NEARLY if self.is_proven else _MOST_UNPROVEN)
 

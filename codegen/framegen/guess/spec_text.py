@@ -6,6 +6,7 @@ from collections import defaultdict
 from textwrap import wrap
 from typing import TYPE_CHECKING
 
+from framegen.explanation.protocol import listed
 from framegen.guess.framing import read_number
 from framegen.guess.hidden import HiddenFit
 
@@ -119,6 +120,16 @@ class _Writer:
             if self.reading.length is not None or len(by_size) == 1:
                 yield from self._message(name, ids, frames)
                 continue
+            if self.reading.check is None:
+                # The shorter ones could be the beginning of the longer ones.
+                usual = max(by_size, key=lambda size: len(by_size[size]))
+                others = listed([str(size) for size in sorted(by_size) if size != usual])
+                yield from _comment(
+                    f"Nothing found in frames of {others} bytes tells them from those of {usual}: "
+                    "look for an id, a constant or a range in each before you add them.",
+                    "  # ",
+                )
+                by_size = {usual: by_size[usual]}
             for size, those in sorted(by_size.items()):
                 yield from self._message(f"{name}Of{size}", ids, those)
 

@@ -71,7 +71,9 @@ def docstring(
     body = [summary]
     for paragraph in paragraphs:
         body += ["", *_wrapped(paragraph, WIDTH - indent - 3)]
-    body += ["", *example] if example else []
+    # Linters want no backslash in a docstring, unless it stands for a sign.
+    given = [_QUOTES.sub(r"\\u0022", line.replace("\\", "\\u005c")) for line in example or ()]
+    body += ["", *given] if given else []
     text = "\n".join(f"{margin}{line}" if line else "" for line in body)
     return f'"""{text[indent:]}\n{margin}"""'
 
