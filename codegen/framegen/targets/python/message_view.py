@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from framegen.language.formula import Sizes
+from framegen.model.codec import encode
 from framegen.model.slots import Constant, Items, Number, Packed, Text
 from framegen.pluralize import describe_range
 from framegen.targets.python.escape import (
@@ -340,7 +341,8 @@ class MessageView:
     def example_lines(self) -> list[str]:
         """That example as an interactive session."""
         given_values = self.given_values(self.example.values)
-        frame = self.example.hex
+        # Reserved bytes of a frame that was recorded may be others than those that are written.
+        frame = encode(self.layout, self.example.values)
         cut = "" if len(frame) <= _SHOWN else f"[:{_SHOWN}]"
         call = Bracketed(f"{self.name}(", given_values, f").encode(){cut}.hex(' ')")
         return [*session(call, 4), f"'{frame[:_SHOWN].hex(' ')}'"]

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from framegen.language.values import to_hex
+from framegen.model.codec import encode
 from framegen.model.slots import Items, Packed
 from framegen.targets.python.escape import Bracketed
 from framegen.targets.python.message_view import MessageView
@@ -32,7 +33,7 @@ def _sending(model: Model, message: MessageLayout, example: Example) -> str:
     return (
         f"from {model.spec.protocol.name} import {message.name}\n\n"
         + Bracketed(f"message = {message.name}(", given, ")\n").fitted(0)
-        + _from_hex("assert message.encode() ==", example)
+        + _from_hex("assert message.encode() ==", encode(message, example.values))
     )
 
 
@@ -42,16 +43,15 @@ def _receiving(model: Model, message: MessageLayout, example: Example) -> str:
     return (
         f"from {model.spec.protocol.name} import {', '.join(names)}\n\n"
         f"decoder = StreamDecoder(Direction.{direction_member(message.direction)})\n"
-        + _from_hex("received =", example)
+        + _from_hex("received =", example.hex)
         + "for event in decoder.feed(received):\n"
         + f"    if isinstance(event, {message.name}):\n"
         + "".join(f"        {line}\n" for line in _shown(message, example))
     )
 
 
-def _from_hex(before: str, example: Example) -> str:
-    call = f"{before} bytes.fromhex("
-    return Bracketed(call, [f'"{to_hex(example.hex)}"'], ")\n").fitted(0)
+def _from_hex(before: str, frame: bytes) -> str:
+    return Bracketed(f"{before} bytes.fromhex(", [f'"{to_hex(frame)}"'], ")\n").fitted(0)
 
 
 def _shown(message: MessageLayout, example: Example) -> list[str]:
