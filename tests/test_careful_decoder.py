@@ -232,23 +232,21 @@ messages:
 """
 
 
-def test_what_a_checksum_proves_is_not_in_doubt(tmp_path: Path) -> None:
-    compiled = compiled_of(yaml.safe_load(ACKNOWLEDGED))
-    assert compiled.findings == []
-    with library(library_files(compiled), tmp_path) as made:
-        module = import_module(f"{made.__name__}._codec.careful_decoder")
-        for value in range(256):
-            decoder = module.CarefulDecoder(made.Direction.METER_TO_HOST)
-            message, done = made.messages.Value(value), made.messages.Done()
-            assert decoder.feed(message.encode()) == [message]
-            assert decoder.feed(done.encode() + message.encode()) == [done, message]
-
-
-def test_a_frame_of_one_byte_makes_no_other_doubtful(tmp_path: Path) -> None:
-    """What nothing proves may well end as an acknowledgement begins."""
+@pytest.mark.parametrize(
+    "end",
+    [
+        pytest.param(
+            {"is": "checksum", "type": "u8", "method": "sum", "covers": ["code", "body"]},
+            id="what a checksum proves",
+        ),
+        pytest.param({"is": "constant", "bytes": "06"}, id="what ends as a single byte begins"),
+    ],
+)
+def test_an_acknowledgement_makes_no_other_frame_doubtful(
+    end: dict[str, object], tmp_path: Path
+) -> None:
     data = yaml.safe_load(ACKNOWLEDGED)
-    data["frames"]["normal"]["check"] = {"is": "constant", "bytes": "06"}
-    data["messages"]["Value"]["examples"][0]["hex"] = "AA 02 04 06"
+    data["frames"]["normal"]["check"] = end
     compiled = compiled_of(data)
     assert compiled.findings == []
     with library(library_files(compiled), tmp_path) as made:
