@@ -76,6 +76,22 @@ def test_the_guide_shows_a_case_as_it_is() -> None:
     assert textwrap.dedent(shown) in table
 
 
+# ------------------------------------------------------------------ what tells frames apart
+
+LAMPS = (bad_specs.BASES / "lamps.yaml").read_text(encoding="utf-8")
+
+
+def test_messages_of_the_same_id_are_told_apart_by_lengths_of_their_own() -> None:
+    """Those of one are 4, 6, 8 and so on, and that of the other is between them."""
+    read = LAMPS.index("  LampRead:")
+    text = LAMPS[:read] + LAMPS[read:].replace("id: 8", "id: 7", 1).replace(
+        "length: 2", "length: 5", 1
+    ).replace("lamp_id: {type: u8, ", "lamp_id: {type: u32, ", 1).replace(
+        "AA 55 02 08 01", "AA 55 05 07 01 00 00 00", 1
+    )
+    assert compile_spec(Source("lamps.yaml", text)).findings == []
+
+
 # ------------------------------------------------------------------ hints at a wrong checksum
 
 BUS = (bad_specs.BASES / "bus.yaml").read_text(encoding="utf-8")

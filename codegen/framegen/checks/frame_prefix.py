@@ -16,7 +16,8 @@ if TYPE_CHECKING:
 def _look(model: Model) -> Iterator[Problem]:
     for one, other in alike(model):
         short, long = sorted((one, other), key=lambda message: message.least)
-        if shared_size(one, other) is None and not short.frame.proven:
+        is_told = short.frame.proven or (one.frame is other.frame and one.frame.length_part)
+        if shared_size(one, other) is None and not is_told:
             yield Problem(
                 ("messages", other.name),
                 f"a frame of {long.name}, {other.direction}, can begin with one of {short.name}, "
