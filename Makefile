@@ -28,6 +28,8 @@ ALONE_test := pylx16a
 PINS_VENV := .tools/pins
 # How many tests run at once. Many only wait, so more than there are cores; 0 is one after another.
 WORKERS = 3
+# Which of the tests, for `quick`: all.
+TESTS =
 # How many slow tests of each file are a sample; others on each day, or those of a SEED.
 SAMPLE = 3
 SEED =
@@ -53,7 +55,7 @@ test: $(TO_TEST)  ## Run the tests
 	$(IN)/python -m pytest -n $(WORKERS)
 
 quick: $(TO_TEST)  ## Run the tests with fewer examples
-	HYPOTHESIS_PROFILE=quick $(IN)/python -m pytest -q -n $(WORKERS)
+	HYPOTHESIS_PROFILE=quick $(IN)/python -m pytest -q -n $(WORKERS) $(TESTS)
 
 test-all: $(TO_TEST) $(TO_LINT)  ## Run the slow tests as well, and eight times as many examples
 	HYPOTHESIS_PROFILE=all $(IN)/python -m pytest --all -n $(WORKERS)

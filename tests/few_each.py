@@ -6,4 +6,5 @@ searched once; and a number of examples that stood here would hold the long sear
 
 from hypothesis import settings
 
-few_each = settings(max_examples=max(1, settings().max_examples * 2 // 5))
+_OF_ONE = settings().max_examples
+few_each = settings(max_examples=min(_OF_ONE, max(10, _OF_ONE * 2 // 5)))

@@ -67,12 +67,12 @@ class Derived(bytes):
 
 
 @each_case
-@pytest.mark.parametrize("convert", [bytes, bytearray, memoryview, Derived])
-def test_a_frame_is_any_kind_of_bytes(case: Case, convert: Any) -> None:
-    message = busservo.decode(convert(case.frame), case.direction)
-    assert message == case.message
-    assert type(case.message).decode(convert(case.frame)) == case.message
-    assert type(message.encode()) is bytes
+def test_a_frame_is_any_kind_of_bytes(case: Case) -> None:
+    for convert in (bytes, bytearray, memoryview, Derived):
+        message = busservo.decode(convert(case.frame), case.direction)
+        assert message == case.message
+        assert type(case.message).decode(convert(case.frame)) == case.message
+        assert type(message.encode()) is bytes
 
 
 def test_a_message_does_not_change_with_the_buffer_that_it_was_read_from() -> None:

@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 
-from tests.documents import PAGES, ROOT, copy_project, played
+from tests.documents import PAGES, ROOT, copy_project, played, refresh
 
 MAKEFILE = (ROOT / "Makefile").read_text(encoding="utf-8")
 TARGETS = set(re.findall(r"^([a-z-]+):.*## ", MAKEFILE, flags=re.MULTILINE))
@@ -65,3 +65,18 @@ def test_left_out_lines_may_be_anything_but_the_rest_may_not(tmp_path: Path) -> 
     truth = page.replace("reply  {}", line)
     assert played(truth, tmp_path) == truth
     assert played(truth.replace("other", "same"), tmp_path) == shown
+
+
+def test_a_page_that_changes_what_is_gone_is_named_and_the_others_are_written(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    stale, wrong = tmp_path / "stale.md", tmp_path / "wrong.md"
+    file = "codegen/framegen/language/number_types.py"
+    stale.write_text(f"```diff\n--- {file}\n+++ {file}\n@@\n-no such line\n+another\n```\n")
+    wrong.write_text("```console\n$ busservo encode ActionGroupStop\n55 55 02 08\n```\n")
+    assert refresh([stale, wrong]) == 1
+    assert "55 55 02 07" in wrong.read_text()
+    assert capsys.readouterr() == (
+        "wrote wrong.md\n",
+        f"mend the diff in stale.md by hand: {file} holds 0 times:\nno such line\n\n",
+    )

@@ -21,6 +21,7 @@ if TYPE_CHECKING:
 
 
 # The library of one is installed.
+@pytest.mark.each_protocol
 @pytest.mark.parametrize("name", [name for name in FILES if name != "lxservo"])
 def test_each_method_is_answered_by_the_device_of_the_same_library(
     name: str, tmp_path: Path

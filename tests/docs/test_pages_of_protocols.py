@@ -18,6 +18,7 @@ def site_of(name: str) -> Reference:
     return reference_of(read_source(FILES[name]))
 
 
+@pytest.mark.each_protocol
 @pytest.mark.parametrize("name", FILES)
 def test_ids_are_unique_and_every_link_leads_somewhere(name: str) -> None:
     pages = site_of(name).pages
@@ -29,6 +30,7 @@ def test_ids_are_unique_and_every_link_leads_somewhere(name: str) -> None:
             assert not anchor or anchor in pages[where].ids, (path, link)
 
 
+@pytest.mark.each_protocol
 @pytest.mark.parametrize("name", FILES)
 def test_headings_are_in_order(name: str) -> None:
     for path, page in site_of(name).pages.items():
@@ -37,6 +39,7 @@ def test_headings_are_in_order(name: str) -> None:
             assert after <= before + 1, path
 
 
+@pytest.mark.each_protocol
 @pytest.mark.parametrize("name", FILES)
 def test_every_part_and_every_field_is_shown(name: str) -> None:
     site = site_of(name)
@@ -52,6 +55,7 @@ def test_every_part_and_every_field_is_shown(name: str) -> None:
                 assert field in words, (message.name, field)
 
 
+@pytest.mark.each_protocol
 @pytest.mark.parametrize("name", FILES)
 def test_no_page_shows_what_is_not_there(name: str) -> None:
     for path, text in site_of(name).files.items():
@@ -59,6 +63,7 @@ def test_no_page_shows_what_is_not_there(name: str) -> None:
         assert ": None\n" not in text, path
 
 
+@pytest.mark.each_protocol
 @pytest.mark.parametrize("name", FILES)
 def test_the_stream_is_shown_as_the_reference_decodes_it(name: str) -> None:
     model = site_of(name).model

@@ -57,6 +57,7 @@ def on(name: str, answer: Answer, *options: str) -> Run:
     return run(model_of(SPECS[name]), VirtualLine(answer), *options)
 
 
+@pytest.mark.each_protocol
 @pytest.mark.parametrize("name", [name for name in SPECS if allowing(model_of(SPECS[name]))])
 def test_a_device_by_the_reference_passes_with_all_that_it_answers(name: str) -> None:
     model = model_of(SPECS[name])
@@ -65,6 +66,7 @@ def test_a_device_by_the_reference_passes_with_all_that_it_answers(name: str) ->
     assert [each["not_sent"] for each in done.report["steps"] if each["not_sent"]] == []
 
 
+@pytest.mark.each_protocol
 @pytest.mark.parametrize("name", ASKED)
 def test_a_device_by_the_reference_passes_with_malformed_frames(name: str) -> None:
     done = on(name, by_the_reference(model_of(SPECS[name])), "--malformed")
@@ -169,6 +171,7 @@ def values_in_reply(exchange: Exchange, asked: dict[str, Any]) -> dict[str, Any]
     return values
 
 
+@pytest.mark.each_protocol
 @pytest.mark.parametrize("name", ASKED)
 def test_the_generated_device_passes(name: str) -> None:
     with ExitStack() as until:

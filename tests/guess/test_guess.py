@@ -29,6 +29,11 @@ from tests.protocols.specs import FILES
 SPECS = {**FILES, "busservo": BUSSERVO}
 # Its two ends speak in frames that have nothing in common.
 MIXED = "everything"
+# Where a single byte is a frame, too, many readings are tried.
+TAKES_LONG = {"roboclaw"}
+EACH = [
+    pytest.param(name, marks=[pytest.mark.slow] * (name in TAKES_LONG), id=name) for name in SPECS
+]
 # Nor have those of one end, or what is in common is in no frame: no one kind explains them all.
 IN_PART = {MIXED, "roboclaw", "visca"}
 Capsys = pytest.CaptureFixture[str]
@@ -57,7 +62,7 @@ def compiled(found: Guess) -> Compiled:
 
 
 @pytest.mark.each_protocol
-@pytest.mark.parametrize("protocol", SPECS)
+@pytest.mark.parametrize("protocol", EACH)
 def test_what_200_frames_decide_is_right(protocol: str) -> None:
     assert wrong(guessed(protocol)[0], model_of(protocol)) == []
 
@@ -68,7 +73,7 @@ def test_frames_of_two_kinds_on_one_line_are_undecided() -> None:
 
 
 @pytest.mark.each_protocol
-@pytest.mark.parametrize("protocol", SPECS)
+@pytest.mark.parametrize("protocol", EACH)
 def test_200_frames_give_a_spec_without_findings(protocol: str) -> None:
     found, _ = guessed(protocol)
     assert [finding.render(compiled(found).source) for finding in compiled(found).findings] == []

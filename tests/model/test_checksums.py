@@ -247,6 +247,7 @@ def test_every_other_name_leads_to_methods_and_is_none_itself() -> None:
 
 
 @pytest.mark.parametrize("method", CHECKSUMS.values(), ids=named)
+@few_each
 @given(data=st.binary(max_size=20), behind=st.binary(max_size=20), drawn=st.data())
 def test_bytes_that_a_checksum_tells_apart_never_have_the_same(
     method: Checksum, data: bytes, behind: bytes, drawn: st.DataObject

@@ -89,6 +89,7 @@ def damaged(name: str) -> list[bytes]:
     return found[:60] + noisy_lines(model_of(name), 6, 40)
 
 
+@pytest.mark.each_protocol
 @pytest.mark.parametrize("name", FILES)
 def test_what_is_no_frame_is_explained_up_to_where_it_stops_being_one(name: str) -> None:
     model = model_of(name)
@@ -106,6 +107,7 @@ def rows_begin(rows: tuple[Row, ...], data: bytes) -> bool:
     return data.startswith(b"".join(row.data for row in rows))
 
 
+@pytest.mark.each_protocol
 @pytest.mark.parametrize("name", FILES)
 def test_a_library_explains_as_the_reference_does(name: str, tmp_path: Path) -> None:
     model = model_of(name)

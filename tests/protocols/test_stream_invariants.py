@@ -157,26 +157,52 @@ def hostile(name: str, way: Direction) -> list[bytes]:
 
 
 @each_way
-@pytest.mark.parametrize("size", [1, 4096])
-def test_hostile_lines_cost_linear_time(
-    libraries: Libraries, name: str, way: Direction, size: int
+def test_hostile_lines_that_come_at_once_cost_linear_time(
+    libraries: Libraries, name: str, way: Direction
 ) -> None:
     made = libraries[name]
-    rivals = max(1, sum(not each.frame.body_at for each in model_of(name).sent(way)))
 
     def read(line: bytes) -> None:
         decoder = made.StreamDecoder(direction_of(made, way))
-        for at in range(0, len(line), size):
-            decoder.feed(line[at : at + size])
+        decoder.feed(line)
         decoder.flush()
 
     for pattern in filter(None, hostile(name, way)):
         line = pattern * (SIZES[-1] // len(pattern) + 1)
         # What is looked up once for all is none of it.
         read(line[:64])
-        few, more, most = (calls(lambda: read(line[:end])) for end in SIZES)  # noqa: B023
-        assert most <= CALLS_PER_BYTE * rivals * SIZES[-1], pattern.hex(" ")
-        assert most - more <= 2.2 * (more - few) + 20 * 256, pattern.hex(" ")
+        costs = [calls(lambda: read(line[:end])) for end in SIZES]  # noqa: B023
+        assert_linear(name, way, costs, pattern)
+
+
+@each_way
+def test_hostile_lines_that_come_byte_by_byte_cost_linear_time(
+    libraries: Libraries, name: str, way: Direction
+) -> None:
+    made = libraries[name]
+
+    def read(decoder: Any, line: bytes) -> None:
+        for at in range(len(line)):
+            decoder.feed(line[at : at + 1])
+
+    for pattern in filter(None, hostile(name, way)):
+        line = pattern * (SIZES[-1] // len(pattern) + 1)
+        warm = made.StreamDecoder(direction_of(made, way))
+        read(warm, line[:64])
+        warm.flush()
+        decoder, spent, costs = made.StreamDecoder(direction_of(made, way)), 0, []
+        for begin, end in pairwise([0, *SIZES]):
+            spent += calls(lambda: read(decoder, line[begin:end]))  # noqa: B023
+            costs.append(spent + calls(copy(decoder).flush))
+        assert_linear(name, way, costs, pattern)
+
+
+def assert_linear(name: str, way: Direction, costs: Sequence[int], pattern: bytes) -> None:
+    """See that lines of SIZES cost no more than each byte may, and later bytes no more."""
+    rivals = max(1, sum(not each.frame.body_at for each in model_of(name).sent(way)))
+    few, more, most = costs
+    assert most <= CALLS_PER_BYTE * rivals * SIZES[-1], pattern.hex(" ")
+    assert most - more <= 2.2 * (more - few) + 20 * 256, pattern.hex(" ")
 
 
 @each_protocol
