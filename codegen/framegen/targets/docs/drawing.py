@@ -89,14 +89,17 @@ def interruption(model: Model) -> Drawing | None:
         reply = message.message.reply
         if reply is None:
             continue
-        for report, sent in reports.items():
-            if sent.direction == model.messages[reply].direction:
-                steps = [(name, "", True), (report, "report", False), (reply, "reply", True)]
-                caption = (
-                    f"{report} may arrive at any time, also between {name} and {reply}: whoever "
-                    f"waits for {reply} must look at what arrived, not only that something did."
-                )
-                return _drawn(model, "interruption", steps, caption)
+        way = model.messages[reply].direction
+        arriving = [report for report, sent in reports.items() if sent.direction == way]
+        if arriving:
+            report, *others = arriving
+            steps = [(name, "", True), (report, "report", False), (reply, "reply", True)]
+            caption = (
+                f"{report}{', like any other report,' if others else ''} may arrive at any time, "
+                f"also between {name} and {reply}: whoever waits for {reply} must look at what "
+                "arrived, not only that something did."
+            )
+            return _drawn(model, "interruption", steps, caption)
     return None
 
 
