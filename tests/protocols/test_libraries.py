@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from doctest import testmod
+import doctest
 from importlib import import_module
 from itertools import pairwise
 from typing import TYPE_CHECKING, Any
@@ -156,6 +156,6 @@ def test_a_list_of_bytes_may_be_given_as_bytes(
 @pytest.mark.parametrize("name", FILES)
 def test_the_examples_of_a_library_are_true(libraries: Libraries, name: str) -> None:
     messages = import_module(f"{libraries[name].__name__}.messages")
-    found = testmod(messages)
+    found = doctest.testmod(messages)
     assert found.failed == 0
     assert found.attempted >= len(messages_of(name))
