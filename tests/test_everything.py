@@ -284,6 +284,13 @@ def test_messages_are_values(everything: Any) -> None:
             assert copy.replace(message) == message
 
 
+@pytest.mark.parametrize("word", ["nan", "inf", "-inf"])
+def test_what_json_has_no_number_for_comes_back_from_its_word(everything: Any, word: str) -> None:
+    names = everything.Tail.__match_args__
+    fields = dict(zip(names, (200, 2, 3, word), strict=True))
+    assert str(everything.Tail.from_dict(fields).fourth) == word
+
+
 def test_values_are_shown_in_json_as_they_are(everything: Any) -> None:
     values = command_values(everything)
     for message in [*specimens(everything), everything.Tail(1), everything.Texts('"\\', "")]:
@@ -297,6 +304,7 @@ def test_values_are_shown_in_words(everything: Any) -> None:
     flags = everything.Flags(error=3, mode=1, position=65535, temperature=0)
     words = "error=3 (voltage, heat) mode=1 (busy) position=65535 (unknown) temperature=0"
     assert shown(flags) == words
+    assert shown(everything.Flags(0x52, 1, 0, 0)).startswith("error=82 (heat, code 5) ")
     assert shown(everything.Tail(1, 2)) == "first=1 second=2"
     assert shown(everything.Texts("a b", "c:d,e%")) == "name=a%20b note=c%3Ad%2Ce%25"
     reading = "readings=VBAT:12.5:99:-300"
@@ -376,7 +384,7 @@ def test_a_notebook_shows_every_part(everything: Any) -> None:
     for shown in ("what", "sum", "layout", "3 (voltage, heat)", "1 (busy)", "65535 (unknown)"):
         assert f">{shown}<" in strip
     strip = lists(everything)._repr_html_()
-    for shown in ("300", "992, 0, 2047, 1, 2, 3, 4, 5", "x 1, flags 5 (near, far)"):
+    for shown in ("300", "992, 0, 2047, 1, 2, 3, 4, 5", "x 1, flags 5 (near, far 2)"):
         assert shown in strip
     assert "third" not in everything.Tail(1, 2)._repr_html_()
 

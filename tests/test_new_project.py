@@ -113,6 +113,25 @@ def test_a_simulator_of_other_messages_is_refused_in_words(tmp_path: Path) -> No
     assert "Traceback" not in done.stderr
 
 
+@pytest.mark.parametrize(
+    "protocol",
+    [
+        'protocol:\n  name: kiln\n  version: "1.2.3"\n',
+        "protocol:\n  name: kiln\n  version: 1.2.3\n",
+        'protocol: {name: kiln, title: Kiln, version: "1.2.3", authority: m}\n',
+        "protocol: {version: 1.2.3}\n",
+    ],
+)
+def test_the_version_of_a_project_is_read_from_its_spec_however_it_is_written(
+    protocol: str,
+) -> None:
+    (line,) = re.findall('^pattern = "(.*)"$', skeleton("kiln")["pyproject.toml"], re.MULTILINE)
+    pattern = line.encode().decode("unicode_escape")
+    found = re.search(pattern, f"framegen: 2\n{protocol}byte_order: big\n", re.MULTILINE)
+    assert found is not None
+    assert found["version"] == "1.2.3"
+
+
 def test_there_is_nothing_to_find_in_its_spec(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: Capture
 ) -> None:

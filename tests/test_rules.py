@@ -92,6 +92,47 @@ def test_messages_of_the_same_id_are_told_apart_by_lengths_of_their_own() -> Non
     assert compile_spec(Source("lamps.yaml", text)).findings == []
 
 
+@pytest.mark.parametrize(
+    ("one", "other", "are_told"),
+    [
+        ("{type: u8, range: 0..99, about: X.}", "{type: u8, range: 100..200, about: X.}", True),
+        ("{type: u8, range: 0..99, about: X.}", "{type: u8, range: 99..200, about: X.}", False),
+        (
+            "{type: u16, range: 0..0x7F, about: X.}",
+            "{type: u16, range: 0x80..0xFF, about: X.}",
+            True,
+        ),
+        (
+            "{type: u16, range: 0..0x17F, about: X.}",
+            "{type: u16, range: 0x180..0x200, about: X.}",
+            False,
+        ),
+        ("{type: i8, range: -5..-1, about: X.}", "{type: u8, range: 0..250, about: X.}", True),
+        ("{type: i8, range: -5..1, about: X.}", "{type: u8, range: 2..250, about: X.}", False),
+        (
+            "{type: u8, count: 2, text: ascii, about: X.}",
+            "{type: u16, range: 0x8080.., about: X.}",
+            True,
+        ),
+        ("{type: u8, always: 5, about: X.}", "{type: u8, range: 6.., about: X.}", True),
+    ],
+)
+def test_fields_that_have_no_byte_in_common_tell_messages_apart(
+    one: str, other: str, are_told: bool
+) -> None:
+    """As long as a byte by itself does: whole numbers are not compared."""
+    text = LAMPS[: LAMPS.index("  LampsSet:")]
+    for name, field in (("One", one), ("Other", other)):
+        size = 4 if "16" in field or "count" in field else 3
+        text += f"""\
+  {name}: {{id: 1, direction: host -> lamp, summary: X., cite: manual, length: {size - 1},
+    fields: {{value: {field}}}}}
+"""
+    found = compile_spec(Source("lamps.yaml", text)).findings
+    assert ("duplicate-id" not in {finding.rule for finding in found}) == are_told
+    assert {finding.rule for finding in found} <= {"duplicate-id", "no-example"}
+
+
 # ------------------------------------------------------------------ hints at a wrong checksum
 
 BUS = (bad_specs.BASES / "bus.yaml").read_text(encoding="utf-8")

@@ -6,7 +6,7 @@ from itertools import chain, combinations, product, repeat
 from typing import TYPE_CHECKING
 
 from framegen.model.checksums import CHECKSUMS
-from framegen.model.slots import Constant, Number
+from framegen.model.slots import Constant, Number, Text
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator
@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from framegen.model.model import Model
     from framegen.model.slots import Placed, Slot
 
-_ANY = range(256)
+_ANY, _ASCII = range(256), range(128)
 
 
 def alike(model: Model) -> Iterator[tuple[MessageLayout, MessageLayout]]:
@@ -98,6 +98,8 @@ def _values(message: MessageLayout, placed: Placed) -> Iterator[range]:
         # A frame that is too long for its length is another rule's concern.
         low, high = (min(message.lengths[end], slot.number_type.high) for end in (0, -1))
         yield from _between(slot, low, high)
+    elif isinstance(slot, Text):
+        yield from repeat(_ASCII, placed.size)
     elif isinstance(slot, Number) and _is_bounded(slot):
         yield from _between(slot, slot.low, slot.high)
     else:
@@ -105,7 +107,8 @@ def _values(message: MessageLayout, placed: Placed) -> Iterator[range]:
 
 
 def _is_bounded(slot: Number) -> bool:
-    return slot.is_field and not slot.is_float and slot.low >= 0
+    # Of signed numbers, those of one sign are in order.
+    return slot.is_field and not slot.is_float and (slot.low >= 0 or slot.high < 0)
 
 
 def _exactly(data: bytes) -> Iterator[range]:
@@ -115,7 +118,8 @@ def _exactly(data: bytes) -> Iterator[range]:
 def _between(number: Number, low: int, high: int) -> Iterator[range]:
     """Yield the values of each byte of a number from `low` to `high`."""
     found, same = [], True
-    ends = (each.to_bytes(number.size, "big") for each in (low, high))
+    signed = number.number_type.low < 0
+    ends = (each.to_bytes(number.size, "big", signed=signed) for each in (low, high))
     for one, other in zip(*ends, strict=True):
         found.append(range(one, other + 1) if same else _ANY)
         same = same and one == other

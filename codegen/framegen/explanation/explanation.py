@@ -9,7 +9,7 @@ from dataclasses import dataclass
 
 from .closest import closest
 from .lookalikes import recognise
-from .protocol import listed
+from .protocol import lay_out, listed
 from .refusals import (
     BAD_CHECKSUM,
     TRAILING_BYTES,
@@ -302,13 +302,15 @@ class _Explainer:
             yield Hint(f"{has}; with that they are {names}", mended)
             return
         for sealed, names in self._sealed(frame, mended, refusals):
-            yield Hint(f"{has}; with that and {_its(frame)} they would be {names}", sealed)
+            yield Hint(
+                f"{has}; with that and {_its(frame, mended, sealed)} they would be {names}", sealed
+            )
 
     def _checksum_hints(self, frame: Envelope, refusals: Sequence[Refusal]) -> Iterator[Hint]:
         """Make the checksum fit, where that alone is wrong."""
         if any(each.reason == BAD_CHECKSUM for each in refusals):
             for sealed, names in self._sealed(frame, self.data, refusals):
-                yield Hint(f"with {_its(frame)} they would be {names}", sealed)
+                yield Hint(f"with {_its(frame, self.data, sealed)} they would be {names}", sealed)
 
     def _sealed(
         self, frame: Envelope, data: bytes, refusals: Sequence[Refusal]
@@ -363,6 +365,8 @@ def _the(title: str) -> str:
     return f"the {title.removeprefix('The ')}"
 
 
-def _its(frame: Envelope) -> str:
-    """Name the right checksums of a frame."""
-    return f"the right {listed([part.name for part in frame.checksums])}"
+def _its(frame: Envelope, data: bytes, sealed: bytes) -> str:
+    """Name the checksums of a frame that are right only where it is sealed."""
+    parts = zip(lay_out(frame.slots, len(data)), lay_out(frame.slots, len(sealed)), strict=True)
+    wrong = [there.path for here, there in parts if here.of(data) != there.of(sealed)]
+    return f"the right {listed(wrong)}"

@@ -163,3 +163,9 @@ def kind_of(value: object) -> str:
     """Return what a value is, for an error message: `a str`, `nothing`."""
     name = type(value).__name__
     return "nothing" if value is None else f"{'an' if name[0] in 'aeiou' else 'a'} {name}"
+
+
+def set_bits(value: int, bits: Mapping[str, int]) -> list[str]:
+    """Return the named bits that are set in a value, and what they are together: `code 5`."""
+    found = {name: (value & mask) // (mask & -mask) for name, mask in bits.items() if value & mask}
+    return [name if bits[name].bit_count() == 1 else f"{name} {found[name]}" for name in found]

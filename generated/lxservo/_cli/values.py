@@ -15,6 +15,7 @@ from warnings import catch_warnings, simplefilter
 
 from .._frame.errors import EncodeError
 from .._frame.items import Items
+from .._frame.number import set_bits
 from .numerals import whole_in_any_base
 from .usage_error import UsageError
 
@@ -179,7 +180,7 @@ def _as_text(field: Any, value: Any) -> str | None:
     unit = f" {field.unit}" if field.unit else ""
     named = [name for name, known in field.names.items() if known == value]
     bits = getattr(field, "bits", None) or {}
-    named += [name for name, mask in bits.items() if int(value) & mask]
+    named += set_bits(int(value), bits) if bits else []
     return f"{value}{unit} ({', '.join(named)})" if named else f"{value}{unit}"
 
 

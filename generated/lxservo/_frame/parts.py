@@ -7,6 +7,7 @@ from .envelope import NumberPart
 from .envelopes import ENVELOPES
 from .fixed import Always
 from .lists import List, size_of
+from .number import set_bits
 from .optional import Optional
 from .packed import Packed
 from .text import Text
@@ -104,7 +105,7 @@ def value_in_words(number: Any, value: float) -> str:
         if meant == value:
             return f"{value} ({name})"
     bits = getattr(number, "bits", {})
-    names = [name for name, mask in bits.items() if int(value) & mask]
+    names = set_bits(int(value), bits) if bits else []
     if names:
         return f"{value} ({', '.join(names)})"
     return f"{value} {number.unit}" if number.unit else str(value)

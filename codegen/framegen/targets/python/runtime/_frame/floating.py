@@ -16,6 +16,8 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
     from typing import Any, ClassVar
 
+# What JSON has no numbers for, and so is written as text there.
+_NOT_IN_JSON = ("nan", "inf", "-inf")
 # What `float` accepts, and what is no number all the same.
 _NO_NUMBERS = (str, bytes, bytearray)
 
@@ -63,6 +65,8 @@ class Float(Field["float"]):
         """Return `value` as a float. Raises EncodeError if it is none, or too large for a frame."""
         if isinstance(value, bool) or str(getattr(value, "dtype", "")) == "bool":
             raise EncodeError(path, value, f"{shown(value)} is a truth value, not a number")
+        if isinstance(value, str) and value in _NOT_IN_JSON:
+            value = float(value)
         try:
             number = None if isinstance(value, _NO_NUMBERS) else float(value)
             if number is not None:
