@@ -171,10 +171,19 @@ def test_where_frames_begin_is_undecided_when_the_recording_does_not() -> None:
 
 def test_lines_of_text_show_frames_where_nothing_else_does() -> None:
     chance = Random(5)  # noqa: S311
-    frames = [chance.randbytes(chance.randint(3, 9)) for _ in range(40)]
+    # Each ends with the same byte, which others have, too.
+    ends = chance.randbytes(1)
+    frames = [chance.randbytes(chance.randint(2, 8)) + ends for _ in range(40)]
+    frames[1:3] = [ends * 2 + frame for frame in frames[1:3]]
     found = guess(read_capture("\n".join(each.hex(" ") for each in frames).encode()))
     assert found is not None
     assert list(found.reading.framing.frames) == frames
+
+
+def test_lines_of_text_that_have_nothing_in_common_are_no_frames() -> None:
+    chance = Random(5)  # noqa: S311
+    frames = [chance.randbytes(chance.randint(3, 9)) for _ in range(40)]
+    assert guess(read_capture("\n".join(each.hex(" ") for each in frames).encode())) is None
 
 
 def test_a_recording_is_read_without_its_comments() -> None:

@@ -108,7 +108,7 @@ class Guess:
 
 def guess(capture: Capture) -> Guess | None:
     """Guess the protocol of a recording; None where nothing shows where frames begin."""
-    found = readings(capture)
+    found = [reading for reading in readings(capture) if reading.is_findable]
     if not found:
         return None
     best, *others = found

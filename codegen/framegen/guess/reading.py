@@ -137,6 +137,13 @@ class Reading:
         return len(self.framing.places) * (self.framing.constant_bits + width)
 
     @property
+    def is_findable(self) -> bool:
+        """Whether anything in its frames shows where they begin, or that they are frames."""
+        if self.check is not None or self.layout.named("constant"):
+            return True
+        return self.length is not None and bool(self.layout.named("id"))
+
+    @property
     def is_proven(self) -> bool:
         """Whether a checksum says that these are frames."""
         return self.check is not None
