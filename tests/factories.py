@@ -277,7 +277,8 @@ def library(files: Mapping[str, str], folder: Path | None = None) -> Iterator[Mo
     name = next(path for path in files if path.endswith("/py.typed")).split("/")[1]
     # Another test may have imported a library of the same name.
     before = {key: sys.modules.pop(key) for key in [*sys.modules] if key.split(".")[0] == name}
-    finder = _Library(files, folder or Path("made"))
+    # Data is asked for by its whole path.
+    finder = _Library(files, (folder or Path("made")).absolute())
     sys.meta_path.insert(0, finder)
     try:
         yield importlib.import_module(name)

@@ -15,7 +15,7 @@ from tests.protocols.specs import FILES
 SPECS = [
     BUSSERVO,
     DEMO,
-    *(DEMO.with_name(f"{name}.yaml") for name in ("blinds", "lamp", "weather")),
+    *(DEMO.with_name(f"{name}.yaml") for name in ("blinds", "lamp", "taken_names", "weather")),
     *FILES.values(),
 ]
 

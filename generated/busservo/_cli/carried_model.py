@@ -12,3 +12,8 @@ from .._explanation.protocol import Protocol
 def protocol() -> Protocol:
     """Read the model."""
     return Protocol(json.loads(get_data(Protocol.__module__, "model.json") or b""))
+
+
+def classes(model: Protocol) -> dict[str, str]:
+    """Return the class of each message: some of their names are taken in Python."""
+    return {name: each.said.get("class", name) for name, each in model.messages.items()}

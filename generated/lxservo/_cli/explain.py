@@ -11,7 +11,7 @@ from .._explanation.explanation import Judgement, explain
 from .._explanation.text import as_json, as_text
 from .._frame.direction import Direction
 from .._frame.errors import DecodeError
-from .carried_model import protocol
+from .carried_model import classes, protocol
 from .exit_codes import DONE, NOT_ALL
 from .usage_error import UsageError
 
@@ -54,7 +54,7 @@ def run(arguments: Namespace) -> int:
 def explained(model: Protocol, data: bytes, sender: str | None = None) -> Explanation:
     """Explain bytes as this library decodes them; as sent by one end alone, if it is given."""
     ways = {text: Direction(model.said["members"][text]) for text in model.directions}
-    names = {each.said.get("class", name): name for name, each in model.messages.items()}
+    names = {kind: name for name, kind in classes(model).items()}
 
     def judge(direction: str, frame: bytes) -> Judgement:
         try:

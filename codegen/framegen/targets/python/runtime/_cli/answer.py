@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import sys
+from functools import cache
 from warnings import catch_warnings, simplefilter
 
 from .._codec.codec import decode
@@ -11,6 +12,7 @@ from .._codec.hextext import HexError, read_hex
 from .._codec.noise import Noise, UnknownFrame
 from .._frame.direction import Direction
 from .._frame.errors import DecodeError, EncodeError
+from .carried_model import classes, protocol
 from .console import visible
 from .encode import message_named
 from .exit_codes import DONE, UNUSABLE
@@ -79,7 +81,7 @@ def answer(question: str) -> list[str]:
 
 
 def _encoded(name: str, words: list[str]) -> str:
-    kind = message_named(name)
+    kind = message_named(_classes().get(name, name))
     # A field that is called like a word of Python has another name here.
     bent = {name.rstrip("_"): name for name in kind.__match_args__}
     pairs = [word.partition("=") for word in words]
@@ -122,7 +124,18 @@ def _event(event: Message | Noise) -> str:
     given = event.to_dict().items()
     shown = [(name.rstrip("_"), value) for name, value in given if value is not None]
     fields = [f"{name}={_text(value)}" for name, value in shown]
-    return " ".join(["message", type(event).__name__, event.encode().hex(), *fields])
+    return " ".join(["message", _names()[type(event).__name__], event.encode().hex(), *fields])
+
+
+@cache
+def _classes() -> dict[str, str]:
+    """Return the class of each message by its name in the specification, which others use."""
+    return classes(protocol())
+
+
+@cache
+def _names() -> dict[str, str]:
+    return {kind: name for name, kind in _classes().items()}
 
 
 def _text(value: Any) -> str:
