@@ -70,9 +70,7 @@ def _sizes(message: MessageLayout) -> range | list[int]:
 
 
 def _sent_ids(message: MessageLayout) -> tuple[int, ...]:
-    return tuple(
-        message.id_of(part) for part in message.frame.ids if part not in message.frame.unsent
-    )
+    return tuple(message.id_of(part) for part in message.frame.sent_ids)
 
 
 def _marks(message: MessageLayout) -> dict[int, range]:

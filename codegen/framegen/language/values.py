@@ -80,8 +80,7 @@ class Range:
                 f"`{text}` is no range: write it like `0..1000`, "
                 "or `1..` where the frame sets the end"
             )
-        low, high = (None if end is None else _number(end) for end in match.groups())
-        return cls(low or 0, high)
+        return cls(_number(match[1]), None if match[2] is None else _number(match[2]))
 
 
 @dataclass(frozen=True, slots=True)

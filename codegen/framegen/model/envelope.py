@@ -61,10 +61,9 @@ class Envelope:
         begun = {each & 0xFF for each in range(low, min(high, low + 0xFF) + 1)}
         return frozenset({*begun, *(first.write(named)[0] for named in first.named)})
 
-    @cached_property
-    def shortest(self) -> str:
-        """The size of the shortest frame, in words."""
-        return f"the shortest frame has {self.least} bytes"
+    def begins(self, data: bytes) -> bool:
+        """Tell whether a frame may begin with these bytes, as far as its header goes."""
+        return data.startswith(self.header) if self.header else data[0] in self.first_bytes
 
     # Its numbers.
 
@@ -83,12 +82,17 @@ class Envelope:
     @cached_property
     def ids(self) -> tuple[Number, ...]:
         """The numbers that identify the message together, those not sent among them."""
-        return (*self._of_role("id"), *self.unsent)
+        return (*self.sent_ids, *self.unsent)
+
+    @cached_property
+    def sent_ids(self) -> tuple[Number, ...]:
+        """Those of them that a frame has: the first ones."""
+        return tuple(self._of_role("id"))
 
     @cached_property
     def id_part(self) -> Number | None:
         """The last number by which a frame tells its message, if there is one."""
-        return next(reversed([*self._of_role("id")]), None)
+        return self.sent_ids[-1] if self.sent_ids else None
 
     @property
     def id(self) -> Number:

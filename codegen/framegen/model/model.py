@@ -47,7 +47,7 @@ class Candidates:
 
     @cached_property
     def _by_ids(self) -> dict[tuple[int, ...], list[MessageLayout]]:
-        sent = len(self.frame.ids) - len(self.frame.unsent)
+        sent = len(self.frame.sent_ids)
         found: dict[tuple[int, ...], list[MessageLayout]] = {}
         for message in self.messages:
             for size in range(sent + 1):

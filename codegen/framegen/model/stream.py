@@ -120,10 +120,7 @@ class ReferenceDecoder:
         frames = (each.frame for each in self.model.candidates(self.directions))
         if largest is not None:
             frames = (frame for frame in frames if frame.least <= largest)
-        return any(
-            data.startswith(frame.header) if frame.header else data[0] in frame.first_bytes
-            for frame in frames
-        )
+        return any(frame.begins(data) for frame in frames)
 
     def _lives(self, claimed: bytes) -> bool:
         """Tell whether a frame begins, or may begin, behind the first claimed byte.

@@ -177,7 +177,7 @@ class _Look:
         """Read the slots in front of the fields: the length, and the messages that can have it."""
         length: int | None = None
         ids: tuple[int, ...] = ()
-        ids_left = len(self.frame.ids) - len(self.frame.unsent)
+        ids_left = len(self.frame.sent_ids)
         candidates = self._with_ids(ids)
         for placed in self.frame.placed_head:
             slot = placed.slot

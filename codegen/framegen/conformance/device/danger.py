@@ -15,7 +15,6 @@ if TYPE_CHECKING:
     from framegen.model.envelope import Envelope
     from framegen.model.layout import MessageLayout
     from framegen.model.model import Candidates, Model
-    from framegen.model.slots import Number
 
 
 @dataclass(frozen=True)
@@ -44,11 +43,11 @@ class Danger:
     def head(self) -> int:
         """How many bytes tell that a frame begins, and which message it is, as far as ids do."""
         header = len(self.frame.header)
-        return max([header, *(part.at + part.size for part in self._parts)])
+        return max([header, *(part.at + part.size for part in self.frame.sent_ids)])
 
     def begun(self, data: bytes) -> str:
         """Return what begins in `data` for a device that goes by constants and ids alone."""
-        if not (self.frame.header and self._parts):
+        if not (self.frame.header and self.frame.sent_ids):
             return ""
         for at in self._headers(data, range(len(data))):
             found = self.meanings.get(self._ids(data, at))
@@ -61,7 +60,7 @@ class Danger:
         if not self.forbidden:
             return []
         begun = self._headers(data, places)
-        return [at for at in begun if not self._parts or self._ids(data, at) in self._known]
+        return [at for at in begun if not self.frame.sent_ids or self._ids(data, at) in self._known]
 
     def _headers(self, data: bytes, places: range) -> Iterator[int]:
         header = self.frame.header
@@ -73,18 +72,13 @@ class Danger:
     def _ids(self, data: bytes, at: int) -> tuple[int, ...]:
         """Return the ids of what begins at `at`; none where they are not all there."""
         begun = data[at : at + self.frame.body_at]
-        if not all(part.is_in(begun) for part in self._parts):
+        if not all(part.is_in(begun) for part in self.frame.sent_ids):
             return ()
-        return tuple(part.read_in(begun) for part in self._parts)
-
-    @cached_property
-    def _parts(self) -> tuple[Number, ...]:
-        """The ids that are sent."""
-        return self.frame.ids[: len(self.frame.ids) - len(self.frame.unsent)]
+        return tuple(part.read_in(begun) for part in self.frame.sent_ids)
 
     def sent_ids(self, message: MessageLayout) -> tuple[int, ...]:
         """Return the ids of a message that are sent."""
-        return message.ids[: len(self._parts)]
+        return message.ids[: len(self.frame.sent_ids)]
 
     @cached_property
     def _known(self) -> set[tuple[int, ...]]:
@@ -95,7 +89,7 @@ class Danger:
         """By ids, what a device might do that nothing allowed does."""
         spec, received = self.model.spec, self.model.roles.received
         found: dict[tuple[int, ...], str] = {}
-        if len(self._parts) == 1:
+        if len(self.frame.sent_ids) == 1:
             found |= {
                 (code,): f"a frame of id {code}, as in {lookalike.title}"
                 for lookalike in spec.lookalikes.values()
@@ -112,20 +106,20 @@ class Danger:
     def _of(self, ids: Ids) -> tuple[int, ...]:
         """Return ids as this envelope has them; none where it has others."""
         if ids.one is not None:
-            return (ids.one,) if len(self._parts) == 1 else ()
+            return (ids.one,) if len(self.frame.sent_ids) == 1 else ()
         by_part = dict(ids.by_part)
-        found = tuple(by_part[part.name] for part in self._parts if part.name in by_part)
-        return found if len(found) == len(self._parts) else ()
+        found = tuple(by_part[part.name] for part in self.frame.sent_ids if part.name in by_part)
+        return found if len(found) == len(self.frame.sent_ids) else ()
 
     def unknown(self, message: MessageLayout) -> int | None:
         """Return a last id that makes the others of a message those of none; None without one."""
-        if not self._parts:
+        if not self.frame.sent_ids:
             return None
         *front, _ = self.sent_ids(message)
         every = self.model.messages.values()
         known = {self.sent_ids(each) for each in every if each.frame.id_part is not None}
         # A byte of the header there could begin a header.
-        last, taken = self._parts[-1], known | self.meanings.keys()
+        last, taken = self.frame.sent_ids[-1], known | self.meanings.keys()
         free = (
             code
             for code in range(last.high, max(last.low, last.high - 0x1000) - 1, -1)

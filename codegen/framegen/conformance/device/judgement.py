@@ -20,7 +20,6 @@ if TYPE_CHECKING:
     from framegen.conformance.device.receiver import Received
     from framegen.conformance.device.session import Transcript
     from framegen.conformance.device.step import Request
-    from framegen.model.envelope import Envelope
     from framegen.model.model import Model
 
 # What is a fault of a device; the words of the report.
@@ -55,11 +54,6 @@ class Judgement:
 def judge(model: Model, transcript: Transcript) -> Judgement:
     """Judge the answer to one burst."""
     return _Judge(model, transcript).judged()
-
-
-def _begins(frame: Envelope, data: bytes) -> bool:
-    """Tell whether a frame may begin here, as far as its header goes."""
-    return data.startswith(frame.header) if frame.header else data[0] in frame.first_bytes
 
 
 def judge_reports(model: Model, transcript: Transcript, seconds: float) -> Judgement:
@@ -252,7 +246,7 @@ class _Judge:
             data = each.event.data
             if each.event.kind == "noise":
                 for at in range(len(data)):
-                    if any(_begins(frame, data[at:]) for frame in frames):
+                    if any(frame.begins(data[at:]) for frame in frames):
                         return weigh(self.model, way, data[at:]).refusal
         return ""
 

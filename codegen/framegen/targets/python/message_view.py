@@ -95,7 +95,7 @@ class MessageView:
     def id_constants(self) -> list[str]:
         """The assignments of its ids: one by itself is its command."""
         frame, ids = self.layout.frame, self.layout.ids
-        if len(frame.ids) - len(frame.unsent) == 1:
+        if len(frame.sent_ids) == 1:
             return [f"COMMAND = {ids[0]}"]
         return [
             f"{id_name(part.name)} = {number}" for part, number in zip(frame.ids, ids, strict=True)
