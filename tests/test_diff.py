@@ -9,7 +9,7 @@ from typing import Any
 
 import pytest
 from framegen.cli import main
-from framegen.comparison import KINDS, differences
+from framegen.comparison.kinds import KINDS, differences
 from framegen.language.spec import Spec
 from framegen.model.model import Model, derive
 from pydantic import ValidationError

@@ -12,7 +12,7 @@ from framegen.pluralize import pluralize
 if TYPE_CHECKING:
     from argparse import ArgumentParser, Namespace
 
-    from framegen.comparison import Difference
+    from framegen.comparison.kinds import Difference
 
 SUMMARY = "Compare two versions of a spec, and classify each change by what it breaks."
 EXAMPLES = (
@@ -33,7 +33,7 @@ def add_arguments(parser: ArgumentParser) -> None:
 def run(arguments: Namespace) -> int:
     """Print the differences, the most serious first. 1 where the wire or programs break."""
     from framegen.commands.spec_argument import compiled  # noqa: PLC0415
-    from framegen.comparison import differences  # noqa: PLC0415
+    from framegen.comparison.kinds import differences  # noqa: PLC0415
     from framegen.project import named_spec  # noqa: PLC0415
 
     old = compiled(arguments.old)

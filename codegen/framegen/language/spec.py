@@ -22,6 +22,7 @@ from pydantic import Field as Key
 
 from framegen.language.edition import LATEST, Edition
 from framegen.language.formula import Formula, LengthRule, parse_formula, sizes_of
+from framegen.language.names import named_once, names_of
 from framegen.language.notation import Ids, Notation, OneOf
 from framegen.language.number_types import NUMBER_TYPES
 from framegen.language.values import Citation, Direction, Method, Range, Scale, parse_hex
@@ -45,6 +46,9 @@ Call: TypeAlias = Annotated[
     Method, Notation("a method", "read_positions(servo_ids) -> positions", Method.parse)
 ]
 Natural: TypeAlias = Annotated[StrictInt, Key(ge=0)]
+Names: TypeAlias = Annotated[
+    tuple[str, ...], Notation("a name, or a list of names", "OldName", named_once, listed=names_of)
+]
 Order: TypeAlias = Literal["little", "big"]
 
 
@@ -190,6 +194,9 @@ class NamedAddress(Part):
         False, description="Whether nobody answers what is sent there, as with a broadcast."
     )
     cite: Cite | None = Key(None, description="Where it is known from.")
+    was: Names = Key(
+        (), description="What it was called in earlier editions, `OldName`, or a list of names."
+    )
 
 
 class AddressPart(Part):
@@ -206,6 +213,9 @@ class AddressPart(Part):
         "as `all: {value: 254, silent: true}`.",
     )
     byte_order: Order | None = Key(None, description="Which byte comes first, if not as usual.")
+    was: Names = Key(
+        (), description="What it was called in earlier editions, `OldName`, or a list of names."
+    )
     about: str = Key("", description="What it is.")
 
 
@@ -215,6 +225,9 @@ class CounterPart(Part):
     is_: Literal["counter"] = Key(alias="is")
     type: str = Key(description="The number type, such as u8.")
     byte_order: Order | None = Key(None, description="Which byte comes first, if not as usual.")
+    was: Names = Key(
+        (), description="What it was called in earlier editions, `OldName`, or a list of names."
+    )
     about: str = Key("", description="What it is.")
 
 
@@ -260,6 +273,9 @@ class NamedValue(Part):
         "ask for `absent`, and it is never sent as if it were a value.",
     )
     cite: Cite | None = Key(None, description="Where it is known from.")
+    was: Names = Key(
+        (), description="What it was called in earlier editions, `OldName`, or a list of names."
+    )
 
 
 class Limits(Part):
@@ -276,6 +292,9 @@ class Bits(Part):
 
     at: BitRange = Key(description="Which bits, the lowest being 0: `0`, or `0..6`.")
     about: str = Key("", description="What they mean.")
+    was: Names = Key(
+        (), description="What it was called in earlier editions, `OldName`, or a list of names."
+    )
 
     @model_validator(mode="before")
     @classmethod
@@ -344,6 +363,9 @@ class NumberField(Part):
     cite: Cite | None = Key(
         None, description="Where it is known from, if not where the message is."
     )
+    was: Names = Key(
+        (), description="What it was called in earlier editions, `OldName`, or a list of names."
+    )
 
 
 class ListField(Part):
@@ -368,6 +390,9 @@ class ListField(Part):
     notes: list[Note] = Key([], description="What else is known, each with its source.")
     cite: Cite | None = Key(
         None, description="Where it is known from, if not where the message is."
+    )
+    was: Names = Key(
+        (), description="What it was called in earlier editions, `OldName`, or a list of names."
     )
 
 
@@ -450,6 +475,9 @@ class Message(Part):
     examples: list[Example] = Key([], description="Frames, each with what it means.")
     since: str = Key("", description="The first spec version that has it, if not the first of all.")
     deprecated: str = Key("", description="Why not to use it any more, and what to use.")
+    was: Names = Key(
+        (), description="What it was called in earlier editions, `OldName`, or a list of names."
+    )
 
 
 class Pose(Part):
@@ -539,6 +567,11 @@ class Release(Part):
 
     version: str = Key(description="The version.")
     changes: list[str] = Key(description="What changed.")
+    breaks: dict[str, str] = Key(
+        {},
+        description="What it breaks on purpose: by the path in this spec, or in the one before it "
+        "where it is gone, the reason: `messages.LampFade: No board has it any more.`",
+    )
 
 
 class Spec(Part):

@@ -1,0 +1,50 @@
+"""The comparison of two editions: all effects, what explains them, and what is due."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+from typing import TYPE_CHECKING
+
+from framegen.comparison.changes import changes
+from framegen.comparison.conversation import conversation_effects
+from framegen.comparison.pair import Pair
+from framegen.comparison.programs import program_effects
+from framegen.comparison.wire import Trials, try_out, wire_effects
+
+if TYPE_CHECKING:
+    from framegen.comparison.changes.change import Change
+    from framegen.comparison.edition import Edition
+    from framegen.comparison.effect import Effect
+
+
+@dataclass(frozen=True, eq=False)
+class Comparison:
+    """Two editions, held against each other; what is asked for is worked out once."""
+
+    old: Edition
+    new: Edition
+
+    @cached_property
+    def pair(self) -> Pair:
+        """Who is who in the two editions."""
+        return Pair(self.old, self.new)
+
+    @cached_property
+    def trials(self) -> list[Trials]:
+        """What became of every message's frames, for each pair of ends."""
+        return try_out(self.pair)
+
+    @cached_property
+    def effects(self) -> list[Effect]:
+        """What users notice: wire, then conversation, then programs."""
+        return [
+            *wire_effects(self.pair, self.trials),
+            *conversation_effects(self.pair),
+            *program_effects(self.pair),
+        ]
+
+    @cached_property
+    def changes(self) -> list[Change]:
+        """What became of what, from the first to the last line of the new edition."""
+        return changes(self.pair)

@@ -1,0 +1,244 @@
+"""What values mean to the two ends: compared in their units, and by the names that they have."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, Literal, TypeAlias
+
+from framegen.comparison.pair import element_fields, named_bits, named_values
+from framegen.comparison.units import quantity
+from framegen.model.slots import Items, Number, Packed
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator, Mapping
+
+    from framegen.comparison.effect import Outcome
+    from framegen.comparison.pairing import Pairing
+    from framegen.language.spec import Bits, NumberField
+    from framegen.model.layout import MessageLayout
+    from framegen.model.slots import Field
+
+End: TypeAlias = Literal["sender", "receiver"]
+
+
+@dataclass(frozen=True, slots=True)
+class Difference:
+    """A value that the receiver does not read as the sender means it.
+
+    Of what is only understood `in part`, `known_to` says which end knows of the value.
+    """
+
+    outcome: Outcome
+    path: str
+    text: str
+    known_to: End | None = None
+
+
+def differences(
+    pairing: Pairing,
+    sender: MessageLayout,
+    receiver: MessageLayout,
+    sent: Mapping[str, Any],
+    read: Mapping[str, Any],
+) -> Iterator[Difference]:
+    """Compare the values of a message as sent with those read.
+
+    `pairing` is that of the fields, from the sender to the receiver. What is absent on both ends is nothing.
+    """
+    theirs = {slot.name: slot for slot in receiver.arguments}
+    yield from _of_slots(pairing, sender.arguments, theirs, sent, read, "")
+
+
+def translated(
+    pairing: Pairing, ours: MessageLayout, theirs: MessageLayout, values: Mapping[str, Any]
+) -> dict[str, Any] | None:
+    """Return values under the names of the other edition; None where it has no name for one."""
+    said = {slot.name: None for slot in theirs.arguments}
+    named = {slot.name: slot for slot in theirs.arguments}
+    for slot in ours.arguments:
+        value, other = values[slot.name], named.get(pairing.to_new.get(slot.name, ""))
+        if value is None:
+            continue
+        if other is None:
+            return None
+        if isinstance(slot, Items) and isinstance(other, Items) and slot.element is not None:
+            names = element_fields(slot, other).to_new
+            if any(field.name not in names for field in slot.fields):
+                return None
+            value = [{names[name]: each for name, each in item.items()} for item in value]
+        said[other.name] = value
+    return said
+
+
+def _of_slots(
+    pairing: Pairing,
+    ours: tuple[Field, ...],
+    theirs: Mapping[str, Field],
+    sent: Mapping[str, Any],
+    read: Mapping[str, Any],
+    around: str,
+) -> Iterator[Difference]:
+    met: set[str] = set()
+    for slot in ours:
+        path = f"{around}{slot.name}"
+        other = theirs.get(pairing.to_new.get(slot.name, ""))
+        if other is None:
+            if sent[slot.name] is not None:
+                yield Difference("in part", path, f"{path} is not read", "sender")
+            continue
+        met.add(other.name)
+        yield from _values(slot, other, sent[slot.name], read[other.name], path)
+        if slot.name in pairing.guessed:
+            text = f"{path} is read as {other.name}, which may be another thing"
+            yield Difference("uncertain", path, text)
+    for name in theirs:
+        if name not in met and read[name] is not None:
+            path = f"{around}{name}"
+            yield Difference("in part", path, f"{path} is read, and not sent", "receiver")
+
+
+def _values(ours: Field, theirs: Field, sent: Any, read: Any, path: str) -> Iterator[Difference]:
+    match ours, theirs:
+        case Items(), Items() if ours.text is None and theirs.text is None:
+            yield from _lists(ours, theirs, sent, read, path)
+        case Number(), Number() if sent is not None and read is not None:
+            yield from _numbers(ours.field, theirs.field, sent, read, path)
+        case Packed() | Items(), Packed() | Items() if _is_bare(ours) and _is_bare(theirs):
+            one, other = (
+                each.field if isinstance(each, Packed) else each.fields[0].field
+                for each in (ours, theirs)
+            )
+            yield from _bare(one, other, sent, read, path)
+        case _:
+            if _plain(sent) != _plain(read):
+                yield Difference("misread", path, f"{path} = {sent!r} is read as {read!r}")
+
+
+def _is_bare(slot: Field) -> bool:
+    return isinstance(slot, Packed) or (
+        isinstance(slot, Items) and slot.element is None and slot.text is None
+    )
+
+
+def _plain(value: Any) -> Any:
+    """Return text as the bytes that it is, so that it equals a list of them."""
+    if isinstance(value, str):
+        return list(value.encode().rstrip(b"\0"))
+    if isinstance(value, list) and all(isinstance(each, int) for each in value):
+        while value and not value[-1]:
+            value = value[:-1]
+    return value
+
+
+def _bare(
+    ours: NumberField, theirs: NumberField, sent: list[Any], read: list[Any], path: str
+) -> Iterator[Difference]:
+    if len(sent) != len(read):
+        yield Difference(
+            "misread", path, f"{path} has {len(sent)} elements and is read as {len(read)}"
+        )
+        return
+    for index, (one, other) in enumerate(zip(sent, read, strict=True)):
+        yield from _numbers(ours, theirs, one, other, f"{path}[{index}]")
+
+
+def _lists(
+    ours: Items, theirs: Items, sent: list[Any], read: list[Any], path: str
+) -> Iterator[Difference]:
+    if (ours.element is None) != (theirs.element is None):
+        yield Difference("misread", path, f"{path} has other elements")
+        return
+    if ours.element is None or theirs.element is None:
+        yield from _bare(ours.fields[0].field, theirs.fields[0].field, sent, read, path)
+        return
+    if len(sent) != len(read):
+        yield Difference(
+            "misread", path, f"{path} has {len(sent)} elements and is read as {len(read)}"
+        )
+        return
+    pairing = element_fields(ours, theirs)
+    named = {slot.name: slot for slot in theirs.fields}
+    for index, (one, other) in enumerate(zip(sent, read, strict=True)):
+        yield from _of_slots(pairing, ours.fields, named, one, other, f"{path}[{index}].")
+
+
+def _numbers(
+    ours: NumberField, theirs: NumberField, sent: float, read: float, path: str
+) -> Iterator[Difference]:
+    """Compare two numbers in their units, then by their names and their bits."""
+    means, meant = quantity(ours), quantity(theirs)
+    if means is not None and meant is not None and _finite(sent) and _finite(read):
+        alike = (means.step, means.offset) == (meant.step, meant.offset)
+        if means.unit != meant.unit:
+            # A name for a unit may be another name for the same.
+            outcome: Outcome = "uncertain" if alike and sent == read else "misread"
+            text = f"{path} = {_said(ours, sent)} is read as {_said(theirs, read)}"
+            yield Difference(outcome, path, text)
+        elif means.value(sent) != meant.value(read):
+            text = f"{path} = {_said(ours, sent)} is read as {_said(theirs, read)}"
+            yield Difference("misread", path, text)
+    elif sent != read and not (math.isnan(sent) and math.isnan(read)):
+        yield Difference("misread", path, f"{path} = {sent} is read as {read}")
+    yield from _names(ours, theirs, sent, read, path)
+    yield from _bits(ours, theirs, sent, read, path)
+
+
+def _names(
+    ours: NumberField, theirs: NumberField, sent: float, read: float, path: str
+) -> Iterator[Difference]:
+    """Compare the names of two numbers: one that only one end has is a matter of documentation."""
+    if not ours.values and not theirs.values:
+        return
+    pairing = named_values(ours, theirs)
+    said = [name for name, each in ours.values.items() if each.value == sent]
+    heard = [name for name, each in theirs.values.items() if each.value == read]
+    for name in said:
+        other = pairing.to_new.get(name)
+        if other is not None and other not in heard:
+            yield Difference("misread", path, f"{path} = {name} is read as {_called(heard, read)}")
+        elif other is not None and name in pairing.guessed:
+            text = f"{path} = {name} is read as {other}, which may be another thing"
+            yield Difference("uncertain", path, text)
+    for name in heard:
+        other = pairing.to_old.get(name)
+        if other is not None and other not in said:
+            yield Difference("misread", path, f"{path} = {_called(said, sent)} is read as {name}")
+
+
+def _bits(
+    ours: NumberField, theirs: NumberField, sent: float, read: float, path: str
+) -> Iterator[Difference]:
+    if not ours.bits or not theirs.bits or sent != int(sent) or read != int(read):
+        return
+    pairing = named_bits(ours, theirs)
+    for name, other in pairing.to_new.items():
+        one, another = _bits_of(ours.bits[name], int(sent)), _bits_of(theirs.bits[other], int(read))
+        if one != another:
+            text = f"{path}.{name} = {one} is read as {another}"
+            yield Difference("misread", path, text)
+        elif name in pairing.guessed:
+            text = f"{path}.{name} is read as {other}, which may be another thing"
+            yield Difference("uncertain", path, text)
+
+
+def _bits_of(bits: Bits, number: int) -> int:
+    low, high = bits.at.low, bits.at.high
+    width = 1 if high is None else high - low + 1
+    return number >> low & (1 << width) - 1
+
+
+def _called(names: list[str], number: float) -> str:
+    return names[0] if names else str(number)
+
+
+def _said(field: NumberField, number: float) -> str:
+    """Return a number with its unit, as people write it."""
+    if field.scale is None:
+        return f"{number} {field.unit}".rstrip()
+    said = field.scale.step * int(number) + field.scale.offset if number == int(number) else number
+    return f"{said} {field.scale.unit}".rstrip()
+
+
+def _finite(number: float) -> bool:
+    return math.isfinite(number)

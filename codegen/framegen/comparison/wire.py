@@ -1,0 +1,215 @@
+"""The wire: what each end makes of the frames of another that has the other edition.
+
+Every message of either edition is encoded with the reference codec of its own, at the edges of
+both, and read with that of the other.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Any
+
+from framegen.comparison.edges import MOST, values_to_try
+from framegen.comparison.effect import OUTCOMES, Effect, Witness
+from framegen.comparison.meaning import differences, translated
+from framegen.comparison.pair import shape
+from framegen.model.codec import Unencodable, encode, values_of
+from framegen.model.stream import ReferenceDecoder
+from framegen.model.verdict import weigh_whole
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator, Mapping
+
+    from framegen.comparison.effect import Outcome, Which
+    from framegen.comparison.meaning import Difference
+    from framegen.comparison.pair import Pair
+    from framegen.language.values import Direction
+    from framegen.model.layout import MessageLayout
+
+_OTHER: dict[Which, Which] = {"old": "new", "new": "old"}
+
+
+@dataclass
+class Trials:
+    """What became of the frames of one message that one edition sends and the other reads.
+
+    `counts` says how many had which outcome. `breaking` and `adding` hold the worst frame that
+    breaks something, and the worst that only says what is new to its receiver. `all_tried` is
+    False where there would have been more to try.
+    """
+
+    sender: Which
+    message: MessageLayout
+    way: Direction
+    counts: dict[Outcome, int] = field(default_factory=dict)
+    breaking: Witness | None = None
+    adding: Witness | None = None
+    all_tried: bool = True
+
+    @property
+    def tried(self) -> int:
+        """How many frames were tried."""
+        return sum(self.counts.values())
+
+
+def try_out(pair: Pair) -> list[Trials]:
+    """Try out every message of either edition on an end that has the other one."""
+    return [*_from(pair, "old"), *_from(pair, "new")]
+
+
+def wire_effects(pair: Pair, trials: list[Trials]) -> Iterator[Effect]:
+    """Yield an effect for each message of each edition that is not read alike."""
+    for each in trials:
+        for witness, breaks in ((each.breaking, True), (each.adding, False)):
+            if witness is not None:
+                yield _effect(pair, each, witness, breaks=breaks)
+
+
+def _effect(pair: Pair, trials: Trials, witness: Witness, *, breaks: bool) -> Effect:
+    here = ("messages", trials.message.name)
+    pairing = pair.messages if trials.sender == "old" else pair.messages.flipped
+    name = pairing.to_new.get(trials.message.name)
+    there = None if name is None else ("messages", name)
+    old, new = (here, there) if trials.sender == "old" else (there, here)
+    way, receiver = trials.way, _OTHER[trials.sender]
+    ends = f"{trials.sender} {way.sender}, {receiver} {way.receiver}"
+    text = f"{trials.message.name}: {witness.reading}"
+    certain = witness.outcome != "uncertain"
+    return Effect("wire", witness.outcome, old, new, text, ends, breaks, certain, witness)
+
+
+def _from(pair: Pair, sender: Which) -> Iterator[Trials]:
+    ours = pair.edition(sender).model
+    alike = _same_lines(pair)
+    for message in ours.messages.values():
+        yield _Trial(pair, sender, message, alike).run()
+
+
+def _same_lines(pair: Pair) -> frozenset[str]:
+    """Return the old names of messages whose frames look the same in both editions."""
+    found: set[str] = set()
+    for name, other in pair.messages.to_new.items():
+        old, new = pair.old.model.messages[name], pair.new.model.messages[other]
+        if [*map(shape, old.slots)] == [*map(shape, new.slots)] and old.ids == new.ids:
+            found.add(name)
+    return frozenset(found)
+
+
+class _Trial:
+    """One message that one edition sends, and the other edition, which reads it."""
+
+    def __init__(
+        self, pair: Pair, sender: Which, message: MessageLayout, alike: frozenset[str]
+    ) -> None:
+        self.pair = pair
+        self.sender = sender
+        self.message = message
+        self.theirs = pair.edition(_OTHER[sender]).model
+        self.pairing = pair.messages if sender == "old" else pair.messages.flipped
+        turn = pair.way_in_new if sender == "old" else pair.way_in_old
+        self.way = turn(message.direction)
+        name = self.pairing.to_new.get(message.name)
+        self.other = None if name is None else self.theirs.messages[name]
+        old_name = message.name if sender == "old" else name
+        self.pairs = old_name not in alike
+        # What a client sends, a program decided to send; a device sends what it will.
+        self.chosen = message.direction.sender == pair.edition(sender).model.roles.client
+
+    def run(self) -> Trials:
+        """Try out the message at its edges."""
+        found = Trials(self.sender, self.message, self.message.direction)
+        names = {} if self.other is None else dict(self._fields(self.other).to_new)
+        for number, values in enumerate(
+            values_to_try(self.message, self.other, names, pairs=self.pairs), 1
+        ):
+            witness, breaks = self._try(values)
+            found.counts[witness.outcome] = found.counts.get(witness.outcome, 0) + 1
+            found.all_tried = number < MOST
+            if witness.outcome == "same":
+                continue
+            worst = found.breaking if breaks else found.adding
+            if worst is None or _rank(witness) > _rank(worst):
+                if breaks:
+                    found.breaking = witness
+                else:
+                    found.adding = witness
+        return found
+
+    def _try(self, values: Mapping[str, Any]) -> tuple[Witness, bool]:
+        """Return what becomes of a frame with these values, and whether that breaks anything."""
+        data = encode(self.message, values)
+
+        def witness(outcome: Outcome, reading: str) -> Witness:
+            return Witness(self.sender, data, self.message.name, values, outcome, reading)
+
+        if self.way is None:
+            return witness("refused", "there is no such end"), True
+        verdict = weigh_whole(self.theirs, [self.way], data)
+        if verdict.message is None:
+            inside = self._read_inside(data)
+            if inside:
+                return witness("misread", f"is read as {inside}"), True
+            return witness("refused", f"is refused, {verdict.refusal}"), self._was_understood(
+                values
+            )
+        read = values_of(verdict.message, data)
+        if self.other is None or verdict.message is not self.other:
+            return witness("misread", f"is read as {verdict.message.name}"), True
+        return self._compared(witness, values, read)
+
+    def _compared(
+        self, witness: Any, values: Mapping[str, Any], read: Mapping[str, Any]
+    ) -> tuple[Witness, bool]:
+        assert self.other is not None
+        found = [*differences(self._fields(self.other), self.message, self.other, values, read)]
+        if self.message.name in self.pairing.guessed:
+            what = f"is read as {self.other.name}, which may be another message"
+            worst: tuple[Outcome, str] = ("uncertain", what)
+        else:
+            worst = ("same", "is read alike")
+        breaks = worst[0] == "uncertain"
+        for each in found:
+            if OUTCOMES.index(each.outcome) > OUTCOMES.index(worst[0]):
+                worst = (each.outcome, each.text)
+            breaks |= self._breaks(each)
+        return witness(*worst), breaks
+
+    def _breaks(self, difference: Difference) -> bool:
+        """Tell whether what is known to one end alone was known before: then it is lost."""
+        if difference.known_to is None:
+            return True
+        knows = self.sender if difference.known_to == "sender" else _OTHER[self.sender]
+        return knows == "old"
+
+    def _was_understood(self, values: Mapping[str, Any]) -> bool:
+        """Tell whether a refused frame says something that ends understood in the old edition."""
+        if self.sender == "old":
+            return True
+        if self.other is None:
+            return False
+        if not self.chosen:
+            return True
+        said = translated(self._fields(self.other), self.message, self.other, values)
+        if said is None:
+            return False
+        try:
+            encode(self.other, said)
+        except Unencodable:
+            return False
+        return True
+
+    def _read_inside(self, data: bytes) -> str:
+        """Return the messages that the other end finds in a frame that it refuses as a whole."""
+        assert self.way is not None
+        events = ReferenceDecoder(self.theirs, [self.way]).decode(data)
+        found = [each.message.name for each in events if each.message is not None]
+        return ", ".join(dict.fromkeys(found))
+
+    def _fields(self, other: MessageLayout) -> Any:
+        if self.sender == "old":
+            return self.pair.fields(self.message, other)
+        return self.pair.fields(other, self.message).flipped
+
+
+def _rank(witness: Witness) -> int:
+    return OUTCOMES.index(witness.outcome)
