@@ -91,7 +91,7 @@ def working_edition(spec: Path) -> Edition:
 
 
 def released(folder: Path, name: str) -> list[Path]:
-    """Return the released editions of a protocol, the newest first; `folder` is that of its spec."""
+    """Return the released editions of a protocol, the newest first; its spec is in `folder`."""
     found: list[tuple[tuple[object, ...], Path]] = []
     for file in (folder / RELEASED).glob("*.yaml"):
         version = precedence(file.stem.removeprefix(f"{name}-"))
