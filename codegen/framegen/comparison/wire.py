@@ -6,6 +6,7 @@ both, and read with that of the other.
 
 from __future__ import annotations
 
+from contextlib import suppress
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
@@ -143,7 +144,9 @@ class Trial:
         """Yield what becomes of each frame that is tried, and whether that breaks anything."""
         names = {} if self.other is None else dict(self._fields(self.other).to_new)
         for values in values_to_try(self.message, self.other, names, pairs=self.pairs):
-            yield self.of(values)
+            # A tolerated edition may have messages that none of its frames can carry.
+            with suppress(Unencodable, OverflowError):
+                yield self.of(values)
 
     def of(self, values: Mapping[str, Any]) -> tuple[Witness, bool]:
         """Return what becomes of a frame with these values, and whether that breaks anything."""
@@ -154,6 +157,8 @@ class Trial:
 
         if self.way is None:
             return witness("refused", "there is no such end"), self._was_understood(values)
+        if not self.theirs.sent(self.way):
+            return witness("refused", "no message goes this way"), self._was_understood(values)
         verdict = weigh_whole(self.theirs, [self.way], data)
         if verdict.message is None:
             inside = self._read_inside(self.way, data)
