@@ -15,8 +15,6 @@ if TYPE_CHECKING:
     from framegen.reading.yamltree import KeyPath
 
 _EXAMPLE = "write it as findings have it, such as `messages.LampFade.fields.time_ms`"
-# Of these, each entry stands for itself.
-_SECTIONS = ("messages", "frames", "endpoints", "protocol")
 
 
 def _look(spec: Spec) -> Iterator[Problem]:
@@ -34,12 +32,12 @@ def _path(here: KeyPath, text: str) -> Iterator[Problem]:
         path = read_path(text)
         expect_place(path)
     except NoPath as error:
-        hint = did_you_mean(error.step, error.known, otherwise="") if error.known else _EXAMPLE
+        hint = did_you_mean(error.step, error.known) if error.known else _EXAMPLE
         yield Problem(here, str(error), hint, on_key=True)
         return
-    if len(path) == 1 and path[0] in _SECTIONS:
-        what = f"`{text}` would accept whatever breaks there"
-        yield Problem(here, what, f"name what does, such as `{text}.NAME`", on_key=True)
+    if path == ("messages",):
+        what = "`messages` would accept whatever breaks in any of them"
+        yield Problem(here, what, "name one, such as `messages.LampFade`", on_key=True)
 
 
 RULE = StructureRule(
