@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 import sys
 from dataclasses import dataclass, field, replace
 from pathlib import Path
@@ -13,6 +12,7 @@ from framegen.comparison.revision import NoSuchRevision, NotInRevision, Revision
 from framegen.compile import compile_leniently
 from framegen.console import visible
 from framegen.language.load import MAX_BYTES, read_source, refuse_size, source_of
+from framegen.language.version import Version
 from framegen.project import all_specs, default_spec, named_spec
 from framegen.reading.findings import did_you_mean
 from framegen.reading.yamltree import Unusable
@@ -22,7 +22,6 @@ if TYPE_CHECKING:
 
 # Below the folder of the spec.
 RELEASED = "released"
-_VERSION = re.compile(r"(\d{1,9})\.(\d{1,9})\.(\d{1,9})(?:-([0-9A-Za-z.-]+))?(?:\+[0-9A-Za-z.-]+)?")
 _A_FILE = (".yaml", ".yml")
 
 
@@ -92,28 +91,12 @@ def working_edition(spec: Path) -> Edition:
 
 def released(folder: Path, name: str) -> list[Path]:
     """Return the released editions of a protocol, the newest first; its spec is in `folder`."""
-    found: list[tuple[tuple[object, ...], Path]] = []
+    versions: dict[Path, Version] = {}
     for file in (folder / RELEASED).glob("*.yaml"):
-        version = precedence(file.stem.removeprefix(f"{name}-"))
-        if file.stem.startswith(f"{name}-") and version is not None:
-            found.append((version, file))
-    return [file for _, file in sorted(found, reverse=True)]
-
-
-def precedence(version: str) -> tuple[object, ...] | None:
-    """Return what to sort a semantic version by; None for what is none."""
-    found = _VERSION.fullmatch(version)
-    if found is None:
-        return None
-    numbers = tuple(int(part) for part in found.groups()[:3])
-    if found[4] is None:
-        return (*numbers, 1, ())
-    return (*numbers, 0, tuple(_identifier(part) for part in found[4].split(".")))
-
-
-def _identifier(text: str) -> tuple[int, int, str]:
-    """Return what to sort a part of a pre-release by: numbers come before words."""
-    return (0, int(text), "") if text.isdecimal() and len(text) < 10 else (1, 0, text)
+        version = Version.parse_or_none(file.stem.removeprefix(f"{name}-"))
+        if version is not None:
+            versions[file] = version
+    return sorted(versions, key=versions.__getitem__, reverse=True)
 
 
 def older_edition(spec: Path, name: str) -> Edition:

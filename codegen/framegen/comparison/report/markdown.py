@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-import json
-import re
 from typing import TYPE_CHECKING
 
 from framegen.comparison.report.verdict import standing
 from framegen.comparison.report.words import between, effect_text, hex_of
 from framegen.pluralize import pluralize
+from framegen.reading.yamltext import block, scalar
 from framegen.reading.yamltree import dotted
 from framegen.targets.docs.escape import code, markdown, verbatim
 
@@ -18,8 +17,6 @@ if TYPE_CHECKING:
     from framegen.comparison.effect import Effect
     from framegen.comparison.report.view import View
 
-# What YAML reads as text though it stands in no quotes.
-_PLAIN = re.compile(r"[A-Za-z][A-Za-z0-9 ._,()/+%-]*[A-Za-z0-9.)%]")
 _WORDS = {"breaks": "breaks", "uncertain": "uncertain", "accepted": "on purpose"}
 # Rows of a table, and items of a list: a comment on a pull request has room for 65 536 characters.
 _MOST = 100
@@ -45,7 +42,7 @@ def _header(view: View) -> str:
     old, new = view.old, view.new
     name = markdown(new.spec.protocol.name)
     return (
-        f"## {name} {markdown(new.version)}\n\n"
+        f"## {name} {markdown(view.next_version)}\n\n"
         f"Compared with {markdown(old.version)}: {code(old.label)} → {code(new.label)}"
     )
 
@@ -89,16 +86,11 @@ def _changes(view: View) -> Iterator[str]:
 
 def _entry(view: View) -> str:
     """Return the entry in YAML; what breaks and is not accepted yet waits there for its reason."""
-    lines = [f'  - version: "{view.new.version}"', "    changes:"]
-    lines += [f"      - {_scalar(sentence)}" for sentence in view.sentences]
+    entry = {"version": view.next_version, "changes": view.sentences}
+    lines = [f"  {line}" for line in block([entry])]
     places = [dotted(each.path) for each in view.effects if each.breaks and not each.accepted]
     if places:
-        lines += ["    # What is meant to break, with the reason:", "    # breaks:"]
-        lines += [f"    #   {_scalar(place)}: ..." for place in dict.fromkeys(places)]
+        lines += ["    # What is meant to break, each with its reason:", "    # breaks:"]
+        lines += [f"    #   {scalar(place)}: REASON" for place in dict.fromkeys(places)]
     text = "\n".join(lines)
     return f"```yaml\n{verbatim(text)}\n```"
-
-
-def _scalar(text: str) -> str:
-    folded = " ".join(text.split())
-    return folded if _PLAIN.fullmatch(folded) else json.dumps(folded)

@@ -8,10 +8,13 @@ from typing import TYPE_CHECKING
 
 from framegen.comparison.accepted import accepted_breaks
 from framegen.comparison.changes import CHANGE_RULES
+from framegen.comparison.due import due, next_version, version_finding
 from framegen.comparison.edges import MOST
+from framegen.comparison.entry import sentences
 from framegen.comparison.report.ends import all_ends, ends_of, upgrade_order
 from framegen.comparison.report.verdict import AXES, STANDINGS, Verdict, standing
-from framegen.comparison.seams import due, explain, sentences, version_finding
+from framegen.comparison.seams import explain
+from framegen.language.version import NoVersion
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -19,11 +22,11 @@ if TYPE_CHECKING:
     from framegen.comparison.accepted import Accepted
     from framegen.comparison.changes.change import Change, ChangeRule
     from framegen.comparison.comparison import Comparison
+    from framegen.comparison.due import Bump
     from framegen.comparison.edition import Edition
     from framegen.comparison.effect import Effect
     from framegen.comparison.pair import Pair
     from framegen.comparison.report.ends import Ends
-    from framegen.comparison.seams import Bump
     from framegen.reading.yamltree import KeyPath
 
 
@@ -144,6 +147,16 @@ class View:
     def version_finding(self) -> str | None:
         """What is wrong with the version of the new edition."""
         return version_finding(self.old.version, self.new.version, self.bump)
+
+    @property
+    def next_version(self) -> str:
+        """The version of what comes next: that of the new edition, or the one that is due."""
+        if self.version_finding is None or self.bump is None:
+            return self.new.version
+        try:
+            return next_version(self.old.version, self.bump)
+        except NoVersion:
+            return self.new.version
 
     @property
     def sentences(self) -> list[str]:
