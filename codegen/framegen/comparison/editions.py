@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from framegen.comparison.edition import Edition
-from framegen.comparison.revision import NoSuchRevision, NotInRevision, Revision
+from framegen.comparison.revision import NotInRevision, Revision
 from framegen.compile import compile_leniently
 from framegen.console import visible
 from framegen.language.load import MAX_BYTES, read_source, refuse_size, source_of
@@ -151,20 +151,16 @@ def _file(word: str) -> Path | None:
 
 
 def _or_a_file(word: str, error: Unusable) -> Unusable:
-    """Return what is wrong with a word that may be meant for a file."""
-    if word.endswith(_A_FILE) and ":" not in word:
-        return Unusable(
-            f"{visible(word)} does not exist",
-            hint=did_you_mean(word, [file.as_posix() for file in _all_released()])
-            or "name a spec file, or a revision that has one, such as `HEAD:spec/busservo.yaml`",
-        )
-    if not isinstance(error, NoSuchRevision) or ":" in word:
+    """Return what is wrong with a word that is no file, and may have been meant for one."""
+    if ":" in word:
         return error
-    if Path(word).is_dir():
-        return Unusable(f"{visible(word)} is a folder, and not a spec", hint=_NAME_TWO)
-    names = [file.stem for file in _all_released()]
+    shown, names = visible(word), [file.stem for file in _all_released()]
     near = did_you_mean(word, names, otherwise=error.hint) if names else error.hint
-    return Unusable(f"`{visible(word)}` is no file and no released edition, and {error}", hint=near)
+    if Path(word).is_dir():
+        return Unusable(f"{shown} is a folder, and not a spec", hint=_NAME_TWO)
+    if word.endswith(_A_FILE):
+        return Unusable(f"{shown} does not exist", hint=near)
+    return Unusable(f"`{shown}` is no file and no released edition, and {error}", hint=near)
 
 
 def _all_released() -> list[Path]:

@@ -51,8 +51,6 @@ def all_ends(pair: Pair) -> list[Ends]:
 def upgrade_order(broken: Iterable[Ends]) -> str:
     """Say which end is upgraded first, where these do not understand each other."""
     ends = [*broken]
-    if not ends:
-        return "in any order"
     if len({(each.first, each.second) for each in ends}) < len(ends):
         return "both ends at once: each breaks with the old edition of the other"
     # What an old end breaks with must not be there before that is upgraded.

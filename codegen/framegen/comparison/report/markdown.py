@@ -56,7 +56,7 @@ def _verdicts(view: View) -> Iterator[str]:
 
 
 def _upgrade(view: View) -> Iterator[str]:
-    if any(each.ends is not None and not each.works for each in view.verdicts):
+    if view.order:
         yield f"Upgrade {markdown(view.order)}."
     if view.version_finding:
         yield f"**Version**: {markdown(view.version_finding)}."

@@ -48,14 +48,17 @@ def _table(view: View) -> list[str]:
             rows.append((axis, "", "works as before"))
             continue
         for number, each in enumerate(verdicts):
-            who = "" if each.ends is None else f"{each.ends}: "
-            rows.append(("" if number else axis, who, str(each)))
-    lines = [f"  {axis:<12}  {who}{said}" for axis, who, said in rows]
-    if any(each.ends is not None and not each.works for each in view.verdicts):
-        lines.append(f"  {'upgrade':<12}  {view.order}")
+            ends = "" if each.ends is None else f"{each.ends}: "
+            rows.append(("" if number else axis, ends, str(each)))
+    if view.order:
+        rows.append(("upgrade", "", view.order))
     if view.version_finding:
-        lines.append(f"  {'version':<12}  {view.version_finding}")
-    return lines
+        rows.append(("version", "", view.version_finding))
+    first, second = (max(len(row[column]) for row in rows) for column in (0, 1))
+    return [
+        f"  {name:<{first}}  {f'{ends:<{second}}' if ends else ''}{said}"
+        for name, ends, said in rows
+    ]
 
 
 def _notes(view: View) -> Iterator[str]:

@@ -48,9 +48,9 @@ class Verdict:
         return {each: counted for each, counted in found.items() if counted}
 
     @property
-    def works(self) -> bool:
-        """Whether nothing breaks, not even on purpose."""
-        return not any(effect.breaks for effect in self.effects)
+    def breaks(self) -> bool:
+        """Whether anything breaks for certain, be it on purpose."""
+        return any(effect.breaks and effect.certain for effect in self.effects)
 
     def __str__(self) -> str:
         said = [_said(each, counted) for each, counted in self.counts.items()]

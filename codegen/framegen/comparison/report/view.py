@@ -84,9 +84,9 @@ class View:
 
     @property
     def order(self) -> str:
-        """Which end is upgraded first."""
-        broken = {each.ends for each in self.verdicts if each.ends is not None and not each.works}
-        return upgrade_order(broken)
+        """Which end is upgraded first; "" where nothing breaks between them for certain."""
+        broken = {each.ends for each in self.verdicts if each.ends is not None and each.breaks}
+        return upgrade_order(broken) if broken else ""
 
     @cached_property
     def sections(self) -> list[Section]:

@@ -30,7 +30,8 @@ def call_of(witness: Witness) -> str:
 
 def effect_text(effect: Effect, title: str) -> str:
     """Return the sentence of an effect, below the name of its message."""
-    return visible(effect.text.removeprefix(f"{title}: "))
+    sender = title if effect.witness is None else effect.witness.message
+    return visible(effect.text.removeprefix(f"{title}: ").removeprefix(f"{sender}: "))
 
 
 def between(effect: Effect) -> str:
