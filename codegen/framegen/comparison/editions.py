@@ -13,7 +13,7 @@ from framegen.compile import compile_leniently
 from framegen.console import visible
 from framegen.language.load import MAX_BYTES, read_source, refuse_size, source_of
 from framegen.language.version import Version
-from framegen.project import all_specs, default_spec, named_spec
+from framegen.project import all_specs, named_spec
 from framegen.reading.findings import did_you_mean
 from framegen.reading.yamltree import Unusable
 
@@ -119,8 +119,8 @@ def _given(word: str | None) -> _Given | Revision | None:
         return None
     if word == "-":
         return _Given(word, _standard_input())
-    if not word.strip():
-        raise Unusable("an edition needs a name, and this is none", hint=_NAME_TWO)
+    if not word.strip() or "\0" in word:
+        raise Unusable(f"`{visible(word)}` names no edition", hint=_NAME_TWO)
     file = _file(word)
     if file is not None:
         return _Given(str(file.resolve()), read_source(file), file)
@@ -145,8 +145,9 @@ def _file(word: str) -> Path | None:
     try:
         if file.exists() and not file.is_dir():
             return file
-    except (OSError, ValueError):
-        raise Unusable(f"`{visible(word)}` is no name of a file", hint=_NAME_TWO) from None
+    except (OSError, ValueError) as error:
+        why = getattr(error, "strerror", None) or str(error)
+        raise Unusable(f"`{visible(word)}` cannot be read: {why}", hint=_NAME_TWO) from None
     return named_spec(word) or next((each for each in _all_released() if each.stem == word), None)
 
 
@@ -184,27 +185,41 @@ def _standard_input() -> Source:
 
 def _beside(word: Revision | None, edition: Edition, file: Path | None) -> Edition:
     """Return what an edition is compared with: the spec here, or what a revision has of it."""
-    spec = named_spec(edition.spec.protocol.name)
-    if word is None:
-        spec = spec or _only_spec(edition)
-        if file is not None and file.resolve() == spec.resolve():
-            name = visible(file.as_posix())
-            raise Unusable(
-                f"a comparison of nothing: {name} is the spec as it lies here",
-                hint=f"name first what to compare it with: `framegen diff HEAD {name}`",
-            )
-        return working_edition(spec)
-    if file is not None and file.parent.name != RELEASED:
-        spec = file
-    return edition_of(_at(word, spec or _only_spec(edition)))
+    if word is not None and file is not None and file.parent.name != RELEASED:
+        return edition_of(_at(word, file))
+    spec = _spec_of(edition)
+    if word is not None:
+        return edition_of(_at(word, spec))
+    if file is not None and file.resolve() == spec.resolve():
+        name = visible(file.as_posix())
+        raise Unusable(
+            f"a comparison of nothing: {name} is the spec as it lies here",
+            hint=f"name first what to compare it with: `framegen diff HEAD {name}`",
+        )
+    return working_edition(spec)
 
 
-def _only_spec(edition: Edition) -> Path:
+def _spec_of(edition: Edition) -> Path:
+    """Return the spec of the project that is for the same protocol, or its only one."""
+    name = edition.spec.protocol.name
+    specs = all_specs()
+    found = named_spec(name)
+    if found is None and len(specs) > 1:
+        found = next((spec for spec in specs if _protocol(spec) == name), None)
+    if found is not None or len(specs) == 1:
+        return found or specs[0]
+    names = ", ".join(visible(spec.name) for spec in specs)
+    raise Unusable(
+        f"none of the specs is one of `{visible(name)}`: {names}",
+        hint=f"name what to compare it with, such as `{visible(specs[0].stem)}`",
+    )
+
+
+def _protocol(spec: Path) -> str | None:
     try:
-        return default_spec()
-    except Unusable as error:
-        name = edition.spec.protocol.name
-        raise Unusable(f"what is `{name}` to be compared with? {error}", hint=error.hint) from None
+        return working_edition(spec).spec.protocol.name
+    except Unusable:
+        return None
 
 
 def _of_all(old: Revision | None, new: Revision | None) -> Editions:
