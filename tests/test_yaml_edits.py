@@ -55,7 +55,7 @@ def test_text_is_written_without_quotes_where_it_can_be() -> None:
 OLD = {"version": "1.0.0", "changes": ["It."]}
 NEW = {"version": "1.1.0", "changes": ["More."]}
 LAYOUTS = [
-    "a: 1\nhistory:\n  # the latest first\n  - version: '1.0.0'  # so\n    changes:\n      - It.\nb: 2",
+    "a: 1\nhistory:\n  # the latest first\n  - version: '1.0.0'  # so\n    changes: [It.]\nb: 2",
     'a: 1\nhistory:\n- {version: "1.0.0", changes: [It.]}\nb: 2',
     "a: 1\nhistory:\n      -   version: 1.0.0\n          changes: [It.]\nb: 2\n# the end\n",
     'a: 1\nhistory: [{version: "1.0.0", changes: [It.]}]\nb: 2\n',
