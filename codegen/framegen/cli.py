@@ -25,6 +25,7 @@ VERBS = (
     "docs",
     "explain",
     "guess",
+    "audit",
     "conform",
     "schema",
     "rules",
