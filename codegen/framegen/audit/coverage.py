@@ -114,11 +114,20 @@ class Coverage:
         self._show(covered, sighting)
 
     def _show(self, covered: MessageCoverage, sighting: Sighting) -> None:
+        """Keep the frame if it shows more than those before it, or the same in fewer bytes."""
         facts = self._facts.get(covered.name, [])
-        if len(covered.facts) == len(facts):
+        longest = max((len(each.data) for each in covered.shown), default=0)
+        if len(covered.facts) == len(facts) and len(sighting.data) >= longest:
             return
         paths = shown_by(covered.layout, sighting.values)
         new = tuple(each for each in facts if each.path in paths and each.path not in covered.facts)
         if new:
             covered.facts.update(each.path for each in new)
             covered.shown.append(Shown(sighting.data, sighting.values, sighting.place, new))
+            return
+        for at, each in enumerate(covered.shown):
+            if len(sighting.data) < len(each.data) and paths.issuperset(
+                fact.path for fact in each.facts
+            ):
+                kept = Shown(sighting.data, sighting.values, sighting.place, each.facts)
+                covered.shown[at] = kept

@@ -45,12 +45,13 @@ class Fact:
     @property
     def name(self) -> str:
         """Its name within its message: `targets.position`, or `position = absent`."""
-        if self.what == "message":
-            return self.path[1]
-        *around, last = (each for each in self.path[2:] if each not in ("fields", "values"))
+        if self.path[0] != "messages" or self.what == "message":
+            return self.path[-1]
+        # A name follows each key.
+        *around, last = self.path[3::2]
         if self.what == "named value":
             return f"{'.'.join(around)} = {last}"
-        return ".".join([*around, last])
+        return f"a note on {'.'.join(around)}" if self.what == "note" else ".".join([*around, last])
 
 
 @dataclass(frozen=True)

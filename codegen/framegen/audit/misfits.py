@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any, Literal, TypeAlias
 
+from framegen.explanation.lookalikes import recognise
 from framegen.model.slots import Constant, Items, Number, Packed
 
 if TYPE_CHECKING:
@@ -57,11 +58,14 @@ class Misfits:
                 self._add("undocumented value", path, why, sighting)
         elif sighting.message is None:
             verdict = self._reader.verdict(sighting)
-            likely = "" if verdict.likely is None else f" in {verdict.likely.name}"
+            expected = verdict.expected + self._elsewhere(sighting.data)
+            likely = self._reader.likely(sighting)
             if sighting.unknown:
-                self._add("unknown command", self._id(sighting), verdict.expected, sighting)
+                self._add("unknown command", self._id(sighting), expected, sighting)
             elif verdict.reason == sighting.reason:
-                self._add("noise", f"{sighting.reason}{likely}", verdict.expected, sighting)
+                self._add(
+                    "noise", f"{sighting.reason}{likely and f' in {likely}'}", expected, sighting
+                )
             else:
                 self._add("noise", sighting.reason, "as it was recorded", sighting)
 
@@ -77,6 +81,14 @@ class Misfits:
         sender = sighting.stretch.sender
         ids = ", ".join(f"{name} {value}" for name, value in self._reader.ids(sighting).items())
         return f"{ids} from {sender}" if sender else ids
+
+    def _elsewhere(self, data: bytes) -> str:
+        """Say which look-alike has this frame, and what it means there."""
+        found = recognise(self._reader.model.plain, data)
+        if found is None:
+            return ""
+        meaning = f", where it {found.meaning}" if found.meaning else ""
+        return f"; it is a frame of {found.lookalike.title}{meaning}"
 
     def _add(self, kind: Kind, what: str, why: str, sighting: Sighting) -> None:
         misfit = self._found.get((kind, what))

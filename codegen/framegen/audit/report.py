@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from framegen.audit.words import described, documented, shown
@@ -10,7 +10,7 @@ from framegen.language.values import to_hex
 from framegen.pluralize import pluralize
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Iterator, Sequence
 
     from framegen.audit.audit import Audit
     from framegen.audit.conversation import Conversation
@@ -29,7 +29,7 @@ class Section:
     title: str
     text: str = ""
     head: tuple[str, ...] = ()
-    rows: list[tuple[str, ...]] = field(default_factory=list)
+    rows: Sequence[tuple[str, ...]] = ()
     yaml: str = ""
 
 

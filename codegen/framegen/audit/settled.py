@@ -55,10 +55,12 @@ class Raised:
 
     def _example(self, shown: Shown) -> Iterator[str]:
         title = f"Seen on hardware: {', '.join(each.name for each in shown.facts)}"
+        for number, example in enumerate(self.message.examples, 1):
+            if example.hex == shown.data:
+                yield f"      # Example {number} has the same frame: its `cite` may be changed instead."
         yield f"      - title: {json.dumps(title)}"
         yield f"        hex: {to_hex(shown.data)}"
-        given = {name: value for name, value in shown.values.items() if value is not None}
-        yield f"        values: {flow(given)}"
+        yield f"        values: {flow(shown.values)}"
         yield f"        cite: {self.source}, {_PLACE}"
 
 

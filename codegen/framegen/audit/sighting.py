@@ -82,6 +82,17 @@ class Reader:
         behind = sighting.stretch.data[sighting.at : sighting.at + _WINDOW]
         return weigh(self.model, self._ways(sighting.stretch), behind)
 
+    def likely(self, sighting: Sighting) -> str:
+        """Return the name of the message that noise began as; empty where it may be several."""
+        behind = sighting.stretch.data[sighting.at : sighting.at + _WINDOW]
+        verdicts = (weigh(self.model, [way], behind) for way in self._ways(sighting.stretch))
+        names = {
+            each.likely.name
+            for each in verdicts
+            if each.likely is not None and each.reason == sighting.reason
+        }
+        return names.pop() if len(names) == 1 else ""
+
     def ids(self, sighting: Sighting) -> dict[str, int]:
         """Return the ids that a frame of unknown id has, by the part of the frame."""
         frame = self.model.envelopes[self.verdict(sighting).frame]
@@ -114,10 +125,9 @@ class Reader:
     def _sightings(
         self, event: Event, stretch: Stretch, ways: Sequence[Direction], *, has_lines: bool
     ) -> Iterator[Sighting]:
-        if event.kind != "noise":
-            yield self._sighting(event, 0, stretch, ways, has_lines=has_lines)
-            return
-        again = [*_decoded(self._unbounded, ways, event.data)]
+        again: list[Event] = []
+        if event.kind == "noise" and (not stretch.refused or stretch.refused in _BY_THE_SPEC):
+            again = [*_decoded(self._unbounded, ways, event.data)]
         if any(each.kind == "message" for each in again):
             for each in again:
                 yield self._sighting(each, event.at, stretch, ways, has_lines=has_lines)

@@ -39,7 +39,7 @@ def as_text(audit: Audit) -> Iterator[str]:
 
 
 def _columns(section: Section) -> Iterator[str]:
-    """Yield a table; the columns for which it is too wide have lines of their own, below the row."""
+    """Yield a table; columns for which it is too wide have lines of their own, below the row."""
     if not section.rows:
         return
     rows = [tuple(visible(cell) for cell in row) for row in (section.head, *section.rows)]

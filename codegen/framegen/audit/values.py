@@ -15,8 +15,8 @@ if TYPE_CHECKING:
     from framegen.language.spec import NumberField
     from framegen.model.layout import MessageLayout
 
-# More different values than these are not kept, but for the lowest and the highest.
-MOST = 256
+# More different values than these are not told apart, but for those with names.
+MOST = 1 << 12
 
 
 @dataclass
@@ -32,6 +32,7 @@ class Values:
     named: dict[str, int] = field(default_factory=dict)
     limits: tuple[int, int | None] | None = None
     bits: int | None = None
+    set_bits: int = 0
     is_set: bool = False
     is_size: bool = False
     seen: int = 0
@@ -42,7 +43,9 @@ class Values:
     def add(self, value: Any) -> None:
         """Count a value."""
         self.seen += 1
-        if value in self.counts or len(self.counts) < MOST:
+        if self.bits is not None:
+            self.set_bits |= int(value)
+        if len(self.counts) < MOST or value in self.counts or value in self.named.values():
             self.counts[value] += 1
         if isinstance(value, float) and not math.isfinite(value):
             return
@@ -77,12 +80,7 @@ class Values:
     @property
     def unknown_bits(self) -> int:
         """The bits that were set and have no name, where any have one."""
-        if self.bits is None:
-            return 0
-        found = 0
-        for value in self.counts:
-            found |= int(value) & ~self.bits
-        return found
+        return 0 if self.bits is None else self.set_bits & ~self.bits
 
     @property
     def beyond_limits(self) -> dict[int, int]:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
+from framegen.audit.values import MOST
 from framegen.pluralize import pluralize
 
 if TYPE_CHECKING:
@@ -22,8 +23,14 @@ def described(values: Values) -> str:
             seen = [*values.counts]
         text = ", ".join(map(shown, seen))
     else:
-        text = f"{shown(values.lowest)}..{shown(values.highest)} in {len(values.counts)} values"
+        text = (
+            f"{shown(values.lowest)}..{shown(values.highest)} in {_many(len(values.counts))} values"
+        )
     return f"{text} {'element' if text == '1' else 'elements'}" if values.is_size else text
+
+
+def _many(number: int) -> str:
+    return f"{number} or more" if number >= MOST else str(number)
 
 
 def documented(values: Values) -> str:
