@@ -5,13 +5,11 @@ a MAVLink 2 frame is sent without the zeros at its end, and may be signed. So th
 messages with an id of at most 255, without their extensions, which it does not carry either.
 """
 
-from __future__ import annotations
-
 import re
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
 from typing import Any
-from xml.etree import ElementTree
+from xml.etree import ElementTree as ET
 
 # The types of a definition, each with that of a spec and its size.
 TYPES = {
@@ -102,6 +100,16 @@ class Message:
     fields: tuple[Field, ...]
 
     @property
+    def size(self) -> int:
+        """The bytes of the payload."""
+        return sum(each.width * max(each.count, 1) for each in self.fields)
+
+    @property
+    def is_carried(self) -> bool:
+        """Whether a frame of MAVLink 1 has room for its id and for its payload."""
+        return self.id <= 0xFF and self.size <= 0xFF
+
+    @property
     def on_the_wire(self) -> list[Field]:
         """The fields in the order of the frame: the widest first."""
         return sorted(self.fields, key=lambda each: -each.width)
@@ -126,7 +134,7 @@ def _read(name: str, read: Callable[[str], str], found: Definitions, seen: set[s
     if name in seen:
         return
     seen.add(name)
-    root = ElementTree.fromstring(read(name))  # noqa: S314  definitions that one has chosen
+    root = ET.fromstring(read(name))  # noqa: S314  definitions that one has chosen
     for include in root.iter("include"):
         _read((include.text or "").strip(), read, found, seen)
     for enum in root.iter("enum"):
@@ -147,7 +155,7 @@ def _read(name: str, read: Callable[[str], str], found: Definitions, seen: set[s
         found.messages[made.name] = made
 
 
-def _entries(enum: ElementTree.Element) -> Iterator[Entry]:
+def _entries(enum: ET.Element) -> Iterator[Entry]:
     following = 0
     for entry in enum.iter("entry"):
         said = entry.get("value")
@@ -161,7 +169,7 @@ def _number(said: str) -> int:
     return int(base, 0) ** int(power) if power else int(said, 0)
 
 
-def _fields(message: ElementTree.Element) -> Iterator[Field]:
+def _fields(message: ET.Element) -> Iterator[Field]:
     for each in message:
         if each.tag == "extensions":
             return
@@ -229,7 +237,7 @@ def spec_of(found: Definitions, names: set[str] | None = None) -> dict[str, Any]
         "messages": {
             in_camel_case(message.name): _message(message, found.enums)
             for message in found.messages.values()
-            if message.id <= 0xFF and (names is None or message.name in names)
+            if message.is_carried and (names is None or message.name in names)
         },
         "history": [{"version": "1.0.0", "changes": ["The messages."]}],
     }
@@ -243,7 +251,7 @@ def _message(message: Message, enums: dict[str, Enum]) -> dict[str, Any]:
         "direction": "vehicle -> ground",
         "summary": message.about,
         "cite": f"definitions, {message.name}",
-        "length": sum(each.width * max(each.count, 1) for each in message.fields),
+        "length": message.size,
         "fields": {in_snake_case(each.name): _field(each, enums) for each in message.on_the_wire},
     }
 

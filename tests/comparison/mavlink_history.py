@@ -9,8 +9,6 @@ a definition, CRC_EXTRA, is another one exactly where ends no longer understand 
 what a plain look at the two definitions finds.
 """
 
-from __future__ import annotations
-
 import json
 import resource
 import subprocess
@@ -21,7 +19,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Any
-from xml.etree import ElementTree
+from xml.etree import ElementTree as ET
 
 from framegen.comparison.edition import Edition
 from framegen.comparison.pair import Pair
@@ -116,9 +114,7 @@ def compared(old: Revision, new: Revision, *, whole: bool = False) -> Step:
     """Compare two revisions: their messages that differ in more than words, or all of them."""
     step = Step(old, new)
     before, after = _without_words(old.definitions), _without_words(new.definitions)
-    step.differ = {
-        name for name in {*before, *after} if before.get(name) != after.get(name)
-    }
+    step.differ = {name for name in {*before, *after} if before.get(name) != after.get(name)}
     if step.differ:
         names = None if whole else {ANCHOR, *step.differ}
         begun = time.process_time()
@@ -149,11 +145,12 @@ def expected(old: Definitions, new: Definitions) -> Counter[tuple[str, str]]:
     """
     found: Counter[tuple[str, str]] = Counter()
     for name in {*old.messages, *new.messages}:
-        one, other = old.messages.get(name), new.messages.get(name)
-        if max(each.id for each in (one, other) if each is not None) > 0xFF:
-            continue
+        one, other = (
+            each if each is not None and each.is_carried else None
+            for each in (old.messages.get(name), new.messages.get(name))
+        )
         if one is None:
-            found[name, "added"] += 1
+            found[name, "added"] += other is not None
         elif other is None:
             found[name, "removed"] += 1
         elif crc_extra(one) != crc_extra(other):
@@ -209,7 +206,7 @@ def main(clone: str, *chosen: str) -> None:
         totals["editions"] += 1
         try:
             ids = {each.id for each in new.definitions.messages.values()}
-        except (ElementTree.ParseError, subprocess.CalledProcessError) as error:
+        except (ET.ParseError, subprocess.CalledProcessError) as error:
             totals["not XML"] += 1
             print(f"# {new.commit} {new.subject}: {error}")
             continue
