@@ -150,7 +150,7 @@ def expected(old: Definitions, new: Definitions) -> Counter[tuple[str, str]]:
             for each in (old.messages.get(name), new.messages.get(name))
         )
         if one is None:
-            found[name, "added"] += other is not None
+            found += Counter([(name, "added")] if other is not None else [])
         elif other is None:
             found[name, "removed"] += 1
         elif crc_extra(one) != crc_extra(other):
@@ -192,7 +192,7 @@ def _enums(one: Any, other: Any) -> Iterator[str]:
             yield "value moved"
         elif name not in after and after:
             yield "value renamed" if value in after.values() else "value removed"
-    if before and {*after} - {*before}:
+    if before and {*after.values()} - {*before.values()}:
         yield "value added"
 
 
