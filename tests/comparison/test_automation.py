@@ -168,6 +168,19 @@ def test_what_cannot_be_compared_is_an_error_without_a_report(runner: Runner) ->
     assert not runner.summary.exists()
 
 
+@needs_bash
+def test_the_first_spec_is_compared_with_nothing(runner: Runner) -> None:
+    (runner.checkout / "spec").rename(runner.checkout / "specs")
+    git(runner.checkout, "rm", "-rq", "--cached", "spec")
+    git(runner.checkout, "commit", "-qm", "Begin anew")
+    git(runner.checkout, "push", "-q", "origin", "HEAD:refs/heads/empty")
+    (runner.checkout / "specs").rename(runner.checkout / "spec")
+    code, printed = runner.compare(GITHUB_BASE_REF="empty")
+    assert code == 0
+    assert "::notice title=framegen diff::There is nothing to compare" in printed
+    assert not runner.report.exists()
+
+
 COMMENTS = [
     ("", "api --silent --method POST repos/owner/name/issues/7/comments -F body=@"),
     ("41", "api --silent --method PATCH repos/owner/name/issues/comments/41 -F body=@"),
