@@ -71,13 +71,13 @@ class Step:
     seconds: float = 0.0
 
     def verdicts(self) -> Iterator[tuple[str, str, str]]:
-        """Yield message, sender and worst outcome of what breaks, as `sender: outcome`."""
+        """Yield a message, what breaks (`old: all refused`) or is new, and the worst reading."""
         for each in self.trials:
             vendor = each.message.message.vendor_name
-            if each.breaking is not None:
-                yield vendor, f"{each.sender}: {each.breaking.outcome}", each.breaking.reading
-            if each.adding is not None:
-                yield vendor, f"{each.sender}: new, {each.adding.outcome}", each.adding.reading
+            for witness, kind in ((each.breaking, ""), (each.adding, "new, ")):
+                if witness is not None:
+                    every = "all " if each.counts[witness.outcome] == each.tried else ""
+                    yield vendor, f"{each.sender}: {kind}{every}{witness.outcome}", witness.reading
 
 
 def _git(clone: str, *arguments: str) -> str:
