@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import math
+import re
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
@@ -20,9 +21,10 @@ if TYPE_CHECKING:
     from framegen.language.spec import Concern, Unknown
     from framegen.model.model import Model
 
-# What stands in the place of words that only the one who recorded can give.
-_PLACE = "report of NAME THE BOARD"
+# What stands in the place of a name that only the one who recorded can give.
+_NO_NAME = "NAME THE BOARD"
 _SOURCE = "hardware"
+_PLAIN = re.compile(r"[A-Za-z0-9][A-Za-z0-9 ,./()+-]*")
 
 
 @dataclass(frozen=True)
@@ -47,6 +49,7 @@ class Raised:
     facts: list[Fact]
     shown: list[Shown]
     source: str
+    device: str
 
     @property
     def yaml(self) -> str:
@@ -57,11 +60,12 @@ class Raised:
         title = f"Seen on hardware: {', '.join(each.name for each in shown.facts)}"
         for number, example in enumerate(self.message.examples, 1):
             if example.hex == shown.data:
-                yield f"      # Example {number} has the same frame: its `cite` may be changed instead."
+                yield f"      # Example {number} has the same frame: rather change its `cite`."
         yield f"      - title: {json.dumps(title)}"
         yield f"        hex: {to_hex(shown.data)}"
         yield f"        values: {flow(shown.values)}"
-        yield f"        cite: {self.source}, {_PLACE}"
+        cite = f"{self.source}, report of {self.device or _NO_NAME}"
+        yield f"        cite: {cite if _PLAIN.fullmatch(cite) else json.dumps(cite)}"
 
 
 def about(concern: Concern) -> str:
@@ -126,8 +130,11 @@ def _seen(coverage: Coverage, concern: Concern) -> Iterator[str]:
         yield "; ".join([times, *said])
 
 
-def raised(model: Model, coverage: Coverage, answered: frozenset[str]) -> list[Raised]:
-    """Return the facts that are raised: what a device sent, and requests that it answered."""
+def raised(model: Model, coverage: Coverage, answered: frozenset[str], device: str) -> list[Raised]:
+    """Return the facts that are raised: what a device sent, and requests that it answered.
+
+    `device` is the name of the board, empty where it is not known.
+    """
     sources = [name for name, each in model.spec.sources.items() if each.kind == OBSERVATION]
     source = next(iter(sources), _SOURCE)
     found: list[Raised] = []
@@ -137,7 +144,7 @@ def raised(model: Model, coverage: Coverage, answered: frozenset[str]) -> list[R
         shown = [each for each in covered.shown if any(not fact.seen for fact in each.facts)]
         facts = [fact for each in shown for fact in each.facts if not fact.seen]
         if facts:
-            found.append(Raised(covered, facts, shown, source))
+            found.append(Raised(covered, facts, shown, source, device))
     return found
 
 

@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
+from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 from framegen.compile import without_bounds
 from framegen.explanation.refusals import (
+    BAD_HEADER,
     COUNT_MISMATCH,
     LENGTH_MISMATCH,
     OUT_OF_RANGE,
@@ -26,9 +28,9 @@ if TYPE_CHECKING:
     from framegen.model.stream import Event
     from framegen.model.verdict import Verdict
 
-# What is decoded at once of a long stretch, and the noise after which none is held any more.
+# What is decoded at once of a long stretch, and the size of noise to which no more is joined.
 _WINDOW = 1 << 12
-_HELD = 1 << 14
+_JOINED = 1 << 14
 # For these reasons, what another edition of a spec refused may be a message of this one.
 _BY_THE_SPEC = frozenset({UNKNOWN_COMMAND, OUT_OF_RANGE, LENGTH_MISMATCH, COUNT_MISMATCH})
 
@@ -102,6 +104,18 @@ class Reader:
             if part.is_in(sighting.data)
         }
 
+    @cached_property
+    def _alike(self) -> dict[str, set[Direction]]:
+        """The directions in which a message of the same ids, or of another frame, may be sent."""
+        return {
+            name: {
+                other.direction
+                for other in self.model.messages.values()
+                if other.frame is not message.frame or _seen_ids(other) == _seen_ids(message)
+            }
+            for name, message in self.model.messages.items()
+        }
+
     def _ways(self, stretch: Stretch) -> Sequence[Direction]:
         if stretch.sender is None:
             return self.ways
@@ -170,24 +184,49 @@ class Reader:
     ) -> tuple[str, ...]:
         """Return the messages of other directions that have the same frame."""
         found = (
-            weigh_whole(self.model, [way], data).message for way in ways if way != message.direction
+            weigh_whole(self.model, [way], data).message
+            for way in ways
+            if way != message.direction and way in self._alike[message.name]
         )
         return tuple(each.name for each in found if each is not None)
 
 
+def _seen_ids(message: MessageLayout) -> tuple[int, ...]:
+    """Return the ids that are in a frame of a message."""
+    return message.ids[: len(message.frame.sent_ids)]
+
+
 def _decoded(model: Model, ways: Sequence[Direction], data: bytes) -> Iterator[Event]:
     """Yield the events of a stretch, after which the line is quiet, a window at a time."""
-    decoder = ReferenceDecoder(model, ways)
+    noise: Event | None = None
+    for event in _in_windows(ReferenceDecoder(model, ways), data):
+        if event.kind != "noise":
+            if noise is not None:
+                yield noise
+            noise = None
+            yield event
+        elif noise is None or noise.reason != event.reason or len(noise.data) >= _JOINED:
+            if noise is not None:
+                yield noise
+            noise = event
+        else:
+            noise = replace(noise, data=noise.data + event.data)
+    if noise is not None:
+        yield noise
+
+
+def _in_windows(decoder: ReferenceDecoder, data: bytes) -> Iterator[Event]:
+    """Yield the events; noise is in pieces where a window ends."""
     begun = at = 0
-    while (at := at + _WINDOW) < len(data):
+    reason = ""
+    while begun < len(data):
+        at += _WINDOW
         held = data[begun:at]
-        events = decoder.decode_so_far(held)
-        # Noise goes on until a message comes, unless there is too much of it.
-        while events and events[-1].kind == "noise" and len(held) < _HELD:
-            events.pop()
-        for event in events:
-            yield replace(event, at=begun + event.at)
+        events = decoder.decode_so_far(held) if at < len(data) else decoder.decode(held)
+        for number, event in enumerate(events):
+            goes_on = not number and event.reason == BAD_HEADER and reason
+            reason = reason if goes_on else event.reason
+            yield replace(event, at=begun + event.at, reason=reason)
+            reason = reason if event.kind == "noise" else ""
         if events:
             begun += events[-1].at + len(events[-1].data)
-    for event in decoder.decode(data[begun:]):
-        yield replace(event, at=begun + event.at)
