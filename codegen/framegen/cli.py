@@ -22,6 +22,7 @@ VERBS = (
     "generate",
     "missing",
     "diff",
+    "release",
     "docs",
     "explain",
     "guess",

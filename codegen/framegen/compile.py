@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 from framegen.checks import check_model, check_structure
@@ -24,13 +24,17 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, slots=True)
 class Compiled:
-    """A spec as text, with the place of each value, its findings and its model."""
+    """A spec as text, with the place of each value, its findings and its model.
+
+    `tolerated` are findings that do not count: what today's rules say of an edition of old.
+    """
 
     source: Source
     tree: Tree
     findings: list[Finding]
     read: Spec | None
     derived: Model | None
+    tolerated: tuple[Finding, ...] = ()
 
     @property
     def spec(self) -> Spec:
@@ -56,6 +60,23 @@ def compile_spec(source: Source) -> Compiled:
     What is wrong is in `findings`, from the top of the file down.
     """
     return compile_loaded(load(source))
+
+
+def compile_leniently(source: Source) -> Compiled:
+    """Compile a spec that rules may dislike: if it has a model, their findings are `tolerated`.
+
+    Where none can be derived, they are findings as ever. Raises Unusable where it is no spec.
+    """
+    compiled = compile_spec(source)
+    if not compiled.findings or compiled.read is None:
+        return compiled
+    model = compiled.derived
+    if model is None:
+        try:
+            model = derive(compiled.read)
+        except Exception:  # noqa: BLE001 - what may go wrong is what the rules are there to say
+            return compiled
+    return replace(compiled, findings=[], derived=model, tolerated=tuple(compiled.findings))
 
 
 def compile_loaded(loaded: Loaded) -> Compiled:

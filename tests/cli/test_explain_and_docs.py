@@ -215,7 +215,9 @@ def test_all_messages_are_listed_in_a_line_each(capsys: Capture) -> None:
         name: (layout.id, layout.id) for name, layout in SERVO.messages.items()
     }
     for name, begun in ((name, begun) for _, _, name, begun in rows):
-        assert SERVO.messages[name].message.summary.startswith(begun)
+        message = SERVO.messages[name].message
+        deprecated = "Deprecated. " if message.deprecated else ""
+        assert f"{deprecated}{message.summary}".startswith(begun)
     headings = [line for line in shown.split("\n") if re.fullmatch(r"\w+ -> \w+", line)]
     assert headings == [str(way) for way in SERVO.directions]
 

@@ -41,12 +41,7 @@ def read_source(file: Path) -> Source:
             raise Unusable(
                 f"{name} is not a file", hint="name the spec itself, such as spec/busservo.yaml"
             )
-        if status.st_size > MAX_BYTES:
-            size = f"{status.st_size / 1e6:.1f} MB"
-            raise Unusable(
-                f"{name} has {size}, and a spec has at most {MAX_BYTES / 1e6:.0f} MB",
-                hint="is it the right file?",
-            )
+        refuse_size(name, status.st_size)
         data = file.read_bytes()
     except FileNotFoundError:
         raise Unusable(
@@ -55,6 +50,20 @@ def read_source(file: Path) -> Source:
     except (OSError, ValueError) as error:
         reason = getattr(error, "strerror", None) or str(error)
         raise Unusable(f"{name} cannot be read: {reason}") from None
+    return source_of(name, data, below_root(file.parent.resolve() / file.name))
+
+
+def refuse_size(name: str, size: int) -> None:
+    """Raise Unusable for a file of more bytes than a spec has."""
+    if size > MAX_BYTES:
+        raise Unusable(
+            f"{name} has {size / 1e6:.1f} MB, and a spec has at most {MAX_BYTES / 1e6:.0f} MB",
+            hint="is it the right file?",
+        )
+
+
+def source_of(name: str, data: bytes, path: str = "") -> Source:
+    """Return a spec as text, with LF line ends. Raises Unusable for what is no text."""
     try:
         text = data.decode("utf-8-sig")
     except UnicodeDecodeError as error:
@@ -62,7 +71,7 @@ def read_source(file: Path) -> Source:
             f"{name} is not UTF-8 text: byte {error.start} is 0x{data[error.start]:02X}",
             hint="save it as UTF-8",
         ) from None
-    return Source(name, text.replace("\r\n", "\n"), below_root(file.parent.resolve() / file.name))
+    return Source(name, text.replace("\r\n", "\n"), path)
 
 
 def load(source: Source) -> Loaded:
