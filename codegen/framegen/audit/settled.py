@@ -2,16 +2,14 @@
 
 from __future__ import annotations
 
-import json
-import math
-import re
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from framegen.audit.evidence import OBSERVATION
 from framegen.audit.words import described
 from framegen.language.values import to_hex
 from framegen.pluralize import pluralize
+from framegen.reading.yamltext import flow, scalar
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -24,7 +22,6 @@ if TYPE_CHECKING:
 # What stands in the place of a name that only the one who recorded can give.
 _NO_NAME = "NAME THE BOARD"
 _SOURCE = "hardware"
-_PLAIN = re.compile(r"[A-Za-z0-9][A-Za-z0-9 ,./()+-]*")
 
 
 @dataclass(frozen=True)
@@ -61,11 +58,11 @@ class Raised:
         for number, example in enumerate(self.message.examples, 1):
             if example.hex == shown.data:
                 yield f"      # Example {number} has the same frame: rather change its `cite`."
-        yield f"      - title: {json.dumps(title)}"
+        yield f"      - title: {scalar(title)}"
         yield f"        hex: {to_hex(shown.data)}"
         yield f"        values: {flow(shown.values)}"
         cite = f"{self.source}, report of {self.device or _NO_NAME}"
-        yield f"        cite: {cite if _PLAIN.fullmatch(cite) else json.dumps(cite)}"
+        yield f"        cite: {scalar(cite)}"
 
 
 def about(concern: Concern) -> str:
@@ -146,16 +143,3 @@ def raised(model: Model, coverage: Coverage, answered: frozenset[str], device: s
         if facts:
             found.append(Raised(covered, facts, shown, source, device))
     return found
-
-
-def flow(value: Any) -> str:
-    """Write a value as YAML in one line: `{time_ms: 1000, targets: [{servo_id: 1}]}`."""
-    if isinstance(value, dict):
-        return "{" + ", ".join(f"{name}: {flow(each)}" for name, each in value.items()) + "}"
-    if isinstance(value, list):
-        return "[" + ", ".join(map(flow, value)) + "]"
-    if value is None:
-        return "null"
-    if isinstance(value, float) and not math.isfinite(value):
-        return ".nan" if math.isnan(value) else ".inf" if value > 0 else "-.inf"
-    return json.dumps(value) if isinstance(value, str) else repr(value)
