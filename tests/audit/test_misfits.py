@@ -4,12 +4,14 @@ from random import Random
 from typing import Any
 
 import pytest
+from framegen.audit.misfits import outside
 from framegen.audit.recording import read_recording
 from framegen.audit.sighting import Reader, _decoded
 from framegen.compile import without_bounds
 from framegen.model.codec import encode
 from framegen.model.model import Model
 from framegen.model.stream import ReferenceDecoder
+from framegen.model.verdict import weigh_whole
 from framegen.reading.yamltree import Unusable
 from hypothesis import given
 from hypothesis import strategies as st
@@ -101,6 +103,23 @@ def test_a_value_outside_what_is_documented_is_named(
         assert {each.kind for each in found.misfits} - {"noise"} == (
             {"undocumented value"} if expected else set()
         )
+
+
+@pytest.mark.parametrize("name", FILES)
+def test_every_frame_that_only_bounds_refuse_is_told_by_its_fields(name: str) -> None:
+    model = compiled_file(FILES[name]).model
+    free = without_bounds(model)
+    tally = spoken(free, Random(9))  # noqa: S311 - the same each time
+    recording = read_recording("line", tally.text.encode(), [*model.spec.endpoints], model.roles)
+    reader = Reader(model, model.directions)
+    for stretch, seen in zip(recording.stretches, reader.read(recording), strict=True):
+        ways = [way for way in model.directions if way.sender == stretch.sender]
+        assert seen.data == stretch.data
+        assert seen.message is not None
+        is_allowed = weigh_whole(model, ways, seen.data).message is not None
+        assert seen.undocumented is not is_allowed
+        if not is_allowed:
+            assert [*outside(model.messages[seen.message.name], seen.message, seen.values)]
 
 
 def test_what_another_edition_refused_is_judged_anew() -> None:

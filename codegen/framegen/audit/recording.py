@@ -59,7 +59,6 @@ class Recording:
 
     name: str
     stretches: tuple[Stretch, ...]
-    has_lines: bool
     device: str = ""
 
     @property
@@ -78,13 +77,13 @@ def read_recording(
     """
     if form == "raw" or (form == "auto" and not _is_text(content)):
         raw = Stretch(content, "byte 0")
-        return Recording(name, (raw,) if content else (), has_lines=False)
+        return Recording(name, (raw,) if content else ())
     lines = content.removeprefix(_MARK).decode("utf-8", errors="replace").split("\n")
     try:
         if any(map(_TIMED.match, lines)):
             found = _joined(_recorded(lines, ends, roles))
-            return Recording(name, tuple(found), has_lines=True, device=_device(lines))
-        return Recording(name, tuple(_plain(lines)), has_lines=False)
+            return Recording(name, tuple(found), device=_device(lines))
+        return Recording(name, tuple(_plain(lines)))
     except _Line as error:
         hint = _RAW if form == "auto" and not error.hint else error.hint
         raise Unusable(f"{name}, line {error.number}: {error}", hint=hint) from None

@@ -15,7 +15,7 @@ from framegen.explanation.refusals import (
     UNKNOWN_COMMAND,
 )
 from framegen.model.codec import values_of
-from framegen.model.stream import ReferenceDecoder
+from framegen.model.stream import Event, ReferenceDecoder
 from framegen.model.verdict import weigh, weigh_whole
 
 if TYPE_CHECKING:
@@ -25,7 +25,6 @@ if TYPE_CHECKING:
     from framegen.language.values import Direction
     from framegen.model.layout import MessageLayout
     from framegen.model.model import Model
-    from framegen.model.stream import Event
     from framegen.model.verdict import Verdict
 
 # What is decoded at once of a long stretch, and the size of noise to which no more is joined.
@@ -77,7 +76,7 @@ class Reader:
                 continue
             ways = self._ways(stretch)
             for event in self._events(stretch, ways):
-                yield from self._sightings(event, stretch, ways, has_lines=recording.has_lines)
+                yield self._sighting(event, stretch, ways)
 
     def verdict(self, sighting: Sighting) -> Verdict:
         """Judge what begins where noise, or a frame of unknown id, does."""
@@ -122,44 +121,43 @@ class Reader:
         return [way for way in self.model.ways if way.sender == stretch.sender]
 
     def _events(self, stretch: Stretch, ways: Sequence[Direction]) -> Iterator[Event]:
-        events = _decoded(self.model, ways, stretch.data)
-        if not stretch.refused:
-            yield from events
+        """Yield what a stretch holds; messages beyond the bounds are those of the other model."""
+        if stretch.refused and stretch.refused not in _BY_THE_SPEC:
+            yield Event("noise", 0, stretch.data, reason=stretch.refused)
             return
-        found = [*events]
-        if any(event.kind != "noise" for event in found):
-            if stretch.refused in _BY_THE_SPEC:
-                yield from found
+        if stretch.at is not None:
+            # A line of a recording is most often one frame.
+            models = (self.model, self._unbounded)
+            wholes = (weigh_whole(each, ways, stretch.data).message for each in models)
+            message = next((each for each in wholes if each is not None), None)
+            if message is not None:
+                yield Event("message", 0, stretch.data, message)
                 return
-            found = [replace(found[0], kind="noise", at=0, data=stretch.data, message=None)]
-        if len(found) == 1:
-            found = [replace(found[0], reason=stretch.refused)]
-        yield from found
+        noise: list[Event] = []
+        for event in _decoded(self.model, ways, stretch.data):
+            if event.kind == "noise":
+                noise.append(event)
+                continue
+            yield from self._again(noise, ways)
+            noise.clear()
+            yield event
+        if len(noise) == 1 and noise[0].data == stretch.data and stretch.refused:
+            noise = [replace(noise[0], reason=stretch.refused)]
+        yield from self._again(noise, ways)
 
-    def _sightings(
-        self, event: Event, stretch: Stretch, ways: Sequence[Direction], *, has_lines: bool
-    ) -> Iterator[Sighting]:
-        again: list[Event] = []
-        if event.kind == "noise" and (not stretch.refused or stretch.refused in _BY_THE_SPEC):
-            again = [*_decoded(self._unbounded, ways, event.data)]
-        if any(each.kind == "message" for each in again):
-            for each in again:
-                yield self._sighting(each, event.at, stretch, ways, has_lines=has_lines)
+    def _again(self, noise: list[Event], ways: Sequence[Direction]) -> Iterator[Event]:
+        """Yield noise, or the messages beyond the bounds that it holds."""
+        data = b"".join(event.data for event in noise)
+        again = [*_decoded(self._unbounded, ways, data)]
+        if any(event.kind == "message" for event in again):
+            yield from (replace(event, at=noise[0].at + event.at) for event in again)
         else:
-            yield self._sighting(event, 0, stretch, ways, has_lines=has_lines)
+            yield from noise
 
-    def _sighting(
-        self,
-        event: Event,
-        before: int,
-        stretch: Stretch,
-        ways: Sequence[Direction],
-        *,
-        has_lines: bool,
-    ) -> Sighting:
-        at = before + event.at
-        begun = 0 if has_lines else int(stretch.place.removeprefix("byte "))
-        place = stretch.place if has_lines else f"byte {begun + at}"
+    def _sighting(self, event: Event, stretch: Stretch, ways: Sequence[Direction]) -> Sighting:
+        at, place = event.at, stretch.place
+        if stretch.at is None:
+            place = f"byte {int(place.removeprefix('byte ')) + at}"
         message = event.message
         if message is None:
             return Sighting(
