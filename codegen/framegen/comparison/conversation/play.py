@@ -88,13 +88,12 @@ class Table:
         answered = False
         for values, data in self.requests(client, exchange):
             there, _ = self.devices[OTHER[client]].reads(data)
-            kinds: dict[Kind, None] = {}
+            kinds: dict[Kind, None] = {} if there else {"reply": None}
             for each in there:
                 kinds |= dict.fromkeys(self.devices[OTHER[client]].kinds(each))
-            for kind in kinds or ("reply",):
+            for kind in kinds:
                 # All answers are tried once, where there are any.
-                most = 1 if answered else None
-                for at in range(self._most(client, there, kind) if most is None else most):
+                for at in range(1 if answered else self._most(client, there, kind)):
                     yield self._play(client, exchange, values, data, kind, at)
             silent = self.clients[client].is_silent(exchange, values)
             answered = answered or (bool(there) and not silent)
