@@ -7,6 +7,7 @@ from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
+from framegen.comparison.conversation.play import OTHER, Table
 from framegen.comparison.edges import values_to_try
 from framegen.compile import Compiled
 from framegen.language.spec import Example
@@ -101,6 +102,30 @@ class Ends:
             request = made_of(self.library(client), play.exchange.request, play.values)
             return self._ends(client, controller, request)
 
+    def acknowledged(self, client: Which, device: Which, values: dict[str, Any]) -> bool:
+        """Tell whether an ActionGroupRun is acknowledged by what the device says that it reports."""
+        there = self.library(device).Device()
+
+        def run(request: Any) -> None:
+            kind = self.exchange(device, type(request)).acknowledged
+            if kind is not None:
+                there.send(kind(*(getattr(request, name) for name in kind.__match_args__)))
+
+        there.on_action_group_run = run
+        with self.client(client, there) as controller:
+            sent = controller.send(self.library(client).ActionGroupRun(**values))
+            assert [*controller.reports(timeout=LONG)] != None
+            return sent.started is True
+
+    def reported(self, client: Which, device: Which, message: str) -> bool:
+        """Tell whether a client gives its program a message that the device sends by itself."""
+        there = self.library(device).Device()
+        layout = self.pair.edition(device).model.messages[message]
+        values = next(iter(values_to_try(layout, None, {}, pairs=False)))
+        with self.client(client, there) as controller:
+            there.send(made_of(self.library(device), layout, values))
+            return bool([*controller.reports(timeout=LONG)])
+
     def _asked(self, which: Which) -> set[str]:
         handlers = self.part(which, "device")._HANDLERS
         exchanges = self.part(which, "_client.exchanges").EXCHANGES
@@ -126,6 +151,29 @@ class Ends:
         return Seen(ending, frozenset(name for name, came in rest.items() if came))
 
 
+def differing(ends: Ends, messages: set[str] | None = None) -> list[Play]:
+    """Return the plays of requests, of all or of those named, that really end otherwise.
+
+    Of those that end alike for the same reason, the first is played.
+    """
+    table = Table(ends.pair)
+    found: list[Play] = []
+    sides: tuple[Which, Which] = ("old", "new")
+    for client in sides:
+        for name, exchange in table.clients[client].exchanges.items():
+            if messages is not None and name not in messages:
+                continue
+            plays: dict[Any, Play] = {}
+            for play in table.plays(client, exchange):
+                answers = tuple(each.message for each in play.answers)
+                way = (play.kind, play.ending, play.seen.rest, play.read_as, answers)
+                plays.setdefault(way, play)
+            for play in plays.values():
+                if ends.seen(play, OTHER[client]) != Seen(play.ending, frozenset(play.seen.rest)):
+                    found.append(play)
+    return found
+
+
 def _ending(made: Any, controller: Any, exchange: Any, request: Any) -> str:
     """Return how a question ends."""
     errors = [getattr(made, name, None) for name in ("RefusedError", "FailureError")]
@@ -139,6 +187,22 @@ def _ending(made: Any, controller: Any, exchange: Any, request: Any) -> str:
                 return ending
         raise
     return "partial" if [*exchange.missing(request, reply)] else "reply"
+
+
+class EchoLine(DeviceLine):
+    """A line that also gives back what is sent."""
+
+    def __init__(self, device: Any) -> None:
+        super().__init__(device)
+        self._back = b""
+
+    def read(self, timeout: float) -> bytes:
+        back, self._back = self._back, b""
+        return back + super().read(0.0 if back else timeout)
+
+    def write(self, data: bytes) -> None:
+        self._back += data
+        super().write(data)
 
 
 def _nothing(_message: Any) -> None:

@@ -50,8 +50,15 @@ class Device:
 
     def reads(self, data: bytes) -> tuple[list[Received], str]:
         """Return the requests that the device reads in bytes, and why the rest is none."""
-        came = arrival(self.model, self.model.roles.sent, data)
-        return came.messages, came.refusal
+        if data not in self._read:
+            came = arrival(self.model, self.model.roles.sent, data)
+            self._read[data] = came.messages, came.refusal
+        return self._read[data]
+
+    @cached_property
+    def _read(self) -> dict[bytes, tuple[list[Received], str]]:
+        """What was read so far: the same request is answered in many ways."""
+        return {}
 
     def kinds(self, request: Received) -> Iterator[Kind]:
         """Yield how the device may answer a request."""
