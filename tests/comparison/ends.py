@@ -103,7 +103,7 @@ class Ends:
             return self._ends(client, controller, request)
 
     def acknowledged(self, client: Which, device: Which, values: dict[str, Any]) -> bool:
-        """Tell whether an ActionGroupRun is acknowledged by what the device says that it reports."""
+        """Tell whether an ActionGroupRun is acknowledged by what the device promises."""
         there = self.library(device).Device()
 
         def run(request: Any) -> None:
@@ -114,7 +114,8 @@ class Ends:
         there.on_action_group_run = run
         with self.client(client, there) as controller:
             sent = controller.send(self.library(client).ActionGroupRun(**values))
-            assert [*controller.reports(timeout=LONG)] != None
+            for _ in controller.reports(timeout=LONG):
+                pass
             return sent.started is True
 
     def reported(self, client: Which, device: Which, message: str) -> bool:
@@ -168,9 +169,11 @@ def differing(ends: Ends, messages: set[str] | None = None) -> list[Play]:
                 answers = tuple(each.message for each in play.answers)
                 way = (play.kind, play.ending, play.seen.rest, play.read_as, answers)
                 plays.setdefault(way, play)
-            for play in plays.values():
-                if ends.seen(play, OTHER[client]) != Seen(play.ending, frozenset(play.seen.rest)):
-                    found.append(play)
+            found += [
+                play
+                for play in plays.values()
+                if ends.seen(play, OTHER[client]) != Seen(play.ending, frozenset(play.seen.rest))
+            ]
     return found
 
 

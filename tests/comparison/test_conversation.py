@@ -63,7 +63,8 @@ def test_each_effect_has_its_ends_its_place_and_its_frame(name: str) -> None:
         assert effect.path[0] == "messages"
         old, new = effect.ends.split(", ")
         assert {old.split()[0], new.split()[0]} == {"old", "new"}
-        assert effect.text.startswith(effect.path[1]) or effect.old is not None
+        names = {path[1] for path in (effect.old, effect.new) if path is not None}
+        assert effect.text.partition(" ")[0] in names
         if effect.witness is not None:
             sender = pair.edition(effect.witness.sender).model
             assert effect.witness.message in sender.messages
@@ -105,13 +106,14 @@ def test_the_generated_client_drops_the_reports_that_are_said_to_be_dropped(name
 @pytest.mark.parametrize("key", ["baud", "data_bits", "parity", "stop_bits"])
 def test_ends_understand_each_other_where_nothing_is_said_of_the_line(key: str) -> None:
     values: dict[str, list[Any]] = {
-        "baud": [9600, 9650, 9700, 9780, 9900, 10400, 19200, 4800],
+        "baud": [9600, 9500, 9650, 9700, 9780, 9900, 10400, 19200, 4800],
         "data_bits": [8, 7],
         "parity": ["none", "even", "odd"],
         "stop_bits": [1, 2],
     }
     data = bytes([0x55, 0x55, 0x7F, 0x00, 0x2A, 0x40, 0x3F, 0x55])
-    for one, other in product(values[key], repeat=2):
+    usual = values[key][:1] if key == "baud" else values[key]
+    for one, other in product(usual, values[key]):
         pair = pair_of(with_(SERVO, "link", key, one), with_(SERVO, "link", key, other))
         old, new = pair.old.spec.link, pair.new.spec.link
         lost = not (understood(old, new, data) and understood(new, old, data))
