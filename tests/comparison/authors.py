@@ -14,13 +14,15 @@ from itertools import count
 from typing import TYPE_CHECKING, Any
 
 from framegen.checks import MODEL_RULES, STRUCTURE_RULES
-from framegen.compile import Compiled
 from framegen.comparison.edition import Edition
+from framegen.compile import Compiled
 from framegen.language.spec import Spec
 from framegen.model.model import derive
 from framegen.reading.source import Source
 from framegen.reading.yamltree import Tree
 from pydantic import ValidationError
+
+from tests.random_specs import with_examples
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator, Mapping
@@ -110,18 +112,25 @@ def edition_of(spec: Data, label: str) -> Edition | None:
             read = Spec.model_validate(values)
         except ValidationError:
             return None
-        problems = ((rule.id, each) for rule in STRUCTURE_RULES for each in rule.look(read))
+        problems = (each for rule in STRUCTURE_RULES for each in rule.look(read))
         found = _put_right(spec, problems)
         if found == "right":
             model = derive(read)
-            problems = ((rule.id, each) for rule in MODEL_RULES for each in rule.look(model))
+            problems = (each for rule in MODEL_RULES for each in rule.look(model))
             found = "changed" if _lengthened(spec, model) else _put_right(spec, problems)
             if found == "right":
-                compiled = Compiled(Source(label, ""), Tree(values), [], read, model)
-                return Edition(label, compiled, read, model)
+                return _published(label, values)
         if found == "wrong":
             return None
     return None
+
+
+def _published(label: str, values: Data) -> Edition:
+    """Return the edition of a spec that keeps the rules, with frames of each message."""
+    shown = with_examples(values)
+    read = Spec.model_validate(shown)
+    model = derive(read)
+    return Edition(label, Compiled(Source(label, ""), Tree(shown), [], read, model), read, model)
 
 
 def _lengthened(spec: Data, model: Any) -> bool:
@@ -136,11 +145,10 @@ def _lengthened(spec: Data, model: Any) -> bool:
     return changed
 
 
-def _put_right(spec: Data, problems: Iterable[tuple[str, Problem]]) -> str:
+def _put_right(spec: Data, problems: Iterable[Problem]) -> str:
     """Drop what points at nothing: `right`, `changed`, or `wrong` where something else is."""
-    found = [(rule, problem) for rule, problem in problems if rule not in ("no-example",)]
-    dropped = [_drop(spec, problem.path) for _, problem in found]
-    return "right" if not found else "changed" if all(dropped) else "wrong"
+    dropped = [_drop(spec, problem.path) for problem in problems]
+    return "right" if not dropped else "changed" if all(dropped) else "wrong"
 
 
 def _drop(spec: Data, path: KeyPath) -> bool:
@@ -182,9 +190,7 @@ class Names:
 def names_of(old: Data, new: Data) -> Names:
     """Return what became of the names of marked things."""
     by_mark = {each.get(MARK): name for name, each in new.items()}
-    to_new = {
-        name: by_mark[each[MARK]] for name, each in old.items() if each.get(MARK) in by_mark
-    }
+    to_new = {name: by_mark[each[MARK]] for name, each in old.items() if each.get(MARK) in by_mark}
     unsaid = {
         name
         for name, other in to_new.items()

@@ -28,8 +28,24 @@ if TYPE_CHECKING:
 RETYPED = (
     *(("u8", "u16"), ("u16", "u8"), ("u16", "u32"), ("u32", "u16"), ("u8", "i8"), ("i8", "u8")),
     *(("u16", "i16"), ("i16", "u16"), ("u16", "u24"), ("u24", "u16"), ("u32", "f32")),
-    *(("f32", "u32"), ("f32", "f64"), ("f64", "f32"), ("i32", "u32"), ("u64", "i64"), ("u32", "i32")),
+    *(
+        ("f32", "u32"),
+        ("f32", "f64"),
+        ("f64", "f32"),
+        ("i32", "u32"),
+        ("u64", "i64"),
+        ("u32", "i32"),
+    ),
 )
+
+
+ADDED: dict[str, Data] = {
+    "a byte": {"type": "u8"},
+    "a number": {"type": "u16"},
+    "a constant": {"type": "u8", "always": 7},
+    "padding": {"type": "u8", "reserved": 0},
+    "text": {"type": "u8", "count": 3, "text": "ascii"},
+}
 
 
 def _retyped(old: str, new: str, desk: Desk) -> None:
@@ -180,7 +196,9 @@ def _renamed_and_retyped(said: bool, desk: Desk) -> None:
 def names_handed_on(desk: Desk) -> None:
     """A field takes the name of another, which has a new one; `was` tells of both."""
     first = desk.number()
-    others = [each for each in desk.spots() if each.fields is first.fields and each.name != first.name]
+    others = [
+        each for each in desk.spots() if each.fields is first.fields and each.name != first.name
+    ]
     second = desk.pick(each for each in others if not is_counter(each))
     name = second.name
     desk.rename_field(second, desk.fresh("given"), said=True)
@@ -265,17 +283,14 @@ def unused_checked(desk: Desk) -> None:
 
 FIELD_MUTATIONS: dict[str, Callable[[Desk], None]] = {
     **{f"{old} became {new}": partial(_retyped, old, new) for old, new in RETYPED},
-    **{f"a field in {where} removed": partial(_taken_away, where) for where in ("front", "middle", "end")},
+    **{
+        f"a field in {where} removed": partial(_taken_away, where)
+        for where in ("front", "middle", "end")
+    },
     **{
         f"{name} added in {where}": partial(_put_in, where, what)
         for where in ("front", "middle", "end")
-        for name, what in {
-            "a byte": {"type": "u8"},
-            "a number": {"type": "u16"},
-            "a constant": {"type": "u8", "always": 7},
-            "padding": {"type": "u8", "reserved": 0},
-            "text": {"type": "u8", "count": 3, "text": "ascii"},
-        }.items()
+        for name, what in ADDED.items()
     },
     **{
         f"a field {name}, {'said' if said else 'unsaid'}": partial(change, said)

@@ -84,7 +84,7 @@ def covers_changed(desk: Desk) -> None:
 
 def checksum_added(desk: Desk) -> None:
     parts = desk.pick(desk.kinds.values())
-    covers = [name for name in parts if parts[name]["is"] not in ("checksum",)][1:]
+    covers = [name for name in parts if parts[name]["is"] != "checksum"][1:]
     parts[desk.fresh("check")] = {"is": "checksum", "type": "u8", "method": "sum", "covers": covers}
 
 
@@ -231,15 +231,24 @@ FRAME_MUTATIONS: dict[str, Callable[[Desk], None]] = {
     "frame: constant not checked": constant_unchecked,
     "frame: parts swapped": parts_swapped,
     "length: counts others": length_counts,
-    **{f"{kind}: another type": partial(_wider, kind) for kind in ("length", "id", "address", "counter")},
-    **{f"{kind}: byte order": partial(_other_order, kind) for kind in ("length", "id", "address", "checksum")},
+    **{
+        f"{kind}: another type": partial(_wider, kind)
+        for kind in ("length", "id", "address", "counter")
+    },
+    **{
+        f"{kind}: byte order": partial(_other_order, kind)
+        for kind in ("length", "id", "address", "checksum")
+    },
     **{f"{kind}: removed": partial(_without, kind) for kind in ("checksum", "address", "counter")},
     **{f"{kind}: added": partial(_with, kind) for kind in ("address", "counter")},
     **{
         f"{kind}: renamed, {'said' if said else 'unsaid'}": partial(_renamed, kind, said)
         for kind, said in (("address", True), ("address", False), ("counter", True))
     },
-    **{f"{kind}: renamed": partial(_renamed, kind, False) for kind in ("length", "id", "body", "checksum")},
+    **{
+        f"{kind}: renamed": partial(_renamed, kind, False)
+        for kind in ("length", "id", "body", "checksum")
+    },
     "checksum: another method": method_changed,
     "checksum: covers others": covers_changed,
     "checksum: added": checksum_added,

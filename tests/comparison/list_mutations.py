@@ -23,8 +23,9 @@ if TYPE_CHECKING:
 
 def _how(old: str, new: str, desk: Desk) -> None:
     """Count elements where bytes were counted, or the other way round."""
-    fits = lambda spot: old in spot.field and new not in spot.field  # noqa: E731
-    field = desk.spot(lambda spot: fits(spot) and spot.field[old] in spot.fields).field
+    field = desk.spot(
+        lambda spot: spot.field.get(old) in spot.fields and new not in spot.field
+    ).field
     field[new] = field.pop(old)
 
 
@@ -174,12 +175,18 @@ def _is_listed(spot: Spot) -> bool:
 
 
 def packed_otherwise(desk: Desk) -> None:
-    field = desk.spot(lambda spot: _is_fixed(spot) and int(spot.field.get("type", "u8")[1:]) % 8).field
-    field["byte_order"] = "little" if field.get("byte_order", desk.spec["byte_order"]) == "big" else "big"
+    field = desk.spot(
+        lambda spot: _is_fixed(spot) and int(spot.field.get("type", "u8")[1:]) % 8
+    ).field
+    field["byte_order"] = (
+        "little" if field.get("byte_order", desk.spec["byte_order"]) == "big" else "big"
+    )
 
 
 def packed_ranged(desk: Desk) -> None:
-    field = desk.spot(lambda spot: _is_fixed(spot) and int(spot.field.get("type", "u8")[1:]) % 8).field
+    field = desk.spot(
+        lambda spot: _is_fixed(spot) and int(spot.field.get("type", "u8")[1:]) % 8
+    ).field
     field["range"] = "0..5"
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 from functools import partial
 from typing import TYPE_CHECKING
 
+from tests.comparison.authors import MARK
 from tests.comparison.desk import copied, in_words, removed, reordered
 
 if TYPE_CHECKING:
@@ -176,7 +177,7 @@ def ends_in_other_order(desk: Desk) -> None:
 
 
 def end_added(desk: Desk) -> None:
-    desk.spec["endpoints"][desk.fresh("third")] = "Listens."
+    desk.spec["endpoints"][desk.fresh("third")] = {MARK: 0, "part": "Listens."}
 
 
 def _dropped(key: str, desk: Desk) -> None:
@@ -217,6 +218,15 @@ MESSAGE_MUTATIONS: dict[str, Callable[[Desk], None]] = {
     "a reply changed": reply_changed,
     **{
         f"{key} dropped": partial(_dropped, key)
-        for key in ("reply", "refusal", "failure", "echoed", "reports", "acknowledged", "lasts", "method")
+        for key in (
+            "reply",
+            "refusal",
+            "failure",
+            "echoed",
+            "reports",
+            "acknowledged",
+            "lasts",
+            "method",
+        )
     },
 }

@@ -109,9 +109,9 @@ def editions(draw: st.DrawFn, spec: str) -> Editions:
     """Draw two editions of a spec, one to three mutations apart, either way round."""
     several = st.lists(st.sampled_from([*MUTATIONS]), min_size=1, max_size=AT_ONCE)
     made = draw(
-        st.builds(lambda names, seed: after(spec, names, seed), several, st.integers(0, 999)).filter(
-            lambda each: each is not None
-        )
+        st.builds(
+            lambda names, seed: after(spec, names, seed), several, st.integers(0, 999)
+        ).filter(lambda each: each is not None)
     )
     assert made is not None
     return made.turned if draw(st.booleans()) else made
