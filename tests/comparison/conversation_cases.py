@@ -90,6 +90,14 @@ CASES: dict[str, Case] = {
         SERVO,
         [Said(_OLD_HOST, "no reply", "BatteryVoltageRead")],
     ),
+    "a question must say more": Case(
+        SERVO,
+        with_(SERVO, *BATTERY, "fields", {"cell": {"type": "u8", "about": "Which of them."}}),
+        [
+            Said(_OLD_HOST, "no reply", "BatteryVoltageRead"),
+            Said(_NEW_HOST, "no reply", "BatteryVoltageRead"),
+        ],
+    ),
     "a question is gone": Case(
         SERVO,
         with_(SERVO, *BATTERY, GONE),
