@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
 FORMATS = ("text", "json", "markdown", "github")
 FAILURES = ("wire", "conversation", "programs", "uncertain", "version", "never")
-_USUAL = ("wire", "conversation", "programs", "uncertain")
+USUAL = ("wire", "conversation", "programs", "uncertain")
 
 SUMMARY = "Compare two editions of a spec, and show what breaks between their users."
 EXAMPLES = (
@@ -64,7 +64,7 @@ def add_arguments(parser: ArgumentParser) -> None:
         action="append",
         type=_failures,
         metavar="WHAT",
-        help=f"what counts, several by commas: {','.join(_USUAL)} without this",
+        help=f"what counts, several by commas: {','.join(USUAL)} without this",
     )
     parser.add_argument_group("what counts", _AXES)
     parser.add_argument_group("exit codes", _EXIT_CODES)
@@ -134,7 +134,7 @@ def _refuse_strangers(view: View) -> None:
 
 
 def _fail_on(given: list[list[str]] | None) -> frozenset[str]:
-    words = frozenset(_USUAL if given is None else (word for each in given for word in each))
+    words = frozenset(USUAL if given is None else (word for each in given for word in each))
     if "never" in words and len(words) > 1:
         others = ", ".join(sorted(words - {"never"}))
         raise Unusable(
