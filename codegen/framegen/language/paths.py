@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 
     from framegen.reading.yamltree import KeyPath
 
-_STEP = re.compile(r"(?:^|\.)([^.\[\]]+)|\[([0-9]{1,9})\]")
+_STEP = re.compile(r"(?:^|(?<=.)\.)([^.\[\]]+)|\[([0-9]{1,9})\]")
 
 
 class NoPath(ValueError):  # noqa: N818 - says what the text is
