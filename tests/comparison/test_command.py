@@ -64,9 +64,8 @@ def written(tmp_path: Path) -> Callable[..., list[str]]:
         (HOUSE, WORDED, [], 0),
         (BARE, NUMBERED, [], 1),
         (BARE, NUMBERED, ["wire"], 1),
-        (BARE, NUMBERED, ["conversation"], 0),
-        (BARE, NUMBERED, ["conversation,wire"], 1),
-        (BARE, NUMBERED, ["conversation", "wire"], 1),
+        (BARE, NUMBERED, ["uncertain,wire"], 1),
+        (BARE, NUMBERED, ["uncertain", "wire"], 1),
         (BARE, NUMBERED, ["uncertain"], 0),
         (BARE, NUMBERED, ["version"], 4),
         (BARE, NUMBERED, ["version, wire"], 1),
@@ -135,6 +134,8 @@ def test_the_text_shows_the_verdict_and_the_frame_of_each_break(
     (sent,) = (n for n, line in enumerate(lines) if "wire, old gateway -> new station" in line)
     assert at < sent
     assert lines[sent + 1 : sent + 3] == ["C3 5A A5 11 00 00", "StationRead()"]
+    # The same frame shows what becomes of the conversation.
+    assert lines.count("C3 5A A5 11 00 00") == 1
 
 
 def test_what_is_accepted_is_shown_with_its_reason(
