@@ -29,6 +29,7 @@ from hypothesis import example, given
 from hypothesis import strategies as st
 
 from tests.comparison.edits import EDITS, SPECS, edition, pair_of, with_
+from tests.few_each import few_each
 
 HOUSE = SPECS["greenhouse"]
 NAMES = [*HOUSE["messages"]]
@@ -85,9 +86,12 @@ def effects(draw: st.DrawFn) -> Effect:
 CHANGES = st.builds(Change, rule=st.just("made-up"), old=PATHS, new=PATHS, text=TEXTS)
 
 
+BEFORE, AFTER = edition(HOUSE, "v1:spec/a.yaml"), edition(HOUSE, "spec/a.yaml")
+
+
 def view_of(found: list[Effect], changes: list[Change] | None = None) -> View:
     """Return the view of a comparison that found these effects and changes."""
-    comparison = Comparison(edition(HOUSE, "v1:spec/a.yaml"), edition(HOUSE, "spec/a.yaml"))
+    comparison = Comparison(BEFORE, AFTER)
     vars(comparison).update(effects=found, changes=changes or [], trials=[])
     return View(comparison)
 
@@ -96,6 +100,7 @@ VIEWS = st.builds(view_of, st.lists(effects(), max_size=4), st.lists(CHANGES, ma
 HIDDEN = re.compile(r"[\x00-\x09\x0b-\x1f\x7f-\x9f\u202a-\u202e]")
 
 
+@few_each
 @given(VIEWS)
 @example(view_of([Effect("wire", "refused", None, ("messages", "VentsOpen"), "\n::error::x")]))
 def test_nothing_of_a_spec_begins_a_line_of_the_text(view: View) -> None:
@@ -108,6 +113,7 @@ def test_nothing_of_a_spec_begins_a_line_of_the_text(view: View) -> None:
         assert not first or first in headings or re.match(r"\d+ messages: ", line), line
 
 
+@few_each
 @given(VIEWS)
 def test_github_is_given_a_command_for_each_break_and_no_other(view: View) -> None:
     lines = FORMATS["github"](view).split("\n")
@@ -125,6 +131,7 @@ def test_github_is_given_a_command_for_each_break_and_no_other(view: View) -> No
     assert not any("\r" in line for line in lines)
 
 
+@few_each
 @given(VIEWS)
 def test_markdown_has_no_markup_of_a_spec(view: View) -> None:
     shown = FORMATS["markdown"](view)
@@ -138,6 +145,7 @@ def test_markdown_has_no_markup_of_a_spec(view: View) -> None:
     assert set(cells) <= {4, 6}
 
 
+@few_each
 @given(VIEWS)
 def test_json_says_all_that_was_found(view: View) -> None:
     shown = FORMATS["json"](view)
@@ -164,6 +172,7 @@ def test_json_says_all_that_was_found(view: View) -> None:
     ]
 
 
+@few_each
 @given(st.lists(CHANGES, min_size=1, max_size=3))
 def test_the_entry_for_the_history_is_what_a_spec_can_hold(changes: list[Change]) -> None:
     view = view_of([], changes)
@@ -213,6 +222,7 @@ def test_the_worst_that_counts_gives_the_exit_status(
     assert exit_status(found, finding, fail_on) == status
 
 
+@few_each
 @given(st.lists(effects()), st.sets(st.sampled_from(FAILURES[:-1])))
 def test_what_breaks_nothing_and_what_is_accepted_never_counts(
     found: list[Effect], fail_on: set[str]
