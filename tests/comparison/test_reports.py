@@ -83,7 +83,7 @@ def effects(draw: st.DrawFn) -> Effect:
     )
 
 
-CHANGES = st.builds(Change, rule=st.just("made-up"), old=PATHS, new=PATHS, text=TEXTS)
+CHANGES = st.builds(Change, rule=st.just("field-type"), old=PATHS, new=PATHS, text=TEXTS)
 
 
 BEFORE, AFTER = edition(HOUSE, "v1:spec/a.yaml"), edition(HOUSE, "spec/a.yaml")
@@ -343,9 +343,6 @@ def test_only_what_the_old_history_has_not_is_accepted(
     assert [each.path for each in accepted_breaks(pair)] == paths
 
 
-BAUD = Change("baud", ("link", "baud"), ("link", "baud"), "the baud rate became 9600")
-
-
 def compared(accepts: dict[str, str], changes: list[Change]) -> list[Effect]:
     """Return the effects of another id of StationRead, of which the history accepts something."""
     bare = with_(HOUSE, "messages", "StationRead", "examples", [])
@@ -357,7 +354,10 @@ def compared(accepts: dict[str, str], changes: list[Change]) -> list[Effect]:
 
 
 ID = Change(
-    "id", ("messages", "StationRead", "id"), ("messages", "StationRead", "id"), "0x11 became 0x20"
+    "message-id",
+    ("messages", "StationRead", "id"),
+    ("messages", "StationRead", "id"),
+    "0x11 became 0x20",
 )
 SUMMARY = Change("words", ("messages", "TextShow", "summary"), None, "is said otherwise")
 

@@ -11,9 +11,9 @@ from framegen.comparison.changes import CHANGE_RULES
 from framegen.comparison.due import due, next_version, tells_versions, version_finding
 from framegen.comparison.edges import MOST
 from framegen.comparison.entry import sentences
+from framegen.comparison.explained import explain
 from framegen.comparison.report.ends import all_ends, ends_of, upgrade_order
 from framegen.comparison.report.verdict import AXES, STANDINGS, Verdict, standing
-from framegen.comparison.seams import explain
 from framegen.language.version import NoVersion
 
 if TYPE_CHECKING:
