@@ -5,12 +5,19 @@ And every effect that breaks something has a change that explains it.
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 import pytest
+from framegen.comparison.changes import CHANGE_RULES
 from framegen.comparison.comparison import Comparison
 from framegen.comparison.explained import explain
 
 from tests.comparison.edits import EDITS, SPECS, edition
+from tests.comparison.rules_page import PAGE, section, verdicts
 from tests.comparison.test_changes import test_every_changed_fact_is_told_at_its_place as told_at
+
+if TYPE_CHECKING:
+    from framegen.comparison.changes.change import ChangeRule
 
 
 @pytest.mark.parametrize("name", SPECS)
@@ -24,3 +31,9 @@ def test_every_effect_is_explained(name: str) -> None:
     for comparison in (Comparison(old, new), Comparison(new, old)):
         for effect in comparison.effects:
             assert explain(effect, comparison.changes), effect.text
+
+
+@pytest.mark.parametrize("rule", CHANGE_RULES, ids=lambda rule: rule.id)
+def test_the_page_says_what_every_example_breaks(rule: ChangeRule) -> None:
+    said = f"\n{section(rule)}\n\n{verdicts(rule)}\n"
+    assert said in PAGE.read_text(encoding="utf-8")

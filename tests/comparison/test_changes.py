@@ -12,10 +12,10 @@ from framegen.comparison.changes import CHANGE_RULES, changes
 from framegen.comparison.pair import Pair
 from framegen.language import spec as language
 
-from tests.comparison.edits import EDITS, SERVO, SPECS, edition, pair_of, renamed, with_
+from tests.comparison.edits import EDITS, SERVO, SPECS, edition, pair_of, with_
 from tests.comparison.leaves import leaves, mirrored, others, turned
 from tests.comparison.rule_examples import example
-from tests.factories import ROOT, compiled_of, data_of
+from tests.factories import ROOT, compiled_of, data_of, renamed
 
 if TYPE_CHECKING:
     from framegen.comparison.changes.change import ChangeRule
