@@ -107,7 +107,7 @@ class _Values:
                 text = f"`{self.new.name}({name}={value})` is refused: {problem}"
                 yield from self._told("refused", path, text)
         # What may be absent may not be so any more, which its default says; or else sizes do not fit.
-        given = any(said[slot.name] is None for slot in self.new.arguments if not slot.optional)
+        given = any(said[slot.name] is None for slot in self.new.arguments if slot not in self.new.optional)
         if not (found or given or self._needs_more):
             yield from self._told("refused", "", f"`{self.new.name}` refuses values: {error}")
 
