@@ -9,10 +9,14 @@ from __future__ import annotations
 import enum
 import importlib
 import inspect
-from collections.abc import Iterator, Mapping
 from itertools import islice
-from types import ModuleType
-from typing import Any
+from typing import TYPE_CHECKING, Any
+
+from framegen.model.exchanges import snake_case
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator, Mapping
+    from types import ModuleType
 
 # What goes with any change, and what is there for the library itself.
 _PASSING = frozenset(
@@ -21,7 +25,7 @@ _PASSING = frozenset(
         *("SHAPE", "FIELDS"),
     )
 )
-_MOST_VALUES = 8
+_MOST_VALUES = 24
 _HELPERS = """
 class Line:
     name = "line"
@@ -50,7 +54,8 @@ class Line:
 
 def asked(call, *replies):
     line = Line(*replies)
-    with Controller(line, background=False, clock=line.clock, baud=float("inf"), settle=0) as client:
+    options = {"baud": float("inf"), "settle": 0, "local_echo": False}
+    with Controller(line, background=False, clock=line.clock, **options) as client:
         return call(client)
 
 
@@ -103,16 +108,12 @@ def plain(value: Any) -> object:
         return kind.__name__, value.name
     if hasattr(kind, "SHAPE"):
         return kind.__name__
-    if isinstance(value, float):
-        return "float", repr(value)
-    if isinstance(value, str):
-        return "text", value
+    if isinstance(value, (float, str)):
+        return kind.__name__, repr(value)
     if isinstance(value, (tuple, list)):
         name = "" if kind in (tuple, list) else kind.__name__
         return (name, *map(plain, value))
-    if isinstance(value, (bool, int)) or value is None:
-        return kind.__name__, value
-    return kind.__name__
+    return (kind.__name__, value if isinstance(value, int) else None)
 
 
 def program(made: ModuleType) -> Iterator[str]:
@@ -122,10 +123,14 @@ def program(made: ModuleType) -> Iterator[str]:
     yield from _of_ends(made)
     for name in vars(made)["__all__"]:
         yield f"isinstance({name}, object)"
-    for name in vars(importlib.import_module(f"{made.__name__}.strategies")):
-        if name.islower() and inspect.isfunction(vars(made.strategies)[name]) and name[0] != "_":
-            if vars(made.strategies)[name].__module__ == f"{made.__name__}.strategies":
-                yield f"callable(strategies.{name})"
+        if inspect.isclass(getattr(made, name)):
+            for each in vars(getattr(made, name)):
+                if each[0] != "_" and each not in _PASSING:
+                    yield f"isinstance({name}.{each}, object)"
+    for name, value in vars(importlib.import_module(f"{made.__name__}.strategies")).items():
+        own = getattr(value, "__module__", "") == f"{made.__name__}.strategies"
+        if own and inspect.isfunction(value) and not name.startswith("_"):
+            yield f"callable(strategies.{name})"
 
 
 def _of_message(made: ModuleType, kind: Any) -> Iterator[str]:
@@ -154,17 +159,18 @@ def _of_message(made: ModuleType, kind: Any) -> Iterator[str]:
         for value in islice(values, _MOST_VALUES):
             changed = made_by_name(name, {**usual, field: value})
             yield f"{changed}.{field}"
+            if isinstance(value, list):
+                continue
             yield f"decode({changed}.encode(), None)"
             for each in _properties(kind):
                 yield f"{changed}.{each}"
     for field in usual:
         yield from _of_elements(getattr(kind, field), f"{call}.{field}")
-    left_out = {
-        each: usual[each]
-        for each in usual
-        if inspect.signature(kind).parameters[each].default is inspect.Parameter.empty
-    }
-    yield made_by_name(name, left_out)
+    given = dict(usual)
+    for each in reversed([*usual]):
+        if inspect.signature(kind).parameters[each].default is not inspect.Parameter.empty:
+            del given[each]
+            yield made_by_name(name, given)
 
 
 def _of_columns(kind: Any, call: str) -> Iterator[str]:
@@ -179,13 +185,17 @@ def _of_elements(field: Any, listed: str) -> Iterator[str]:
     yield f"[type(each).__name__ for each in {listed}]"
     for each in element.__match_args__:
         yield f"[each.{each} for each in {listed}]"
-    row = tuple(next(iter(_of_number(inner))) for inner in element.FIELDS)
+    row = tuple(next(_of_number(inner)) for inner in element.FIELDS)
     named = dict(zip(element.__match_args__, row, strict=True))
     yield f"tuple({made_by_name(element.__name__, named)})"
     yield f"tuple({element.__name__}{row!r})"
-    for each in (*_properties(element), *_constants(element)):
-        owner = element.__name__ if each.isupper() else made_by_name(element.__name__, named)
-        yield f"{owner}.{each}"
+    for each in _constants(element):
+        yield f"{element.__name__}.{each}"
+    for inner in element.FIELDS:
+        for value in _of_number(inner):
+            made = made_by_name(element.__name__, {**named, inner.name: value})
+            for each in _properties(element):
+                yield f"{made}.{each}"
 
 
 def _of_ends(made: ModuleType) -> Iterator[str]:
@@ -204,7 +214,10 @@ def _of_ends(made: ModuleType) -> Iterator[str]:
         placed = ", ".join(map(repr, given.values()))
         for arguments in (named, placed):
             yield from _of_result(exchange, f"client.{exchange.method}({arguments}){replies}")
-        handler = f"on_{_snake(kind.__name__)}"
+        for limited in _limited(exchanges.LIMITS, kind, usual):
+            named = ", ".join(f"{each}={limited[each]!r}" for each in given)
+            yield f"isinstance(asked(lambda client: client.{exchange.method}({named})), Sent)"
+        handler = f"on_{snake_case(kind.__name__)}"
         call = made_by_name(kind.__name__, usual)
         yield f"callable(AsyncController.{exchange.method})"
         yield f"handled({handler!r}, {call}, {reply})"
@@ -213,6 +226,19 @@ def _of_ends(made: ModuleType) -> Iterator[str]:
         for each in vars(getattr(made, client, object)):
             if not each.startswith("_"):
                 yield f"callable({client}.{each})"
+
+
+def _limited(limits: Any, kind: Any, usual: Mapping[str, Any]) -> Iterator[dict[str, Any]]:
+    """Yield values at the limits of what a client sends by default."""
+    for path in limits.fields.get(kind, ()):
+        name, _, inner = path.partition(".")
+        for edge in limits.usual:
+            if inner:
+                at = getattr(kind, name).element.__match_args__.index(inner)
+                row = usual[name][0]
+                yield {**usual, name: [(*row[:at], edge, *row[at + 1 :])]}
+            else:
+                yield {**usual, name: edge}
 
 
 def _of_result(exchange: Any, call: str) -> Iterator[str]:
@@ -225,12 +251,6 @@ def _of_result(exchange: Any, call: str) -> Iterator[str]:
         yield f"{asked}.started"
     if exchange.lasts is not None:
         yield f"{asked}.lasts"
-
-
-def _snake(name: str) -> str:
-    from framegen.model.exchanges import snake_case
-
-    return snake_case(name)
 
 
 def _reply(exchange: Any, asked: Mapping[str, Any]) -> str | None:
@@ -261,9 +281,8 @@ def made_by_name(name: str, values: Mapping[str, Any]) -> str:
 def usual_values(kind: Any) -> dict[str, Any]:
     """Return a value for each argument of a message."""
     return {
-        each: next(iter(_values(kind, each)))
-        for each in inspect.signature(kind).parameters
-        if each != "cls"
+        each: next(_values(kind, each, at))
+        for at, each in enumerate(inspect.signature(kind).parameters)
     }
 
 
@@ -285,23 +304,23 @@ def _constants(kind: Any) -> list[str]:
     return [name for name in vars(kind) if name.isupper() and name not in _PASSING]
 
 
-def _values(kind: Any, name: str) -> Iterator[Any]:
-    """Yield values at the edges of a field, the usual one first."""
+def _values(kind: Any, name: str, at: int = 0) -> Iterator[Any]:
+    """Yield values at the edges of a field, first the usual one, which is not that of another."""
     field = getattr(kind, name)
     if hasattr(field, "number"):
-        yield from _of_number(field.number)
+        yield from _of_number(field.number, at)
     elif hasattr(field, "element"):
         yield from _of_list(field)
     elif hasattr(field, "bits_each"):
         for each in (min(field.low + 1, field.high), field.low, field.high):
             yield [each] * field.length
     else:
-        yield from _of_number(field)
+        yield from _of_number(field, at)
 
 
 def _of_list(field: Any) -> Iterator[Any]:
     def rows() -> Iterator[Any]:
-        edges = [[*_of_number(each)] for each in field.fields]
+        edges = [[*_of_number(each, at)] for at, each in enumerate(field.fields)]
         usual = tuple(each[0] for each in edges)
         yield usual
         for at, values in enumerate(edges):
@@ -322,9 +341,9 @@ def _of_list(field: Any) -> Iterator[Any]:
             yield [*[every[0]] * (usual - 1), one]
 
 
-def _of_number(field: Any) -> Iterator[Any]:
+def _of_number(field: Any, at: int = 0) -> Iterator[Any]:
     if type(field).__name__.endswith(("F32", "F64")):
-        yield from (1.5, 0.0, -0.25)
+        yield from (1.5 + at, 0.0, -0.25)
     elif hasattr(field, "least"):
         least, most = field.least or 0, field.most
         yield "Ab"[:most].ljust(least, "x")
@@ -333,7 +352,7 @@ def _of_number(field: Any) -> Iterator[Any]:
     else:
         low, high = field.low, field.high
         others = [*field.names.values(), *field.bits.values()]
-        found = [min(low + 1, high), low, high, *others]
+        found = [min(low + 1 + at, high), low, high, *others]
         yield from dict.fromkeys(
             each for each in found if low <= each <= high or each in field.others
         )
