@@ -123,7 +123,8 @@ def program(made: ModuleType) -> Iterator[str]:
     yield from _of_ends(made)
     for name in vars(made)["__all__"]:
         yield f"isinstance({name}, object)"
-        if inspect.isclass(getattr(made, name)):
+        # All messages of an end may be one.
+        if inspect.isclass(getattr(made, name)) and getattr(made, name).__name__ == name:
             for each in vars(getattr(made, name)):
                 if each[0] != "_" and each not in _PASSING:
                     yield f"isinstance({name}.{each}, object)"

@@ -44,8 +44,9 @@ def _of_package(pair: Pair) -> Iterator[Effect]:
     client = pair.new.model.roles.client
     if pair.ends.get(pair.old.model.roles.client) != client:
         ends = ("endpoints",)
-        text = f"the client is the {client} now; it was the {pair.old.model.roles.client}"
-        yield Effect("programs", "removed", ends, ends, text)
+        was = pair.old.model.roles.client
+        text = f"`Controller` is the end of the {client} now; it was that of the {was}"
+        yield Effect("programs", "meaning", ends, ends, text)
     boards = [
         {(each.vendor, each.product) for each in spec.link.usb_hid} if spec.link.usb_hid else set()
         for spec in specs

@@ -248,7 +248,8 @@ def _paths(
         )
         return (*parts[0], name), (*parts[1], other)
     ours, theirs = (*ours, "fields", name), (*theirs, "fields", other)
-    one = next(slot for slot in old.arguments if slot.name == name)
+    # Counts are no arguments.
+    one = next((slot for slot in old.arguments if slot.name == name), None)
     another = next((slot for slot in new.arguments if slot.name == other), None)
     if isinstance(one, Items) and isinstance(another, Items):
         moved = element_fields(one, another).to_new.get(inner)
