@@ -160,7 +160,7 @@ def _of_message(made: ModuleType, kind: Any) -> Iterator[str]:
         for value in islice(values, _MOST_VALUES):
             changed = made_by_name(name, {**usual, field: value})
             yield f"{changed}.{field}"
-            if isinstance(value, list):
+            if isinstance(value, list) and value and value != value[:1] * len(value):
                 continue
             yield f"decode({changed}.encode(), None)"
             for each in _properties(kind):
@@ -335,8 +335,9 @@ def _of_list(field: Any) -> Iterator[Any]:
     least, most = field.least, field.most
     usual = max(least, min(2, most))
     yield [every[0]] * usual
-    yield [every[0]] * least
-    yield [every[0]] * most
+    for count in dict.fromkeys((least, most, *range(least + 1, least + 5))):
+        if count <= most:
+            yield [every[0]] * count
     for one in every[1:]:
         if usual:
             yield [*[every[0]] * (usual - 1), one]

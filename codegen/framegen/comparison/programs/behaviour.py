@@ -36,13 +36,15 @@ _SHORT = 3
 def value_effects(pair: Pair) -> Iterator[Effect]:
     """Yield an effect for each field whose values are refused, or mean another thing."""
     for name, other in pair.messages.to_new.items():
-        yield from _Values(pair, name, other).effects()
+        if pair.old.model.messages[name].slots != pair.new.model.messages[other].slots:
+            yield from _Values(pair, name, other).effects()
 
 
 def preference_effects(pair: Pair) -> Iterator[Effect]:
     """Yield an effect for each message that is preferred, or not, where no direction is given."""
     models = pair.old.model, pair.new.model
-    if all(len(model.directions) == 1 for model in models):
+    lines = [[(name, each.slots, each.ids) for name, each in m.messages.items()] for m in models]
+    if lines[0] == lines[1] and models[0].directions == models[1].directions:
         return
     for name, other in pair.messages.to_new.items():
         old, new = models[0].messages[name], models[1].messages[other]
@@ -226,7 +228,9 @@ def _element_values(old: Field, new: Field, value: Any, usual: Any) -> Any:
 def _path(name: str, problem: str, slot: Field) -> str:
     """Return the field that a problem is about: `targets.position` where an element is refused."""
     inner = problem.partition(":")[0].rpartition(".")[2]
-    inside = isinstance(slot, Items) and any(each.name == inner for each in slot.fields)
+    inside = (
+        isinstance(slot, Items) and slot.element and any(each.name == inner for each in slot.fields)
+    )
     return f"{name}.{inner}" if inside else name
 
 
