@@ -26,9 +26,7 @@ _SHARED = ("frame", "frames", "byte_order", "endpoints", "link")
 # The steps of the path to a message.
 _WHOLE = 2
 # Words of texts that are names of nothing.
-_COMMON = frozenset(
-    ["is", "it", "of", "new", "now", "gone", "list", "from", "became", "renamed", "messages"]
-)
+_COMMON = frozenset(("is", "it", "of", "new", "now", "gone", "from", "became", "renamed"))
 _NAME = re.compile(r"[A-Za-z_]\w+", re.ASCII)
 
 
@@ -51,7 +49,7 @@ def explain(effect: Effect, changes: Sequence[Change]) -> list[Change]:
         if found:
             return found
     documents = [each for each in changes if each.path[:1] != ("history",)]
-    return telling or [each for each in documents if each.rule != "version"] or [*changes]
+    return telling or [each for each in documents if each.rule != "version-changed"] or [*changes]
 
 
 def _near(effect: Effect, changes: Sequence[Change]) -> list[Change]:

@@ -20,15 +20,15 @@ def _look(both: Both) -> Iterator[Change]:
         # What was left under its old name is the same all the same.
         if each.old.concerns != each.new.concerns:
             old, new = both.concern(each.old.concerns), concern(each.new.concerns)
-            yield from changed("erratum", each, "concerns", old, new, "concerns")
+            yield from changed("erratum-changed", each, "concerns", old, new, "concerns")
         for key in ("document", "bytes_"):
             old, new = repr(getattr(each.old, key)), repr(getattr(each.new, key))
             name = key.rstrip("_")
-            yield from changed("erratum", each, name, old, new, name)
+            yield from changed("erratum-changed", each, name, old, new, name)
 
 
 RULE = ChangeRule(
-    id="erratum",
+    id="erratum-changed",
     title="An erratum says something else",
     subject="document",
     why="An erratum tells where a document is wrong, with the evidence.",

@@ -23,12 +23,12 @@ def _look(both: Both) -> Iterator[Change]:
         if was != each.new.length:
             text = f"{called(each.new_path)}: {became('length', was, each.new.length)}"
             yield Change(
-                "length-rule", (*each.old_path, "length"), (*each.new_path, "length"), text
+                "length-changed", (*each.old_path, "length"), (*each.new_path, "length"), text
             )
 
 
 RULE = ChangeRule(
-    id="length-rule",
+    id="length-changed",
     title="A message has another length rule",
     subject="message",
     why="Frames of lengths that an end does not expect are refused.",
