@@ -53,8 +53,6 @@ def release(
     """
     own = new.spec.protocol.version
     wanted = _version(own, comparison, taken, version)
-    if wanted in taken:
-        raise Unusable(f"{wanted} is released already", hint="take a higher version")
     breaks = _accepted([] if comparison is None else comparison.effects, accept)
     reserved = [] if comparison is None else [*reservations(comparison, wanted)]
     changes = ["The first release."] if comparison is None else sentences(comparison)
@@ -74,6 +72,8 @@ def _version(
             Version.parse(version)
         except NoVersion as error:
             raise Unusable(str(error), hint=error.hint) from None
+        if version in taken:
+            raise Unusable(f"{version} is released already", hint="take a higher version")
     if comparison is None:
         return own if version is None else version
     old = comparison.old.version
