@@ -26,6 +26,7 @@ VERBS = (
     "docs",
     "explain",
     "guess",
+    "audit",
     "conform",
     "schema",
     "rules",

@@ -6,8 +6,7 @@ from pathlib import Path
 from shutil import copytree
 
 import pytest
-from framegen.comparison.editions import edition_of, find_editions, released
-from framegen.comparison.revision import NotInRevision
+from framegen.comparison.editions import Editions, edition_of, find_editions, released
 from framegen.compile import compile_leniently, compile_spec
 from framegen.language.load import MAX_BYTES
 from framegen.reading.source import Source
@@ -177,7 +176,7 @@ WRONG = [
     (("-", "-"), "a comparison of nothing: `-` is named twice", "from the input"),
     (("HEAD", "HEAD"), "a comparison of nothing: `HEAD` is named twice", "two editions"),
     (
-        ("stage_lamp", "spec/lamp.yaml"),
+        ("lamp", "spec/lamp.yaml"),
         "a comparison of nothing: both are spec/lamp.yaml",
         "two editions",
     ),
@@ -231,21 +230,23 @@ def test_without_git_revisions_cannot_be_named(
     assert caught.value.hint == "install git, or name two spec files"
 
 
-def test_a_repository_without_a_commit_has_no_earlier_edition(
+def test_the_first_edition_of_a_spec_has_nothing_to_be_compared_with(
     clone: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     start(tmp_path / "new")
     (tmp_path / "new" / "spec").mkdir()
     (tmp_path / "new" / "spec" / "lamp.yaml").write_text(LAMPS, encoding="utf-8")
     monkeypatch.chdir(tmp_path / "new")
-    with pytest.raises(Unusable, match="has no commit yet"):
-        find_editions()
+    first = "spec/lamp.yaml has no earlier edition yet: none is released, and no commit before "
+    assert find_editions() == Editions([], [f"{first}this has it"])
+    with pytest.raises(Unusable, match="the repository has no commit yet"):
+        find_editions("HEAD")
     commit(tmp_path / "new", {"README": "Nothing."})
     git(tmp_path / "new", "rm", "--quiet", "--cached", "spec/lamp.yaml")
     git(tmp_path / "new", "commit", "--quiet", "--amend", "--message", "Without it")
-    with pytest.raises(NotInRevision, match=r"spec/lamp\.yaml has no earlier edition") as caught:
-        find_editions()
-    assert caught.value.hint == "commit it, or name what to compare it with"
+    assert find_editions() == Editions([], [f"{first}this has it"])
+    with pytest.raises(Unusable, match=r"spec/lamp\.yaml is not in `HEAD`"):
+        find_editions("HEAD")
 
 
 def test_a_shallow_clone_says_how_it_gets_the_rest(

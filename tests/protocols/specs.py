@@ -54,7 +54,11 @@ def all_messages() -> list[tuple[str, str]]:
 @cache
 def values_of(name: str, message: str, *, few: bool = False) -> st.SearchStrategy[Values]:
     """Return a strategy for values that a frame of a message can carry, `few` in each list."""
-    layout = messages_of(name)[message]
+    return values_for(messages_of(name)[message], few=few)
+
+
+def values_for(layout: MessageLayout, *, few: bool = False) -> st.SearchStrategy[Values]:
+    """Return a strategy for values that a frame with this layout can carry, `few` in each list."""
     whole = _in_order({slot.name: _values(slot, few) for slot in layout.arguments})
     if not layout.optional:
         return whole

@@ -107,8 +107,8 @@ def older_edition(spec: Path, name: str) -> Edition:
         return edition_of(_at(Revision("HEAD", _folder(spec)), spec))
     except NotInRevision:
         raise NotInRevision(
-            f"{visible(spec.as_posix())} has no earlier edition: none is released, and the last "
-            "commit does not have it",
+            f"{visible(spec.as_posix())} has no earlier edition yet: none is released, and no "
+            "commit before this has it",
             hint="commit it, or name what to compare it with",
         ) from None
 
@@ -223,7 +223,10 @@ def _protocol(spec: Path) -> str | None:
 
 
 def _of_all(old: Revision | None, new: Revision | None) -> Editions:
-    """Pair two editions of every spec of the project; what has no earlier one is left out."""
+    """Pair two editions of every spec of the project; what has no earlier one is left out.
+
+    Where nothing was named, the first edition of a spec is no error.
+    """
     found, errors = Editions(), list[Unusable]()
     for spec in all_specs():
         try:
@@ -235,7 +238,7 @@ def _of_all(old: Revision | None, new: Revision | None) -> Editions:
             found.left_out.append(str(error))
         else:
             found.pairs.append((before, after))
-    if not found.pairs:
+    if not found.pairs and (old, new) != (None, None):
         raise errors[0]
     return found
 

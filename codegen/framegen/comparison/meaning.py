@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any, Literal, TypeAlias
 
 from framegen.comparison.pair import element_fields, named_bits, named_values
 from framegen.comparison.units import quantity
-from framegen.model.slots import Items, Number, Packed
+from framegen.model.slots import Items, Number, Packed, Text
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
@@ -44,7 +44,8 @@ def differences(
 ) -> Iterator[Difference]:
     """Compare the values of a message as sent with those read.
 
-    `pairing` is that of the fields, from the sender to the receiver. What is absent on both ends is nothing.
+    `pairing` is that of the fields, from the sender to the receiver. What is absent on both ends is
+    nothing.
     """
     theirs = {slot.name: slot for slot in receiver.arguments}
     yield from _of_slots(pairing, sender.arguments, theirs, sent, read, "")
@@ -53,22 +54,86 @@ def differences(
 def translated(
     pairing: Pairing, ours: MessageLayout, theirs: MessageLayout, values: Mapping[str, Any]
 ) -> dict[str, Any] | None:
-    """Return values under the names of the other edition; None where it has no name for one."""
-    said = {slot.name: None for slot in theirs.arguments}
+    """Return what the other edition would send to say the same; None where it cannot.
+
+    What only the other edition knows is whatever it allows. What it does not know is left out, if
+    it had to be sent; it cannot say what its sender chose to add.
+    """
+    said = {slot.name: _anything(slot) for slot in theirs.arguments}
     named = {slot.name: slot for slot in theirs.arguments}
     for slot in ours.arguments:
         value, other = values[slot.name], named.get(pairing.to_new.get(slot.name, ""))
-        if value is None:
-            continue
         if other is None:
-            return None
-        if isinstance(slot, Items) and isinstance(other, Items) and slot.element is not None:
-            names = element_fields(slot, other).to_new
-            if any(field.name not in names for field in slot.fields):
+            if value is not None and isinstance(slot, Number) and slot.optional:
                 return None
-            value = [{names[name]: each for name, each in item.items()} for item in value]
-        said[other.name] = value
+            continue
+        again = _again(slot, other, value)
+        if again is None and value is not None:
+            return None
+        said[other.name] = again
     return said
+
+
+def _again(ours: Field, theirs: Field, value: Any) -> Any:
+    """Return a value as the other edition says it; None where it cannot."""
+    match ours, theirs:
+        case Number(), Number() if value is not None:
+            return _same_quantity(ours.field, theirs.field, value)
+        case Items(), Items() if ours.element is not None and theirs.element is not None:
+            items = [_again_element(ours, theirs, item) for item in value]
+            return None if None in items else items
+        case Packed() | Items(), Packed() | Items() if _is_bare(ours) and _is_bare(theirs):
+            numbers = [
+                _same_quantity(_bare_field(ours), _bare_field(theirs), each) for each in value
+            ]
+            return None if None in numbers else numbers
+        case _:
+            return value
+
+
+def _again_element(ours: Items, theirs: Items, item: Mapping[str, Any]) -> dict[str, Any] | None:
+    names = element_fields(ours, theirs).to_new
+    there = {slot.name: slot for slot in theirs.fields}
+    said = {name: _anything(slot) for name, slot in there.items()}
+    for slot in ours.fields:
+        other = there.get(names.get(slot.name, ""))
+        if other is not None:
+            said[other.name] = _again(slot, other, item[slot.name])
+    return None if None in said.values() else said
+
+
+def _same_quantity(ours: NumberField, theirs: NumberField, number: float) -> float | None:
+    """Return the number that means the same in the other edition; None where none does."""
+    means, meant = quantity(ours), quantity(theirs)
+    if means is None or meant is None or means == meant or means.unit != meant.unit:
+        return number
+    if not _finite(number):
+        return number
+    again = meant.raw(means.value(number))
+    if theirs.type.startswith("f"):
+        return float(again)
+    return int(again) if again.denominator == 1 else None
+
+
+def _anything(slot: Field) -> Any:
+    """Return some value of an argument; None for one that may be absent."""
+    match slot:
+        case Number():
+            return None if slot.optional else 0.0 if slot.is_float else slot.low
+        case Text():
+            return ""
+        case Packed():
+            return [slot.low] * slot.count
+        case Items():
+            if slot.text is not None:
+                return " " * slot.low
+            item = {field.name: _anything(field) for field in slot.fields}
+            return [item if slot.element is not None else next(iter(item.values()))] * slot.low
+
+
+def _bare_field(slot: Packed | Items) -> NumberField:
+    """Return what a spec says of the numbers of a list."""
+    return slot.field if isinstance(slot, Packed) else slot.fields[0].field
 
 
 def _of_slots(
@@ -105,11 +170,7 @@ def _values(ours: Field, theirs: Field, sent: Any, read: Any, path: str) -> Iter
         case Number(), Number() if sent is not None and read is not None:
             yield from _numbers(ours.field, theirs.field, sent, read, path)
         case Packed() | Items(), Packed() | Items() if _is_bare(ours) and _is_bare(theirs):
-            one, other = (
-                each.field if isinstance(each, Packed) else each.fields[0].field
-                for each in (ours, theirs)
-            )
-            yield from _bare(one, other, sent, read, path)
+            yield from _bare(_bare_field(ours), _bare_field(theirs), sent, read, path)
         case _:
             if _plain(sent) != _plain(read):
                 yield Difference("misread", path, f"{path} = {sent!r} is read as {read!r}")

@@ -81,7 +81,9 @@ class Pair:
     def messages(self) -> Pairing:
         """The messages: under a name that was changed, ids, direction and fields are the same."""
         old, new = self.old.model.messages, self.new.model.messages
-        was = {name: layout.message.was for name, layout in new.items()}
+        was, old_was = (
+            {name: layout.message.was for name, layout in each.items()} for each in (new, old)
+        )
         return paired(
             {
                 name: _identity(
@@ -93,6 +95,7 @@ class Pair:
             },
             {name: _identity(each, each.direction, each.frame.name) for name, each in new.items()},
             was,
+            old_was,
         )
 
     def fields(self, old: MessageLayout, new: MessageLayout) -> Pairing:
@@ -113,7 +116,7 @@ def element_fields(old: Items, new: Items) -> Pairing:
     if old.element is None or new.element is None:
         same = {old.slots[0].name: new.slots[0].name} if old.element == new.element else {}
         return Pairing(same, frozenset(), (), ())
-    return _paired_slots(old.slots, new.slots)
+    return _paired_slots(old.slots, new.slots, 0, 0)
 
 
 def named_values(old: NumberField, new: NumberField) -> Pairing:
@@ -122,6 +125,7 @@ def named_values(old: NumberField, new: NumberField) -> Pairing:
         {name: each.value for name, each in old.values.items()},
         {name: each.value for name, each in new.values.items()},
         {name: each.was for name, each in new.values.items()},
+        {name: each.was for name, each in old.values.items()},
     )
 
 
@@ -131,32 +135,38 @@ def named_bits(old: NumberField, new: NumberField) -> Pairing:
         {name: each.at for name, each in old.bits.items()},
         {name: each.at for name, each in new.bits.items()},
         {name: each.was for name, each in new.bits.items()},
+        {name: each.was for name, each in old.bits.items()},
     )
 
 
-def shape(slot: MessageSlot) -> object:
-    """Return what can be told of a slot on the wire but for its name: its place and its type."""
+def shape(slot: MessageSlot, start: int = 0) -> object:
+    """Return what can be told of a slot on the wire but for its name: its place and its type.
+
+    The place counts from `start`.
+    """
+    at = slot.at - start
     match slot:
         case Items():
-            return slot.at, "list", tuple(shape(each) for each in slot.slots)
+            return at, "list", tuple(shape(each) for each in slot.slots)
         case Packed():
-            return slot.at, "packed", slot.number_type.name, slot.count
+            return at, "packed", slot.number_type.name, slot.count
         case Text():
-            return slot.at, "text", slot.size
+            return at, "text", slot.size
         case Constant():
-            return slot.at, slot.role, slot.data
+            return at, slot.role, slot.data
         case Number():
-            return slot.at, slot.role, slot.number_type.name
+            return at, slot.role, slot.number_type.name
 
 
 def _identity(layout: MessageLayout, way: Direction | None, frame: str | None) -> object:
     if way is None or frame is None:
         return None
-    return layout.ids, way, frame, tuple(shape(slot) for slot in layout.body)
+    start = layout.frame.body_at
+    return layout.ids, way, frame, tuple(shape(slot, start) for slot in layout.body)
 
 
 def _fields(old: MessageLayout, new: MessageLayout) -> Pairing:
-    found = _paired_slots(old.body, new.body)
+    found = _paired_slots(old.body, new.body, old.frame.body_at, new.frame.body_at)
     to_new = dict(found.to_new)
     # There is at most one of these, so that its name does not matter.
     for part in ("address", "counter"):
@@ -166,11 +176,19 @@ def _fields(old: MessageLayout, new: MessageLayout) -> Pairing:
     return Pairing(to_new, found.guessed, found.removed, found.added)
 
 
-def _paired_slots(old: Iterable[MessageSlot], new: Iterable[MessageSlot]) -> Pairing:
+def _paired_slots(
+    old: Iterable[MessageSlot], new: Iterable[MessageSlot], old_start: int, new_start: int
+) -> Pairing:
     old, new = tuple(old), tuple(new)
-    was = {slot.name: slot.field.was for slot in new if slot.field is not None}
+    was, old_was = (
+        {slot.name: slot.field.was for slot in each if slot.field is not None}
+        for each in (new, old)
+    )
     return paired(
-        {slot.name: shape(slot) for slot in old}, {slot.name: shape(slot) for slot in new}, was
+        {slot.name: shape(slot, old_start) for slot in old},
+        {slot.name: shape(slot, new_start) for slot in new},
+        was,
+        old_was,
     )
 
 

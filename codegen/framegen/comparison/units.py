@@ -88,6 +88,10 @@ class Quantity:
         """Return what a raw number means in the unit."""
         return self.step * Fraction(raw) + self.offset
 
+    def raw(self, value: Fraction) -> Fraction:
+        """Return the raw number that means a value; not every one is a whole number."""
+        return (value - self.offset) / self.step
+
 
 def quantity(field: NumberField) -> Quantity | None:
     """Return what a number means as its unit or its scale says it; None where neither does."""

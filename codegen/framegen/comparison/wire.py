@@ -6,6 +6,7 @@ both, and read with that of the other.
 
 from __future__ import annotations
 
+from contextlib import suppress
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
@@ -51,10 +52,23 @@ class Trials:
         """How many frames were tried."""
         return sum(self.counts.values())
 
+    def add(self, witness: Witness, *, breaks: bool) -> None:
+        """Count a frame, and keep it if it is the worst so far."""
+        self.counts[witness.outcome] = self.counts.get(witness.outcome, 0) + 1
+        if witness.outcome == "same":
+            return
+        worst = self.breaking if breaks else self.adding
+        if worst is None or _rank(witness) > _rank(worst):
+            if breaks:
+                self.breaking = witness
+            else:
+                self.adding = witness
+
 
 def try_out(pair: Pair) -> list[Trials]:
     """Try out every message of either edition on an end that has the other one."""
-    return [*_from(pair, "old"), *_from(pair, "new")]
+    both: tuple[Which, Which] = ("old", "new")
+    return [trial.run() for sender in both for trial in trials_of(pair, sender)]
 
 
 def wire_effects(pair: Pair, trials: list[Trials]) -> Iterator[Effect]:
@@ -78,11 +92,11 @@ def _effect(pair: Pair, trials: Trials, witness: Witness, *, breaks: bool) -> Ef
     return Effect("wire", witness.outcome, old, new, text, ends, breaks, certain, witness)
 
 
-def _from(pair: Pair, sender: Which) -> Iterator[Trials]:
-    ours = pair.edition(sender).model
+def trials_of(pair: Pair, sender: Which) -> Iterator[Trial]:
+    """Yield a trial for each message that one edition sends."""
     alike = _same_lines(pair)
-    for message in ours.messages.values():
-        yield _Trial(pair, sender, message, alike).run()
+    for message in pair.edition(sender).model.messages.values():
+        yield Trial(pair, sender, message, alike)
 
 
 def _same_lines(pair: Pair) -> frozenset[str]:
@@ -95,7 +109,7 @@ def _same_lines(pair: Pair) -> frozenset[str]:
     return frozenset(found)
 
 
-class _Trial:
+class Trial:
     """One message that one edition sends, and the other edition, which reads it."""
 
     def __init__(
@@ -118,24 +132,23 @@ class _Trial:
     def run(self) -> Trials:
         """Try out the message at its edges."""
         found = Trials(self.sender, self.message, self.message.direction)
-        names = {} if self.other is None else dict(self._fields(self.other).to_new)
-        for number, values in enumerate(
-            values_to_try(self.message, self.other, names, pairs=self.pairs), 1
-        ):
-            witness, breaks = self._try(values)
-            found.counts[witness.outcome] = found.counts.get(witness.outcome, 0) + 1
-            found.all_tried = number < MOST
-            if witness.outcome == "same":
-                continue
-            worst = found.breaking if breaks else found.adding
-            if worst is None or _rank(witness) > _rank(worst):
-                if breaks:
-                    found.breaking = witness
-                else:
-                    found.adding = witness
+        for witness, breaks in self.frames():
+            found.add(witness, breaks=breaks)
+        found.all_tried = found.tried < MOST
+        if self.other is not None and found.counts.keys() == {"refused"}:
+            # Nothing at all of what both ends know is understood.
+            found.breaking, found.adding = found.breaking or found.adding, None
         return found
 
-    def _try(self, values: Mapping[str, Any]) -> tuple[Witness, bool]:
+    def frames(self) -> Iterator[tuple[Witness, bool]]:
+        """Yield what becomes of each frame that is tried, and whether that breaks anything."""
+        names = {} if self.other is None else dict(self._fields(self.other).to_new)
+        for values in values_to_try(self.message, self.other, names, pairs=self.pairs):
+            # A tolerated edition may have messages that none of its frames can carry.
+            with suppress(Unencodable, OverflowError):
+                yield self.of(values)
+
+    def of(self, values: Mapping[str, Any]) -> tuple[Witness, bool]:
         """Return what becomes of a frame with these values, and whether that breaks anything."""
         data = encode(self.message, values)
 
@@ -143,10 +156,12 @@ class _Trial:
             return Witness(self.sender, data, self.message.name, values, outcome, reading)
 
         if self.way is None:
-            return witness("refused", "there is no such end"), True
+            return witness("refused", "there is no such end"), self._was_understood(values)
+        if not self.theirs.sent(self.way):
+            return witness("refused", "no message goes this way"), self._was_understood(values)
         verdict = weigh_whole(self.theirs, [self.way], data)
         if verdict.message is None:
-            inside = self._read_inside(data)
+            inside = self._read_inside(self.way, data)
             if inside:
                 return witness("misread", f"is read as {inside}"), True
             return witness("refused", f"is refused, {verdict.refusal}"), self._was_understood(
@@ -155,24 +170,22 @@ class _Trial:
         read = values_of(verdict.message, data)
         if self.other is None or verdict.message is not self.other:
             return witness("misread", f"is read as {verdict.message.name}"), True
-        return self._compared(witness, values, read)
+        outcome, reading, breaks = self._compared(self.other, values, read)
+        return witness(outcome, reading), breaks
 
     def _compared(
-        self, witness: Any, values: Mapping[str, Any], read: Mapping[str, Any]
-    ) -> tuple[Witness, bool]:
-        assert self.other is not None
-        found = [*differences(self._fields(self.other), self.message, self.other, values, read)]
+        self, other: MessageLayout, values: Mapping[str, Any], read: Mapping[str, Any]
+    ) -> tuple[Outcome, str, bool]:
+        """Return the worst that differs between what is sent and what is read, in words too."""
+        worst: tuple[Outcome, str] = ("same", "is read alike")
         if self.message.name in self.pairing.guessed:
-            what = f"is read as {self.other.name}, which may be another message"
-            worst: tuple[Outcome, str] = ("uncertain", what)
-        else:
-            worst = ("same", "is read alike")
+            worst = ("uncertain", f"is read as {other.name}, which may be another message")
         breaks = worst[0] == "uncertain"
-        for each in found:
+        for each in differences(self._fields(other), self.message, other, values, read):
             if OUTCOMES.index(each.outcome) > OUTCOMES.index(worst[0]):
                 worst = (each.outcome, each.text)
             breaks |= self._breaks(each)
-        return witness(*worst), breaks
+        return *worst, breaks
 
     def _breaks(self, difference: Difference) -> bool:
         """Tell whether what is known to one end alone was known before: then it is lost."""
@@ -198,10 +211,9 @@ class _Trial:
             return False
         return True
 
-    def _read_inside(self, data: bytes) -> str:
+    def _read_inside(self, way: Direction, data: bytes) -> str:
         """Return the messages that the other end finds in a frame that it refuses as a whole."""
-        assert self.way is not None
-        events = ReferenceDecoder(self.theirs, [self.way]).decode(data)
+        events = ReferenceDecoder(self.theirs, [way]).decode(data)
         found = [each.message.name for each in events if each.message is not None]
         return ", ".join(dict.fromkeys(found))
 

@@ -266,7 +266,12 @@ def _number(name: str, part: NumberPart, at: int, order: ByteOrder) -> Number:
         case AddressPart():
             silent = frozenset(each.value for each in part.values.values() if each.silent)
             named = {
-                name: {"value": each.value, "about": each.about, "cite": _written(each.cite)}
+                name: {
+                    "value": each.value,
+                    "about": each.about,
+                    "cite": _written(each.cite),
+                    "was": [*each.was],
+                }
                 for name, each in part.values.items()
             }
             said = {**said, "range": _written(part.range), "values": named}

@@ -1,0 +1,75 @@
+"""What raw numbers mean, worked out from what a spec says of them, apart from framegen."""
+
+from __future__ import annotations
+
+import math
+from fractions import Fraction
+from typing import Any
+
+# By hand: a unit as a number of another one. A unit that is not here is only equal to itself.
+UNITS = {
+    "ms": ("0.001", "s"),
+    "us": ("0.000001", "s"),
+    "mV": ("0.001", "V"),
+    "dV": ("0.1", "V"),
+    "mA": ("0.001", "A"),
+    "mm": ("0.001", "m"),
+    "cm": ("0.01", "m"),
+    "km": ("1000", "m"),
+    "mAh": ("0.001", "Ah"),
+    "cK": ("0.01", "K"),
+    "mg": ("0.001", "g"),
+    "kHz": ("1000", "Hz"),
+    "ns": ("0.000000001", "s"),
+    "hPa": None,
+    "%": ("0.01", ""),
+    "‰": ("0.001", ""),
+    "min": ("60", "s"),
+    "h": ("3600", "s"),
+    "cm/s": None,
+    "rpm": None,
+}
+
+Quantity = tuple[Fraction, Fraction, str]
+
+
+def quantity_of(field: dict[str, Any]) -> Quantity | None:
+    """Return step, offset and unit of a number; None for one that is only a number."""
+    step, offset, unit = Fraction(1), Fraction(0), field.get("unit", "")
+    if "scale" in field:
+        words = str(field["scale"]).split()
+        step = Fraction(words.pop(0))
+        unit = words.pop(0) if words and words[0] not in "+-" else ""
+        if words:
+            offset = Fraction(words[1]) * (-1 if words[0] == "-" else 1)
+    elif not unit:
+        return None
+    factor, base = UNITS.get(unit) or ("1", unit)
+    return step * Fraction(factor), offset * Fraction(factor), base
+
+
+def judge_numbers(ours: dict[str, Any], theirs: dict[str, Any], sent: float, read: float) -> str:
+    """Judge a number as sent and as read, by what its two descriptions say that it means."""
+    one, other = quantity_of(ours), quantity_of(theirs)
+    if one is None or other is None or not (math.isfinite(sent) and math.isfinite(read)):
+        alike = sent == read or (math.isnan(sent) and math.isnan(read))
+        return "same" if alike else "misread"
+    if one[2] != other[2]:
+        return "uncertain" if one[:2] == other[:2] and sent == read else "misread"
+    meant, understood = (
+        each[0] * Fraction(number) + each[1] for each, number in ((one, sent), (other, read))
+    )
+    return "same" if meant == understood else "misread"
+
+
+def said_again(ours: dict[str, Any], theirs: dict[str, Any], sent: float) -> float | None:
+    """Return the number with which the other edition says the same; None where none does."""
+    one, other = quantity_of(ours), quantity_of(theirs)
+    if one is None or other is None or one[2] != other[2] or not math.isfinite(sent):
+        return sent
+    if one == other:
+        return sent
+    number = (one[0] * Fraction(sent) + one[1] - other[1]) / other[0]
+    if theirs["type"][0] == "f":
+        return float(number)
+    return int(number) if number.denominator == 1 else None
