@@ -8,8 +8,10 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 
 import pytest
 from framegen.cli import main
+from framegen.comparison import comparison
 from framegen.comparison.comparison import Comparison
 from framegen.comparison.editions import working_edition
+from framegen.comparison.programs import program_effects
 from framegen.writing import disk
 
 from tests import bad_specs
@@ -23,9 +25,7 @@ Capture: TypeAlias = "pytest.CaptureFixture[str]"
 
 SPEC = Path("spec/lamps.yaml")
 FIRST = Path("spec/released/lamps-1.0.0.yaml")
-NEW = {
-    "after": "LampRead:",
-    "add": """\
+FADE = """\
 LampFade:
   id: 9
   direction: host -> lamp
@@ -36,11 +36,12 @@ LampFade:
     lamp_id: {type: u8, about: The lamp.}
   examples:
     - {title: Lamp 1, hex: AA 55 02 09 01, values: {lamp_id: 1}, cite: manual}
-""",
-}
+"""
+BLINK = FADE.replace("Fade", "Blink").replace("9", "10", 1).replace("02 09 01", "02 0A 01")
+NEW = {"after": "LampRead:", "add": BLINK}
+LAMPS = edited(f"# Ours.\n{bad_specs.base('lamps')}", {"after": "LampRead:", "add": FADE})
 WORDS = {"replace": "summary: Lamps on a line.", "with": "summary: Lamps on one line."}
-# Nothing else of the spec mentions it.
-WITHOUT_SET = {"remove": "LampsSet:"}
+WITHOUT_FADE = {"remove": "LampFade:"}
 RAISED = {"under": "protocol", "replace": '"1.0.0"', "with": "2.0.0  # soon"}
 
 
@@ -48,10 +49,18 @@ RAISED = {"under": "protocol", "replace": '"1.0.0"', "with": "2.0.0  # soon"}
 def _project(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: Capture) -> None:
     """A project of lamps whose first edition is released."""
     monkeypatch.chdir(tmp_path)
+    # What becomes of programs takes the longest, and matters to few of these tests.
+    monkeypatch.setattr(comparison, "program_effects", lambda _pair: [])
     SPEC.parent.mkdir()
-    SPEC.write_text(f"# Ours.\n{bad_specs.base('lamps')}", encoding="utf-8")
+    SPEC.write_text(LAMPS, encoding="utf-8")
     assert main(["release"]) == 0
     assert capsys.readouterr().out == f"wrote {SPEC.as_posix()}\nwrote {FIRST.as_posix()}\n"
+
+
+@pytest.fixture
+def programs(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Let programs count as well."""
+    monkeypatch.setattr(comparison, "program_effects", program_effects)
 
 
 def change(*edits: dict[str, Any]) -> None:
@@ -73,14 +82,15 @@ def files() -> dict[str, bytes]:
 def test_the_first_release_keeps_the_version_and_says_so_in_the_history() -> None:
     assert SPEC.read_bytes() == FIRST.read_bytes()
     assert data_of(SPEC)["history"] == [{"version": "1.0.0", "changes": ["The first release."]}]
-    assert SPEC.read_text(encoding="utf-8").startswith(f"# Ours.\n{bad_specs.base('lamps')}")
+    assert SPEC.read_text(encoding="utf-8").startswith(LAMPS)
 
 
 @pytest.mark.parametrize(
     ("edits", "version"),
-    [([WORDS], "1.0.1"), ([NEW], "1.1.0"), ([NEW, WORDS], "1.1.0"), ([WITHOUT_SET], "2.0.0")],
+    [([WORDS], "1.0.1"), ([NEW], "1.1.0"), ([NEW, WORDS], "1.1.0"), ([WITHOUT_FADE], "2.0.0")],
     ids=["words", "a message", "both", "without a message"],
 )
+@pytest.mark.usefixtures("programs")
 def test_the_version_is_the_one_that_is_due(edits: list[dict[str, Any]], version: str) -> None:
     change(*edits)
     before = data_of(SPEC)
@@ -99,48 +109,49 @@ def test_the_version_is_the_one_that_is_due(edits: list[dict[str, Any]], version
     assert main(["check"]) == 0
 
 
+@pytest.mark.usefixtures("programs")
 def test_what_was_removed_is_reserved_and_what_breaks_is_accepted() -> None:
     old = working_edition(SPEC)
-    change(WITHOUT_SET)
+    change(WITHOUT_FADE)
     assert main(["release", "--accept", " It: was never sold. "]) == 0
     data = data_of(SPEC)
     assert data["reserved"] == [
         {
-            "id": 7,
+            "id": 9,
             "direction": "host -> lamp",
-            "name": "LampsSet",
-            "why": "It was LampsSet until 2.0.0.",
+            "name": "LampFade",
+            "why": "It was LampFade until 2.0.0.",
         }
     ]
     breaks = data["history"][0]["breaks"]
-    assert breaks["messages.LampsSet"] == "It: was never sold."
+    assert breaks["messages.LampFade"] == "It: was never sold."
     effects = Comparison(old, working_edition(SPEC)).effects
     assert [each for each in effects if each.breaks and not each.accepted] == []
     # From then on, an author does not give them to another message unawares.
-    change({"after": "messages:", "add": "# The end."}, NEW, {"replace": "id: 9", "with": "id: 7"})
+    change(NEW, {"replace": "id: 10", "with": "id: 9"})
     assert main(["check"]) == 1
 
 
 @pytest.mark.parametrize(
     "reserved",
     [
-        "  - {id: 7, name: LampsSet, why: It was.}",
-        "  - {id: 7, why: It was.}\n  - {name: LampsSet, why: It was.}",
+        "  - {id: 9, name: LampFade, why: It was.}",
+        "  - {id: 9, why: It was.}\n  - {name: LampFade, why: It was.}",
     ],
 )
 def test_what_is_reserved_is_not_reserved_again(reserved: str) -> None:
-    change(WITHOUT_SET, {"before": "history:", "add": f"reserved:\n{reserved}"})
+    change(WITHOUT_FADE, {"before": "history:", "add": f"reserved:\n{reserved}"})
     before = data_of(SPEC)["reserved"]
     assert main(["release", "--accept", "Nobody has it."]) == 0
     assert data_of(SPEC)["reserved"] == before
 
 
 def test_an_id_that_has_another_message_is_not_reserved() -> None:
-    taken = [{"after": "LampRead:", "add": NEW["add"].replace("id: 9", "id: 7")}]
-    change(WITHOUT_SET, *taken, {"replace": "AA 55 02 09 01", "with": "AA 55 02 07 01"})
+    taken = BLINK.replace("id: 10", "id: 9").replace("02 0A 01", "02 09 01")
+    change({"instead": "LampFade:", "add": taken})
     assert main(["release", "--accept", "Nobody has it."]) == 0
     assert data_of(SPEC)["reserved"] == [
-        {"name": "LampsSet", "why": "It was LampsSet until 2.0.0."}
+        {"name": "LampFade", "why": "It was LampFade until 2.0.0."}
     ]
 
 
@@ -152,9 +163,9 @@ def test_what_the_author_said_of_the_new_version_stays() -> None:
         "- version: 2.0.0",
         "  changes: [Lamps are read alone.]",
         "  breaks:",
-        "    messages.LampsSet: It was never sold.  # at all",
+        "    messages.LampFade: It was never sold.  # at all",
     ]
-    change(WITHOUT_SET, RAISED, history(*entry))
+    change(WITHOUT_FADE, RAISED, history(*entry))
     before = data_of(SPEC)["history"]
     assert main(["release"]) == 0
     assert data_of(SPEC)["history"] == before
@@ -181,22 +192,22 @@ def test_a_new_version_without_changes_is_completed() -> None:
     ],
 )
 def test_a_reason_is_added_to_the_new_version(entry: list[str]) -> None:
-    change(WITHOUT_SET, RAISED, history(*entry))
+    change(WITHOUT_FADE, RAISED, history(*entry))
     before = data_of(SPEC)["history"][0].get("breaks", {})
     assert main(["release", "--accept", "Nobody has it."]) == 0
     first, *_ = data_of(SPEC)["history"]
     assert first["changes"] == ["It."]
     assert first["breaks"].items() > before.items()
-    assert first["breaks"]["messages.LampsSet"] == "Nobody has it."
+    assert first["breaks"]["messages.LampFade"] == "Nobody has it."
 
 
 def test_another_version_takes_along_what_names_the_one_before() -> None:
     planned = {"under": "protocol", "replace": '"1.0.0"', "with": '"1.1.0"'}
-    since = {"after": "summary: Fade a lamp.", "add": 'since: "1.1.0"'}
-    change(planned, history("- {version: 1.1.0, changes: [LampFade is new.]}"), NEW, since)
+    since = {"after": "summary: Blink a lamp.", "add": 'since: "1.1.0"'}
+    change(planned, history("- {version: 1.1.0, changes: [LampBlink is new.]}"), NEW, since)
     assert main(["release", "--version", "1.2.0"]) == 0
     data = data_of(SPEC)
-    assert data["protocol"]["version"] == data["messages"]["LampFade"]["since"] == "1.2.0"
+    assert data["protocol"]["version"] == data["messages"]["LampBlink"]["since"] == "1.2.0"
     assert [each["version"] for each in data["history"]] == ["1.2.0", "1.0.0"]
 
 
@@ -225,8 +236,8 @@ REFUSED = [
         *([NEW], ["--version", "0.9.0"]),
         f"the version went back from 1.0.0 to 0.9.0\n{HIGHER}",
     ),
-    ([WITHOUT_SET], [], "nothing says why this breaks:\n  messages.LampsSet: "),
-    ([WITHOUT_SET], ["--accept", " "], "the reason is empty:\n  messages.LampsSet: "),
+    ([WITHOUT_FADE], [], "nothing says why this breaks:\n  messages.LampFade: "),
+    ([WITHOUT_FADE], ["--accept", " "], "the reason is empty:\n  messages.LampFade: "),
     (
         *([{"replace": "history:", "with": '"history": &here'}, WORDS], []),
         "",

@@ -16,10 +16,11 @@ if TYPE_CHECKING:
 def reservations(comparison: Comparison, version: str) -> Iterator[dict[str, Any]]:
     """Yield entries for `reserved`: what was removed up to a version, and is not reserved yet.
 
-    An id that has another message already is left out, and so is one whose ends are gone.
+    What only seems to have another name counts: `was` would say so. An id that has another message
+    already is left out, and so is one whose ends are gone.
     """
-    new = comparison.new.spec
-    for name in comparison.pair.messages.removed:
+    new, pairing = comparison.new.spec, comparison.pair.messages
+    for name in (*pairing.removed, *sorted(pairing.guessed)):
         message = comparison.old.spec.messages[name]
         way = comparison.pair.way_in_new(message.direction)
         entry: dict[str, Any] = {}

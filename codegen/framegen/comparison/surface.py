@@ -85,7 +85,9 @@ def read_surface(files: Mapping[str, str]) -> Surface:
         found |= owned or {name: Entry("name")}
     for module in _PUBLIC:
         names = inner.get(module) or _module(files[f"{module}.py"])
-        found |= {f"{module}.{name}": each for name, each in names.items() if not _is_in(name, found)}
+        found |= {
+            f"{module}.{name}": each for name, each in names.items() if not _is_in(name, found)
+        }
     return Surface(found)
 
 
@@ -111,7 +113,9 @@ def _module(text: str) -> dict[str, Entry]:
     found: dict[str, Entry] = {}
     for node in ast.parse(text).body:
         for name, entry in _of(node):
-            inherited = (base for each in entry.bases if each in found for base in found[each].bases)
+            inherited = (
+                base for each in entry.bases if each in found for base in found[each].bases
+            )
             found[name] = replace(entry, bases=(*entry.bases, *inherited))
             if isinstance(node, ast.ClassDef):
                 found |= {f"{name}.{each}": inner for each, inner in _members(node)}

@@ -183,8 +183,9 @@ def _paths(
     fields = pair.fields(old, new)
     other = fields.to_new[name]
     if any(slot.name == name for slot in old.frame.given):
-        parts = frame_path(pair.old.model, old.frame.name), frame_path(
-            pair.new.model, new.frame.name
+        parts = (
+            frame_path(pair.old.model, old.frame.name),
+            frame_path(pair.new.model, new.frame.name),
         )
         return (*parts[0], name), (*parts[1], other)
     ours, theirs = (*ours, "fields", name), (*theirs, "fields", other)

@@ -88,7 +88,9 @@ def _limits(pair: Pair, old: Exchange, new: Exchange) -> Iterator[Effect]:
             wide = (known.low, number.high if known.high is None else known.high)
         if low > wide[0] or high < wide[1]:
             steps = ("fields", inner) if inner else ()
-            text = f"raises LimitError outside {low}..{high} by default; it took {wide[0]}..{wide[1]}"
+            text = (
+                f"raises LimitError outside {low}..{high} by default; it took {wide[0]}..{wide[1]}"
+            )
             yield Effect(
                 "programs",
                 "refused",
