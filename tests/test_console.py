@@ -260,6 +260,7 @@ FRAMEGEN = [
     ["generate", SPEC, "--out", "log.hex"],
     ["docs", f"{HOSTILE}.yaml"],
     ["diff", f"{HOSTILE}.yaml", SPEC],
+    ["release", f"{HOSTILE}.yaml"],
     ["explain", HOSTILE],
     ["explain", f"{HOSTILE}.yaml", "55"],
     ["explain", SPEC, "55", "--direction", HOSTILE],

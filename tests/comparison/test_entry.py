@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import copy
 from typing import TYPE_CHECKING
 
 import pytest
@@ -46,6 +47,15 @@ def test_a_few_changes_of_words_are_told_and_many_are_counted() -> None:
     assert sentences(Comparison(edition(OLD), edition(many))) == [
         "4 changes of words, sources or examples."
     ]
+
+
+def test_a_deprecation_is_told_with_its_reason_before_mere_words() -> None:
+    new = copy.deepcopy(OLD)
+    new["messages"]["VentsOpen"]["deprecated"] = "VentsMove is smoother."
+    new["protocol"]["title"] = "A hothouse"
+    first, words = sentences(Comparison(edition(OLD), edition(new)))
+    assert first == "VentsOpen is deprecated now: VentsMove is smoother."
+    assert "VentsOpen" not in words
 
 
 @pytest.mark.parametrize("words", [[], [("summary: Lamps on a line.", "summary: Lamps.")]])

@@ -120,7 +120,7 @@ def test_what_was_removed_is_reserved_and_what_breaks_is_accepted() -> None:
             "id": 9,
             "direction": "host -> lamp",
             "name": "LampFade",
-            "why": "It was LampFade until 2.0.0.",
+            "why": "Up to 1.0.0 it was LampFade: It: was never sold.",
         }
     ]
     breaks = data["history"][0]["breaks"]
@@ -151,7 +151,7 @@ def test_an_id_that_has_another_message_is_not_reserved() -> None:
     change({"instead": "LampFade:", "add": taken})
     assert main(["release", "--accept", "Nobody has it."]) == 0
     assert data_of(SPEC)["reserved"] == [
-        {"name": "LampFade", "why": "It was LampFade until 2.0.0."}
+        {"name": "LampFade", "why": "Up to 1.0.0 it was LampFade: Nobody has it."}
     ]
 
 
@@ -163,12 +163,14 @@ def test_what_the_author_said_of_the_new_version_stays() -> None:
         "- version: 2.0.0",
         "  changes: [Lamps are read alone.]",
         "  breaks:",
-        "    messages.LampFade: It was never sold.  # at all",
+        "    messages.LampFade: It was never sold  # at all",
     ]
     change(WITHOUT_FADE, RAISED, history(*entry))
     before = data_of(SPEC)["history"]
     assert main(["release"]) == 0
     assert data_of(SPEC)["history"] == before
+    [reserved] = data_of(SPEC)["reserved"]
+    assert reserved["why"] == "Up to 1.0.0 it was LampFade: It was never sold."
     text = SPEC.read_text(encoding="utf-8")
     assert "version: 2.0.0  # soon\n" in text
     assert "# at all\n" in text
@@ -224,13 +226,14 @@ def test_a_candidate_promises_nothing() -> None:
 # ------------------------------------------------------------------ what is refused
 
 HIGHER = "  hint: use --version 1.1.0, or a higher one\n"
+IS_NEW = "something is new or deprecated"
 REFUSED = [
     ([], [], "nothing changed since 1.0.0\n  hint: there is nothing to release\n"),
     ([NEW], ["--version", "1"], '`1` is no semantic version\n  hint: write "1.0.0"\n'),
     ([NEW], ["--version", "1.0.0"], "1.0.0 is released already\n  hint: take a higher version\n"),
     (
         *([NEW], ["--version", "1.0.1"]),
-        f"something is new since 1.0.0, so the version 1.0.1 is too low: 1.1.0 is due\n{HIGHER}",
+        f"{IS_NEW} since 1.0.0, so the version 1.0.1 is too low: 1.1.0 is due\n{HIGHER}",
     ),
     (
         *([NEW], ["--version", "0.9.0"]),

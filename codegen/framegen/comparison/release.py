@@ -54,7 +54,7 @@ def release(
     own = new.spec.protocol.version
     wanted = _version(own, comparison, taken, version)
     breaks = _accepted([] if comparison is None else comparison.effects, accept)
-    reserved = [] if comparison is None else [*reservations(comparison, wanted)]
+    reserved = [] if comparison is None else [*reservations(comparison, accept)]
     changes = ["The first release."] if comparison is None else sentences(comparison)
     edits = _Edits(new)
     edits.set_version(wanted, rename=own not in taken)
