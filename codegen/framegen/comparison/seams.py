@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from framegen.comparison.changes import CHANGE_RULES
+
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
@@ -13,6 +15,8 @@ if TYPE_CHECKING:
 
 def explain(effect: Effect, changes: Sequence[Change]) -> list[Change]:
     """Return the changes that explain an effect: those of its message, or of what all share."""
+    documents = {rule.id for rule in CHANGE_RULES if rule.subject == "document"}
+    changes = [c for c in changes if c.rule not in documents]
     paths = [path[:2] for path in (effect.old, effect.new) if path]
     found = [c for c in changes if any(path[:2] in paths for path in (c.old, c.new) if path)]
     return found or [c for c in changes if c.path[:1] != ("messages",)]

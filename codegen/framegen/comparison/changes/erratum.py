@@ -17,10 +17,10 @@ if TYPE_CHECKING:
 
 def _look(both: Both) -> Iterator[Change]:
     for each in both.errata.twins:
-        concerned = both.concern(each.old.concerns)
-        yield from changed(
-            "erratum", each, "concerns", concerned, concern(each.new.concerns), "concerns"
-        )
+        # What was left under its old name is the same all the same.
+        if each.old.concerns != each.new.concerns:
+            old, new = both.concern(each.old.concerns), concern(each.new.concerns)
+            yield from changed("erratum", each, "concerns", old, new, "concerns")
         for key in ("document", "bytes_"):
             old, new = repr(getattr(each.old, key)), repr(getattr(each.new, key))
             name = key.rstrip("_")

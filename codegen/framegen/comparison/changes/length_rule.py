@@ -34,7 +34,19 @@ RULE = ChangeRule(
     why="Frames of lengths that an end does not expect are refused.",
     do="Look at which fields changed: the rule follows from them.",
     at="messages.LampRead",
-    before="length: 2",
-    after="length: 3",
+    before=(
+        "length: [2, 3, 4]\n"
+        "fields:\n"
+        "  lamp_id: {type: u8}\n"
+        "  colour: {type: u8, optional: true}\n"
+        "  time: {type: u8, optional: true}"
+    ),
+    after=(
+        "length: [2, 4]\n"
+        "fields:\n"
+        "  lamp_id: {type: u8}\n"
+        "  colour: {type: u8, optional: true}\n"
+        "  time: {type: u8, optional: true}"
+    ),
     look=_look,
 )

@@ -61,10 +61,7 @@ RULE = ChangeRule(
         "    parameters: {is: body}\n"
         "messages:\n"
         "  LampState:\n"
-        "    id: 8\n"
-        "    direction: lamp -> host\n"
-        "    frame: report\n"
-        "    fields: {level: {type: u16}}"
+        "    frame: report"
     ),
     look=_look,
 )

@@ -23,7 +23,7 @@ def _look(both: Both) -> Iterator[Change]:
 RULE = ChangeRule(
     id="signed-as",
     title="A number can be read as another signed type, or not any more",
-    subject="field",
+    subject="program",
     why="The library has a property for it: `signed_level`.",
     do="Keep it while programs use the property.",
     at="messages.LampRead.fields",

@@ -31,7 +31,7 @@ RULE = ChangeRule(
     ),
     do="Nothing.",
     at="sources",
-    before="board: {title: A board on our desk, kind: observation}",
-    after="board: {title: A board on our desk, kind: firmware}",
+    before="bench: {title: A board on our desk, kind: observation}",
+    after="bench: {title: A board on our desk, kind: firmware}",
     look=_look,
 )
