@@ -261,6 +261,15 @@ def test_what_can_be_no_release_is_refused_and_nothing_is_written(
     assert files() == before
 
 
+def test_where_a_name_may_have_changed_the_way_to_say_so_is_told(capsys: Capture) -> None:
+    change({"instead": "LampFade:", "add": BLINK.replace("10", "9", 1).replace("0A", "09", 1)})
+    assert main(["release"]) == 2
+    assert "what only has another name says so by `was: OldName`\n" in capsys.readouterr().err
+    change({"under": "LampBlink", "after": "id:", "add": "was: LampFade"})
+    main(["release"])
+    assert "was: OldName" not in capsys.readouterr().err
+
+
 def test_a_spec_without_lines_is_to_be_edited_by_hand(capsys: Capture) -> None:
     change(NEW)
     data = data_of(SPEC)

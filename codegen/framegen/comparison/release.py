@@ -26,6 +26,7 @@ if TYPE_CHECKING:
 
 # As many breaks are named.
 _NAMED = 10
+_RENAMED = "; what only has another name says so by `was: OldName`"
 
 
 @dataclass(frozen=True, slots=True)
@@ -110,7 +111,8 @@ def _accepted(effects: Sequence[Effect], reason: str | None) -> dict[str, str]:
         raise Unusable(
             "\n".join([f"{what}:", *shown, *more]),
             hint='give one reason for all, --accept "No board has it.", or one for each in the '
-            "`breaks` of the new version in `history`; a name that was changed needs `was`",
+            "`breaks` of the new version in `history`"
+            + ("" if all(each.certain for each in left) else _RENAMED),
         )
     return {
         path: reason.strip()

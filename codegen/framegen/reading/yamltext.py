@@ -11,7 +11,7 @@ from framegen.reading.scalars import Ambiguous, resolve
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping, Sequence
 
-Value: TypeAlias = "str | float | None | Sequence[Any] | Mapping[str, Any]"
+Value: TypeAlias = "str | float | Sequence[Any] | Mapping[str, Any] | None"
 
 # What YAML refuses in a text, takes for the end of a line, or does not show.
 _HIDDEN = r"\x7f-\xa0\u2028\u2029\ud800-\udfff\ufeff\ufffe\uffff"
