@@ -18,13 +18,15 @@ _HIDDEN = r"\x7f-\xa0\u2028\u2029\ud800-\udfff\ufeff\ufffe\uffff"
 _UNSEEN = re.compile(f"[{_HIDDEN}]")
 # Text that needs no quotes: it begins with a letter, and nothing in it means anything to YAML.
 _PLAIN = re.compile(rf"[A-Za-z](?:[^\x00-\x1f{_HIDDEN}:#]|:(?=[^\s])|(?<=\S)#)*")
+_WHOLE = re.compile(r"^(-?[0-9]+)e")
 _IN_FLOW = frozenset(",[]{}")
 
 
 def scalar(value: str | float | None, *, in_flow: bool = False) -> str:
     """Write a text or a number; a text in quotes where YAML would read something else."""
     if not isinstance(value, str):
-        return json.dumps(value)
+        # An exponent is that of a number with a point.
+        return _WHOLE.sub(r"\1.0e", json.dumps(value))
     if _is_plain(value) and not (in_flow and _IN_FLOW & set(value)):
         return value
     return _UNSEEN.sub(_escaped, json.dumps(value, ensure_ascii=False))
