@@ -100,6 +100,8 @@ EXIT_CODES = [
     (["guess"], 2),
     (["guess", "missing.bin"], 2),
     (["guess", "spec"], 2),
+    (["release", "missing.yaml"], 2),
+    (["release", "busservo", "--version", "one"], 2),
     (["rules", "no-such-rule"], 2),
     (["rules", "two", "rules"], 2),
     (["schema", "superfluous"], 2),

@@ -263,6 +263,7 @@ FRAMEGEN = [
     ["diff", HOSTILE],
     ["diff", SPEC, f"{HOSTILE}:{HOSTILE}"],
     ["diff", "--fail-on", HOSTILE],
+    ["release", f"{HOSTILE}.yaml"],
     ["explain", HOSTILE],
     ["explain", f"{HOSTILE}.yaml", "55"],
     ["explain", SPEC, "55", "--direction", HOSTILE],
