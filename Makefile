@@ -43,7 +43,7 @@ ONLY =
 .DEFAULT_GOAL := all
 # Two that add to one environment at once would spoil it.
 .NOTPARALLEL:
-.PHONY: all test quick test-all sample coverage lint style types current format fuzz soak mutants bench docs reference docs-tools wheel packages release newcomer pins venv clean help
+.PHONY: all test quick test-all sample coverage lint style types current diff format fuzz soak mutants bench docs reference docs-tools wheel packages release newcomer pins venv clean help
 
 all: $(READY)  ## Check the spec, generate everything, decode a recorded noisy line (plain `make`)
 	$(IN)/framegen check
@@ -82,6 +82,9 @@ types: $(TO_LINT) $(TO_TEST)  ## Check types, those of the tests included
 
 current: $(READY)  ## See that what is generated is up to date
 	$(IN)/framegen generate --check
+
+diff: $(READY)  ## Compare the specs with what was released of them, and say what breaks
+	$(IN)/framegen diff
 
 format: $(TO_LINT)  ## Mend what ruff can mend
 	$(IN)/ruff check --fix

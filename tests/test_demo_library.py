@@ -481,7 +481,7 @@ def spec_with(name: str, message: Data, length: str | int, **frame: Any) -> Data
     part = {"preamble": {"is": "constant", "bytes": "AA"}, **frame}
     return {
         **spec,
-        "protocol": {**SPEC["protocol"], "name": "made_up", "version": "1"},
+        "protocol": {**SPEC["protocol"], "name": "made_up", "version": "1.0.0"},
         "byte_order": "big",
         "frame": part,
         "messages": {name: {**message, "length": length}},

@@ -142,6 +142,7 @@ def test_generated_code_silences_no_checker() -> None:
 PROJECTS = ("pyproject.toml", "codegen/pyproject.toml", "simulator/pyproject.toml")
 BASH = shutil.which("bash")
 WORKFLOWS = [name for name in TEXTS if name.startswith(".github/workflows/")]
+ACTIONS = [name for name in TEXTS if name.startswith(".github/actions/")]
 
 
 def lines_of(project: str, *starts: str) -> list[str]:
@@ -195,12 +196,18 @@ def test_a_whole_run_depends_on_no_variable_and_no_folder_of_a_machine(tmp_path:
     assert str(elsewhere) not in kept["PATH"].split(os.pathsep)
 
 
-@pytest.mark.parametrize("workflow", WORKFLOWS)
-def test_actions_are_pinned_to_a_commit(workflow: str) -> None:
-    jobs = yaml.safe_load(TEXTS[workflow])["jobs"].values()
+@pytest.mark.parametrize("name", [*WORKFLOWS, *ACTIONS])
+def test_actions_are_our_own_or_pinned_to_a_commit(name: str) -> None:
+    read = yaml.safe_load(TEXTS[name])
+    jobs = [read["runs"]] if name in ACTIONS else read["jobs"].values()
     used = [step["uses"] for job in jobs for step in job["steps"] if "uses" in step]
+    own = {f"./{action.rpartition('/')[0]}" for action in ACTIONS}
     assert used
-    assert [action for action in used if not re.fullmatch(r"[\w/-]+@[0-9a-f]{40}", action)] == []
+    assert [
+        action
+        for action in used
+        if action not in own and not re.fullmatch(r"[\w/-]+@[0-9a-f]{40}", action)
+    ] == []
 
 
 def test_hooks_are_local() -> None:

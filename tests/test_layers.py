@@ -25,7 +25,7 @@ LAYERS = [
     {"model"},
     {"checks", "cases"},
     {"compile", "explain", "witnesses"},
-    {"guess", "output"},
+    {"audit", "guess", "output"},
     {"conformance"},
     {"targets.target", "targets.templates", "targets.filenames"},
     {"targets.python", "targets.docs", "targets.vectors", "targets.schema"},

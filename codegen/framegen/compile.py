@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 from framegen.checks import check_model, check_structure
 from framegen.language.load import load
+from framegen.language.spec import AddressPart, ListField
 from framegen.model.model import derive
 from framegen.pluralize import pluralize
 from framegen.reading.findings import in_order
@@ -14,7 +15,7 @@ from framegen.reading.yamltree import Unusable
 
 if TYPE_CHECKING:
     from framegen.language.load import Loaded
-    from framegen.language.spec import Spec
+    from framegen.language.spec import AnyField, Spec
     from framegen.model.model import Model
     from framegen.reading.findings import Finding
     from framegen.reading.source import Source
@@ -88,3 +89,35 @@ def compile_loaded(loaded: Loaded) -> Compiled:
             model = derive(spec)
             found += check_model(model, loaded.tree)
     return Compiled(loaded.source, loaded.tree, in_order(found), spec, model)
+
+
+def without_bounds(model: Model) -> Model:
+    """Return the model of the same spec in which numbers may have any value of their type.
+
+    Lists may have any number of elements. It tells what frames say that a spec does not allow.
+    """
+    spec = model.spec
+    messages = {
+        name: message.model_copy(
+            update={"fields": {key: _unbounded(field) for key, field in message.fields.items()}}
+        )
+        for name, message in spec.messages.items()
+    }
+    frames = {
+        name: {
+            key: part.model_copy(update={"range": None}) if isinstance(part, AddressPart) else part
+            for key, part in frame.items()
+        }
+        for name, frame in spec.envelopes.items()
+    }
+    envelopes = {"frames": frames} if spec.frames else {"frame": frames["frame"]}
+    return derive(spec.model_copy(update={"messages": messages, **envelopes}))
+
+
+def _unbounded(field: AnyField) -> AnyField:
+    counted = field.counted_by is not None or field.sized_by is not None
+    count = None if counted else field.count
+    if isinstance(field, ListField):
+        inner = {name: _unbounded(each) for name, each in field.fields.items()}
+        return field.model_copy(update={"fields": inner, "count": count})
+    return field.model_copy(update={"range": None, "always": None, "count": count})

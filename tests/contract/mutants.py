@@ -126,6 +126,7 @@ _OTHERS: dict[str, tuple[Any, ...]] = {
     "version": (
         "0",
         "2.0.0",
+        "1.0.0-rc.1",
         "1.0.0-rc.1+7",
         TEXTS["all interfaces"],
         "v",

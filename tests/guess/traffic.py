@@ -25,6 +25,11 @@ def traffic(model: Model, chance: Random, frames: int = 200) -> list[bytes]:
 
 def frame(message: MessageLayout, chance: Random) -> bytes:
     """Return a frame of one message."""
+    return encode(message, values_for(message, chance))
+
+
+def values_for(message: MessageLayout, chance: Random) -> dict[str, Any]:
+    """Return values of one message that a frame can carry."""
     fewest, most = message.counts[0], message.counts[-1]
     count = chance.randint(fewest, max(fewest, min(most, fewest + _MOST)))
     values: dict[str, Any] = {}
@@ -50,7 +55,7 @@ def frame(message: MessageLayout, chance: Random) -> bytes:
             values[slot.name] = [chance.randint(slot.low, slot.high) for _ in range(slot.count)]
         else:
             values[slot.name] = _value(slot, chance)
-    return encode(message, values)
+    return values
 
 
 def _value(slot: Number | Text, chance: Random) -> float | str:

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 from framegen.checks import (
     absent,
     acknowledged,
+    breaks,
     checksum,
     constant_field,
     count_bounds,
@@ -24,6 +25,7 @@ from framegen.checks import (
     failure,
     findable_frame,
     floating,
+    former_name,
     frame_parts,
     frame_prefix,
     frame_too_long,
@@ -47,6 +49,7 @@ from framegen.checks import (
     named_bits,
     named_value,
     nested_list,
+    newest_first,
     no_example,
     no_message,
     one_frame,
@@ -67,6 +70,7 @@ from framegen.checks import (
     unsent_id,
     unshown_value,
     value_range,
+    version,
 )
 from framegen.checks.reading import READING_RULES
 from framegen.reading.findings import MOST_FINDINGS
@@ -95,6 +99,7 @@ STRUCTURE_RULES: tuple[StructureRule, ...] = (
     identifier.RULE,
     name_too_long.RULE,
     duplicate_name.RULE,
+    former_name.RULE,
     id_range.RULE,
     direction.RULE,
     reserved.RULE,
@@ -122,7 +127,10 @@ STRUCTURE_RULES: tuple[StructureRule, ...] = (
     acknowledged.RULE,
     example_origin.RULE,
     unknown_source.RULE,
+    version.RULE,
     history.RULE,
+    newest_first.RULE,
+    breaks.RULE,
     hid_board.RULE,
     lookalike_frame.RULE,
 )

@@ -6,6 +6,7 @@ import re
 from typing import TYPE_CHECKING
 
 from framegen.checks.frames import parts
+from framegen.checks.named import families, former_names
 from framegen.checks.rule import Problem, StructureRule
 from framegen.language.spec import AddressPart, NumberField
 
@@ -33,6 +34,11 @@ def _look(spec: Spec) -> Iterator[Problem]:
     for name, message in spec.messages.items():
         yield from _pascal(("messages", name), name, on_key=True)
         yield from _in_message(("messages", name), message)
+    for path, named in families(spec):
+        for name, thing in named.items():
+            for place, former in former_names((*path, name), thing):
+                spelt = _pascal if path == ("messages",) else _snake
+                yield from spelt(place, former, on_key=False)
     for key in ("hold", "present", "targets") if spec.pose is not None else ():
         yield from _snake(("pose", key), getattr(spec.pose, key), on_key=False)
 

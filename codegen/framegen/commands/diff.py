@@ -1,75 +1,143 @@
-"""`framegen diff`: compares two versions of a spec and classifies each change by what it breaks."""
+"""`framegen diff`: what breaks between two editions of a spec, tried out and shown."""
 
 from __future__ import annotations
 
-import json
+import argparse
 import sys
-from pathlib import Path
 from typing import TYPE_CHECKING
 
-from framegen.pluralize import pluralize
+from framegen.reading.yamltree import Unusable
 
 if TYPE_CHECKING:
     from argparse import ArgumentParser, Namespace
+    from collections.abc import Callable
 
-    from framegen.comparison.kinds import Difference
+    from framegen.comparison.edition import Edition
+    from framegen.comparison.report.view import View
 
-SUMMARY = "Compare two versions of a spec, and classify each change by what it breaks."
+FORMATS = ("text", "json", "markdown", "github")
+FAILURES = ("wire", "conversation", "programs", "uncertain", "version", "never")
+_USUAL = ("wire", "conversation", "programs", "uncertain")
+
+SUMMARY = "Compare two editions of a spec, and show what breaks between their users."
 EXAMPLES = (
-    ("framegen diff old.yaml", "from old.yaml to spec/NAME.yaml of its protocol, here or above"),
-    ("framegen diff old.yaml new.yaml", "from one to the other; 1 if anything breaks"),
-    ("framegen diff old.yaml --json", "one difference a line, for programs"),
-    ("git show v1.0.0:spec/name.yaml > old.yaml", "how to get at an old edition"),
+    ("framegen diff", "from the newest edition in spec/released, or else HEAD, to the spec here"),
+    ("framegen diff v1.0.0", "from a git revision: a tag, a branch, HEAD~3"),
+    ("framegen diff v1.0.0:spec/old.yaml new.yaml", "a file at a revision; - is the input"),
+    ("framegen diff busservo-1.0.0 HEAD", "from a released edition to the last commit"),
+    ("framegen diff --fail-on wire,version", "1 where the wire breaks, 4 without a new version"),
+    ("framegen diff --format markdown", "the entry for `history`, and a table of what breaks"),
 )
+_AXES = """\
+wire          frames that the other end refuses or misreads: every message of either edition is
+              encoded at its edges, and read with the other edition
+conversation  replies, reports, times, and the line
+programs      what was written for the old library
+uncertain     a name that changed, until the spec says `was: OldName`
+version       the version of the spec was not raised as it should be
+never         nothing of this
+What breaks on purpose, as `breaks` in the history of the spec says, is shown and does not count."""
+_EXIT_CODES = """\
+0  nothing that counts
+1  something breaks
+2  of no use, or nothing to compare
+3  only what is uncertain breaks
+4  only the version is missing"""
 
 
 def add_arguments(parser: ArgumentParser) -> None:
     """Declare the arguments of the verb."""
-    parser.add_argument("old", type=Path, metavar="OLD", help="a spec file")
-    parser.add_argument("new", nargs="?", type=Path, metavar="NEW", help="a later version of it")
-    parser.add_argument("--json", action="store_true", help="print each as a line of JSON")
+    parser.add_argument(
+        "old",
+        nargs="?",
+        metavar="OLD",
+        help="a file, -, a git revision, REVISION:FILE or a released edition, as busservo-1.0.0",
+    )
+    parser.add_argument(
+        "new", nargs="?", metavar="NEW", help="a later one; without it, spec/NAME.yaml as it is"
+    )
+    parser.add_argument(
+        "--format", choices=FORMATS, default="text", help="how to show it; text without this"
+    )
+    parser.add_argument(
+        "--fail-on",
+        action="append",
+        type=_failures,
+        metavar="WHAT",
+        help=f"what counts, several by commas: {','.join(_USUAL)} without this",
+    )
+    parser.add_argument_group("what counts", _AXES)
+    parser.add_argument_group("exit codes", _EXIT_CODES)
+
+
+def _failures(text: str) -> list[str]:
+    words = [word.strip() for word in text.split(",")]
+    for word in words:
+        if word not in FAILURES:
+            known = ", ".join(FAILURES)
+            raise argparse.ArgumentTypeError(f"{word!r} is none of {known}")
+    return words
 
 
 def run(arguments: Namespace) -> int:
-    """Print the differences, the most serious first. 1 where the wire or programs break."""
-    from framegen.commands.spec_argument import compiled  # noqa: PLC0415
-    from framegen.comparison.kinds import differences  # noqa: PLC0415
-    from framegen.project import named_spec  # noqa: PLC0415
+    """Print a report of each pair of editions. Return the exit code that --fail-on gives it."""
+    from framegen.comparison.editions import find_editions  # noqa: PLC0415
+    from framegen.comparison.report import FORMATS as RENDERERS  # noqa: PLC0415
 
-    old = compiled(arguments.old)
-    # Of several specs of a project, the one of this protocol.
-    new = compiled(arguments.new or named_spec(old.spec.protocol.name))
-    found = differences(old.model, new.model)
-    order = ["wire", "programs", "nothing"]
-    found.sort(key=lambda difference: order.index(difference.breaks))
-    for difference in found:
-        print(_json(difference) if arguments.json else _text(difference))
+    fail_on = _fail_on(arguments.fail_on)
+    editions = find_editions(arguments.old, arguments.new)
+    statuses: list[int] = []
+    for number, pair in enumerate(editions.pairs):
+        report, status = _report(*pair, RENDERERS[arguments.format], fail_on)
+        print("\n" * (number > 0 and arguments.format != "json") + report, end="")
+        statuses.append(status)
     sys.stdout.flush()
-    print(_summary(found), file=sys.stderr)
-    return 1 if any(difference.breaks != "nothing" for difference in found) else 0
+    for why in editions.left_out:
+        print(f"not compared: {why}", file=sys.stderr)
+    return min((status for status in statuses if status), default=0)
 
 
-def _text(difference: Difference) -> str:
-    return f"{difference.breaks:8}  {difference.path}: {difference.kind}: {difference}"
+def _report(
+    old: Edition, new: Edition, render: Callable[[View], str], fail_on: frozenset[str]
+) -> tuple[str, int]:
+    """Return the report on two editions, and its exit code."""
+    from framegen.comparison.comparison import Comparison  # noqa: PLC0415
+    from framegen.comparison.report.verdict import exit_status  # noqa: PLC0415
+    from framegen.comparison.report.view import View  # noqa: PLC0415
+
+    view = View(Comparison(old, new))
+    disliked = next((each for each in (old, new) if each.compiled.tolerated), None)
+    try:
+        _refuse_strangers(view)
+        return render(view), exit_status(view.effects, view.version_finding, fail_on)
+    except Unusable:
+        raise
+    except Exception:
+        if disliked is None:
+            raise
+        # What a rule is there to prevent may have any consequence.
+        first = disliked.compiled.tolerated[0].render(disliked.compiled.source)
+        raise Unusable(
+            f"{disliked.label} contradicts itself too much to be compared; first,\n{first}",
+            hint="`framegen check` shows all findings of a spec file",
+        ) from None
 
 
-def _json(difference: Difference) -> str:
-    return json.dumps(
-        {
-            "breaks": difference.breaks,
-            "kind": difference.kind,
-            "path": difference.path,
-            "old": difference.old,
-            "new": difference.new,
-        }
-    )
+def _refuse_strangers(view: View) -> None:
+    old, new = (each.spec.protocol.name for each in (view.old, view.new))
+    if old != new and not view.pair.messages.to_new:
+        raise Unusable(
+            f"a comparison of nothing: {view.old.label} is `{old}` and {view.new.label} is "
+            f"`{new}`, and they have no message in common",
+            hint="name two editions of one protocol",
+        )
 
 
-def _summary(found: list[Difference]) -> str:
-    if not found:
-        return "nothing changed that a spec says"
-    counts = [
-        f"{sum(difference.breaks == what for difference in found)} {words}"
-        for what, words in (("wire", "break the wire"), ("programs", "break programs"))
-    ]
-    return f"{pluralize(len(found), 'difference')}: {', '.join(counts)}"
+def _fail_on(given: list[list[str]] | None) -> frozenset[str]:
+    words = frozenset(_USUAL if given is None else (word for each in given for word in each))
+    if "never" in words and len(words) > 1:
+        others = ", ".join(sorted(words - {"never"}))
+        raise Unusable(
+            f"`--fail-on never` and {others} exclude each other", hint="leave one of them out"
+        )
+    return words

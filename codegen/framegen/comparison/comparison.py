@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING
 
+from framegen.comparison.accepted import accept
 from framegen.comparison.changes import changes
 from framegen.comparison.conversation import conversation_effects
 from framegen.comparison.pair import Pair
@@ -37,12 +38,13 @@ class Comparison:
 
     @cached_property
     def effects(self) -> list[Effect]:
-        """What users notice: wire, then conversation, then programs."""
-        return [
+        """What users notice: wire, then conversation, then programs; what is accepted says why."""
+        found = [
             *wire_effects(self.pair, self.trials),
             *conversation_effects(self.pair),
             *program_effects(self.pair),
         ]
+        return [*accept(found, self.pair, self.changes)]
 
     @cached_property
     def changes(self) -> list[Change]:

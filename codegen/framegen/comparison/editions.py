@@ -2,18 +2,18 @@
 
 from __future__ import annotations
 
-import re
 import sys
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from framegen.comparison.edition import Edition
-from framegen.comparison.revision import NoSuchRevision, NotInRevision, Revision
+from framegen.comparison.revision import NotInRevision, Revision
 from framegen.compile import compile_leniently
 from framegen.console import visible
 from framegen.language.load import MAX_BYTES, read_source, refuse_size, source_of
-from framegen.project import all_specs, default_spec, named_spec
+from framegen.language.version import Version
+from framegen.project import all_specs, named_spec
 from framegen.reading.findings import did_you_mean
 from framegen.reading.yamltree import Unusable
 
@@ -22,7 +22,6 @@ if TYPE_CHECKING:
 
 # Below the folder of the spec.
 RELEASED = "released"
-_VERSION = re.compile(r"(\d{1,9})\.(\d{1,9})\.(\d{1,9})(?:-([0-9A-Za-z.-]+))?(?:\+[0-9A-Za-z.-]+)?")
 _A_FILE = (".yaml", ".yml")
 
 
@@ -92,28 +91,12 @@ def working_edition(spec: Path) -> Edition:
 
 def released(folder: Path, name: str) -> list[Path]:
     """Return the released editions of a protocol, the newest first; its spec is in `folder`."""
-    found: list[tuple[tuple[object, ...], Path]] = []
+    versions: dict[Path, Version] = {}
     for file in (folder / RELEASED).glob("*.yaml"):
-        version = precedence(file.stem.removeprefix(f"{name}-"))
-        if file.stem.startswith(f"{name}-") and version is not None:
-            found.append((version, file))
-    return [file for _, file in sorted(found, reverse=True)]
-
-
-def precedence(version: str) -> tuple[object, ...] | None:
-    """Return what to sort a semantic version by; None for what is none."""
-    found = _VERSION.fullmatch(version)
-    if found is None:
-        return None
-    numbers = tuple(int(part) for part in found.groups()[:3])
-    if found[4] is None:
-        return (*numbers, 1, ())
-    return (*numbers, 0, tuple(_identifier(part) for part in found[4].split(".")))
-
-
-def _identifier(text: str) -> tuple[int, int, str]:
-    """Return what to sort a part of a pre-release by: numbers come before words."""
-    return (0, int(text), "") if text.isdecimal() and len(text) < 10 else (1, 0, text)
+        version = Version.parse_or_none(file.stem.removeprefix(f"{name}-"))
+        if version is not None:
+            versions[file] = version
+    return sorted(versions, key=versions.__getitem__, reverse=True)
 
 
 def older_edition(spec: Path, name: str) -> Edition:
@@ -124,8 +107,8 @@ def older_edition(spec: Path, name: str) -> Edition:
         return edition_of(_at(Revision("HEAD", _folder(spec)), spec))
     except NotInRevision:
         raise NotInRevision(
-            f"{visible(spec.as_posix())} has no earlier edition: none is released, and the last "
-            "commit does not have it",
+            f"{visible(spec.as_posix())} has no earlier edition yet: none is released, and no "
+            "commit before this has it",
             hint="commit it, or name what to compare it with",
         ) from None
 
@@ -136,8 +119,8 @@ def _given(word: str | None) -> _Given | Revision | None:
         return None
     if word == "-":
         return _Given(word, _standard_input())
-    if not word.strip():
-        raise Unusable("an edition needs a name, and this is none", hint=_NAME_TWO)
+    if not word.strip() or "\0" in word:
+        raise Unusable(f"`{visible(word)}` names no edition", hint=_NAME_TWO)
     file = _file(word)
     if file is not None:
         return _Given(str(file.resolve()), read_source(file), file)
@@ -162,26 +145,23 @@ def _file(word: str) -> Path | None:
     try:
         if file.exists() and not file.is_dir():
             return file
-    except (OSError, ValueError):
-        raise Unusable(f"`{visible(word)}` is no name of a file", hint=_NAME_TWO) from None
+    except (OSError, ValueError) as error:
+        why = getattr(error, "strerror", None) or str(error)
+        raise Unusable(f"`{visible(word)}` cannot be read: {why}", hint=_NAME_TWO) from None
     return named_spec(word) or next((each for each in _all_released() if each.stem == word), None)
 
 
 def _or_a_file(word: str, error: Unusable) -> Unusable:
-    """Return what is wrong with a word that may be meant for a file."""
-    if word.endswith(_A_FILE) and ":" not in word:
-        return Unusable(
-            f"{visible(word)} does not exist",
-            hint=did_you_mean(word, [file.as_posix() for file in _all_released()])
-            or "name a spec file, or a revision that has one, such as `HEAD:spec/busservo.yaml`",
-        )
-    if not isinstance(error, NoSuchRevision) or ":" in word:
+    """Return what is wrong with a word that is no file, and may have been meant for one."""
+    if ":" in word:
         return error
-    if Path(word).is_dir():
-        return Unusable(f"{visible(word)} is a folder, and not a spec", hint=_NAME_TWO)
-    names = [file.stem for file in _all_released()]
+    shown, names = visible(word), [file.stem for file in _all_released()]
     near = did_you_mean(word, names, otherwise=error.hint) if names else error.hint
-    return Unusable(f"`{visible(word)}` is no file and no released edition, and {error}", hint=near)
+    if Path(word).is_dir():
+        return Unusable(f"{shown} is a folder, and not a spec", hint=_NAME_TWO)
+    if word.endswith(_A_FILE):
+        return Unusable(f"{shown} does not exist", hint=near)
+    return Unusable(f"`{shown}` is no file and no released edition, and {error}", hint=near)
 
 
 def _all_released() -> list[Path]:
@@ -205,31 +185,48 @@ def _standard_input() -> Source:
 
 def _beside(word: Revision | None, edition: Edition, file: Path | None) -> Edition:
     """Return what an edition is compared with: the spec here, or what a revision has of it."""
-    spec = named_spec(edition.spec.protocol.name)
-    if word is None:
-        spec = spec or _only_spec(edition)
-        if file is not None and file.resolve() == spec.resolve():
-            name = visible(file.as_posix())
-            raise Unusable(
-                f"a comparison of nothing: {name} is the spec as it lies here",
-                hint=f"name first what to compare it with: `framegen diff HEAD {name}`",
-            )
-        return working_edition(spec)
-    if file is not None and file.parent.name != RELEASED:
-        spec = file
-    return edition_of(_at(word, spec or _only_spec(edition)))
+    if word is not None and file is not None and file.parent.name != RELEASED:
+        return edition_of(_at(word, file))
+    spec = _spec_of(edition)
+    if word is not None:
+        return edition_of(_at(word, spec))
+    if file is not None and file.resolve() == spec.resolve():
+        name = visible(file.as_posix())
+        raise Unusable(
+            f"a comparison of nothing: {name} is the spec as it lies here",
+            hint=f"name first what to compare it with: `framegen diff HEAD {name}`",
+        )
+    return working_edition(spec)
 
 
-def _only_spec(edition: Edition) -> Path:
+def _spec_of(edition: Edition) -> Path:
+    """Return the spec of the project that is for the same protocol, or its only one."""
+    name = edition.spec.protocol.name
+    specs = all_specs()
+    found = named_spec(name)
+    if found is None and len(specs) > 1:
+        found = next((spec for spec in specs if _protocol(spec) == name), None)
+    if found is not None or len(specs) == 1:
+        return found or specs[0]
+    names = ", ".join(visible(spec.name) for spec in specs)
+    raise Unusable(
+        f"none of the specs is one of `{visible(name)}`: {names}",
+        hint=f"name what to compare it with, such as `{visible(specs[0].stem)}`",
+    )
+
+
+def _protocol(spec: Path) -> str | None:
     try:
-        return default_spec()
-    except Unusable as error:
-        name = edition.spec.protocol.name
-        raise Unusable(f"what is `{name}` to be compared with? {error}", hint=error.hint) from None
+        return working_edition(spec).spec.protocol.name
+    except Unusable:
+        return None
 
 
 def _of_all(old: Revision | None, new: Revision | None) -> Editions:
-    """Pair two editions of every spec of the project; what has no earlier one is left out."""
+    """Pair two editions of every spec of the project; what has no earlier one is left out.
+
+    Where nothing was named, the first edition of a spec is no error.
+    """
     found, errors = Editions(), list[Unusable]()
     for spec in all_specs():
         try:
@@ -241,7 +238,7 @@ def _of_all(old: Revision | None, new: Revision | None) -> Editions:
             found.left_out.append(str(error))
         else:
             found.pairs.append((before, after))
-    if not found.pairs:
+    if not found.pairs and (old, new) != (None, None):
         raise errors[0]
     return found
 

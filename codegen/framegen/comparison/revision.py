@@ -91,7 +91,7 @@ class Revision:
     def _unknown(self) -> Unusable:
         name = visible(self.name)
         if self.name == "HEAD":
-            return NoSuchRevision("the repository has no commit yet", hint="name two spec files")
+            return NotInRevision("the repository has no commit yet", hint="name two spec files")
         if (self._git("rev-parse", "--is-shallow-repository") or b"").strip() == b"true":
             return NoSuchRevision(
                 f"`{name}` is no revision of this clone, which is shallow",

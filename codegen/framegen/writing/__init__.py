@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from framegen.writing.change import Change
 from framegen.writing.create import create
+from framegen.writing.replace import replace
 from framegen.writing.survey import Survey, changes, survey
 from framegen.writing.write import Written, write
 
-__all__ = ["Change", "Survey", "Written", "changes", "create", "survey", "write"]
+__all__ = ["Change", "Survey", "Written", "changes", "create", "replace", "survey", "write"]

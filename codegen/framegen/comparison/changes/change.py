@@ -3,13 +3,18 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Literal, TypeAlias
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
 
-    from framegen.comparison.pair import Pair
+    from framegen.comparison.changes.both import Both
     from framegen.reading.yamltree import KeyPath
+
+# What a rule is about. `document` is what neither frames nor libraries depend on but for words.
+Subject: TypeAlias = Literal[
+    "line", "frame", "message", "field", "value", "exchange", "program", "document"
+]
 
 
 @dataclass(frozen=True, slots=True)
@@ -27,21 +32,23 @@ class Change:
     @property
     def path(self) -> KeyPath:
         """The path in the new edition, or in the old where it is gone."""
-        return self.new or self.old or ()
+        return self.old or () if self.new is None else self.new
 
 
 @dataclass(frozen=True, slots=True)
 class ChangeRule:
     """A kind of change: `why` it matters, and what to `do`, with an example of both editions.
 
-    A rule says nothing of what breaks: that is tried out. `before` and `after` are lines of a spec.
-    `id` is for programs to rely on, and stays.
+    A rule says nothing of what breaks: that is tried out. `before` and `after` are lines of a spec
+    below the path `at`. `id` is for programs to rely on, and stays.
     """
 
     id: str
     title: str
+    subject: Subject
     why: str
     do: str
+    at: str
     before: str
     after: str
-    look: Callable[[Pair], Iterator[Change]]
+    look: Callable[[Both], Iterator[Change]]

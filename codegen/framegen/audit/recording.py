@@ -1,0 +1,179 @@
+"""What a recording holds: stretches of bytes, each with its sender and its time where it says so.
+
+A recording has a line for each event, as `recording_file` writes it: those of a client, a monitor,
+a doctor and a run of `framegen conform` alike. Hex as text and raw bytes are one stretch each.
+"""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, Literal, TypeAlias
+
+from framegen.hextext import HexError, read_hex
+from framegen.reading.yamltree import Unusable
+from framegen.recording_file import EITHER, NOISE, QUIET
+
+if TYPE_CHECKING:
+    from collections.abc import Collection, Iterator
+
+    from framegen.model.roles import Roles
+
+Form: TypeAlias = Literal["auto", "hex", "raw"]
+FORMS: tuple[Form, ...] = ("auto", "hex", "raw")
+
+_TIMED = re.compile(
+    r"(?P<hex>[^#]*)#+ *(?P<at>[0-9]{1,9}(?:\.[0-9]{1,9})?) s, (?P<who>[^:]*): (?P<what>.*)"
+)
+_MARK = b"\xef\xbb\xbf"  # what some editors write in front of text
+_CONTROLS = re.compile(rb"[\x00-\x08\x0e-\x1f\x7f]")
+_COMMENT = re.compile(rb"#[^\n]*")
+_RAW = "raw bytes need --input raw"
+# How a doctor's report says what board it is of.
+_DEVICE, _NOT_STATED = "# device: ", "not stated"
+
+
+@dataclass(frozen=True, slots=True)
+class Stretch:
+    """Bytes of a line, after which it was quiet or another end sent.
+
+    `sender` is None where it is not known, and `at` where there are no times. `refused` is why its
+    recorder took them for no message, and empty where it did not. What is `malformed` was sent so
+    on purpose.
+    """
+
+    data: bytes
+    place: str
+    sender: str | None = None
+    at: float | None = None
+    refused: str = ""
+    malformed: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class Recording:
+    """The content of a file: its name, and its stretches in order.
+
+    `device` is what a doctor's report says that it is of; empty where nothing says so.
+    """
+
+    name: str
+    stretches: tuple[Stretch, ...]
+    device: str = ""
+
+    @property
+    def size(self) -> int:
+        """How many bytes it holds."""
+        return sum(len(stretch.data) for stretch in self.stretches)
+
+
+def read_recording(
+    name: str, content: bytes, ends: Collection[str], roles: Roles, form: Form = "auto"
+) -> Recording:
+    """Read the content of a file in any form. Raises Unusable, with the line.
+
+    `ends` are those who may send. What a client sends is never noise, so that of its lines is meant
+    to be malformed; noise of nobody's came from the device.
+    """
+    if form == "raw" or (form == "auto" and not _is_text(content)):
+        raw = Stretch(content, "byte 0")
+        return Recording(name, (raw,) if content else ())
+    lines = content.removeprefix(_MARK).decode("utf-8", errors="replace").split("\n")
+    try:
+        if any(map(_TIMED.match, lines)):
+            found = _joined(_recorded(lines, ends, roles))
+            return Recording(name, tuple(found), device=_device(lines))
+        return Recording(name, tuple(_plain(lines)))
+    except _Line as error:
+        hint = _RAW if form == "auto" and not error.hint else error.hint
+        raise Unusable(f"{name}, line {error.number}: {error}", hint=hint) from None
+
+
+def _device(lines: list[str]) -> str:
+    found = (line.removeprefix(_DEVICE).strip() for line in lines if line.startswith(_DEVICE))
+    return next((each for each in found if each != _NOT_STATED), "")
+
+
+class _Line(ValueError):  # noqa: N818 - where it is
+    def __init__(self, number: int, problem: str, hint: str = "") -> None:
+        super().__init__(problem)
+        self.number = number
+        self.hint = hint
+
+
+def _is_text(content: bytes) -> bool:
+    """Tell text from raw bytes, which hold controls or are no text outside of comments."""
+    if _CONTROLS.search(content):
+        return False
+    try:
+        _COMMENT.sub(b"", content).decode("utf-8")
+    except UnicodeDecodeError:
+        return False
+    return True
+
+
+def _plain(lines: list[str]) -> Iterator[Stretch]:
+    """Yield hex as text, in which the line may have gone quiet."""
+    data, size = b"", 0
+    for number, line in enumerate(lines, 1):
+        if line.strip() == QUIET and data:
+            yield Stretch(data, f"byte {size}")
+            size, data = size + len(data), b""
+        data += _hex(line, number)
+    if data:
+        yield Stretch(data, f"byte {size}")
+
+
+def _hex(text: str, number: int) -> bytes:
+    try:
+        return read_hex(text)
+    except HexError as error:
+        raise _Line(number, str(error)) from None
+
+
+def _recorded(lines: list[str], ends: Collection[str], roles: Roles) -> Iterator[Stretch | None]:
+    """Yield the lines of a recording; None for one where the line went quiet."""
+    for number, line in enumerate(lines, 1):
+        found = _TIMED.match(line)
+        if found is None:
+            if line.strip() == QUIET:
+                yield None
+            elif line.strip() and not line.strip().startswith("#"):
+                problem = "it has no time and sender, as in `HEX  # 0.5 s, NAME: ...`"
+                raise _Line(number, f"{problem}, and other lines have")
+            continue
+        data = _hex(found["hex"], number)
+        who, _, last = found["who"].rpartition(" ")
+        is_noise = last == NOISE
+        sender = (who or roles.device) if is_noise else found["who"]
+        if sender not in (*ends, EITHER):
+            known = ", ".join([*ends, EITHER, NOISE])
+            hint = f"those who send are {known}: is it a recording of this protocol?"
+            raise _Line(number, f"{sender!r} is none of those who send", hint)
+        yield Stretch(
+            data,
+            f"line {number}",
+            None if sender == EITHER else sender,
+            float(found["at"]),
+            found["what"].strip() or NOISE if is_noise else "",
+            malformed=is_noise and sender == roles.client,
+        )
+
+
+def _joined(found: Iterator[Stretch | None]) -> Iterator[Stretch]:
+    """Join the noise of one sender, of which a recorder has a line for each piece it read."""
+    held: Stretch | None = None
+    for each in found:
+        if (
+            held is not None
+            and each is not None
+            and (held.refused and each.refused)
+            and (held.sender, held.malformed, each.malformed) == (each.sender, False, False)
+        ):
+            held = replace(held, data=held.data + each.data)
+            continue
+        if held is not None and held.data:
+            yield held
+        held = each
+    if held is not None and held.data:
+        yield held

@@ -1,0 +1,50 @@
+"""Change: a kind of frame is gone."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from framegen.comparison.changes.change import ChangeRule
+from framegen.comparison.changes.telling import removed
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from framegen.comparison.changes.both import Both
+    from framegen.comparison.changes.change import Change
+
+
+def _look(both: Both) -> Iterator[Change]:
+    yield from removed("frame-removed", both.frames)
+
+
+RULE = ChangeRule(
+    id="frame-removed",
+    title="A kind of frame is gone",
+    subject="frame",
+    why="Ends of the new edition take it for noise.",
+    do="Keep it until no end sends it any more.",
+    at="",
+    before=(
+        "frames:\n"
+        "  command:\n"
+        "    header: {is: constant, bytes: AA 55}\n"
+        "    length: {is: length, type: u8, counts: [command, parameters]}\n"
+        "    command: {is: id, type: u8}\n"
+        "    parameters: {is: body}\n"
+        "  report:\n"
+        "    header: {is: constant, bytes: AA 66}\n"
+        "    length: {is: length, type: u8, counts: [command, parameters]}\n"
+        "    command: {is: id, type: u8}\n"
+        "    parameters: {is: body}"
+    ),
+    after=(
+        "frames:\n"
+        "  command:\n"
+        "    header: {is: constant, bytes: AA 55}\n"
+        "    length: {is: length, type: u8, counts: [command, parameters]}\n"
+        "    command: {is: id, type: u8}\n"
+        "    parameters: {is: body}"
+    ),
+    look=_look,
+)

@@ -1,0 +1,41 @@
+"""The entry of a version in the history of its spec: what changed, in sentences."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from framegen.comparison.due import tells_versions
+from framegen.pluralize import pluralize
+
+if TYPE_CHECKING:
+    from framegen.comparison.comparison import Comparison
+
+# As many of those that no user notices are told one by one.
+_MOST_WORDS = 3
+
+
+def sentences(comparison: Comparison) -> list[str]:
+    """Return the lines of `changes` for the new edition: first what users notice.
+
+    Of changes without any effect, only some are told one by one.
+    """
+    effects = comparison.effects
+    paths = [path for each in effects for path in (each.old, each.new) if path is not None]
+    noticed, words = list[str](), list[str]()
+    for change in comparison.changes:
+        here = change.path
+        if tells_versions(here):
+            continue
+        near = any(here[: len(path)] == path or path[: len(here)] == here for path in paths)
+        (noticed if near else words).append(_sentence(change.text))
+    if not noticed:
+        noticed = [_sentence(effect.text) for effect in effects]
+    noticed, words = [*dict.fromkeys(noticed)], [*dict.fromkeys(words)]
+    if len(words) > _MOST_WORDS:
+        words = [f"{pluralize(len(words), 'change')} of words, sources or examples."]
+    return [*noticed, *words]
+
+
+def _sentence(text: str) -> str:
+    text = " ".join(text.split())
+    return text if text.endswith((".", "!", "?")) else f"{text}."

@@ -1,0 +1,60 @@
+"""Programs: what breaks in those that were written for the library of the old edition.
+
+What a program can name is read from the libraries of both editions, as they are generated. What the
+names do follows from the two models.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from framegen.comparison.effect import Effect
+from framegen.comparison.programs.behaviour import preference_effects, value_effects
+from framegen.comparison.programs.exchanges import exchange_effects
+from framegen.comparison.programs.library import Libraries, library_effects
+from framegen.comparison.programs.rendered import rendered
+from framegen.comparison.surface import read_surface
+from framegen.targets.python.names import package_of
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from framegen.comparison.pair import Pair
+
+
+def program_effects(pair: Pair) -> Iterator[Effect]:
+    """Yield what programs notice: names that are gone, changed or new, then what names do."""
+    old, new = rendered(pair.old), rendered(pair.new)
+    yield from _of_package(pair)
+    if old is not None and new is not None and old != new:
+        yield from library_effects(Libraries(pair, read_surface(old), read_surface(new)))
+    yield from exchange_effects(pair)
+    yield from value_effects(pair)
+    yield from preference_effects(pair)
+
+
+def _of_package(pair: Pair) -> Iterator[Effect]:
+    """Yield what becomes of the library as a whole."""
+    specs = pair.old.spec, pair.new.spec
+    name = ("protocol", "name")
+    old, new = package_of(pair.old.model), package_of(pair.new.model)
+    if old != new:
+        yield Effect("programs", "renamed", name, name, f"`import {old}` is now `import {new}`")
+    client = pair.new.model.roles.client
+    if pair.ends.get(pair.old.model.roles.client) != client:
+        ends = ("endpoints",)
+        text = f"the client is the {client} now; it was the {pair.old.model.roles.client}"
+        yield Effect("programs", "removed", ends, ends, text)
+    boards = [
+        {(each.vendor, each.product) for each in spec.link.usb_hid} if spec.link.usb_hid else set()
+        for spec in specs
+    ]
+    for vendor, product in sorted(boards[0] - boards[1]):
+        path = ("link", "usb_hid")
+        there = path if specs[1].link.usb_hid else None
+        text = f"`hid://` does not find {vendor:04x}:{product:04x} any more"
+        yield Effect("programs", "removed", path, there, text)
+    if specs[0].link.baud != specs[1].link.baud:
+        path = ("link", "baud")
+        text = f"ports are opened at {specs[1].link.baud} baud; it was {specs[0].link.baud}"
+        yield Effect("programs", "value", path, path, text, breaks=False)

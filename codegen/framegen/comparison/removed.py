@@ -1,0 +1,42 @@
+"""Removed messages: their ids and names, which must not be given to another one by accident."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from framegen.comparison.comparison import Comparison
+    from framegen.language.notation import Ids
+    from framegen.language.spec import Spec
+    from framegen.language.values import Direction
+
+
+def reservations(comparison: Comparison, version: str) -> Iterator[dict[str, Any]]:
+    """Yield entries for `reserved`: what was removed up to a version, and is not reserved yet.
+
+    An id that has another message already is left out, and so is one whose ends are gone.
+    """
+    new = comparison.new.spec
+    for name in comparison.pair.messages.removed:
+        message = comparison.old.spec.messages[name]
+        way = comparison.pair.way_in_new(message.direction)
+        entry: dict[str, Any] = {}
+        if message.id is not None and way is not None and _is_free_id(new, message.id, way):
+            entry |= {"id": _as_written(message.id), "direction": str(way)}
+        if name not in new.messages and all(each.name != name for each in new.reserved):
+            entry["name"] = name
+        if entry:
+            yield {**entry, "why": f"It was {name} until {version}."}
+
+
+def _is_free_id(spec: Spec, ids: Ids, way: Direction) -> bool:
+    used = any(each.id == ids and each.direction == way for each in spec.messages.values())
+    return not used and not any(
+        each.id == ids and each.direction in (None, way) for each in spec.reserved
+    )
+
+
+def _as_written(ids: Ids) -> int | dict[str, int]:
+    return dict(ids.by_part) if ids.one is None else ids.one

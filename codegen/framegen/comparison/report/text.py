@@ -1,0 +1,133 @@
+"""The report for people at a terminal."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from framegen.comparison.report.verdict import AXES, standing
+from framegen.comparison.report.view import rule_of
+from framegen.comparison.report.words import between, call_of, effect_text, hex_of
+from framegen.console import visible
+from framegen.pluralize import pluralize
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator, Sequence
+
+    from framegen.comparison.effect import Effect
+    from framegen.comparison.report.view import Section, View
+
+_WORDS = {"breaks": "breaks", "uncertain": "uncertain", "accepted": "on purpose", "adds": "new"}
+# Of what has no effect, so much is listed; and so many names of messages in one line.
+_MOST_LISTED = 10
+_MOST_NAMES = 4
+
+
+def render(view: View) -> str:
+    """Return the verdicts as a table, then each message with its changes, effects and frames."""
+    if view.nothing:
+        return f"{_header(view)}\n\n  nothing changed that a spec says\n"
+    blocks = ["\n".join([_header(view), "", *_table(view), *_notes(view)])]
+    explained: set[str] = set()
+    blocks += ["\n".join(_group(view, group, explained)) for group in view.groups]
+    if view.without_effect:
+        blocks.append("\n".join(_without_effect(view)))
+    return "\n\n".join(blocks) + "\n"
+
+
+def _header(view: View) -> str:
+    old, new = view.old, view.new
+    name = visible(new.spec.protocol.name)
+    return f"{name}: {old.label} ({visible(old.version)}) -> {new.label} ({visible(new.version)})"
+
+
+def _table(view: View) -> list[str]:
+    rows: list[tuple[str, str, str]] = []
+    for axis in AXES:
+        verdicts = [each for each in view.verdicts if each.axis == axis]
+        if not any(each.effects for each in verdicts):
+            rows.append((axis, "", "works as before"))
+            continue
+        for number, each in enumerate(verdicts):
+            ends = "" if each.ends is None else f"{each.ends}: "
+            rows.append(("" if number else axis, ends, str(each)))
+    if view.order:
+        rows.append(("upgrade", "", view.order))
+    if view.version_finding:
+        rows.append(("version", "", view.version_finding))
+    first, second = (max(len(row[column]) for row in rows) for column in (0, 1))
+    return [
+        f"  {name:<{first}}  {f'{ends:<{second}}' if ends else ''}{said}"
+        for name, ends, said in rows
+    ]
+
+
+def _notes(view: View) -> Iterator[str]:
+    for each in (view.old, view.new):
+        if each.compiled.tolerated:
+            found = pluralize(len(each.compiled.tolerated), "finding")
+            yield f"  note: {each.label} has {found} by today's rules, and is compared all the same"
+    if view.capped:
+        yield f"  note: at most {view.most_tried} frames a message are tried out, of " + (
+            _names(view.capped)
+        )
+    for line in view.idle:
+        yield f"  note: version {visible(line.version)} accepts what breaks nothing: " + (
+            visible(line.path)
+        )
+
+
+def _group(view: View, group: Sequence[Section], explained: set[str]) -> Iterator[str]:
+    first = group[0]
+    yield _title(view, group)
+    for change in first.changes:
+        yield f"  {visible(change.text)}"
+        yield f"    {view.places(change)}"
+        rule = rule_of(change)
+        if rule is not None and rule.id not in explained:
+            explained.add(rule.id)
+            yield f"    why: {rule.why}"
+            yield f"    do: {rule.do}"
+    if len(group) > 1:
+        yield f"  of {first.title}, and of the others alike:"
+    for effect in first.effects:
+        yield from _effect(effect, first.title)
+
+
+def _title(view: View, group: Sequence[Section]) -> str:
+    if len(group) > 1:
+        return f"{pluralize(len(group), 'message')}: {_names([each.title for each in group])}"
+    title = group[0].title
+    if not title:
+        return "all messages"
+    before = view.pair.messages.to_old.get(title)
+    if title in view.pair.messages.added and title in view.new.spec.messages:
+        return f"{title} (new)"
+    if title not in view.new.spec.messages:
+        return f"{title} (gone)"
+    return title if before in (None, title) else f"{title} (was {before})"
+
+
+def _names(names: Sequence[str]) -> str:
+    shown = ", ".join(names[:_MOST_NAMES])
+    more = len(names) - _MOST_NAMES
+    return f"{shown} and {more} more" if more > 0 else shown
+
+
+def _effect(effect: Effect, title: str) -> Iterator[str]:
+    who = between(effect)
+    where = f"{effect.axis}, {who}" if who else effect.axis
+    yield f"  {_WORDS[standing(effect)]}: {where}: {effect_text(effect, title)}"
+    if effect.witness is not None:
+        yield f"    {hex_of(effect.witness.data)}"
+        yield f"    {call_of(effect.witness)}"
+    if effect.accepted:
+        yield f"    accepted: {visible(effect.accepted)}"
+
+
+def _without_effect(view: View) -> Iterator[str]:
+    found = view.without_effect
+    yield f"documentation: {pluralize(len(found), 'change')} that nothing depends on"
+    for change in found[:_MOST_LISTED]:
+        yield f"  {visible(change.text)}"
+    if len(found) > _MOST_LISTED:
+        yield f"  and {len(found) - _MOST_LISTED} more: `--format json` lists them all"

@@ -1,0 +1,51 @@
+"""Frames and their values, as reports show them: on one line, and of what is long the beginning."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from framegen.console import visible
+from framegen.pluralize import pluralize
+
+if TYPE_CHECKING:
+    from framegen.comparison.effect import Effect, Witness
+
+# Of a longer frame, so many bytes are shown; and so many characters of its values.
+_BYTES = 40
+_CHARACTERS = 160
+
+
+def hex_of(data: bytes) -> str:
+    """Return a frame in hex, `55 55 02 07`, of a long one the beginning."""
+    if len(data) <= _BYTES:
+        return data.hex(" ").upper()
+    return f"{data[:_BYTES].hex(' ').upper()} ... ({pluralize(len(data), 'byte')})"
+
+
+def call_of(witness: Witness) -> str:
+    """Return what a frame says as its sender would write it: `ServoMove(time_ms=1000)`."""
+    values = ", ".join(f"{name}={_plain(value)}" for name, value in witness.values.items())
+    return visible(f"{witness.message}({_shortened(values)})")
+
+
+def effect_text(effect: Effect, title: str) -> str:
+    """Return the sentence of an effect, below the name of its message."""
+    sender = title if effect.witness is None else effect.witness.message
+    return visible(effect.text.removeprefix(f"{title}: ").removeprefix(f"{sender}: "))
+
+
+def between(effect: Effect) -> str:
+    """Return the ends of an effect: of a frame, who sends it to whom."""
+    return effect.ends.replace(", ", " -> " if effect.witness else " with ")
+
+
+def _plain(value: Any) -> str:
+    if isinstance(value, list):
+        return f"[{', '.join(map(_plain, value))}]"
+    if isinstance(value, dict):
+        return f"({', '.join(f'{name}={_plain(each)}' for name, each in value.items())})"
+    return repr(value)
+
+
+def _shortened(text: str) -> str:
+    return text if len(text) <= _CHARACTERS else f"{text[: _CHARACTERS - 4]} ..."

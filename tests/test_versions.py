@@ -1,0 +1,189 @@
+"""Versions of specs, paths into them, and former names, which change nothing that is generated."""
+
+from __future__ import annotations
+
+from itertools import pairwise
+from typing import TYPE_CHECKING, Any
+
+import pytest
+from framegen.checks.named import families, former_names
+from framegen.language.paths import NoPath, expect_place, read_path
+from framegen.language.version import NoVersion, Version
+from framegen.reading.yamltree import dotted
+from framegen.render import render
+from hypothesis import given
+from hypothesis import strategies as st
+
+from tests.bad_specs import BASES
+from tests.factories import BUSSERVO, DEMO, ROOT, compiled_file, compiled_of, data_of
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from framegen.reading.yamltree import KeyPath
+
+    from tests.factories import Data
+
+# In the order of semver.org, section 11.
+ORDERED = [
+    *("0.0.1", "0.1.0", "0.9.0", "0.10.0", "1.0.0-alpha.0", "1.0.0-alpha.2", "1.0.0-alpha.10"),
+    *("1.0.0-beta.1", "1.0.0-rc.1", "1.0.0", "1.0.1", "1.2.0", "1.10.0", "2.0.0-rc.1", "2.0.0"),
+]
+
+ANY = 'write three numbers, such as "1.0.0"; only -alpha.1, -beta.1 or -rc.1 may follow'
+NO_VERSIONS = [
+    *("", "1.0.0-rc", "1.0.0-dev.1", "1.0.0+7", "1.0.0.0", "\u0661.0.0", "1." * 400, "9" * 5000),
+    *("1.0.0-rc.01", "one"),
+]
+
+
+def test_versions_are_in_the_order_of_semantic_versions() -> None:
+    assert sorted({*ORDERED}, key=Version.parse) == ORDERED
+    assert all(Version.parse(low) < Version.parse(high) for low, high in pairwise(ORDERED))
+
+
+@pytest.mark.parametrize("text", ORDERED)
+def test_a_version_is_written_as_it_was_read(text: str) -> None:
+    version = Version.parse(text)
+    assert str(version) == text
+    assert version.is_final == ("-" not in text)
+    assert str(version.final) == text.partition("-")[0]
+
+
+@pytest.mark.parametrize(
+    ("text", "hint"),
+    [
+        ("1", 'write "1.0.0"'),
+        ("1.2", 'write "1.2.0"'),
+        ("v1.2.3", 'write "1.2.3"'),
+        ("01.2.3", 'write "1.2.3"'),
+        ("1.0.0\n", 'write "1.0.0"'),
+        *((text, ANY) for text in NO_VERSIONS),
+    ],
+)
+def test_what_is_no_version_is_refused_with_what_to_write(text: str, hint: str) -> None:
+    with pytest.raises(NoVersion) as refused:
+        Version.parse(text)
+    assert (str(refused.value), refused.value.hint) == (f"`{text}` is no semantic version", hint)
+    assert Version.parse_or_none(text) is None
+
+
+# ------------------------------------------------------------------ paths
+
+
+def places(value: Any, path: KeyPath = ()) -> Iterator[KeyPath]:
+    """Yield the path of everything in a spec."""
+    inside: Any = ()
+    if isinstance(value, dict):
+        inside = value.items()
+    elif isinstance(value, list):
+        inside = enumerate(value)
+    for step, inner in inside:
+        yield (*path, step)
+        yield from places(inner, (*path, step))
+
+
+@pytest.mark.parametrize(
+    "file",
+    [BUSSERVO, DEMO, ROOT / "tests" / "specs" / "everything.yaml", BASES / "bus.yaml"],
+    ids=lambda file: file.stem,
+)
+def test_every_place_of_a_spec_has_a_path_that_is_read_back(file: Any) -> None:
+    found = list(places(data_of(file)))
+    assert len(found) > 100
+    for path in found:
+        # The short form of bits, the names of other devices, and elements of notations.
+        if any("." in step or "[" in step for step in path if isinstance(step, str)):
+            continue
+        assert read_path(dotted(path)) == path
+        # A notation is one value to the language, whatever its author wrote it as.
+        if path[-2:-1] not in {("was",), ("length",)}:
+            expect_place(path)
+
+
+@given(st.text(st.sampled_from("ab.[]0 1"), max_size=9))
+def test_what_is_read_as_a_path_is_written_as_it_was(text: str) -> None:
+    try:
+        path = read_path(text)
+    except NoPath:
+        return
+    assert read_path(dotted(path)) == path
+    assert dotted(path).replace("[0", "[") == text.replace("[0", "[")
+
+
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [
+        ("", "`` is no path into a spec"),
+        ("[0]", "`[0]` is no path into a spec"),
+        ("messages.", "`messages.` is no path into a spec"),
+        ("messages[0]", "`messages` has no `0`"),
+        ("link.bauds", "`link` has no `bauds`"),
+        ("messages.X.fields.y.z", "`messages.X.fields.y` has no `z`"),
+        ("messages.X.summary.y", "`messages.X.summary` has no `y`"),
+        ("baud", "a spec has no `baud`"),
+    ],
+)
+def test_what_leads_nowhere_is_refused(text: str, message: str) -> None:
+    with pytest.raises(NoPath) as refused:
+        expect_place(read_path(text))
+    assert str(refused.value) == message
+
+
+# ------------------------------------------------------------------ former names
+
+
+def with_former_names(data: Data) -> Data:
+    """Return a spec in which everything that can have had another name had one, or two."""
+    changed: Data = compiled_of(data).tree.data
+    for number, (path, named) in enumerate(families(compiled_of(data).spec)):
+        for name, thing in named.items():
+            if not hasattr(thing, "was"):
+                continue
+            around: Any = changed
+            for step in path:
+                around = around[step]
+            former = f"Was{name}" if path == ("messages",) else f"was_{name}"
+            if not isinstance(around[name], dict):
+                around[name] = {"at": around[name]}
+            around[name]["was"] = [former, f"{former}2"] if number % 2 else former
+    return changed
+
+
+@pytest.mark.parametrize(
+    "file",
+    [DEMO, ROOT / "tests" / "specs" / "everything.yaml"],
+    ids=lambda file: file.stem,
+)
+def test_former_names_and_accepted_breaks_change_nothing_that_is_generated(file: Any) -> None:
+    data = {**data_of(file)}
+    version = data["protocol"]["version"]
+    data.setdefault("history", [{"version": version, "changes": ["It."]}])
+    changed = with_former_names(data)
+    changed["history"][0]["breaks"] = {"messages.Gone": "Nobody has it.", "link.baud": "Faster."}
+    before, after = compiled_of(data), compiled_of(changed)
+    assert after.findings == []
+    had = [
+        former
+        for path, named in families(after.spec)
+        for name, thing in named.items()
+        for _, former in former_names((*path, name), thing)
+    ]
+    assert len(had) > 5
+    written, expected = render(after).files, render(before).files
+    assert {path for path in expected if written.get(path) != expected[path]} == set()
+    assert written.keys() == expected.keys()
+
+
+def test_a_released_edition_is_what_its_name_says() -> None:
+    """Editions are kept for comparisons: an edit would change what was compared before."""
+    for spec in sorted((ROOT / "spec").glob("*.yaml")):
+        name = compiled_file(spec).spec.protocol.name
+        editions = sorted((ROOT / "spec" / "released").glob(f"{name}-*.yaml"))
+        assert editions, name
+        for file in editions:
+            protocol = data_of(file)["protocol"]
+            assert f"{protocol['name']}-{protocol['version']}" == file.stem
+            assert Version.parse(protocol["version"]) <= Version.parse(
+                compiled_file(spec).spec.protocol.version
+            )
