@@ -6,7 +6,7 @@ from contextlib import ExitStack
 
 import pytest
 from framegen.comparison.pair import Pair
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from tests.comparison import proof
@@ -66,7 +66,6 @@ def test_no_frame_becomes_worse_than_the_worst_that_was_tried(
 
 
 @given(specs(), st.lists(st.sampled_from([*MUTATIONS]), min_size=1, max_size=3), st.integers(0, 99))
-@settings(deadline=None)
 def test_random_specs_are_judged_right(
     spec: dict[str, object], names: list[str], seed: int
 ) -> None:

@@ -7,7 +7,7 @@ argument is varied at a time, then two; what is not varied keeps a value that bo
 
 from __future__ import annotations
 
-from itertools import combinations, product
+from itertools import chain, combinations, islice, product
 from typing import TYPE_CHECKING, Any
 
 from framegen.comparison.pair import element_fields
@@ -19,11 +19,24 @@ if TYPE_CHECKING:
     from framegen.model.layout import MessageLayout
     from framegen.model.slots import Field
 
+# So many frames of a message are tried out at most.
+MOST = 2000
 # Of a list, so many elements unless its ends are looked at.
 _FEW = 3
 # A longer frame is tried out only for the ends of a list.
 _SHORT = 0x1000
 _FLOATS = (0.0, 1.0, -0.1, 1e-3, 123456.75, 3e38)
+
+
+def values_to_try(
+    message: MessageLayout, other: MessageLayout | None, names: Mapping[str, str], *, pairs: bool
+) -> Iterator[dict[str, Any]]:
+    """Yield values of a message, at most `MOST`; `names` are those of its arguments in `other`.
+
+    With `pairs`, two arguments at a time are varied too.
+    """
+    edges = Edges(message, other, names)
+    yield from islice(chain(edges.single(), edges.pairs() if pairs else ()), MOST)
 
 
 class Edges:

@@ -11,7 +11,7 @@ from dataclasses import dataclass, field
 from itertools import islice
 from typing import TYPE_CHECKING, Any
 
-from framegen.comparison.edges import Edges
+from framegen.comparison.edges import MOST, Edges
 from framegen.comparison.effect import OUTCOMES, Effect, Witness
 from framegen.comparison.meaning import differences, translated
 from framegen.comparison.pair import shape
@@ -28,9 +28,7 @@ if TYPE_CHECKING:
     from framegen.language.values import Direction
     from framegen.model.layout import MessageLayout
 
-# So many frames of a message are tried out at most, and of all messages together where two values
-# at a time are varied.
-MOST = 2000
+# So many frames of all messages together are tried out at most where two values are varied.
 _MOST_OF_ALL = 100_000
 _OTHER: dict[Which, Which] = {"old": "new", "new": "old"}
 
