@@ -76,7 +76,9 @@ class Audit:
     @cached_property
     def raised(self) -> list[Raised]:
         """The messages of which they show facts that no hardware has shown before."""
-        return raised(self.model, self.coverage, self.conversations.answered)
+        devices = {recording.device for recording in self.recordings}
+        device = devices.pop() if len(devices) == 1 else ""
+        return raised(self.model, self.coverage, self.conversations.answered, device)
 
 
 def audit(

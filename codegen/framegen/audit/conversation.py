@@ -17,6 +17,8 @@ if TYPE_CHECKING:
 _PLACES = 3
 # A reply that comes later than this many seconds answers nothing.
 _LATE = 60.0
+# Nor is it to a request behind which so many others were sent.
+_OUTSTANDING = 32
 
 
 @dataclass
@@ -104,6 +106,8 @@ class Conversations:
                 self._pending.remove(pending)
                 _unanswered(*pending)
         self._pending.append((found, sighting))
+        if len(self._pending) > _OUTSTANDING:
+            _unanswered(*self._pending.pop(0))
 
     def _answer(self, name: str, sighting: Sighting) -> None:
         self._both["answers"] = True

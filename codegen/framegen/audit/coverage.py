@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections import Counter
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
@@ -118,6 +119,10 @@ class Coverage:
         facts = self._facts.get(covered.name, [])
         longest = max((len(each.data) for each in covered.shown), default=0)
         if len(covered.facts) == len(facts) and len(sighting.data) >= longest:
+            return
+        # A spec cannot say in an example what is no number.
+        said = (value for _, value in each_value(covered.layout, sighting.values))
+        if not all(math.isfinite(value) for value in said if isinstance(value, float)):
             return
         paths = shown_by(covered.layout, sighting.values)
         new = tuple(each for each in facts if each.path in paths and each.path not in covered.facts)

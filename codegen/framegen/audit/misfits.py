@@ -107,16 +107,12 @@ def outside(
     slots = {slot.name: slot for slot in ours.slots}
     for slot in seen.arguments:
         said, value = slots[slot.name], values[slot.name]
+        if value is None:
+            continue
         path = f"{ours.name}.{slot.name}"
         match said:
             case Items():
-                count = len(value)
-                if not said.is_fixed and not said.low <= count <= said.high:
-                    yield path, f"{count} elements, outside {said.low}..{said.high}"
-                for inner in said.slots:
-                    each = f"{path}.{inner.name}" if said.element else path
-                    wrong = [_wrong(inner, item) for item in _numbers(inner.name, value)]
-                    yield from ((each, why) for why in dict.fromkeys(filter(None, wrong)))
+                yield from _in_list(said, path, value)
             case Packed():
                 for number in value:
                     if not said.low <= number <= said.high:
@@ -126,6 +122,16 @@ def outside(
                 why = _wrong(said, value)
                 if why:
                     yield path, why
+
+
+def _in_list(said: Items, path: str, value: Any) -> Iterator[tuple[str, str]]:
+    count = len(value)
+    if not said.is_fixed and not said.low <= count <= said.high:
+        yield path, f"{count} elements, outside {said.low}..{said.high}"
+    for inner in said.slots:
+        wrong = [_wrong(inner, item) for item in _numbers(inner.name, value)]
+        each = f"{path}.{inner.name}" if said.element else path
+        yield from ((each, why) for why in dict.fromkeys(filter(None, wrong)))
 
 
 def _numbers(name: str, items: Any) -> list[Any]:

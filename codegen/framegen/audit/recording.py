@@ -29,6 +29,8 @@ _MARK = b"\xef\xbb\xbf"  # what some editors write in front of text
 _CONTROLS = re.compile(rb"[\x00-\x08\x0e-\x1f\x7f]")
 _COMMENT = re.compile(rb"#[^\n]*")
 _RAW = "raw bytes need --input raw"
+# How a doctor's report says what board it is of.
+_DEVICE, _NOT_STATED = "# device: ", "not stated"
 
 
 @dataclass(frozen=True, slots=True)
@@ -50,11 +52,14 @@ class Stretch:
 
 @dataclass(frozen=True, slots=True)
 class Recording:
-    """The content of a file: its name, and its stretches in order."""
+    """The content of a file: its name, and its stretches in order.
+
+    `device` is what a doctor's report says that it is of; empty where nothing says so.
+    """
 
     name: str
     stretches: tuple[Stretch, ...]
-    has_lines: bool
+    device: str = ""
 
     @property
     def size(self) -> int:
@@ -72,16 +77,21 @@ def read_recording(
     """
     if form == "raw" or (form == "auto" and not _is_text(content)):
         raw = Stretch(content, "byte 0")
-        return Recording(name, (raw,) if content else (), has_lines=False)
+        return Recording(name, (raw,) if content else ())
     lines = content.removeprefix(_MARK).decode("utf-8", errors="replace").split("\n")
     try:
         if any(map(_TIMED.match, lines)):
             found = _joined(_recorded(lines, ends, roles))
-            return Recording(name, tuple(found), has_lines=True)
-        return Recording(name, tuple(_plain(lines)), has_lines=False)
+            return Recording(name, tuple(found), device=_device(lines))
+        return Recording(name, tuple(_plain(lines)))
     except _Line as error:
         hint = _RAW if form == "auto" and not error.hint else error.hint
         raise Unusable(f"{name}, line {error.number}: {error}", hint=hint) from None
+
+
+def _device(lines: list[str]) -> str:
+    found = (line.removeprefix(_DEVICE).strip() for line in lines if line.startswith(_DEVICE))
+    return next((each for each in found if each != _NOT_STATED), "")
 
 
 class _Line(ValueError):  # noqa: N818 - where it is

@@ -15,6 +15,7 @@ if TYPE_CHECKING:
     from framegen.audit.audit import Audit
     from framegen.audit.conversation import Conversation
     from framegen.audit.coverage import MessageCoverage
+    from framegen.audit.evidence import Fact
     from framegen.audit.misfits import Misfit
 
 # More bytes of a frame, more values and more examples than these are not shown.
@@ -156,7 +157,9 @@ def _conversation(found: Conversation) -> tuple[str, ...]:
     times = ""
     if found.median is not None:
         low, high = min(found.seconds), max(found.seconds)
-        times = f"{low:.4f} to {high:.4f}, half of them within {found.median:.4f}"
+        times = f"{low:.4f}"
+        if f"{high:.4f}" != times:
+            times += f" to {high:.4f}, half of them within {found.median:.4f}"
     return (
         found.name,
         str(found.requests),
@@ -198,10 +201,12 @@ def _raised(audit: Audit) -> Iterator[Section]:
     )
     if not any(each.kind == "observation" for each in audit.model.spec.sources.values()):
         text += " The spec has no source of the kind `observation` yet: add one."
-    rows = [
-        (each.message.name, ", ".join(fact.name for fact in each.facts)) for each in audit.raised
-    ]
+    rows = [(each.message.name, ", ".join(map(_name, each.facts))) for each in audit.raised]
     lines: list[str] = []
     for each in audit.raised:
         lines += [f"  {each.message.name}:", "    examples:", each.yaml]
     yield Section("Evidence from hardware", text, ("message", "facts"), rows, "\n".join(lines))
+
+
+def _name(fact: Fact) -> str:
+    return "the message" if fact.what == "message" else fact.name

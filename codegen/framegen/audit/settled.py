@@ -2,15 +2,14 @@
 
 from __future__ import annotations
 
-import json
-import math
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from framegen.audit.evidence import OBSERVATION
 from framegen.audit.words import described
 from framegen.language.values import to_hex
 from framegen.pluralize import pluralize
+from framegen.reading.yamltext import flow, scalar
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -20,8 +19,8 @@ if TYPE_CHECKING:
     from framegen.language.spec import Concern, Unknown
     from framegen.model.model import Model
 
-# What stands in the place of words that only the one who recorded can give.
-_PLACE = "report of NAME THE BOARD"
+# What stands in the place of a name that only the one who recorded can give.
+_NO_NAME = "NAME THE BOARD"
 _SOURCE = "hardware"
 
 
@@ -47,6 +46,7 @@ class Raised:
     facts: list[Fact]
     shown: list[Shown]
     source: str
+    device: str
 
     @property
     def yaml(self) -> str:
@@ -57,11 +57,12 @@ class Raised:
         title = f"Seen on hardware: {', '.join(each.name for each in shown.facts)}"
         for number, example in enumerate(self.message.examples, 1):
             if example.hex == shown.data:
-                yield f"      # Example {number} has the same frame: its `cite` may be changed instead."
-        yield f"      - title: {json.dumps(title)}"
+                yield f"      # Example {number} has the same frame: rather change its `cite`."
+        yield f"      - title: {scalar(title)}"
         yield f"        hex: {to_hex(shown.data)}"
         yield f"        values: {flow(shown.values)}"
-        yield f"        cite: {self.source}, {_PLACE}"
+        cite = f"{self.source}, report of {self.device or _NO_NAME}"
+        yield f"        cite: {scalar(cite)}"
 
 
 def about(concern: Concern) -> str:
@@ -126,8 +127,11 @@ def _seen(coverage: Coverage, concern: Concern) -> Iterator[str]:
         yield "; ".join([times, *said])
 
 
-def raised(model: Model, coverage: Coverage, answered: frozenset[str]) -> list[Raised]:
-    """Return the facts that are raised: what a device sent, and requests that it answered."""
+def raised(model: Model, coverage: Coverage, answered: frozenset[str], device: str) -> list[Raised]:
+    """Return the facts that are raised: what a device sent, and requests that it answered.
+
+    `device` is the name of the board, empty where it is not known.
+    """
     sources = [name for name, each in model.spec.sources.items() if each.kind == OBSERVATION]
     source = next(iter(sources), _SOURCE)
     found: list[Raised] = []
@@ -137,18 +141,5 @@ def raised(model: Model, coverage: Coverage, answered: frozenset[str]) -> list[R
         shown = [each for each in covered.shown if any(not fact.seen for fact in each.facts)]
         facts = [fact for each in shown for fact in each.facts if not fact.seen]
         if facts:
-            found.append(Raised(covered, facts, shown, source))
+            found.append(Raised(covered, facts, shown, source, device))
     return found
-
-
-def flow(value: Any) -> str:
-    """Write a value as YAML in one line: `{time_ms: 1000, targets: [{servo_id: 1}]}`."""
-    if isinstance(value, dict):
-        return "{" + ", ".join(f"{name}: {flow(each)}" for name, each in value.items()) + "}"
-    if isinstance(value, list):
-        return "[" + ", ".join(map(flow, value)) + "]"
-    if value is None:
-        return "null"
-    if isinstance(value, float) and not math.isfinite(value):
-        return ".nan" if math.isnan(value) else ".inf" if value > 0 else "-.inf"
-    return json.dumps(value) if isinstance(value, str) else repr(value)

@@ -3,17 +3,19 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
+from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 from framegen.compile import without_bounds
 from framegen.explanation.refusals import (
+    BAD_HEADER,
     COUNT_MISMATCH,
     LENGTH_MISMATCH,
     OUT_OF_RANGE,
     UNKNOWN_COMMAND,
 )
 from framegen.model.codec import values_of
-from framegen.model.stream import ReferenceDecoder
+from framegen.model.stream import Event, ReferenceDecoder
 from framegen.model.verdict import weigh, weigh_whole
 
 if TYPE_CHECKING:
@@ -23,12 +25,11 @@ if TYPE_CHECKING:
     from framegen.language.values import Direction
     from framegen.model.layout import MessageLayout
     from framegen.model.model import Model
-    from framegen.model.stream import Event
     from framegen.model.verdict import Verdict
 
-# What is decoded at once of a long stretch, and the noise after which none is held any more.
+# What is decoded at once of a long stretch, and the size of noise to which no more is joined.
 _WINDOW = 1 << 12
-_HELD = 1 << 14
+_JOINED = 1 << 14
 # For these reasons, what another edition of a spec refused may be a message of this one.
 _BY_THE_SPEC = frozenset({UNKNOWN_COMMAND, OUT_OF_RANGE, LENGTH_MISMATCH, COUNT_MISMATCH})
 
@@ -75,7 +76,7 @@ class Reader:
                 continue
             ways = self._ways(stretch)
             for event in self._events(stretch, ways):
-                yield from self._sightings(event, stretch, ways, has_lines=recording.has_lines)
+                yield self._sighting(event, stretch, ways)
 
     def verdict(self, sighting: Sighting) -> Verdict:
         """Judge what begins where noise, or a frame of unknown id, does."""
@@ -102,50 +103,61 @@ class Reader:
             if part.is_in(sighting.data)
         }
 
+    @cached_property
+    def _alike(self) -> dict[str, set[Direction]]:
+        """The directions in which a message of the same ids, or of another frame, may be sent."""
+        return {
+            name: {
+                other.direction
+                for other in self.model.messages.values()
+                if other.frame is not message.frame or _seen_ids(other) == _seen_ids(message)
+            }
+            for name, message in self.model.messages.items()
+        }
+
     def _ways(self, stretch: Stretch) -> Sequence[Direction]:
         if stretch.sender is None:
             return self.ways
         return [way for way in self.model.ways if way.sender == stretch.sender]
 
     def _events(self, stretch: Stretch, ways: Sequence[Direction]) -> Iterator[Event]:
-        events = _decoded(self.model, ways, stretch.data)
-        if not stretch.refused:
-            yield from events
+        """Yield what a stretch holds; messages beyond the bounds are those of the other model."""
+        if stretch.refused and stretch.refused not in _BY_THE_SPEC:
+            yield Event("noise", 0, stretch.data, reason=stretch.refused)
             return
-        found = [*events]
-        if any(event.kind != "noise" for event in found):
-            if stretch.refused in _BY_THE_SPEC:
-                yield from found
+        if stretch.at is not None:
+            # A line of a recording is most often one frame.
+            models = (self.model, self._unbounded)
+            wholes = (weigh_whole(each, ways, stretch.data).message for each in models)
+            message = next((each for each in wholes if each is not None), None)
+            if message is not None:
+                yield Event("message", 0, stretch.data, message)
                 return
-            found = [replace(found[0], kind="noise", at=0, data=stretch.data, message=None)]
-        if len(found) == 1:
-            found = [replace(found[0], reason=stretch.refused)]
-        yield from found
+        noise: list[Event] = []
+        for event in _decoded(self.model, ways, stretch.data):
+            if event.kind == "noise":
+                noise.append(event)
+                continue
+            yield from self._again(noise, ways)
+            noise.clear()
+            yield event
+        if len(noise) == 1 and noise[0].data == stretch.data and stretch.refused:
+            noise = [replace(noise[0], reason=stretch.refused)]
+        yield from self._again(noise, ways)
 
-    def _sightings(
-        self, event: Event, stretch: Stretch, ways: Sequence[Direction], *, has_lines: bool
-    ) -> Iterator[Sighting]:
-        again: list[Event] = []
-        if event.kind == "noise" and (not stretch.refused or stretch.refused in _BY_THE_SPEC):
-            again = [*_decoded(self._unbounded, ways, event.data)]
-        if any(each.kind == "message" for each in again):
-            for each in again:
-                yield self._sighting(each, event.at, stretch, ways, has_lines=has_lines)
+    def _again(self, noise: list[Event], ways: Sequence[Direction]) -> Iterator[Event]:
+        """Yield noise, or the messages beyond the bounds that it holds."""
+        data = b"".join(event.data for event in noise)
+        again = [*_decoded(self._unbounded, ways, data)]
+        if any(event.kind == "message" for event in again):
+            yield from (replace(event, at=noise[0].at + event.at) for event in again)
         else:
-            yield self._sighting(event, 0, stretch, ways, has_lines=has_lines)
+            yield from noise
 
-    def _sighting(
-        self,
-        event: Event,
-        before: int,
-        stretch: Stretch,
-        ways: Sequence[Direction],
-        *,
-        has_lines: bool,
-    ) -> Sighting:
-        at = before + event.at
-        begun = 0 if has_lines else int(stretch.place.removeprefix("byte "))
-        place = stretch.place if has_lines else f"byte {begun + at}"
+    def _sighting(self, event: Event, stretch: Stretch, ways: Sequence[Direction]) -> Sighting:
+        at, place = event.at, stretch.place
+        if stretch.at is None:
+            place = f"byte {int(place.removeprefix('byte ')) + at}"
         message = event.message
         if message is None:
             return Sighting(
@@ -170,24 +182,49 @@ class Reader:
     ) -> tuple[str, ...]:
         """Return the messages of other directions that have the same frame."""
         found = (
-            weigh_whole(self.model, [way], data).message for way in ways if way != message.direction
+            weigh_whole(self.model, [way], data).message
+            for way in ways
+            if way != message.direction and way in self._alike[message.name]
         )
         return tuple(each.name for each in found if each is not None)
 
 
+def _seen_ids(message: MessageLayout) -> tuple[int, ...]:
+    """Return the ids that are in a frame of a message."""
+    return message.ids[: len(message.frame.sent_ids)]
+
+
 def _decoded(model: Model, ways: Sequence[Direction], data: bytes) -> Iterator[Event]:
     """Yield the events of a stretch, after which the line is quiet, a window at a time."""
-    decoder = ReferenceDecoder(model, ways)
+    noise: Event | None = None
+    for event in _in_windows(ReferenceDecoder(model, ways), data):
+        if event.kind != "noise":
+            if noise is not None:
+                yield noise
+            noise = None
+            yield event
+        elif noise is None or noise.reason != event.reason or len(noise.data) >= _JOINED:
+            if noise is not None:
+                yield noise
+            noise = event
+        else:
+            noise = replace(noise, data=noise.data + event.data)
+    if noise is not None:
+        yield noise
+
+
+def _in_windows(decoder: ReferenceDecoder, data: bytes) -> Iterator[Event]:
+    """Yield the events; noise is in pieces where a window ends."""
     begun = at = 0
-    while (at := at + _WINDOW) < len(data):
+    reason = ""
+    while begun < len(data):
+        at += _WINDOW
         held = data[begun:at]
-        events = decoder.decode_so_far(held)
-        # Noise goes on until a message comes, unless there is too much of it.
-        while events and events[-1].kind == "noise" and len(held) < _HELD:
-            events.pop()
-        for event in events:
-            yield replace(event, at=begun + event.at)
+        events = decoder.decode_so_far(held) if at < len(data) else decoder.decode(held)
+        for number, event in enumerate(events):
+            goes_on = not number and event.reason == BAD_HEADER and reason
+            reason = reason if goes_on else event.reason
+            yield replace(event, at=begun + event.at, reason=reason)
+            reason = reason if event.kind == "noise" else ""
         if events:
             begun += events[-1].at + len(events[-1].data)
-    for event in decoder.decode(data[begun:]):
-        yield replace(event, at=begun + event.at)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from textwrap import wrap
 from typing import TYPE_CHECKING
 
 from framegen.audit.report import sections, summary, verdict
@@ -27,11 +28,11 @@ def as_text(audit: Audit) -> Iterator[str]:
         yield ""
         yield f"{section.title[0].lower()}{section.title[1:]}:"
         if section.text:
-            yield f"  {visible(section.text)}"
+            yield from (f"  {line}" for line in wrap(visible(section.text), _WIDEST - 2))
         yield from _columns(section)
         if section.yaml:
             yield ""
-            yield "  To be added to the spec, with the board named:"
+            yield "  To be added to the spec:"
             yield ""
             yield from (visible(line) for line in section.yaml.splitlines())
     yield ""
@@ -86,7 +87,7 @@ def as_markdown(audit: Audit) -> Iterator[str]:
             yield from (_row([_escaped(cell) for cell in row]) for row in section.rows)
         if section.yaml:
             yield ""
-            yield "To be added to the spec, with the board named:"
+            yield "To be added to the spec:"
             yield ""
             fence = "`" * max(3, 1 + _longest_run(section.yaml))
             yield f"{fence}yaml"

@@ -5,7 +5,6 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from framegen.audit.values import MOST
-from framegen.pluralize import pluralize
 
 if TYPE_CHECKING:
     from framegen.audit.values import Values
@@ -34,17 +33,20 @@ def _many(number: int) -> str:
 
 
 def documented(values: Values) -> str:
-    """Say what is documented: `of 0..65535`, `usual 0..1000`, `1 of 2 named`."""
+    """Say what is documented: `of 0..1`, `usual 0..1000`, `named off`, `never on`."""
     parts: list[str] = []
     if values.low is not None and values.high is not None:
         parts.append(f"of {shown(values.low)}..{shown(values.high)}")
     if values.limits is not None:
         low, high = values.limits
         parts.append(f"usual {low}..{'' if high is None else high}")
-    if values.named:
+    if len(values.named) > _FEW:
+        parts.append(f"{len(values.named_seen)} of {len(values.named)} named values")
+    else:
         seen = values.named_seen
-        names = f": {', '.join(seen)}" if seen else ""
-        parts.append(f"{len(seen)} of {pluralize(len(values.named), 'named value')}{names}")
+        never = [name for name in values.named if name not in seen]
+        parts += [f"named {', '.join(seen)}"] * bool(seen)
+        parts += [f"never {', '.join(never)}"] * bool(never)
     return "; ".join(parts)
 
 

@@ -43,7 +43,7 @@ def conversation_effects(pair: Pair) -> Iterator[Effect]:
     for client in clients:
         yield from link_effects(table, client)
         if not _are_client_and_device(table, client):
-            text = f"nobody answers: both ends ask"
+            text = "nobody answers: both ends ask"
             path = ("endpoints",)
             ends = ends_of(table, client)
             yield Effect("conversation", "no reply", path, path, text, ends)

@@ -105,6 +105,10 @@ class Client:
             return "unasked"
         if taken is None:
             return "timeout"
+        return self._taken(exchange, values, taken)
+
+    def _taken(self, exchange: Exchange, values: dict[str, Any], taken: Received) -> Ending:
+        """Return how a question ends that is answered."""
         if taken.message is not exchange.reply:
             return "refusal"
         if exchange.failure is not None and taken.values[exchange.failure.name]:

@@ -50,8 +50,15 @@ class Device:
 
     def reads(self, data: bytes) -> tuple[list[Received], str]:
         """Return the requests that the device reads in bytes, and why the rest is none."""
-        came = arrival(self.model, self.model.roles.sent, data)
-        return came.messages, came.refusal
+        if data not in self._read:
+            came = arrival(self.model, self.model.roles.sent, data)
+            self._read[data] = came.messages, came.refusal
+        return self._read[data]
+
+    @cached_property
+    def _read(self) -> dict[bytes, tuple[list[Received], str]]:
+        """What was read so far: the same request is answered in many ways."""
+        return {}
 
     def kinds(self, request: Received) -> Iterator[Kind]:
         """Yield how the device may answer a request."""
@@ -69,14 +76,14 @@ class Device:
         answer = exchange.refusal if kind == "refusal" else exchange.reply
         silence = _silence(exchange, request.values)
         if answer is None or given is None:
-            return Answer(why=f"{request.message.name} has no reply there")
+            return Answer(why=f"{request.message.name} has no reply")
         if silence:
-            return Answer(why=f"nobody answers at {silence} there")
+            return Answer(why=f"nobody answers at {silence}")
         values = self._echoed(exchange, request, answer, given)
         try:
             return Answer(encode(answer, values), answer.name, values)
         except (Unencodable, OverflowError) as error:
-            return Answer(why=f"{answer.name} cannot repeat it there, {error}")
+            return Answer(why=f"{answer.name} cannot repeat it ({error})")
 
     def _echoed(
         self,
@@ -139,8 +146,7 @@ def _repeated(
     answer: MessageLayout, name: str, inner: str, given: list[Any], said: list[Any]
 ) -> list[dict[str, Any]]:
     """Return a list of elements that repeat numbers, as many of them as it has room for."""
-    slot = next(each for each in answer.fields if each.name == name)
-    assert isinstance(slot, Items)
+    slot = next(each for each in answer.fields if isinstance(each, Items) and each.name == name)
     usual = {each.name: each.low if isinstance(each, Number) else "" for each in slot.fields}
     elements = [*given, *[given[0] if given else usual] * len(said)]
     return [{**old, inner: each} for old, each in zip(elements, said[: slot.high], strict=False)]

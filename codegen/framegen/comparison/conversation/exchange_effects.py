@@ -7,31 +7,21 @@ both know works any more.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
+from framegen.comparison.conversation.outcome import OUTCOMES, WANTED, outcome_of
 from framegen.comparison.conversation.play import OTHER
 from framegen.comparison.effect import Effect, Witness
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
 
+    from framegen.comparison.conversation.device import Kind
     from framegen.comparison.conversation.play import Play, Table
-    from framegen.comparison.effect import Which
+    from framegen.comparison.effect import Outcome, Which
     from framegen.model.exchanges import Exchange
     from framegen.model.layout import MessageLayout
-
-# What becomes of an exchange, from the worst to the least: of several, one is said.
-OUTCOMES = (
-    "no reply",
-    "other reply",
-    "not recognized",
-    "error",
-    "no error",
-    "in part",
-    "not asked",
-    "unawaited",
-)
 
 
 @dataclass(frozen=True, slots=True)
@@ -62,24 +52,29 @@ def exchange_effects(table: Table, client: Which) -> Iterator[Effect]:
 def verdicts(table: Table, client: Which, exchange: Exchange) -> Iterator[Verdict]:
     """Yield the worst of each kind of answer; no more where the request itself is lost."""
     plays = [*table.plays(client, exchange)]
-    found = {
-        kind: [verdict for play in plays if play.kind == kind and (verdict := _judged(table, play))]
-        for kind in ("reply", "refusal", "failure")
-    }
-    replies = found["reply"]
-    if replies and table.other(client, exchange) is not None:
-        tried = [play for play in plays if play.kind == "reply" and play.ending != "unasked"]
-        if tried and all(play.ending == "timeout" for play in tried):
-            replies = [Verdict(each.outcome, each.why, True, each.play) for each in replies]
-    worst = _worst(replies)
+    found: dict[Kind, list[Verdict]] = {"reply": [], "refusal": [], "failure": []}
+    for play in plays:
+        verdict = _judged(table, play)
+        if verdict is not None:
+            found[play.kind].append(verdict)
+    worst = _worst(found["reply"])
+    if worst is not None and not worst.breaks and _is_dead(table, client, exchange, plays):
+        worst = replace(worst, breaks=True)
     if worst is not None:
         yield worst
-    if worst is not None and worst.outcome == "no reply" and not worst.play.read_as:
+    if worst is not None and not worst.play.read_as:
         return
     for kind in ("refusal", "failure"):
         other = _worst(found[kind])
         if other is not None and (worst is None or worst.outcome != other.outcome):
             yield other
+
+
+def _is_dead(table: Table, client: Which, exchange: Exchange, plays: Sequence[Play]) -> bool:
+    """Tell whether nothing of a question works any more that both editions know."""
+    tried = [play for play in plays if play.kind == "reply" and play.ending != "unasked"]
+    known = table.other(client, exchange) is not None
+    return known and bool(tried) and all(play.ending == "timeout" for play in tried)
 
 
 def _worst(found: Sequence[Verdict]) -> Verdict | None:
@@ -91,7 +86,7 @@ def _worst(found: Sequence[Verdict]) -> Verdict | None:
 
 def _judged(table: Table, play: Play) -> Verdict | None:
     """Return what is wrong with a play; None where it ends as it should, or as it did before."""
-    outcome, why = _outcome(table, play)
+    outcome, why = outcome_of(table, play)
     if not outcome:
         return None
     before = play.before
@@ -103,77 +98,8 @@ def _judged(table: Table, play: Play) -> Verdict | None:
         return Verdict(outcome, said, bool(mistaken), play)
     if before is not None and before.ending == play.ending:
         return None
-    wanted = {"reply": ("reply", "sent"), "refusal": ("refusal",), "failure": ("failure",)}
-    worked = before is not None and before.ending in wanted[play.kind]
+    worked = before is not None and before.ending in WANTED[play.kind]
     return Verdict(outcome, why, worked, play)
-
-
-def _outcome(table: Table, play: Play) -> tuple[str, str]:
-    """Return what is wrong with how a play ends, and why; nothing for what is right."""
-    there = f"{OTHER[play.client]} edition"
-    came = ", ".join(play.seen.came)
-    match play.kind, play.ending:
-        case ("reply", "reply") | ("refusal", "refusal") | ("failure", "failure"):
-            return "", ""
-        case _, "sent":
-            if not play.seen.rest:
-                return "", ""
-            named = ", ".join(each.message for each in play.answers if each.data)
-            return "unawaited", f"is answered by {named}, which nobody awaits"
-        case _, "unasked":
-            return ("", "") if play.kind != "reply" else ("not asked", _unasked(play))
-        case "refusal", "reply" | "partial" | "failure":
-            return "no error", f"is refused by {_answers(play)}, which is taken for the reply"
-        case "refusal", _:
-            return "no error", f"is refused by {_answers(play)}, which {_unheard(play)}"
-        case "failure", "reply" | "partial":
-            return "no error", f"fails, and {_answers(play)} is taken for success"
-        case "failure", "timeout":
-            return "no error", f"fails, and {_answers(play)} {_unheard(play)}"
-        case _, "failure":
-            return "error", f"succeeds, and {_answers(play)} is taken for a failure"
-        case _, "refusal":
-            return "other reply", f"is answered by {_answers(play)}, which is read as a refusal"
-        case _, "partial":
-            return "in part", f"is answered by {_answers(play)}, which lacks some of what is asked"
-    if not play.read_as:
-        return "no reply", f"gets no reply: the request is refused, {play.refusal}"
-    if not play.answered:
-        others = [name for name in play.read_as if name != _theirs(table, play)]
-        read = f"the request is read as {', '.join(others)}, and " if others else ""
-        why = ", ".join(dict.fromkeys(each.why for each in play.answers))
-        return "no reply", f"gets no reply: {read}{why.replace('there', f'in the {there}')}"
-    if not came:
-        return "no reply", f"gets no reply: {_answers(play)} {_unheard(play)}"
-    assert play.exchange.reply is not None
-    kinds = {each.name for each in play.exchange.answers}
-    if kinds.isdisjoint(play.seen.came):
-        return "other reply", f"is answered by {_answers(play)}, which is read as {came}"
-    return (
-        "not recognized",
-        f"is answered by {came}, which repeats something else, or is from another",
-    )
-
-
-def _unasked(play: Play) -> str:
-    address = play.exchange.address
-    assert address is not None
-    return f"is not asked at {address.name} {play.values[address.name]}, where nobody answers"
-
-
-def _unheard(play: Play) -> str:
-    if play.seen.came:
-        return f"is read as {', '.join(play.seen.came)}, and answers nothing"
-    return f"is refused, {play.seen.refusal}"
-
-
-def _answers(play: Play) -> str:
-    return ", ".join(each.message for each in play.answers if each.message) or "nothing"
-
-
-def _theirs(table: Table, play: Play) -> str:
-    other = table.other(play.client, play.exchange)
-    return "" if other is None else other.request.name
 
 
 def _mistaken(table: Table, play: Play) -> str:
@@ -223,9 +149,9 @@ def _witness(verdict: Verdict) -> Witness:
     play = verdict.play
     answer = next((each for each in play.answers if each.data), None)
     if answer is None or answer.values is None:
-        outcome = "same" if play.read_as else "refused"
+        outcome: Outcome = "same" if play.read_as else "refused"
         name = play.exchange.request.name
-        return Witness(play.client, play.data, name, play.values, outcome, verdict.why)  # type: ignore[arg-type]
+        return Witness(play.client, play.data, name, play.values, outcome, verdict.why)
     outcome = "misread" if play.seen.came else "refused"
     device = OTHER[play.client]
-    return Witness(device, answer.data, answer.message, answer.values, outcome, verdict.why)  # type: ignore[arg-type]
+    return Witness(device, answer.data, answer.message, answer.values, outcome, verdict.why)

@@ -77,11 +77,11 @@ def _acknowledged(
     ]
     if lost:
         breaks = any(each is not None and acknowledges(table, "old", "old", each) for each in lost)
-        text = f"is not acknowledged by {exchange.acknowledged}: {_why(table, client, other)}"
+        text = f"is not acknowledged by {exchange.acknowledged}: {_why(client, other)}"
         yield effect_on(table, client, exchange.request, "not acknowledged", text, breaks=breaks)
 
 
-def _why(table: Table, client: Which, other: Exchange) -> str:
+def _why(client: Which, other: Exchange) -> str:
     device = OTHER[client]
     if other.acknowledged is None:
         return f"nothing acknowledges it in the {device} edition"
