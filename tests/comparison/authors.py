@@ -130,7 +130,9 @@ def _published(label: str, values: Data) -> Edition:
     shown = with_examples(values)
     read = Spec.model_validate(shown)
     model = derive(read)
-    return Edition(label, Compiled(Source(label, ""), Tree(shown), [], read, model), read, model)
+    return Edition(
+        label, Compiled(Source("made_up.yaml", ""), Tree(shown), [], read, model), read, model
+    )
 
 
 def _lengthened(spec: Data, model: Any) -> bool:

@@ -237,7 +237,7 @@ FRAME_MUTATIONS: dict[str, Callable[[Desk], None]] = {
     },
     **{
         f"{kind}: byte order": partial(_other_order, kind)
-        for kind in ("length", "id", "address", "checksum")
+        for kind in ("length", "address", "checksum")
     },
     **{f"{kind}: removed": partial(_without, kind) for kind in ("checksum", "address", "counter")},
     **{f"{kind}: added": partial(_with, kind) for kind in ("address", "counter")},

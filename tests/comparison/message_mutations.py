@@ -196,6 +196,10 @@ def deprecated(desk: Desk) -> None:
     desk.messages[desk.pick(desk.messages)]["deprecated"] = "Use another."
 
 
+def vendor_name(desk: Desk) -> None:
+    desk.messages[desk.pick(desk.messages)]["vendor_name"] = "CMD_OTHER"
+
+
 MESSAGE_MUTATIONS: dict[str, Callable[[Desk], None]] = {
     "a message added": added,
     "a message removed": taken_away,
@@ -216,6 +220,7 @@ MESSAGE_MUTATIONS: dict[str, Callable[[Desk], None]] = {
     "an end added": end_added,
     "a message deprecated": deprecated,
     "a reply changed": reply_changed,
+    "a vendor's name": vendor_name,
     **{
         f"{key} dropped": partial(_dropped, key)
         for key in (

@@ -66,6 +66,21 @@ class Oracle:
         return type(direction)(sender, receiver)
 
     @cached_property
+    def _found(self) -> dict[Any, Any]:
+        """What was matched before, by what it is of."""
+        return {}
+
+    def _matched(self, before: Data, after: Data, key: str = "") -> Match:
+        """Match fields, or with a `key` named values or bits; each once."""
+        asked = id(before), id(after)
+        if asked not in self._found:
+            match = match_bits(before, after, key) if key else match_fields(before, after)
+            # What is kept here keeps its id.
+            self._found[asked] = match, before, after
+        found: tuple[Match, Data, Data] = self._found[asked]
+        return found[0]
+
+    @cached_property
     def ends(self) -> Mapping[str, str]:
         """The ends of the line, by the author's map."""
         return self.editions.author.ends.to_new
@@ -140,7 +155,7 @@ class Oracle:
     ) -> dict[str, Any] | None:
         """Return what the other edition would send to say the same; None where it cannot."""
         before, after = self._descriptions(ours, theirs)
-        match = match_fields(before, after)
+        match = self._matched(before, after)
         there = arguments_of(after)
         said: dict[str, Any] = {name: _anything(each) for name, each in there.items()}
         for name, field in arguments_of(before).items():
@@ -156,8 +171,12 @@ class Oracle:
         return said
 
     def _descriptions(self, ours: str, theirs: str) -> tuple[Data, Data]:
-        author = self.editions.author
-        return _described(author.old, ours), _described(author.new, theirs)
+        if (ours, theirs) not in self._found:
+            author = self.editions.author
+            found = _described(author.old, ours), _described(author.new, theirs)
+            self._found[ours, theirs] = found
+        before, after = self._found[ours, theirs]
+        return before, after
 
     # What is read.
 
@@ -170,7 +189,7 @@ class Oracle:
     def _fields(
         self, before: Data, after: Data, sent: Mapping[str, Any], read: Mapping[str, Any]
     ) -> Iterator[tuple[str, bool]]:
-        match = match_fields(before, after)
+        match = self._matched(before, after)
         ours, theirs = arguments_of(before), arguments_of(after)
         known = {match.to_new[name] for name in ours if match.to_new.get(name) in theirs}
         for name, field in ours.items():
@@ -198,7 +217,7 @@ class Oracle:
             yield "misread"
         elif not isinstance(sent, list):
             yield judge_numbers(ours, theirs, sent, read)
-            yield from _named(ours, theirs, sent, read)
+            yield from self._named(ours, theirs, sent, read)
         elif len(sent) != len(read) or ("element" in ours) != ("element" in theirs):
             yield "misread"
         else:
@@ -207,6 +226,26 @@ class Oracle:
                     yield from self._fields(ours["fields"], theirs["fields"], one, other)
                 else:
                     yield from self._values(ours, theirs, one, other)
+
+    def _named(self, ours: Data, theirs: Data, sent: float, read: float) -> Iterator[str]:
+        """Judge a number by the names that it has, and its bits by theirs."""
+        values, others = ours.get("values"), theirs.get("values")
+        if values and others:
+            match = self._matched(values, others, "value")
+            for name, other in match.to_new.items():
+                is_said = values[name]["value"] == sent
+                if is_said != (others[other]["value"] == read):
+                    yield "misread"
+                elif is_said and name in match.guessed:
+                    yield "uncertain"
+        bits, others = ours.get("bits"), theirs.get("bits")
+        if bits and others:
+            match = self._matched(bits, others, "at")
+            for name, other in match.to_new.items():
+                if _taken(bits[name]["at"], sent) != _taken(others[other]["at"], read):
+                    yield "misread"
+                elif name in match.guessed:
+                    yield "uncertain"
 
 
 def _described(spec: Data, name: str) -> Data:
@@ -228,25 +267,6 @@ def _letters(value: Any) -> Any:
         return bytes(value).rstrip(b"\0")
     except (TypeError, ValueError):
         return value
-
-
-def _named(ours: Data, theirs: Data, sent: float, read: float) -> Iterator[str]:
-    """Judge a number by the names that it has, and its bits by theirs."""
-    values, others = ours.get("values", {}), theirs.get("values", {})
-    match = match_bits(values, others, "value")
-    for name, other in match.to_new.items():
-        is_said, is_read = values[name]["value"] == sent, others[other]["value"] == read
-        if is_said != is_read:
-            yield "misread"
-        elif is_said and name in match.guessed:
-            yield "uncertain"
-    bits, others = ours.get("bits", {}), theirs.get("bits", {})
-    match = match_bits(bits, others, "at")
-    for name, other in match.to_new.items():
-        if _taken(bits[name]["at"], sent) != _taken(others[other]["at"], read):
-            yield "misread"
-        elif name in match.guessed:
-            yield "uncertain"
 
 
 def _taken(at: int | str, number: float) -> int:

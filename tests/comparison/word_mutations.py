@@ -27,10 +27,6 @@ def description(desk: Desk) -> None:
     desk.messages[desk.pick(desk.messages)]["description"] = "There is more to know."
 
 
-def vendor_name(desk: Desk) -> None:
-    desk.messages[desk.pick(desk.messages)]["vendor_name"] = "CMD_OTHER"
-
-
 def note(desk: Desk) -> None:
     field = desk.spot(lambda _: True).field
     cite = next(iter(desk.messages.values()))["cite"]
@@ -55,7 +51,6 @@ WORD_MUTATIONS: dict[str, Callable[[Desk], None]] = {
     "words: a named value": about_value,
     "words: summary": summary,
     "words: description": description,
-    "words: the vendor's name": vendor_name,
     "words: a note": note,
     "words: a part": part_about,
     "words: the title": title,

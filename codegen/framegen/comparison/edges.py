@@ -10,10 +10,11 @@ from __future__ import annotations
 from itertools import chain, combinations, islice, product
 from typing import TYPE_CHECKING, Any
 
+from framegen.comparison.pair import element_fields
 from framegen.model.slots import Items, Number, Packed, Text
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator, Sequence
+    from collections.abc import Iterable, Iterator, Mapping
 
     from framegen.model.layout import MessageLayout
     from framegen.model.slots import Field
@@ -28,69 +29,72 @@ _FLOATS = (0.0, 1.0, -0.1, 1e-3, 123456.75, 3e38)
 
 
 def values_to_try(
-    message: MessageLayout, other: MessageLayout | None, names: dict[str, str], *, pairs: bool
+    message: MessageLayout, other: MessageLayout | None, names: Mapping[str, str], *, pairs: bool
 ) -> Iterator[dict[str, Any]]:
     """Yield values of a message, at most `MOST`; `names` are those of its arguments in `other`.
 
     With `pairs`, two arguments at a time are varied too.
     """
-    theirs = {} if other is None else {slot.name: slot for slot in other.arguments}
-    slots = {slot.name: slot for slot in message.arguments}
-    edges = {
-        name: _edges(slot, theirs.get(names.get(name, "")), at)
-        for at, (name, slot) in enumerate(slots.items())
-    }
-    counts = _counts(message, other)
-    yield from islice(_assigned(message, slots, edges, counts, pairs=pairs), MOST)
+    edges = Edges(message, other, names)
+    yield from islice(chain(edges.single(), edges.pairs() if pairs else ()), MOST)
 
 
-def _assigned(
-    message: MessageLayout,
-    slots: dict[str, Field],
-    edges: dict[str, list[Any]],
-    counts: Sequence[int],
-    *,
-    pairs: bool,
-) -> Iterator[dict[str, Any]]:
-    usual = next((count for count in counts if _is_usual(message, count)), counts[0])
-    for count in counts:
-        yield _filled(message, slots, edges, count, {})
-    single = [{name: value} for name, each in edges.items() for value in each]
-    double: Iterator[dict[str, Any]] = (
-        {one: first, other: second}
-        for one, other in combinations(edges, 2)
-        for first, second in product(edges[one], edges[other])
-    )
-    for given in chain(single, double if pairs else ()):
-        yield _filled(message, slots, edges, usual, given)
-        if message.optional:
-            # Where it may be absent, every size shows what is there.
-            for count in counts:
-                if count != usual:
-                    yield _filled(message, slots, edges, count, given)
+class Edges:
+    """The values of one message that are tried; `names` are those of its arguments in `other`."""
+
+    def __init__(
+        self, message: MessageLayout, other: MessageLayout | None, names: Mapping[str, str]
+    ) -> None:
+        theirs = {} if other is None else {slot.name: slot for slot in other.arguments}
+        self._message = message
+        self._slots = {slot.name: slot for slot in message.arguments}
+        self._edges = {
+            name: _edges(slot, theirs.get(names.get(name, "")), at)
+            for at, (name, slot) in enumerate(self._slots.items())
+        }
+        self._counts = _counts(message, other)
+
+    def single(self) -> Iterator[dict[str, Any]]:
+        """Yield values of which one is varied at a time, and each count."""
+        for count in self._counts:
+            yield self._filled(count, {})
+        yield from self._varied(
+            {name: value} for name, each in self._edges.items() for value in each
+        )
+
+    def pairs(self) -> Iterator[dict[str, Any]]:
+        """Yield values of which two are varied at a time."""
+        yield from self._varied(
+            {one: first, other: second}
+            for one, other in combinations(self._edges, 2)
+            for first, second in product(self._edges[one], self._edges[other])
+        )
+
+    def _varied(self, several: Iterable[dict[str, Any]]) -> Iterator[dict[str, Any]]:
+        usual = next(
+            (count for count in self._counts if _is_usual(self._message, count)), self._counts[0]
+        )
+        # Where it may be absent, every size shows what is there.
+        others = [count for count in self._counts if count != usual and self._message.optional]
+        for given in several:
+            for count in (usual, *others):
+                yield self._filled(count, given)
+
+    def _filled(self, count: int, given: dict[str, Any]) -> dict[str, Any]:
+        """Return every argument: as given, or as usual; None for what so short a frame has not."""
+        there = {slot.name for slot in self._message.there(count)}
+        return {
+            name: _whole(slot, given.get(name, self._edges[name][0]), count, name in given)
+            if name in there
+            else None
+            for name, slot in self._slots.items()
+        }
 
 
 def _is_usual(message: MessageLayout, count: int) -> bool:
     if message.items is None:
         return not message.optional or count == message.counts[-1]
     return count >= min(_FEW, message.counts[-1]) and message.size_at(count) <= _SHORT
-
-
-def _filled(
-    message: MessageLayout,
-    slots: dict[str, Field],
-    edges: dict[str, list[Any]],
-    count: int,
-    given: dict[str, Any],
-) -> dict[str, Any]:
-    """Return every argument: as given, or as usual; None for what so short a frame has not."""
-    there = {slot.name for slot in message.there(count)}
-    return {
-        name: _whole(slot, given.get(name, edges[name][0]), count, name in given)
-        if name in there
-        else None
-        for name, slot in slots.items()
-    }
 
 
 def _whole(slot: Field, value: Any, count: int, varied: bool) -> Any:
@@ -141,9 +145,10 @@ def _edges(slot: Field, other: Field | None, at: int) -> list[Any]:
 def _element_edges(items: Items, other: Field | None) -> list[Any]:
     """Return elements to try: each field of an element at each of its edges."""
     there = {each.name: each for each in other.fields} if isinstance(other, Items) else {}
+    names = element_fields(items, other).to_new if isinstance(other, Items) else {}
     edges: dict[str, list[Any]] = {}
     for at, field in enumerate(items.fields):
-        theirs = there.get(field.name)
+        theirs = there.get(names.get(field.name, ""))
         if items.element is None and isinstance(other, Items) and other.element is None:
             theirs = other.fields[0]
         edges[field.name] = (

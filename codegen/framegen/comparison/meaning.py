@@ -249,7 +249,7 @@ def _names(
     ours: NumberField, theirs: NumberField, sent: float, read: float, path: str
 ) -> Iterator[Difference]:
     """Compare the names of two numbers: one that only one end has is a matter of documentation."""
-    if not ours.values and not theirs.values:
+    if not ours.values or not theirs.values:
         return
     pairing = named_values(ours, theirs)
     said = [name for name, each in ours.values.items() if each.value == sent]

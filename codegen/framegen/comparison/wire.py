@@ -8,9 +8,10 @@ from __future__ import annotations
 
 from contextlib import suppress
 from dataclasses import dataclass, field
+from itertools import islice
 from typing import TYPE_CHECKING, Any
 
-from framegen.comparison.edges import MOST, values_to_try
+from framegen.comparison.edges import MOST, Edges
 from framegen.comparison.effect import OUTCOMES, Effect, Witness
 from framegen.comparison.meaning import differences, translated
 from framegen.comparison.pair import shape
@@ -27,6 +28,8 @@ if TYPE_CHECKING:
     from framegen.language.values import Direction
     from framegen.model.layout import MessageLayout
 
+# So many frames of all messages together are tried out at most where two values are varied.
+_MOST_OF_ALL = 100_000
 _OTHER: dict[Which, Which] = {"old": "new", "new": "old"}
 
 
@@ -95,8 +98,10 @@ def _effect(pair: Pair, trials: Trials, witness: Witness, *, breaks: bool) -> Ef
 def trials_of(pair: Pair, sender: Which) -> Iterator[Trial]:
     """Yield a trial for each message that one edition sends."""
     alike = _same_lines(pair)
-    for message in pair.edition(sender).model.messages.values():
-        yield Trial(pair, sender, message, alike)
+    messages = pair.edition(sender).model.messages.values()
+    both = len(pair.old.model.messages) + len(pair.new.model.messages)
+    for message in messages:
+        yield Trial(pair, sender, message, alike, min(MOST, _MOST_OF_ALL // both))
 
 
 def _same_lines(pair: Pair) -> frozenset[str]:
@@ -113,8 +118,15 @@ class Trial:
     """One message that one edition sends, and the other edition, which reads it."""
 
     def __init__(
-        self, pair: Pair, sender: Which, message: MessageLayout, alike: frozenset[str]
+        self,
+        pair: Pair,
+        sender: Which,
+        message: MessageLayout,
+        alike: frozenset[str],
+        most: int = MOST,
     ) -> None:
+        self.most = most
+        self.cut_short = False
         self.pair = pair
         self.sender = sender
         self.message = message
@@ -134,7 +146,7 @@ class Trial:
         found = Trials(self.sender, self.message, self.message.direction)
         for witness, breaks in self.frames():
             found.add(witness, breaks=breaks)
-        found.all_tried = found.tried < MOST
+        found.all_tried = not self.cut_short
         if self.other is not None and found.counts.keys() == {"refused"}:
             # Nothing at all of what both ends know is understood.
             found.breaking, found.adding = found.breaking or found.adding, None
@@ -142,8 +154,24 @@ class Trial:
 
     def frames(self) -> Iterator[tuple[Witness, bool]]:
         """Yield what becomes of each frame that is tried, and whether that breaks anything."""
-        names = {} if self.other is None else dict(self._fields(self.other).to_new)
-        for values in values_to_try(self.message, self.other, names, pairs=self.pairs):
+        names = {} if self.other is None else self._fields(self.other).to_new
+        edges = Edges(self.message, self.other, names)
+        outcomes: set[Outcome] = set()
+        tried = 0
+        for witness, breaks in self._become(islice(edges.single(), MOST)):
+            outcomes.add(witness.outcome)
+            tried += 1
+            yield witness, breaks
+        if not self.pairs or "misread" in outcomes or outcomes == {"refused"}:
+            # There is nothing worse, or nothing but chance lets a frame through.
+            return
+        left = max(0, self.most - tried)
+        pairs = edges.pairs()
+        yield from self._become(islice(pairs, left))
+        self.cut_short = next(pairs, None) is not None
+
+    def _become(self, several: Iterator[dict[str, Any]]) -> Iterator[tuple[Witness, bool]]:
+        for values in several:
             # A tolerated edition may have messages that none of its frames can carry.
             with suppress(Unencodable, OverflowError):
                 yield self.of(values)
@@ -223,5 +251,6 @@ class Trial:
         return self.pair.fields(other, self.message).flipped
 
 
-def _rank(witness: Witness) -> int:
-    return OUTCOMES.index(witness.outcome)
+def _rank(witness: Witness) -> tuple[int, int]:
+    """Rank witnesses: the worst is kept, and of equals the shortest, which is read best."""
+    return OUTCOMES.index(witness.outcome), -len(witness.data)
