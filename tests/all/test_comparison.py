@@ -33,7 +33,7 @@ def all_hold(editions: Editions) -> None:
         proof.assert_each_frame_is_judged_right(talk)
         proof.assert_witnesses_show_it(talk)
         proof.assert_no_frame_is_lost(talk)
-        proof.assert_mirrored(editions)
+        proof.assert_mirrored(talk)
 
 
 def places(name: str) -> Iterator[Editions]:

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from contextlib import ExitStack
-from functools import cache
+from functools import cache, cached_property
 from typing import TYPE_CHECKING, Literal
 
 from framegen.comparison.pair import Pair
-from framegen.comparison.wire import trials_of
+from framegen.comparison.wire import trials_of, try_out
 
 from tests.comparison.authors import edition_of
 from tests.comparison.oracle import Oracle
@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from types import ModuleType
 
     from framegen.comparison.edition import Edition
-    from framegen.comparison.wire import Trial
+    from framegen.comparison.wire import Trial, Trials
 
     from tests.comparison.mutations import Editions
     from tests.factories import Data
@@ -58,6 +58,11 @@ class Talk:
     @staticmethod
     def _made(edition: Edition, until: ExitStack) -> ModuleType:
         return _before(edition) if edition.label == "old" else library_of(edition, "after", until)
+
+    @cached_property
+    def tried(self) -> list[Trials]:
+        """What the comparison says of each message of each sender."""
+        return try_out(self.pair)
 
     def trials(self) -> Iterator[tuple[Oracle, Trial]]:
         """Yield each trial of each sender, with the judge of what it sends."""
