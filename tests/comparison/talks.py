@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import atexit
 from contextlib import ExitStack
 from functools import cache, cached_property
 from typing import TYPE_CHECKING, Literal
@@ -27,6 +28,7 @@ Sender = Literal["old", "new"]
 SENDERS: tuple[Sender, Sender] = ("old", "new")
 # Libraries of the specs as they are; they stay until the end, and are few.
 _UNTIL_THE_END = ExitStack()
+atexit.register(_UNTIL_THE_END.close)
 
 
 def library_of(edition: Edition, name: str, until: ExitStack) -> ModuleType:
