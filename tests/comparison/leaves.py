@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
+from framegen.comparison.changes import changes
+from framegen.comparison.pair import Pair
 from pydantic import ValidationError
 
 from tests.comparison.edits import edition, with_
@@ -39,6 +41,21 @@ def others(data: Data, path: Steps, value: Any, old: Edition) -> Edition | None:
         if new.spec != old.spec:
             return new
     return None
+
+
+def told_at_their_places(data: Data, each: int) -> int:
+    """Change one of so many leaves; each is told there, or above. Return how many there are."""
+    old, seen = edition(data), 0
+    for path, value in [*leaves(data)][::each]:
+        new = others(data, path, value, old)
+        if new is None:
+            continue
+        seen += 1
+        told = changes(Pair(old, new))
+        places = [place for change in told for place in (change.old, change.new)]
+        assert any(place is not None and path[: len(place)] == place for place in places), path
+        assert mirrored(told) == turned(changes(Pair(new, old)))
+    return seen
 
 
 def _others(value: Any) -> list[Any]:

@@ -6,7 +6,6 @@ import ast
 from itertools import chain, islice, zip_longest
 from typing import TYPE_CHECKING, Any
 
-from framegen.comparison.comparison import Comparison
 from framegen.comparison.effect import OUTCOMES
 from framegen.comparison.wire import trials_of, try_out, wire_effects
 
@@ -21,7 +20,6 @@ if TYPE_CHECKING:
     from framegen.comparison.pair import Pair
     from framegen.comparison.wire import Trial, Trials
 
-    from tests.comparison.mutations import Editions
     from tests.comparison.oracle import Oracle
     from tests.comparison.talks import Talk
     from tests.protocols.peer import Values
@@ -65,7 +63,7 @@ def _bad(outcome: Any) -> Any:
 
 def assert_witnesses_show_it(talk: Talk) -> None:
     """Each witness, sent with one library and read with the other, shows what it claims."""
-    for trials in try_out(talk.pair):
+    for trials in talk.tried:
         for witness in (trials.breaking, trials.adding):
             if witness is not None:
                 assert_shown(talk.oracles[witness.sender], trials, witness)
@@ -82,10 +80,9 @@ def assert_shown(oracle: Oracle, trials: Trials, witness: Witness) -> None:
         assert judged.message in witness.reading
 
 
-def assert_mirrored(editions: Editions) -> None:
+def assert_mirrored(talk: Talk) -> None:
     """The comparison of the new edition with the old has the same cells, old and new swapped."""
-    there = _cells(Comparison(editions.old, editions.new).trials)
-    back = _cells(Comparison(editions.new, editions.old).trials)
+    there, back = _cells(talk.tried), _cells(try_out(talk.pair.turned))
     swapped = {"old": "new", "new": "old"}
     assert {(swapped[sender], name): counts for (sender, name), counts in there.items()} == back
 

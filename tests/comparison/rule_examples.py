@@ -37,6 +37,8 @@ def _built(rule: ChangeRule, own: Data, other: Data) -> Data:
     spec = data_of(BASES / "lamps.yaml")
     for message in spec["messages"].values():
         del message["examples"]
+    # Longer than any request with the same id, so that no example tells of frames that fit both.
+    spec["messages"]["LampState"]["fields"]["level"]["type"] = "u64"
     spec["sources"]["board"] = {"title": "A board", "kind": "observation"}
     if rule.subject == "program" and "pose" in {*own, *other}:
         _with_pose(spec)

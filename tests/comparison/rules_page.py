@@ -24,12 +24,15 @@ PAGE = ROOT / "docs" / "what-changes-break.md"
 _HEAD = """\
 # What changes break
 
-`framegen diff` compares two editions of a spec, and tells what became of what: each change by the name of a rule below.
-A rule says why a change matters and what to do about it, not what it breaks: that is tried out anew for each two specs,
-with the frames that both can send, the exchanges that they have, and the libraries that are made from them.
+`framegen diff` compares two editions of a spec, and tells what became of what:
+each change by the name of a rule below.
+A rule says why a change matters and what to do about it, not what it breaks: that is tried out
+anew for each two specs, with the frames that both can send, the exchanges that they have,
+and the libraries that are made from them.
 
 For the example of each rule, the outcome stands beside it.
-The host has the library, and the lamp answers; one of them has the edition before, and the other the one after.
+The host has the library, and the lamp answers;
+one of them has the edition before, and the other the one after.
 `as before` is said where nothing is noticed, and `new` where only what is new is not understood.
 Of a whole spec, the lines that do not matter are left out. `framegen rules ID` tells of one rule.
 """

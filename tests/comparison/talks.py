@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+import atexit
 from contextlib import ExitStack
-from functools import cache
+from functools import cache, cached_property
 from typing import TYPE_CHECKING, Literal
 
 from framegen.comparison.pair import Pair
-from framegen.comparison.wire import trials_of
+from framegen.comparison.wire import trials_of, try_out
 
 from tests.comparison.authors import edition_of
 from tests.comparison.oracle import Oracle
@@ -18,7 +19,7 @@ if TYPE_CHECKING:
     from types import ModuleType
 
     from framegen.comparison.edition import Edition
-    from framegen.comparison.wire import Trial
+    from framegen.comparison.wire import Trial, Trials
 
     from tests.comparison.mutations import Editions
     from tests.factories import Data
@@ -27,6 +28,7 @@ Sender = Literal["old", "new"]
 SENDERS: tuple[Sender, Sender] = ("old", "new")
 # Libraries of the specs as they are; they stay until the end, and are few.
 _UNTIL_THE_END = ExitStack()
+atexit.register(_UNTIL_THE_END.close)
 
 
 def library_of(edition: Edition, name: str, until: ExitStack) -> ModuleType:
@@ -58,6 +60,11 @@ class Talk:
     @staticmethod
     def _made(edition: Edition, until: ExitStack) -> ModuleType:
         return _before(edition) if edition.label == "old" else library_of(edition, "after", until)
+
+    @cached_property
+    def tried(self) -> list[Trials]:
+        """What the comparison says of each message of each sender."""
+        return try_out(self.pair)
 
     def trials(self) -> Iterator[tuple[Oracle, Trial]]:
         """Yield each trial of each sender, with the judge of what it sends."""

@@ -75,7 +75,7 @@ def test_what_both_editions_understand_is_heard_on_one_line(talk: Talk) -> None:
 
 
 def test_the_way_back_mirrors_the_way_there(talk: Talk) -> None:
-    proof.assert_mirrored(talk.editions)
+    proof.assert_mirrored(talk)
 
 
 @pytest.mark.parametrize("spec", ["lamp", "tfmini"])

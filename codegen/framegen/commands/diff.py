@@ -20,6 +20,7 @@ USUAL = ("wire", "conversation", "programs", "uncertain")
 SUMMARY = "Compare two editions of a spec, and show what breaks between their users."
 EXAMPLES = (
     ("framegen diff", "from the newest edition in spec/released, or else HEAD, to the spec here"),
+    ("framegen diff busservo", "the same for one spec of several"),
     ("framegen diff v1.0.0", "from a git revision: a tag, a branch, HEAD~3"),
     ("framegen diff v1.0.0:spec/old.yaml new.yaml", "a file at a revision; - is the input"),
     ("framegen diff busservo-1.0.0 HEAD", "from a released edition to the last commit"),
