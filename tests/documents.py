@@ -309,4 +309,7 @@ def refresh(pages: Sequence[Path]) -> int:
 
 
 if __name__ == "__main__":
+    from tests.comparison.rules_page import write
+
+    write()
     sys.exit(refresh(PAGES))

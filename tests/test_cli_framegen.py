@@ -100,6 +100,8 @@ EXIT_CODES = [
     (["guess"], 2),
     (["guess", "missing.bin"], 2),
     (["guess", "spec"], 2),
+    (["release", "missing.yaml"], 2),
+    (["release", "busservo", "--version", "one"], 2),
     (["rules", "no-such-rule"], 2),
     (["rules", "two", "rules"], 2),
     (["schema", "superfluous"], 2),
@@ -402,10 +404,10 @@ def test_a_spec_of_several_is_found_by_its_name(
     monkeypatch.chdir(here)
     assert main(["explain", "a", "55 55 02 07"]) == 0
     assert capsys.readouterr().out.startswith("ActionGroupStop, ")
-    assert main(["diff", "a", "b"]) == 1
-    assert "busservo became greenhouse" in capsys.readouterr().out
+    assert main(["diff", "a", "b"]) == 2
+    assert "spec/a.yaml is `busservo` and spec/b.yaml is `greenhouse`" in capsys.readouterr().err
     assert main(["diff", "a", "c"]) == 2
-    assert capsys.readouterr().err.startswith("framegen: error: c does not exist\n")
+    assert capsys.readouterr().err.startswith("framegen: error: `c` is no file and no released ")
 
 
 def test_without_a_spec_anywhere_the_error_says_what_to_do(

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import subprocess
 from itertools import pairwise
+from shutil import which
 from typing import TYPE_CHECKING, Any
 
 import pytest
@@ -187,3 +189,17 @@ def test_a_released_edition_is_what_its_name_says() -> None:
             assert Version.parse(protocol["version"]) <= Version.parse(
                 compiled_file(spec).spec.protocol.version
             )
+
+
+@pytest.mark.skipif(which("git") is None, reason="there is no git here")
+def test_a_released_edition_was_never_edited() -> None:
+    folder = "spec/released"
+    if git("rev-parse", "--is-inside-work-tree") != "true\n":
+        pytest.skip("this is no clone")
+    assert git("log", "--diff-filter=MD", "--format=%h %s", "--", folder) == ""
+    assert git("diff", "--name-only", "--diff-filter=MD", "HEAD", "--", folder) == ""
+
+
+def git(*words: str) -> str:
+    command = ["git", *words]
+    return subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=False).stdout

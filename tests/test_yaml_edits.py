@@ -21,7 +21,7 @@ TEXTS = (
     | st.sampled_from(["true", "0x1F", "- a", "a:", " a", "a ", "messages.X.fields.y", "=", "1_0"])
 )
 VALUES = st.recursive(
-    TEXTS | st.integers(-(10**6), 10**6) | st.booleans(),
+    TEXTS | st.integers(-(10**6), 10**6) | st.booleans() | st.none(),
     lambda inner: st.lists(inner, max_size=3) | st.dictionaries(TEXTS, inner, max_size=3),
     max_leaves=8,
 )

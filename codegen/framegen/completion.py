@@ -35,10 +35,11 @@ def completion(parser: ArgumentParser, shell: str) -> str:
 
 def _candidates(command: str, action: Action) -> Candidates | None:
     from framegen.checks import RULES  # noqa: PLC0415
+    from framegen.comparison.changes import CHANGE_RULES  # noqa: PLC0415
     from framegen.targets.table import TARGETS  # noqa: PLC0415
 
     if command == "framegen rules" and action.metavar == "ID":
-        return Words([rule.id for rule in RULES])
+        return Words([rule.id for rule in (*RULES, *CHANGE_RULES)])
     if action.metavar == "NAME" and (command == "framegen targets" or action.dest == "target"):
         return Words([target.name for target in TARGETS])
     return _BY_METAVAR.get(str(action.metavar))

@@ -19,6 +19,7 @@ from busservo import MESSAGES, ServoMove
 from busservo._cli.examples import VERBS
 from busservo_simulator.faults import CHANCES
 from framegen.checks import RULES
+from framegen.comparison.changes import CHANGE_RULES
 from framegen.targets.table import TARGETS
 
 if TYPE_CHECKING:
@@ -74,7 +75,7 @@ OFFERED = [
     ("busservo-simulator --loc", ["--local-echo"]),
     ("framegen ne", ["new"]),
     ("framegen rules unknown-t", ["unknown-type"]),
-    ("framegen rules ", sorted(rule.id for rule in RULES)),
+    ("framegen rules ", sorted(rule.id for rule in (*RULES, *CHANGE_RULES))),
     ("framegen targets ", sorted(target.name for target in TARGETS)),
     ("framegen generate --target py", ["python"]),
     ("framegen check spec/bus", ["spec/busservo.yaml"]),

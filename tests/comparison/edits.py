@@ -120,7 +120,12 @@ EDITS: dict[str, tuple[Data, Data]] = {
     "silent address": (ALL, with_(ALL, *ASK, "station", "values", "all", "silent", False)),
     "name of the address": (ALL, renamed(ALL, "station", "device")),
     "name of a kind of frame": (ALL, renamed(ALL, "ask", "query")),
-    "frame of a message": (ALL, with_(ALL, *TAIL, "frame", "ask")),
+    "frame of a message": (
+        ALL,
+        with_(
+            with_(ALL, *TAIL, "frame", "ask"), *TAIL, "id", {"class": 1, "kind": 9, "version": 9}
+        ),
+    ),
     "id of several": (
         ALL,
         with_(ALL, "messages", "Lists", "id", {"class": 1, "kind": 4, "version": 9}),

@@ -21,8 +21,7 @@ WORKFLOW = ROOT / ".github" / "workflows" / "ci.yml"
 HOOKS = ROOT / ".pre-commit-hooks.yaml"
 BASH = shutil.which("bash")
 GIT = shutil.which("git")
-NARROWER = ("ramp_s:\n        type: u16", "ramp_s:\n        type: u8")
-LONGER = ("length: 3 * vent_count + 3", "length: 3 * vent_count + 2")
+MILLISECONDS = ("type: u16\n        unit: s\n", "type: u16\n        unit: ms\n")
 
 needs_bash = pytest.mark.skipif(
     os.name == "nt" or BASH is None or GIT is None,
@@ -69,14 +68,13 @@ def checkout(tmp_path: Path) -> Path:
     return tmp_path / "clone"
 
 
-def change(checkout: Path, *edits: tuple[str, str]) -> None:
-    """Edit the spec of a checkout."""
+def change(checkout: Path) -> None:
+    """Give a field of a checkout's spec another unit."""
     file = checkout / "spec" / "greenhouse.yaml"
     text = file.read_text(encoding="utf-8")
-    for old, new in edits:
-        assert old in text
-        text = text.replace(old, new, 1)
-    file.write_text(text, encoding="utf-8")
+    old, new = MILLISECONDS
+    assert old in text
+    file.write_text(text.replace(old, new, 1), encoding="utf-8")
 
 
 class Runner:
@@ -140,7 +138,7 @@ def runner(tmp_path: Path, checkout: Path) -> Runner:
 
 @needs_bash
 def test_a_pull_request_is_compared_with_its_base_branch(runner: Runner) -> None:
-    change(runner.checkout, LONGER, NARROWER)
+    change(runner.checkout)
     code, printed = runner.compare(GITHUB_BASE_REF="main")
     assert code == 1, printed
     assert re.search(r"^::error file=spec/greenhouse\.yaml,line=\d+", printed, re.MULTILINE)
@@ -151,8 +149,9 @@ def test_a_pull_request_is_compared_with_its_base_branch(runner: Runner) -> None
 
 
 @needs_bash
+@pytest.mark.slow
 def test_what_breaks_fails_only_where_it_is_asked_to(runner: Runner) -> None:
-    change(runner.checkout, LONGER, NARROWER)
+    change(runner.checkout)
     code, printed = runner.compare(
         BASE="HEAD", SPEC="spec/greenhouse.yaml", FAIL_ON="never", GITHUB_BASE_REF=""
     )
@@ -196,6 +195,21 @@ def test_the_report_is_one_comment(runner: Runner, ours: str, asked: str) -> Non
     body = runner.temporary / "framegen-comment.md"
     assert runner.asked.read_text(encoding="utf-8") == f"{asked}{body}\n"
     assert body.read_text(encoding="utf-8") == "<!-- framegen diff -->\nWhat breaks.\n"
+
+
+@needs_bash
+def test_where_nothing_changed_there_is_no_comment(
+    runner: Runner, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.chdir(runner.checkout)
+    assert main(["diff", "HEAD", "--format", "markdown"]) == 0
+    runner.report.write_text(capsys.readouterr().out, encoding="utf-8")
+    runner.has_gh(comment="")
+    assert runner.comment() == (0, "")
+    assert not runner.asked.exists()
+    runner.has_gh(comment="41")
+    assert runner.comment() == (0, "")
+    assert "comments/41" in runner.asked.read_text(encoding="utf-8")
 
 
 @needs_bash
@@ -264,7 +278,7 @@ def test_each_hook_is_a_verb_that_does_its_work(
         assert re.search(hook["files"], spec)
         files = [spec] if hook.get("pass_filenames", True) else []
         assert main([*words, *files]) == 0, capsys.readouterr().err
-    change(checkout, LONGER, NARROWER)
+    change(checkout)
     assert main(["diff"]) == 1
     assert "VentsOpen" in capsys.readouterr().out
 

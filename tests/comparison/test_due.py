@@ -22,6 +22,8 @@ ACCEPTED = Effect("wire", "refused", HERE, HERE, "it is refused", accepted="No l
 UNCERTAIN = Effect("wire", "uncertain", HERE, HERE, "it may be another one", certain=False)
 ADDS = Effect("programs", "added", None, HERE, "it is new", breaks=False)
 WORDS = Change("about", HERE, HERE, "LampFade is described otherwise")
+DEPRECATED = Change("message-deprecated", HERE, HERE, "LampFade is deprecated now: It is slow.")
+IS_NEW = "something is new or deprecated"
 WORDED = "something is worded otherwise"
 VERSION = Change("version", ("protocol", "version"), ("protocol", "version"), "1.0.0 became 1.1.0")
 TOLD = Change("history", None, ("history", 0), "1.1.0 is told of")
@@ -33,6 +35,8 @@ TOLD = Change("history", None, ("history", 0), "1.1.0 is told of")
         ([], [], None),
         ([], [VERSION, TOLD], None),
         ([], [VERSION, WORDS], "patch"),
+        ([], [DEPRECATED, WORDS], "minor"),
+        ([BREAKS], [DEPRECATED], "major"),
         ([ADDS], [], "minor"),
         ([ADDS], [WORDS], "minor"),
         ([ADDS, BREAKS], [WORDS], "major"),
@@ -70,7 +74,7 @@ def test_a_bump_leads_to_a_version(old: str, bump: Bump, new: str) -> None:
         ("1.0.0", "0.9.0", None, "the version went back from 1.0.0 to 0.9.0"),
         (
             *("1.0.0", "1.0.0", "minor"),
-            "something is new since 1.0.0, and the version is still that: 1.1.0 is due",
+            f"{IS_NEW} since 1.0.0, and the version is still that: 1.1.0 is due",
         ),
         (
             *("1.0.0", "1.4.2", "major"),

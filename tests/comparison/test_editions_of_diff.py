@@ -89,6 +89,8 @@ BOTH_BLINDS = ("blinds", BLINDS_VERSION, BLINDS_VERSION)
         (("v0.1.0:./spec/old_lamp.yaml", "v0.2.0"), [("stage_lamp", "0.1.0", "0.2.0")]),
         ((":spec/lamp.yaml",), [("stage_lamp", "0.4.0", "0.5.0")]),
         (("v0.2.0:spec/lamp.yaml", ":spec/lamp.yaml"), [("stage_lamp", "0.2.0", "0.4.0")]),
+        (("lamp",), [("stage_lamp", "0.3.0", "0.5.0")]),
+        (("spec/blinds.yaml",), [BOTH_BLINDS]),
         (("HEAD", "lamp"), [("stage_lamp", "0.3.0", "0.5.0")]),
         (("HEAD", "spec/lamp.yaml"), [("stage_lamp", "0.3.0", "0.5.0")]),
         (("spec/lamp.yaml", "HEAD"), [("stage_lamp", "0.5.0", "0.3.0")]),
@@ -180,7 +182,6 @@ WRONG = [
         "a comparison of nothing: both are spec/lamp.yaml",
         "two editions",
     ),
-    (("lamp",), "a comparison of nothing: spec/lamp.yaml is the spec", "diff HEAD spec/lamp.yaml"),
     (("HEAD:spec/lamp.yaml", "HEAD:spec/lamp.yaml"), "a comparison of nothing", "two editions"),
 ]
 

@@ -6,8 +6,6 @@ import argparse
 import sys
 from typing import TYPE_CHECKING
 
-from framegen.reading.yamltree import Unusable
-
 if TYPE_CHECKING:
     from argparse import ArgumentParser, Namespace
     from collections.abc import Callable
@@ -17,11 +15,12 @@ if TYPE_CHECKING:
 
 FORMATS = ("text", "json", "markdown", "github")
 FAILURES = ("wire", "conversation", "programs", "uncertain", "version", "never")
-_USUAL = ("wire", "conversation", "programs", "uncertain")
+USUAL = ("wire", "conversation", "programs", "uncertain")
 
 SUMMARY = "Compare two editions of a spec, and show what breaks between their users."
 EXAMPLES = (
     ("framegen diff", "from the newest edition in spec/released, or else HEAD, to the spec here"),
+    ("framegen diff busservo", "the same for one spec of several"),
     ("framegen diff v1.0.0", "from a git revision: a tag, a branch, HEAD~3"),
     ("framegen diff v1.0.0:spec/old.yaml new.yaml", "a file at a revision; - is the input"),
     ("framegen diff busservo-1.0.0 HEAD", "from a released edition to the last commit"),
@@ -64,7 +63,7 @@ def add_arguments(parser: ArgumentParser) -> None:
         action="append",
         type=_failures,
         metavar="WHAT",
-        help=f"what counts, several by commas: {','.join(_USUAL)} without this",
+        help=f"what counts, several by commas: {','.join(USUAL)} without this",
     )
     parser.add_argument_group("what counts", _AXES)
     parser.add_argument_group("exit codes", _EXIT_CODES)
@@ -104,6 +103,7 @@ def _report(
     from framegen.comparison.comparison import Comparison  # noqa: PLC0415
     from framegen.comparison.report.verdict import exit_status  # noqa: PLC0415
     from framegen.comparison.report.view import View  # noqa: PLC0415
+    from framegen.reading.yamltree import Unusable  # noqa: PLC0415
 
     view = View(Comparison(old, new))
     disliked = next((each for each in (old, new) if each.compiled.tolerated), None)
@@ -124,6 +124,8 @@ def _report(
 
 
 def _refuse_strangers(view: View) -> None:
+    from framegen.reading.yamltree import Unusable  # noqa: PLC0415
+
     old, new = (each.spec.protocol.name for each in (view.old, view.new))
     if old != new and not view.pair.messages.to_new:
         raise Unusable(
@@ -134,7 +136,9 @@ def _refuse_strangers(view: View) -> None:
 
 
 def _fail_on(given: list[list[str]] | None) -> frozenset[str]:
-    words = frozenset(_USUAL if given is None else (word for each in given for word in each))
+    from framegen.reading.yamltree import Unusable  # noqa: PLC0415
+
+    words = frozenset(USUAL if given is None else (word for each in given for word in each))
     if "never" in words and len(words) > 1:
         others = ", ".join(sorted(words - {"never"}))
         raise Unusable(

@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 from framegen.comparison.effect import Effect
-from framegen.comparison.seams import explain
+from framegen.comparison.explained import explain
 from framegen.reading.yamltree import dotted
 
 if TYPE_CHECKING:

@@ -17,7 +17,7 @@ Bump: TypeAlias = Literal["major", "minor", "patch"]
 
 _WHAT: dict[Bump, str] = {
     "major": "something breaks",
-    "minor": "something is new",
+    "minor": "something is new or deprecated",
     "patch": "something is worded otherwise",
 }
 
@@ -26,13 +26,22 @@ def due(effects: Iterable[Effect], changes: Iterable[Change]) -> Bump | None:
     """Return the bump that is due, None where nothing changed.
 
     What breaks anybody is major, accepted and uncertain or not; what anybody notices besides, such
-    as a new message, is minor. A change without any effect is documentation, and a patch; the
-    version itself and what the history says of it are none.
+    as a new message or the warning for one that is deprecated, is minor. A change without any
+    effect is documentation, and a patch; the version itself and what the history says of it are
+    none.
     """
-    found = [effect.breaks for effect in effects]
-    if found:
-        return "major" if any(found) else "minor"
-    return "patch" if any(not tells_versions(change.path) for change in changes) else None
+    breaks = [effect.breaks for effect in effects]
+    found = [change for change in changes if not tells_versions(change.path)]
+    if any(breaks):
+        return "major"
+    if breaks or any(warns(change) for change in found):
+        return "minor"
+    return "patch" if found else None
+
+
+def warns(change: Change) -> bool:
+    """Tell whether users of a library are warned, though nothing became of their programs."""
+    return change.rule == "message-deprecated"
 
 
 def tells_versions(path: KeyPath) -> bool:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import sys
 from dataclasses import dataclass, field, replace
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, TypeGuard
 
 from framegen.comparison.edition import Edition
 from framegen.comparison.revision import NotInRevision, Revision
@@ -46,7 +46,8 @@ def find_editions(old: str | None = None, new: str | None = None) -> Editions:
     """Find and read the editions that two words name. Raises Unusable.
 
     Without `old`, it is the newest one released, or else the last commit; without `new`, the spec
-    as it lies here. Words that name no protocol stand for every spec of the project.
+    as it lies here. A spec of the project that is named alone is the new one. Words that name no
+    protocol stand for every spec of the project.
     """
     if old is not None and old == new:
         raise Unusable(
@@ -61,6 +62,8 @@ def find_editions(old: str | None = None, new: str | None = None) -> Editions:
         return Editions([(_beside(before, edition, after.file), edition)])
     edition = edition_of(before.source)
     if not isinstance(after, _Given):
+        if after is None and _lies_here(before.file):
+            return Editions([(older_edition(before.file, edition.spec.protocol.name), edition)])
         return Editions([(edition, _beside(after, edition, before.file))])
     if before.place == after.place:
         raise Unusable(f"a comparison of nothing: both are {after.source.name}", hint=_NAME_TWO)
@@ -94,7 +97,7 @@ def released(folder: Path, name: str) -> list[Path]:
     versions: dict[Path, Version] = {}
     for file in (folder / RELEASED).glob("*.yaml"):
         version = Version.parse_or_none(file.stem.removeprefix(f"{name}-"))
-        if version is not None:
+        if version is not None and file.stem != str(version):
             versions[file] = version
     return sorted(versions, key=versions.__getitem__, reverse=True)
 
@@ -188,15 +191,15 @@ def _beside(word: Revision | None, edition: Edition, file: Path | None) -> Editi
     if word is not None and file is not None and file.parent.name != RELEASED:
         return edition_of(_at(word, file))
     spec = _spec_of(edition)
-    if word is not None:
-        return edition_of(_at(word, spec))
-    if file is not None and file.resolve() == spec.resolve():
-        name = visible(file.as_posix())
-        raise Unusable(
-            f"a comparison of nothing: {name} is the spec as it lies here",
-            hint=f"name first what to compare it with: `framegen diff HEAD {name}`",
-        )
-    return working_edition(spec)
+    return working_edition(spec) if word is None else edition_of(_at(word, spec))
+
+
+def _lies_here(file: Path | None) -> TypeGuard[Path]:
+    """Tell whether a file is a spec of the project as it lies here."""
+    try:
+        return file is not None and file.resolve() in {spec.resolve() for spec in all_specs()}
+    except Unusable:
+        return False
 
 
 def _spec_of(edition: Edition) -> Path:

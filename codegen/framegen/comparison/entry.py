@@ -4,12 +4,14 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from framegen.comparison.due import tells_versions
+from framegen.comparison.changes import CHANGE_RULES
+from framegen.comparison.due import tells_versions, warns
 from framegen.pluralize import pluralize
 
 if TYPE_CHECKING:
     from framegen.comparison.comparison import Comparison
 
+_DOCUMENTS = frozenset(rule.id for rule in CHANGE_RULES if rule.subject == "document")
 # As many of those that no user notices are told one by one.
 _MOST_WORDS = 3
 
@@ -27,15 +29,17 @@ def sentences(comparison: Comparison) -> list[str]:
         if tells_versions(here):
             continue
         near = any(here[: len(path)] == path or path[: len(here)] == here for path in paths)
-        (noticed if near else words).append(_sentence(change.text))
+        told = warns(change) or (near and change.rule not in _DOCUMENTS)
+        (noticed if told else words).append(sentence(change.text))
     if not noticed:
-        noticed = [_sentence(effect.text) for effect in effects]
+        noticed = [sentence(effect.text) for effect in effects]
     noticed, words = [*dict.fromkeys(noticed)], [*dict.fromkeys(words)]
     if len(words) > _MOST_WORDS:
         words = [f"{pluralize(len(words), 'change')} of words, sources or examples."]
     return [*noticed, *words]
 
 
-def _sentence(text: str) -> str:
+def sentence(text: str) -> str:
+    """Return a text on one line, with a full stop."""
     text = " ".join(text.split())
     return text if text.endswith((".", "!", "?")) else f"{text}."

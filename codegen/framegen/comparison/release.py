@@ -26,6 +26,7 @@ if TYPE_CHECKING:
 
 # As many breaks are named.
 _NAMED = 10
+_RENAMED = "; what only has another name says so by `was: OldName`"
 
 
 @dataclass(frozen=True, slots=True)
@@ -53,10 +54,8 @@ def release(
     """
     own = new.spec.protocol.version
     wanted = _version(own, comparison, taken, version)
-    if wanted in taken:
-        raise Unusable(f"{wanted} is released already", hint="take a higher version")
     breaks = _accepted([] if comparison is None else comparison.effects, accept)
-    reserved = [] if comparison is None else [*reservations(comparison, wanted)]
+    reserved = [] if comparison is None else [*reservations(comparison, accept)]
     changes = ["The first release."] if comparison is None else sentences(comparison)
     edits = _Edits(new)
     edits.set_version(wanted, rename=own not in taken)
@@ -74,6 +73,8 @@ def _version(
             Version.parse(version)
         except NoVersion as error:
             raise Unusable(str(error), hint=error.hint) from None
+        if version in taken:
+            raise Unusable(f"{version} is released already", hint="take a higher version")
     if comparison is None:
         return own if version is None else version
     old = comparison.old.version
@@ -110,7 +111,8 @@ def _accepted(effects: Sequence[Effect], reason: str | None) -> dict[str, str]:
         raise Unusable(
             "\n".join([f"{what}:", *shown, *more]),
             hint='give one reason for all, --accept "No board has it.", or one for each in the '
-            "`breaks` of the new version in `history`; a name that was changed needs `was`",
+            "`breaks` of the new version in `history`"
+            + ("" if all(each.certain for each in left) else _RENAMED),
         )
     return {
         path: reason.strip()

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
+from framegen.comparison.entry import sentence
+
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
@@ -13,13 +15,16 @@ if TYPE_CHECKING:
     from framegen.language.values import Direction
 
 
-def reservations(comparison: Comparison, version: str) -> Iterator[dict[str, Any]]:
-    """Yield entries for `reserved`: what was removed up to a version, and is not reserved yet.
+def reservations(comparison: Comparison, reason: str | None) -> Iterator[dict[str, Any]]:
+    """Yield entries for `reserved`: what was removed, and is not reserved yet.
 
-    An id that has another message already is left out, and so is one whose ends are gone.
+    Each says why, as the history accepts it, or else for the `reason` that is given.
+
+    What only seems to have another name counts: `was` would say so. An id that has another message
+    already is left out, and so is one whose ends are gone.
     """
-    new = comparison.new.spec
-    for name in comparison.pair.messages.removed:
+    new, pairing = comparison.new.spec, comparison.pair.messages
+    for name in (*pairing.removed, *sorted(pairing.guessed)):
         message = comparison.old.spec.messages[name]
         way = comparison.pair.way_in_new(message.direction)
         entry: dict[str, Any] = {}
@@ -28,7 +33,19 @@ def reservations(comparison: Comparison, version: str) -> Iterator[dict[str, Any
         if name not in new.messages and all(each.name != name for each in new.reserved):
             entry["name"] = name
         if entry:
-            yield {**entry, "why": f"It was {name} until {version}."}
+            entry["why"] = _why(comparison, name, reason)
+            yield entry
+
+
+def _why(comparison: Comparison, name: str, reason: str | None) -> str:
+    said = (
+        effect.accepted
+        for effect in comparison.effects
+        if effect.accepted and effect.old == ("messages", name)
+    )
+    why = next(said, reason)
+    what = f"Up to {comparison.old.version} it was {name}"
+    return f"{what}: {sentence(why)}" if why and why.strip() else f"{what}."
 
 
 def _is_free_id(spec: Spec, ids: Ids, way: Direction) -> bool:

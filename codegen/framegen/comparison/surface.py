@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import ast
 from dataclasses import dataclass, field, replace
+from functools import lru_cache
 from typing import TYPE_CHECKING, Literal, TypeAlias
 
 if TYPE_CHECKING:
@@ -17,6 +18,8 @@ _PUBLIC = ("messages", "device", "strategies")
 _INTERNAL = frozenset(("FRAME", "IDS", "DEFAULTS", "CONSTANTS"))
 # Texts and sizes that go with any change: nothing in a program depends on them.
 _PASSING = frozenset(("VENDOR_NAME", "DEPRECATED", "LENGTHS", "PROTOCOL_VERSION"))
+# The types of values, by the class of the field; all others are whole numbers.
+_READ_AS = {"F32": "float", "F64": "float", "Text": "str", "Packed": "tuple[int, ...]"}
 _MADE = ("__new__", "__init__")
 
 
@@ -85,7 +88,9 @@ def read_surface(files: Mapping[str, str]) -> Surface:
         found |= owned or {name: Entry("name")}
     for module in _PUBLIC:
         names = inner.get(module) or _module(files[f"{module}.py"])
-        found |= {f"{module}.{name}": each for name, each in names.items() if not _is_in(name, found)}
+        found |= {
+            f"{module}.{name}": each for name, each in names.items() if not _is_in(name, found)
+        }
     return Surface(found)
 
 
@@ -107,11 +112,14 @@ def _exported(stub: str) -> dict[str, str]:
     }
 
 
+@lru_cache(maxsize=64)  # most modules are the same in all libraries
 def _module(text: str) -> dict[str, Entry]:
     found: dict[str, Entry] = {}
     for node in ast.parse(text).body:
         for name, entry in _of(node):
-            inherited = (base for each in entry.bases if each in found for base in found[each].bases)
+            inherited = (
+                base for each in entry.bases if each in found for base in found[each].bases
+            )
             found[name] = replace(entry, bases=(*entry.bases, *inherited))
             if isinstance(node, ast.ClassDef):
                 found |= {f"{name}.{each}": inner for each, inner in _members(node)}
@@ -194,16 +202,9 @@ def _read_as(field_: ast.expr) -> str:
     """Return the type of what a field of a message gives, from the call that makes the field."""
     if not isinstance(field_, ast.Call):
         return ast.unparse(field_)
-    match ast.unparse(field_.func).removeprefix("Swapped"):
-        case "F32" | "F64":
-            return "float"
-        case "Text":
-            return "str"
-        case "Packed":
-            return "tuple[int, ...]"
-        case "Items" | "List":
-            return f"tuple[{_read_as(field_.args[1])}, ...]"
-        case "Optional":
-            return f"{_read_as(field_.args[0])} | None"
-        case _:
-            return "int"
+    kind = ast.unparse(field_.func).removeprefix("Swapped")
+    if kind in ("Items", "List"):
+        return f"tuple[{_read_as(field_.args[1])}, ...]"
+    if kind == "Optional":
+        return f"{_read_as(field_.args[0])} | None"
+    return _READ_AS.get(kind, "int")

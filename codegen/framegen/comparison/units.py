@@ -17,6 +17,8 @@ _PREFIXES = {
     "m": Fraction(1, 1000),
     "c": Fraction(1, 100),
     "d": Fraction(1, 10),
+    "da": Fraction(10),
+    "h": Fraction(100),
     "k": Fraction(1000),
     "M": Fraction(10**6),
     "G": Fraction(10**9),
@@ -39,6 +41,7 @@ _PREFIXED = frozenset(
         "K",
         "J",
         "bar",
+        "gauss",
         "rad",
         "Ω",
         "T",
@@ -73,6 +76,8 @@ _MULTIPLES = {
     "rpm": (Fraction(1, 60), "rev/s"),
     "%": (Fraction(1, 100), ""),
     "‰": (Fraction(1, 1000), ""),
+    "bar": (Fraction(10**5), "Pa"),
+    "gauss": (Fraction(1, 10**4), "T"),
 }
 
 
@@ -112,6 +117,9 @@ def _base(unit: str) -> tuple[Fraction, str]:
         return _MULTIPLES[unit]
     if unit in _PREFIXED:
         return Fraction(1), unit
-    if unit[:1] in _PREFIXES and unit[1:] in _PREFIXED:
-        return _PREFIXES[unit[0]], unit[1:]
+    for prefix, factor in _PREFIXES.items():
+        named = unit.removeprefix(prefix)
+        if named != unit and named in _PREFIXED:
+            multiple, base = _MULTIPLES.get(named, (Fraction(1), named))
+            return factor * multiple, base
     return Fraction(1), unit

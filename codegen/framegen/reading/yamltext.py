@@ -13,8 +13,11 @@ if TYPE_CHECKING:
 
 Value: TypeAlias = "str | float | Sequence[Any] | Mapping[str, Any] | None"
 
+# What YAML refuses in a text, takes for the end of a line, or does not show.
+_HIDDEN = r"\x7f-\xa0\u2028\u2029\ud800-\udfff\ufeff\ufffe\uffff"
+_UNSEEN = re.compile(f"[{_HIDDEN}]")
 # Text that needs no quotes: it begins with a letter, and nothing in it means anything to YAML.
-_PLAIN = re.compile(r"[A-Za-z](?:[^\x00-\x1f\x7f-\xa0\u2028\u2029\ufeff:#]|:(?=[^\s])|(?<=\S)#)*")
+_PLAIN = re.compile(rf"[A-Za-z](?:[^\x00-\x1f{_HIDDEN}:#]|:(?=[^\s])|(?<=\S)#)*")
 _WHOLE = re.compile(r"^(-?[0-9]+)e")
 _IN_FLOW = frozenset(",[]{}")
 
@@ -26,7 +29,7 @@ def scalar(value: str | float | None, *, in_flow: bool = False) -> str:
         return _WHOLE.sub(r"\1.0e", json.dumps(value))
     if _is_plain(value) and not (in_flow and _IN_FLOW & set(value)):
         return value
-    return json.dumps(value, ensure_ascii=False)
+    return _UNSEEN.sub(_escaped, json.dumps(value, ensure_ascii=False))
 
 
 def flow(value: Value) -> str:
@@ -56,6 +59,10 @@ def block(value: Mapping[str, Value] | Sequence[Value]) -> Iterator[str]:
         first, *others = block(each)
         yield f"- {first}"
         yield from (f"  {line}" for line in others)
+
+
+def _escaped(found: re.Match[str]) -> str:
+    return f"\\u{ord(found[0]):04x}"
 
 
 def _is_plain(text: str) -> bool:

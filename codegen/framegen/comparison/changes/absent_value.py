@@ -23,7 +23,7 @@ def _look(both: Both) -> Iterator[Change]:
 RULE = ChangeRule(
     id="absent-value",
     title="A value says that there is nothing to tell of, or not any more",
-    subject="value",
+    subject="program",
     why="The library has the property `absent`, and does not send the value as if it were one.",
     do="Change it together with another break of programs.",
     at="messages.LampRead.fields",

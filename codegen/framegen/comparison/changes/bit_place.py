@@ -4,21 +4,22 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from framegen.comparison.changes.change import ChangeRule
-from framegen.comparison.changes.telling import changed
-from framegen.comparison.changes.wording import number_or_range
+from framegen.comparison.changes.change import Change, ChangeRule
+from framegen.comparison.changes.wording import became, called, number_or_range
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from framegen.comparison.changes.both import Both
-    from framegen.comparison.changes.change import Change
 
 
 def _look(both: Both) -> Iterator[Change]:
     for each in both.bits.twins:
         old, new = number_or_range(each.old.at), number_or_range(each.new.at)
-        yield from changed("bit-place", each, "at", old, new, "bit")
+        if old != new:
+            # It may be written without the key `at`.
+            text = f"{called(each.new_path)}: {became('bit', old, new)}"
+            yield Change("bit-place", each.old_path, each.new_path, text)
 
 
 RULE = ChangeRule(

@@ -25,7 +25,7 @@ def _look(both: Both) -> Iterator[Change]:
 RULE = ChangeRule(
     id="element",
     title="The class of the elements has another name",
-    subject="field",
+    subject="program",
     why="Programs build the elements by the name of their class.",
     do="Change it together with another break of programs.",
     at="messages.LampsSet",

@@ -25,7 +25,7 @@ def _look(both: Both) -> Iterator[Change]:
 RULE = ChangeRule(
     id="field-limits",
     title="A client sends other values unless told otherwise",
-    subject="field",
+    subject="program",
     why=(
         "A program that sends a value outside the limits is refused by its own library. On the "
         "wire, nothing changes."

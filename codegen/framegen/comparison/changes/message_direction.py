@@ -32,7 +32,7 @@ RULE = ChangeRule(
         "side."
     ),
     do="Add a message in the new direction, and deprecate the old one.",
-    at="messages.LampRead",
+    at="messages.LampsSet",
     before="direction: host -> lamp",
     after="direction: lamp -> host",
     look=_look,

@@ -21,7 +21,7 @@ def _look(both: Both) -> Iterator[Change]:
 RULE = ChangeRule(
     id="message-order",
     title="The messages are listed in another order",
-    subject="message",
+    subject="program",
     why=(
         "Where a frame fits two messages, the first is preferred. Pages and constants follow this "
         "order too."

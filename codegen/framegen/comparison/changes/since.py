@@ -27,6 +27,6 @@ RULE = ChangeRule(
     do="Nothing.",
     at="messages.LampRead",
     before="",
-    after='since: "1.1.0"',
+    after='since: "1.0.0"',
     look=_look,
 )

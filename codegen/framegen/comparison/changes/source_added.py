@@ -28,6 +28,6 @@ RULE = ChangeRule(
     do="Nothing.",
     at="sources",
     before="",
-    after="board: {title: A board on our desk, kind: observation}",
+    after="bench: {title: A board on our desk, kind: observation}",
     look=_look,
 )

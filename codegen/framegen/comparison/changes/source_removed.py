@@ -27,7 +27,7 @@ RULE = ChangeRule(
     ),
     do="Nothing, once no fact is cited from it.",
     at="sources",
-    before="board: {title: A board on our desk, kind: observation}",
+    before="bench: {title: A board on our desk, kind: observation}",
     after="",
     look=_look,
 )

@@ -8,6 +8,7 @@ from pydantic import BaseModel
 
 from framegen.comparison.changes.change import Change, ChangeRule
 from framegen.comparison.changes.wording import called
+from framegen.language.spec import Note
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -35,7 +36,9 @@ def _look(both: Both) -> Iterator[Change]:
             if twin.old != twin.new:
                 yield _change(twin, ())
         elif isinstance(twin.old, BaseModel):
-            yield from (_change(twin, (key,)) for key in _WORDS if _differs(twin, key))
+            # The text of a field is another thing than that of a note.
+            keys = (key for key in _WORDS if key != "text" or isinstance(twin.old, Note))
+            yield from (_change(twin, (key,)) for key in keys if _differs(twin, key))
 
 
 RULE = ChangeRule(

@@ -11,7 +11,8 @@ from typing import TYPE_CHECKING
 from framegen.comparison.effect import Effect
 from framegen.comparison.programs.behaviour import preference_effects, value_effects
 from framegen.comparison.programs.exchanges import exchange_effects
-from framegen.comparison.programs.library import Libraries, library_effects
+from framegen.comparison.programs.libraries import Libraries
+from framegen.comparison.programs.library import library_effects
 from framegen.comparison.programs.rendered import rendered
 from framegen.comparison.surface import read_surface
 from framegen.targets.python.names import package_of
@@ -43,8 +44,9 @@ def _of_package(pair: Pair) -> Iterator[Effect]:
     client = pair.new.model.roles.client
     if pair.ends.get(pair.old.model.roles.client) != client:
         ends = ("endpoints",)
-        text = f"the client is the {client} now; it was the {pair.old.model.roles.client}"
-        yield Effect("programs", "removed", ends, ends, text)
+        was = pair.old.model.roles.client
+        text = f"`Controller` is the end of the {client} now; it was that of the {was}"
+        yield Effect("programs", "meaning", ends, ends, text)
     boards = [
         {(each.vendor, each.product) for each in spec.link.usb_hid} if spec.link.usb_hid else set()
         for spec in specs
@@ -54,7 +56,15 @@ def _of_package(pair: Pair) -> Iterator[Effect]:
         there = path if specs[1].link.usb_hid else None
         text = f"`hid://` does not find {vendor:04x}:{product:04x} any more"
         yield Effect("programs", "removed", path, there, text)
-    if specs[0].link.baud != specs[1].link.baud:
-        path = ("link", "baud")
-        text = f"ports are opened at {specs[1].link.baud} baud; it was {specs[0].link.baud}"
-        yield Effect("programs", "value", path, path, text, breaks=False)
+    # What a line is like is a matter of the conversation: a program that names none gets the new.
+    for key in ("baud", "local_echo"):
+        was, given = getattr(specs[0].link, key), getattr(specs[1].link, key)
+        if was != given:
+            text = f"`open_controller({key}={given})` is the default; it was {was}"
+            yield Effect("programs", "value", ("link", key), ("link", key), text, breaks=False)
+    if specs[0].pose is not None and specs[1].pose is not None:
+        ids = specs[0].pose.ids, specs[1].pose.ids
+        if ids[0] != ids[1]:
+            path = ("pose", "ids")
+            text = f"`{specs[1].pose.present}()` looks for {ids[1]} by default; it did for {ids[0]}"
+            yield Effect("programs", "value", path, path, text)

@@ -21,48 +21,75 @@ if TYPE_CHECKING:
     from framegen.comparison.pair import Pair
     from framegen.comparison.pairing import Pairing
     from framegen.model.layout import MessageLayout
+    from framegen.model.model import Model
     from framegen.model.slots import Field
     from framegen.reading.yamltree import KeyPath
 
 _INDEX = re.compile(r"\[\d+\]")
 # So many frames of a message are decoded without saying which way they went.
-_FEW = 24
+_FEW = 12
+# What is shown of a value, at most.
 _LONG = 60
+_SHORT = 3
 
 
 def value_effects(pair: Pair) -> Iterator[Effect]:
     """Yield an effect for each field whose values are refused, or mean another thing."""
     for name, other in pair.messages.to_new.items():
-        yield from _Values(pair, name, other).effects()
+        if pair.old.model.messages[name].slots != pair.new.model.messages[other].slots:
+            yield from _Values(pair, name, other).effects()
 
 
 def preference_effects(pair: Pair) -> Iterator[Effect]:
     """Yield an effect for each message that is preferred, or not, where no direction is given."""
     models = pair.old.model, pair.new.model
-    if all(len(model.directions) == 1 for model in models):
+    lines = [[(name, each.slots, each.ids) for name, each in m.messages.items()] for m in models]
+    if lines[0] == lines[1] and models[0].directions == models[1].directions:
         return
     for name, other in pair.messages.to_new.items():
-        messages = models[0].messages[name], models[1].messages[other]
-        fields = pair.fields(*messages)
-        for values in islice(values_to_try(*messages, dict(fields.to_new), pairs=False), _FEW):
-            said = _whole(fields, *messages, values)
-            try:
-                frames = encode(messages[0], values), encode(messages[1], said)
-            except Unencodable:
-                continue
-            one, another = (
-                weigh_whole(model, model.directions, frame).message
-                for model, frame in zip(models, frames, strict=True)
-            )
-            if one is None or another is None:
-                continue
-            if pair.messages.to_new.get(one.name, one.name) != another.name:
-                text = (
-                    f"`decode(frame, None)` makes {another.name} of {other}; it made {one.name} "
-                    f"of {name}"
-                )
-                yield Effect("programs", "order", ("messages", name), ("messages", other), text)
+        old, new = models[0].messages[name], models[1].messages[other]
+        for one, another in _preferred(pair, old, new):
+            if pair.messages.to_new.get(one, one) != another:
+                text = f"makes {another} of {other}; it made {one} of {name}"
+                paths = ("messages", name), ("messages", other)
+                yield Effect("programs", "order", *paths, f"`decode(frame, None)` {text}")
                 break
+
+
+def _preferred(pair: Pair, old: MessageLayout, new: MessageLayout) -> Iterator[tuple[str, str]]:
+    """Yield what frames of a message are taken for in the old library, and in the new."""
+    fields = pair.fields(old, new)
+    usual = _usual(fields, old, new)
+    for values in islice(values_to_try(old, new, dict(fields.to_new), pairs=False), _FEW):
+        frame = _written(old, values)
+        again = _written(new, _whole(fields, old, new, values, usual))
+        if frame is not None and again is not None:
+            one = _first(pair.old.model, frame)
+            another = _first(pair.new.model, again)
+            if one and another:
+                yield one, another
+
+
+def _first(model: Model, frame: bytes) -> str:
+    """Return the message that a frame is taken for: the first in the spec that it may be."""
+    found = {
+        verdict.message.name
+        for way in model.directions
+        if (verdict := weigh_whole(model, [way], frame)).message is not None
+    }
+    return next((name for name in model.messages if name in found), "")
+
+
+def _written(message: MessageLayout, values: Mapping[str, Any]) -> bytes | None:
+    """Return a frame, None if the message cannot be written at all: its spec is against itself."""
+    try:
+        return encode(message, values)
+    except (Unencodable, OverflowError, IndexError):
+        return None
+
+
+def _usual(fields: Pairing, old: MessageLayout, new: MessageLayout) -> dict[str, Any]:
+    return next(values_to_try(new, old, dict(fields.to_old), pairs=False))
 
 
 class _Values:
@@ -74,12 +101,12 @@ class _Values:
         self.new = pair.new.model.messages[other]
         self.fields = pair.fields(self.old, self.new)
         # What every frame of the new edition may have; the longest, so that nothing is absent.
-        usual = values_to_try(self.new, self.old, dict(self.fields.to_old), pairs=False)
-        self.usual = next(iter(usual))
+        self.usual = _usual(self.fields, self.old, self.new)
         self.told: set[tuple[str, str]] = set()
 
     def effects(self) -> Iterator[Effect]:
-        """Yield what becomes of the values at the edges."""
+        """Yield what becomes of the values at the edges, and of counts."""
+        yield from self._counts()
         for values in values_to_try(self.old, self.new, dict(self.fields.to_new), pairs=False):
             said = _whole(self.fields, self.old, self.new, values, self.usual)
             try:
@@ -87,7 +114,22 @@ class _Values:
             except Unencodable as error:
                 yield from self._refused(values, said, error)
                 continue
+            except (OverflowError, IndexError):
+                # The spec is against itself.
+                continue
             yield from self._read(values, values_of(self.new, frame))
+
+    def _counts(self) -> Iterator[Effect]:
+        """Yield an effect for each count that counts something else, such as bytes."""
+        old, new = _counters(self.old), _counters(self.new)
+        for name, counted in old.items():
+            other = self.fields.to_new.get(name)
+            if other not in new:
+                continue
+            said = {(self.fields.to_new.get(each, ""), step) for each, step in counted}
+            if said != new[other]:
+                text = f"{name} counts {_counting(counted)}; now it is {_counting(new[other])}"
+                yield from self._told("meaning", name, text)
 
     def _refused(
         self, values: Mapping[str, Any], said: Mapping[str, Any], error: Unencodable
@@ -100,14 +142,19 @@ class _Values:
                 continue
             try:
                 encode(self.new, {**self.usual, name: said[name]})
+            except (OverflowError, IndexError):
+                continue
             except Unencodable as problem:
                 found = True
-                path = _path(self.old, slot.name, str(problem), slot)
+                path = _path(slot.name, str(problem), slot)
                 value = _shown(values[slot.name])
-                text = f"`{self.new.name}({name}={value})` is refused: {problem}"
+                call = f"`{self.new.name}({name}={value})`"
+                text = f"{call} is refused: {problem}"
                 yield from self._told("refused", path, text)
-        # What may be absent may not be so any more, which its default says; or else sizes do not fit.
-        given = any(said[slot.name] is None for slot in self.new.arguments if not slot.optional)
+        # That something may not be absent any more is said of its default; else sizes do not fit.
+        given = any(
+            said[slot.name] is None for slot in self.new.arguments if slot not in self.new.optional
+        )
         if not (found or given or self._needs_more):
             yield from self._told("refused", "", f"`{self.new.name}` refuses values: {error}")
 
@@ -131,16 +178,30 @@ class _Values:
         yield Effect("programs", outcome, old, new, text)
 
 
+def _counters(message: MessageLayout) -> dict[str, set[tuple[str, int]]]:
+    """Return the lists that each count tells of, and how much it grows with an element of each."""
+    found: dict[str, set[tuple[str, int]]] = {}
+    for items in message.arguments:
+        if isinstance(items, Items):
+            steps = (items.field.counted_by, 1), (items.field.sized_by, items.size)
+            for name, step in steps:
+                if name is not None:
+                    found.setdefault(name, set()).add((items.name, step))
+    return found
+
+
+def _counting(counted: set[tuple[str, int]]) -> str:
+    return ", ".join(f"{step} for each of {name}" for name, step in sorted(counted, key=str))
+
+
 def _whole(
     fields: Pairing,
     old: MessageLayout,
     new: MessageLayout,
     values: Mapping[str, Any],
-    usual: Mapping[str, Any] | None = None,
+    usual: Mapping[str, Any],
 ) -> dict[str, Any]:
     """Return values under their new names, with usual ones for what the old edition has not."""
-    if usual is None:
-        usual = next(iter(values_to_try(new, old, dict(fields.to_old), pairs=False)))
     said = dict(usual)
     theirs = {slot.name: slot for slot in new.arguments}
     said |= {slot.name: None for slot in new.optional}
@@ -164,10 +225,12 @@ def _element_values(old: Field, new: Field, value: Any, usual: Any) -> Any:
     ]
 
 
-def _path(layout: MessageLayout, name: str, problem: str, slot: Field) -> str:
+def _path(name: str, problem: str, slot: Field) -> str:
     """Return the field that a problem is about: `targets.position` where an element is refused."""
     inner = problem.partition(":")[0].rpartition(".")[2]
-    inside = isinstance(slot, Items) and any(each.name == inner for each in slot.fields)
+    inside = (
+        isinstance(slot, Items) and slot.element and any(each.name == inner for each in slot.fields)
+    )
     return f"{name}.{inner}" if inside else name
 
 
@@ -183,12 +246,14 @@ def _paths(
     fields = pair.fields(old, new)
     other = fields.to_new[name]
     if any(slot.name == name for slot in old.frame.given):
-        parts = frame_path(pair.old.model, old.frame.name), frame_path(
-            pair.new.model, new.frame.name
+        parts = (
+            frame_path(pair.old.model, old.frame.name),
+            frame_path(pair.new.model, new.frame.name),
         )
         return (*parts[0], name), (*parts[1], other)
     ours, theirs = (*ours, "fields", name), (*theirs, "fields", other)
-    one = next(slot for slot in old.arguments if slot.name == name)
+    # Counts are no arguments.
+    one = next((slot for slot in old.arguments if slot.name == name), None)
     another = next((slot for slot in new.arguments if slot.name == other), None)
     if isinstance(one, Items) and isinstance(another, Items):
         moved = element_fields(one, another).to_new.get(inner)
@@ -197,12 +262,10 @@ def _paths(
     return ours, theirs
 
 
-def _shown(value: object) -> str:
-    if isinstance(value, list) and len(value) > 3:  # noqa: PLR2004 - what fits a line
+def _shown(value: Any) -> str:
+    if isinstance(value, list) and len(value) > _SHORT:
         return f"[{len(value)} of them]"
-    shown = repr([tuple(each.values()) for each in value] if _is_elements(value) else value)
+    if isinstance(value, list):
+        value = [tuple(each.values()) if isinstance(each, dict) else each for each in value]
+    shown = repr(value)
     return shown if len(shown) <= _LONG else f"{shown[:_LONG]}.."
-
-
-def _is_elements(value: object) -> Any:
-    return isinstance(value, list) and bool(value) and isinstance(value[0], dict)

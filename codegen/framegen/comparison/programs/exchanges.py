@@ -44,22 +44,24 @@ def _raises(pair: Pair, old: Exchange, new: Exchange) -> Iterator[Effect]:
         did = "does not raise FailureError any more"
         yield _effect(old, new, "raises", did if fails is None else does)
     elif failed is not None and fails is not None:
-        if pair.fields(old.reply, new.reply).to_new.get(failed.name) != fails.name:
+        by = pair.fields(old.reply, new.reply).to_new.get(failed.name)
+        if by != fails.name:
             text = f"raises FailureError by `{fails.name}`; it did by `{failed.name}`"
             yield _effect(old, new, "raises", text)
 
 
 def _results(pair: Pair, old: Exchange, new: Exchange) -> Iterator[Effect]:
-    messages = pair.messages.to_new
-    if old.acknowledged is not None and new.acknowledged is not None:
-        if messages.get(old.acknowledged) != new.acknowledged:
-            text = f"is `started` by {new.acknowledged}; it was by {old.acknowledged}"
-            yield _effect(old, new, "result", text)
+    named = pair.messages.to_new.get(old.acknowledged or "")
+    if old.acknowledged and new.acknowledged and named != new.acknowledged:
+        text = f"is `started` by {new.acknowledged}; it was by {old.acknowledged}"
+        yield _effect(old, new, "result", text)
     if old.lasts is not None and new.lasts is not None:
-        if pair.fields(old.request, new.request).to_new.get(old.lasts.name) != new.lasts.name:
+        field = pair.fields(old.request, new.request).to_new.get(old.lasts.name)
+        if field != new.lasts.name:
             text = f"lasts as long as `{new.lasts.name}`; it did as long as `{old.lasts.name}`"
             yield _effect(old, new, "result", text)
-    if old.address is not None and new.address is not None:
+    asks = old.reply is not None and new.reply is not None
+    if asks and old.address is not None and new.address is not None:
         silent = {*old.silent.values()} ^ {*new.silent.values()}
         if silent:
             where = ", ".join(str(each) for each in sorted(silent))
@@ -88,7 +90,9 @@ def _limits(pair: Pair, old: Exchange, new: Exchange) -> Iterator[Effect]:
             wide = (known.low, number.high if known.high is None else known.high)
         if low > wide[0] or high < wide[1]:
             steps = ("fields", inner) if inner else ()
-            text = f"raises LimitError outside {low}..{high} by default; it took {wide[0]}..{wide[1]}"
+            text = (
+                f"raises LimitError outside {low}..{high} by default; it took {wide[0]}..{wide[1]}"
+            )
             yield Effect(
                 "programs",
                 "refused",

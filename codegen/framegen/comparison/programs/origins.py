@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from framegen.language.spec import ListField, NumberField
+from framegen.language.values import Direction
 from framegen.model.exchanges import method_of, snake_case
 from framegen.targets.python.names import (
     bit_name,
@@ -67,7 +68,8 @@ def _origins(model: Model) -> Iterator[tuple[str, Origin]]:
         yield union_name(names.of("endpoint", end)), Origin("union", ("endpoints", end))
     for way in model.directions:
         ends = (("endpoints", way.sender), ("endpoints", way.receiver))
-        member = direction_member(names._direction(way))
+        named = (names.of("endpoint", end) for end in (way.sender, way.receiver))
+        member = direction_member(Direction(*named))
         yield f"Direction.{member}", Origin("direction", *ends)
     if spec.pose is not None:
         for key in POSE_METHODS:
@@ -87,7 +89,8 @@ def _of_message(names: Names, name: str, layout: MessageLayout) -> Iterator[tupl
     yield f"strategies.{strategy_name(made)}", Origin("strategy", path)
     yield f"Device.on_{snake_case(made)}", Origin("handler", path)
     ids = layout.message.id
-    for part in ids if isinstance(ids, dict) else ():
+    parts_of_id: list[str] = [*ids] if isinstance(ids, dict) else []
+    for part in parts_of_id:
         yield f"{made}.{id_name(part)}", Origin("id", (*path, "id", part))
     parts = frame_path(names.model, layout.frame.name)
     for slot in layout.frame.given:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from functools import lru_cache
 from typing import TYPE_CHECKING
 
 from framegen.comparison.edges import values_to_try
@@ -17,6 +18,7 @@ if TYPE_CHECKING:
     from framegen.model.model import Model
 
 
+@lru_cache(maxsize=2)
 def rendered(edition: Edition) -> dict[str, str] | None:
     """Return the files of an edition's library, by path below its package.
 

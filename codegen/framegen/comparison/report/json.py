@@ -25,8 +25,8 @@ import json
 import math
 from typing import TYPE_CHECKING, Any
 
+from framegen.comparison.explained import explain
 from framegen.comparison.report.verdict import standing
-from framegen.comparison.seams import explain
 from framegen.reading.yamltree import dotted
 
 if TYPE_CHECKING:

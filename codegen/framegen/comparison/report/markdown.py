@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from framegen.comparison.report.verdict import standing
+from framegen.comparison.report.verdict import AXES, standing
 from framegen.comparison.report.words import between, effect_text, hex_of
 from framegen.pluralize import pluralize
 from framegen.reading.yamltext import block, scalar
@@ -50,9 +50,14 @@ def _header(view: View) -> str:
 def _verdicts(view: View) -> Iterator[str]:
     yield "| | between | verdict |"
     yield "|---|---|---|"
-    for each in view.verdicts:
-        ends = "" if each.ends is None else markdown(each.ends)
-        yield f"| {each.axis} | {ends} | {markdown(each)} |"
+    for axis in AXES:
+        verdicts = [each for each in view.verdicts if each.axis == axis]
+        if not any(each.effects for each in verdicts):
+            yield f"| {axis} | | works as before |"
+            continue
+        for each in verdicts:
+            ends = "" if each.ends is None else markdown(each.ends)
+            yield f"| {axis} | {ends} | {markdown(each)} |"
 
 
 def _upgrade(view: View) -> Iterator[str]:
@@ -67,21 +72,36 @@ def _breaks(effects: list[Effect]) -> Iterator[str]:
     yield "|---|---|---|---|---|"
     for effect in effects[:_MOST]:
         frame = "" if effect.witness is None else code(hex_of(effect.witness.data))
-        what = markdown(effect_text(effect, str(effect.path[1]) if effect.path[1:] else ""))
+        what = _prose(effect_text(effect, str(effect.path[1]) if effect.path[1:] else ""))
         if effect.accepted:
-            what += f" (accepted: {markdown(effect.accepted)})"
+            what += f" (accepted: {_prose(effect.accepted)})"
         kind = f"{_WORDS[standing(effect)]}: {effect.axis}"
         where = code(dotted(effect.path))
-        yield f"| {kind} | {where} | {what} | {markdown(between(effect))} | {frame} |"
+        ends = markdown(between(effect).replace("->", "→"))
+        yield f"| {kind} | {where} | {what} | {ends} | {frame} |"
     if len(effects) > _MOST:
         yield f"\nAnd {pluralize(len(effects) - _MOST, 'effect')} more."
 
 
 def _changes(view: View) -> Iterator[str]:
     for sentence in view.sentences[:_MOST]:
-        yield f"- {markdown(sentence)}"
+        yield f"- {_prose(sentence)}"
     if len(view.sentences) > _MOST:
         yield f"- and {pluralize(len(view.sentences) - _MOST, 'change')} more"
+
+
+def _prose(text: str) -> str:
+    """Escape a sentence, in which what stands between two backticks is code."""
+    parts = text.split("`")
+    if not len(parts) % 2:
+        return markdown(text)
+    found = [code(part) if at % 2 else _inner(part) for at, part in enumerate(parts)]
+    return "".join(found).strip()
+
+
+def _inner(text: str) -> str:
+    """Escape a part of a line, and keep the blanks around it."""
+    return f"{' ' * text[:1].isspace()}{markdown(text)}{' ' * text[-1:].isspace()}"
 
 
 def _entry(view: View) -> str:

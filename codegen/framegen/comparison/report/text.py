@@ -89,8 +89,9 @@ def _group(view: View, group: Sequence[Section], explained: set[str]) -> Iterato
             yield f"    do: {rule.do}"
     if len(group) > 1:
         yield f"  of {first.title}, and of the others alike:"
+    frames: set[bytes] = set()
     for effect in first.effects:
-        yield from _effect(effect, first.title)
+        yield from _effect(effect, first.title, frames)
 
 
 def _title(view: View, group: Sequence[Section]) -> str:
@@ -113,11 +114,13 @@ def _names(names: Sequence[str]) -> str:
     return f"{shown} and {more} more" if more > 0 else shown
 
 
-def _effect(effect: Effect, title: str) -> Iterator[str]:
+def _effect(effect: Effect, title: str, frames: set[bytes]) -> Iterator[str]:
+    """Yield the lines of an effect; a frame that an effect before it has shown is not repeated."""
     who = between(effect)
     where = f"{effect.axis}, {who}" if who else effect.axis
     yield f"  {_WORDS[standing(effect)]}: {where}: {effect_text(effect, title)}"
-    if effect.witness is not None:
+    if effect.witness is not None and effect.witness.data not in frames:
+        frames.add(effect.witness.data)
         yield f"    {hex_of(effect.witness.data)}"
         yield f"    {call_of(effect.witness)}"
     if effect.accepted:

@@ -8,12 +8,12 @@ from typing import TYPE_CHECKING
 
 from framegen.comparison.accepted import accepted_breaks
 from framegen.comparison.changes import CHANGE_RULES
-from framegen.comparison.due import due, next_version, version_finding
+from framegen.comparison.due import due, next_version, tells_versions, version_finding
 from framegen.comparison.edges import MOST
 from framegen.comparison.entry import sentences
+from framegen.comparison.explained import explain
 from framegen.comparison.report.ends import all_ends, ends_of, upgrade_order
 from framegen.comparison.report.verdict import AXES, STANDINGS, Verdict, standing
-from framegen.comparison.seams import explain
 from framegen.language.version import NoVersion
 
 if TYPE_CHECKING:
@@ -112,7 +112,11 @@ class View:
     @property
     def without_effect(self) -> list[Change]:
         """The changes that nobody notices who does not read the documentation."""
-        return [each for each in self.comparison.changes if each not in self.explaining]
+        return [
+            each
+            for each in self.comparison.changes
+            if each not in self.explaining and not tells_versions(each.path)
+        ]
 
     @property
     def nothing(self) -> bool:

@@ -17,11 +17,11 @@ if TYPE_CHECKING:
 def _look(both: Both) -> Iterator[Change]:
     for each in both.messages.twins:
         old = both.field(str(each.old_path[1]), each.old.lasts)
-        yield from changed("lasts", each, "lasts", old, each.new.lasts, "lasts")
+        yield from changed("lasts-changed", each, "lasts", old, each.new.lasts, "lasts")
 
 
 RULE = ChangeRule(
-    id="lasts",
+    id="lasts-changed",
     title="Another field says how long a message takes effect",
     subject="exchange",
     why=(

@@ -19,16 +19,16 @@ def _look(both: Both) -> Iterator[Change]:
         was, now = both.old.frame_of(each.old), both.new.frame_of(each.new)
         was = both.pair.frames.to_new.get(was, was)
         if was != now:
-            yield from changed("message-frame", each, "frame", was, now, "frame")
+            yield from changed("frame-of-message", each, "frame", was, now, "frame")
         elif (each.old.frame is None) != (each.new.frame is None):
             text = f"{called(each.new_path)}: frame {now} as before, named or not"
             yield Change(
-                "message-frame", (*each.old_path, "frame"), (*each.new_path, "frame"), text
+                "frame-of-message", (*each.old_path, "frame"), (*each.new_path, "frame"), text
             )
 
 
 RULE = ChangeRule(
-    id="message-frame",
+    id="frame-of-message",
     title="A message has another kind of frame",
     subject="message",
     why="An end looks for it in the frame that it had, and takes the other for noise.",
@@ -61,10 +61,7 @@ RULE = ChangeRule(
         "    parameters: {is: body}\n"
         "messages:\n"
         "  LampState:\n"
-        "    id: 8\n"
-        "    direction: lamp -> host\n"
-        "    frame: report\n"
-        "    fields: {level: {type: u16}}"
+        "    frame: report"
     ),
     look=_look,
 )

@@ -17,18 +17,18 @@ if TYPE_CHECKING:
 
 def _look(both: Both) -> Iterator[Change]:
     for each in both.errata.twins:
-        concerned = both.concern(each.old.concerns)
-        yield from changed(
-            "erratum", each, "concerns", concerned, concern(each.new.concerns), "concerns"
-        )
+        # What was left under its old name is the same all the same.
+        if each.old.concerns != each.new.concerns:
+            old, new = both.concern(each.old.concerns), concern(each.new.concerns)
+            yield from changed("erratum-changed", each, "concerns", old, new, "concerns")
         for key in ("document", "bytes_"):
             old, new = repr(getattr(each.old, key)), repr(getattr(each.new, key))
             name = key.rstrip("_")
-            yield from changed("erratum", each, name, old, new, name)
+            yield from changed("erratum-changed", each, name, old, new, name)
 
 
 RULE = ChangeRule(
-    id="erratum",
+    id="erratum-changed",
     title="An erratum says something else",
     subject="document",
     why="An erratum tells where a document is wrong, with the evidence.",

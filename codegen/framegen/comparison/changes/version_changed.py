@@ -17,11 +17,11 @@ if TYPE_CHECKING:
 def _look(both: Both) -> Iterator[Change]:
     protocol = both.part_of("protocol")
     versions = protocol.old.version, protocol.new.version
-    yield from changed("version", protocol, "version", *versions, "version")
+    yield from changed("version-changed", protocol, "version", *versions, "version")
 
 
 RULE = ChangeRule(
-    id="version",
+    id="version-changed",
     title="The spec has another version",
     subject="document",
     why="It is what users compare their library by.",

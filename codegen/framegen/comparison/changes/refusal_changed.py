@@ -17,11 +17,11 @@ if TYPE_CHECKING:
 def _look(both: Both) -> Iterator[Change]:
     for each in both.messages.twins:
         old, new = both.message(each.old.refusal), each.new.refusal
-        yield from changed("refusal", each, "refusal", old, new, "refusal")
+        yield from changed("refusal-changed", each, "refusal", old, new, "refusal")
 
 
 RULE = ChangeRule(
-    id="refusal",
+    id="refusal-changed",
     title="A message is refused by another, or by none",
     subject="exchange",
     why=(

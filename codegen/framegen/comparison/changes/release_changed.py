@@ -18,11 +18,11 @@ def _look(both: Both) -> Iterator[Change]:
         if each.old.changes != each.new.changes:
             text = f"{called(each.new_path)}: the changes of {each.new.version} are told otherwise"
             paths = (*each.old_path, "changes"), (*each.new_path, "changes")
-            yield Change("release", *paths, text)
+            yield Change("release-changed", *paths, text)
 
 
 RULE = ChangeRule(
-    id="release",
+    id="release-changed",
     title="A version in the history says something else",
     subject="document",
     why="The history tells users what changed from version to version.",

@@ -25,11 +25,11 @@ def _look(both: Both) -> Iterator[Change]:
             ", ".join(f"{one} as {other}" for one, other in pairs)
             for pairs in (old, each.new.echoed.items())
         )
-        yield from changed("echoed", each, "echoed", before, after, "echoed")
+        yield from changed("echoed-changed", each, "echoed", before, after, "echoed")
 
 
 RULE = ChangeRule(
-    id="echoed",
+    id="echoed-changed",
     title="A reply repeats other fields of its request",
     subject="exchange",
     why=(

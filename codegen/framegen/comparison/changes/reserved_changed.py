@@ -21,13 +21,15 @@ def _look(both: Both) -> Iterator[Change]:
         if way is not None:
             ends = both.pair.ends
             way = Direction(ends.get(way.sender, way.sender), ends.get(way.receiver, way.receiver))
-        yield from changed("reserved", each, "id", each.old.id, each.new.id, "id")
-        yield from changed("reserved", each, "name", each.old.name, each.new.name, "name")
-        yield from changed("reserved", each, "direction", way, each.new.direction, "direction")
+        yield from changed("reserved-changed", each, "id", each.old.id, each.new.id, "id")
+        yield from changed("reserved-changed", each, "name", each.old.name, each.new.name, "name")
+        yield from changed(
+            "reserved-changed", each, "direction", way, each.new.direction, "direction"
+        )
 
 
 RULE = ChangeRule(
-    id="reserved",
+    id="reserved-changed",
     title="A reserved id or name says something else",
     subject="document",
     why=(

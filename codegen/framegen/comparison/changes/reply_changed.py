@@ -17,11 +17,11 @@ if TYPE_CHECKING:
 def _look(both: Both) -> Iterator[Change]:
     for each in both.messages.twins:
         old, new = both.message(each.old.reply), each.new.reply
-        yield from changed("reply", each, "reply", old, new, "reply")
+        yield from changed("reply-changed", each, "reply", old, new, "reply")
 
 
 RULE = ChangeRule(
-    id="reply",
+    id="reply-changed",
     title="A message is answered by another, or by none",
     subject="exchange",
     why=(

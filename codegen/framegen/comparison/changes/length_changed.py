@@ -23,18 +23,30 @@ def _look(both: Both) -> Iterator[Change]:
         if was != each.new.length:
             text = f"{called(each.new_path)}: {became('length', was, each.new.length)}"
             yield Change(
-                "length-rule", (*each.old_path, "length"), (*each.new_path, "length"), text
+                "length-changed", (*each.old_path, "length"), (*each.new_path, "length"), text
             )
 
 
 RULE = ChangeRule(
-    id="length-rule",
+    id="length-changed",
     title="A message has another length rule",
     subject="message",
     why="Frames of lengths that an end does not expect are refused.",
     do="Look at which fields changed: the rule follows from them.",
     at="messages.LampRead",
-    before="length: 2",
-    after="length: 3",
+    before=(
+        "length: [2, 3, 4]\n"
+        "fields:\n"
+        "  lamp_id: {type: u8}\n"
+        "  colour: {type: u8, optional: true}\n"
+        "  time: {type: u8, optional: true}"
+    ),
+    after=(
+        "length: [2, 4]\n"
+        "fields:\n"
+        "  lamp_id: {type: u8}\n"
+        "  colour: {type: u8, optional: true}\n"
+        "  time: {type: u8, optional: true}"
+    ),
     look=_look,
 )

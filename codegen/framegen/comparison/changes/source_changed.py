@@ -18,12 +18,12 @@ def _look(both: Both) -> Iterator[Change]:
     for each in both.sources.twins:
         if each.is_renamed:
             text = f"{called(each.new_path)}: renamed from {each.old_path[-1]}"
-            yield Change("source", each.old_path, each.new_path, text)
-        yield from changed("source", each, "kind", each.old.kind, each.new.kind, "kind")
+            yield Change("source-changed", each.old_path, each.new_path, text)
+        yield from changed("source-changed", each, "kind", each.old.kind, each.new.kind, "kind")
 
 
 RULE = ChangeRule(
-    id="source",
+    id="source-changed",
     title="A source says something else",
     subject="document",
     why=(
@@ -31,7 +31,7 @@ RULE = ChangeRule(
     ),
     do="Nothing.",
     at="sources",
-    before="board: {title: A board on our desk, kind: observation}",
-    after="board: {title: A board on our desk, kind: firmware}",
+    before="bench: {title: A board on our desk, kind: observation}",
+    after="bench: {title: A board on our desk, kind: firmware}",
     look=_look,
 )

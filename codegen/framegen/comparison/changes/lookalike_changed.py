@@ -17,16 +17,18 @@ def _look(both: Both) -> Iterator[Change]:
     for each in both.lookalikes.twins:
         if each.is_renamed:
             text = f"{called(each.new_path)}: renamed from {each.old_path[-1]}"
-            yield Change("lookalike", each.old_path, each.new_path, text)
+            yield Change("lookalike-changed", each.old_path, each.new_path, text)
         for key in ("frame", "commands", "examples"):
             old, new = getattr(each.old, key), getattr(each.new, key)
             if repr(old) != repr(new):
                 text = f"{called(each.new_path)}: {key} described otherwise"
-                yield Change("lookalike", (*each.old_path, key), (*each.new_path, key), text)
+                yield Change(
+                    "lookalike-changed", (*each.old_path, key), (*each.new_path, key), text
+                )
 
 
 RULE = ChangeRule(
-    id="lookalike",
+    id="lookalike-changed",
     title="A look-alike says something else",
     subject="document",
     why="A protocol that is easily taken for this one is told of in errors and on pages.",

@@ -17,13 +17,13 @@ if TYPE_CHECKING:
 def _look(both: Both) -> Iterator[Change]:
     for each in both.numbers:
         old, new = each.old.signed_as, each.new.signed_as
-        yield from changed("signed-as", each, "signed_as", old, new, "signed as")
+        yield from changed("signed-as-changed", each, "signed_as", old, new, "signed as")
 
 
 RULE = ChangeRule(
-    id="signed-as",
+    id="signed-as-changed",
     title="A number can be read as another signed type, or not any more",
-    subject="field",
+    subject="program",
     why="The library has a property for it: `signed_level`.",
     do="Keep it while programs use the property.",
     at="messages.LampRead.fields",

@@ -20,11 +20,11 @@ def _look(both: Both) -> Iterator[Change]:
         if twin.is_renamed and old ^ new <= {twin.old_path[-1], twin.new_path[-1]}:
             continue
         before, after = (", ".join(getattr(one, "was", ())) for one in (twin.old, twin.new))
-        yield from changed("former-name", twin, "was", before, after, "called before")
+        yield from changed("former-names", twin, "was", before, after, "called before")
 
 
 RULE = ChangeRule(
-    id="former-name",
+    id="former-names",
     title="Something is said to have had another name",
     subject="document",
     why="It is how a comparison knows a thing again under its new name.",

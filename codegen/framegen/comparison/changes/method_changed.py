@@ -31,11 +31,13 @@ def _look(both: Both) -> Iterator[Change]:
             )
             said = f"method {new}, named or not" if old == new else became("method", old, new)
             text = f"{called(each.new_path)}: {said}"
-            yield Change("method", (*each.old_path, "method"), (*each.new_path, "method"), text)
+            yield Change(
+                "method-changed", (*each.old_path, "method"), (*each.new_path, "method"), text
+            )
 
 
 RULE = ChangeRule(
-    id="method",
+    id="method-changed",
     title="The method that sends a message is another",
     subject="program",
     why="Programs call it by name, give arguments by place, and use what it returns.",

@@ -17,14 +17,14 @@ if TYPE_CHECKING:
 
 def _look(both: Both) -> Iterator[Change]:
     for each in both.unknowns.twins:
-        concerned = both.concern(each.old.concerns)
-        yield from changed(
-            "unknown", each, "concerns", concerned, concern(each.new.concerns), "concerns"
-        )
+        # What was left under its old name is the same all the same.
+        if each.old.concerns != each.new.concerns:
+            old, new = both.concern(each.old.concerns), concern(each.new.concerns)
+            yield from changed("unknown-changed", each, "concerns", old, new, "concerns")
 
 
 RULE = ChangeRule(
-    id="unknown",
+    id="unknown-changed",
     title="An open question says something else",
     subject="document",
     why="A question that no source answers is asked where the facts are.",

@@ -18,18 +18,18 @@ if TYPE_CHECKING:
 def _look(both: Both) -> Iterator[Change]:
     for each in both.examples.twins:
         old, new = to_hex(each.old.hex), to_hex(each.new.hex)
-        yield from changed("example", each, "hex", old, new, "bytes")
+        yield from changed("example-changed", each, "hex", old, new, "bytes")
         values = both.values_called(str(each.old_path[1]), each.old.values)
         if repr(values) != repr(each.new.values):
             text = f"{called(each.new_path)}: has other values"
             paths = (*each.old_path, "values"), (*each.new_path, "values")
-            yield Change("example", *paths, text)
+            yield Change("example-changed", *paths, text)
         old, new = each.old.constructed, each.new.constructed
-        yield from changed("example", each, "constructed", old, new, "constructed:")
+        yield from changed("example-changed", each, "constructed", old, new, "constructed:")
 
 
 RULE = ChangeRule(
-    id="example",
+    id="example-changed",
     title="An example has other bytes or other values",
     subject="document",
     why="A frame that was published or captured does not change: what is read from it does.",

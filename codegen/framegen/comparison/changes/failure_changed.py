@@ -17,11 +17,11 @@ if TYPE_CHECKING:
 def _look(both: Both) -> Iterator[Change]:
     for each in both.messages.twins:
         old = both.field(str(each.old_path[1]), each.old.failure)
-        yield from changed("failure", each, "failure", old, each.new.failure, "failure")
+        yield from changed("failure-changed", each, "failure", old, each.new.failure, "failure")
 
 
 RULE = ChangeRule(
-    id="failure",
+    id="failure-changed",
     title="Another field of a reply says that a request has failed",
     subject="exchange",
     why=(

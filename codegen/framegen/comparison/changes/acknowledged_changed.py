@@ -17,11 +17,13 @@ if TYPE_CHECKING:
 def _look(both: Both) -> Iterator[Change]:
     for each in both.messages.twins:
         old, new = both.message(each.old.acknowledged), each.new.acknowledged
-        yield from changed("acknowledged", each, "acknowledged", old, new, "acknowledged by")
+        yield from changed(
+            "acknowledged-changed", each, "acknowledged", old, new, "acknowledged by"
+        )
 
 
 RULE = ChangeRule(
-    id="acknowledged",
+    id="acknowledged-changed",
     title="A message is acknowledged by another report, or by none",
     subject="exchange",
     why=(

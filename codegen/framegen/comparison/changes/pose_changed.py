@@ -24,11 +24,11 @@ def _look(both: Both) -> Iterator[Change]:
         before, after = getattr(old, key), getattr(new, key)
         if key in ("read", "move", "release"):
             before = both.message(before)
-        yield from changed("pose", twin, key, before, after, key)
+        yield from changed("pose-changed", twin, key, before, after, key)
 
 
 RULE = ChangeRule(
-    id="pose",
+    id="pose-changed",
     title="Poses are read or commanded otherwise",
     subject="program",
     why="Programs call these methods by name, and the numbers outside `ids` are not looked for.",

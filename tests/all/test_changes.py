@@ -1,0 +1,39 @@
+"""Every leaf of every spec: with another value there, the change is told at its place, both ways.
+
+And every effect that breaks something has a change that explains it.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import pytest
+from framegen.comparison.changes import CHANGE_RULES
+from framegen.comparison.comparison import Comparison
+from framegen.comparison.explained import explain
+
+from tests.comparison.edits import EDITS, SPECS, edition
+from tests.comparison.leaves import told_at_their_places
+from tests.comparison.rules_page import PAGE, section, verdicts
+
+if TYPE_CHECKING:
+    from framegen.comparison.changes.change import ChangeRule
+
+
+@pytest.mark.parametrize("name", SPECS)
+def test_every_leaf_of_a_spec(name: str) -> None:
+    assert told_at_their_places(SPECS[name], each=1) > 100
+
+
+@pytest.mark.parametrize("name", EDITS)
+def test_every_effect_is_explained(name: str) -> None:
+    old, new = (edition(data) for data in EDITS[name])
+    for comparison in (Comparison(old, new), Comparison(new, old)):
+        for effect in comparison.effects:
+            assert explain(effect, comparison.changes), effect.text
+
+
+@pytest.mark.parametrize("rule", CHANGE_RULES, ids=lambda rule: rule.id)
+def test_the_page_says_what_every_example_breaks(rule: ChangeRule) -> None:
+    said = f"\n{section(rule)}\n\n{verdicts(rule)}\n"
+    assert said in PAGE.read_text(encoding="utf-8")

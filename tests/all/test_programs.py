@@ -1,0 +1,101 @@
+"""What is told of programs is what becomes of one, after every mutation of many specs."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+from typing import TYPE_CHECKING
+
+import pytest
+from framegen.comparison.pair import Pair
+from framegen.targets.python.names import package_of
+from hypothesis import given
+
+from tests.comparison.edits import EDITS, pair_of
+from tests.comparison.mutations import MUTATIONS, Editions, after, editions
+from tests.comparison.program_of_all import fails, namespace, program, run
+from tests.comparison.program_verdicts import files_of, verdict_on
+from tests.comparison.test_programs import assert_seen
+from tests.factories import library, write_files
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+SPECS = ("busservo", "lamp", "blinds", "everything", "modbus", "roboclaw", "dynamixel1")
+# What a type checker is asked about takes it seconds.
+CHECKED = ("words: summary", "a message added", "u16 became u32", "a field renamed, said")
+
+
+def assert_told(made: Editions) -> None:
+    pair = Pair(made.old, made.new)
+    verdict = verdict_on(pair)
+    assert verdict is not None
+    assert_seen(verdict, pair)
+
+
+@pytest.mark.parametrize("spec", SPECS)
+@pytest.mark.parametrize("mutation", MUTATIONS)
+def test_a_program_sees_what_is_told(spec: str, mutation: str) -> None:
+    made = after(spec, [mutation])
+    if made is None:
+        pytest.skip("it does not fit this spec")
+    assert_told(made)
+    assert_told(made.turned)
+
+
+@given(editions("busservo"))
+def test_a_program_sees_what_is_told_of_several_changes(made: Editions) -> None:
+    assert_told(made)
+
+
+@pytest.mark.parametrize("name", EDITS)
+def test_a_program_sees_what_is_told_of_an_edit(name: str) -> None:
+    for pair in (pair_of(*EDITS[name]), pair_of(*reversed(EDITS[name]))):
+        verdict = verdict_on(pair)
+        # One fact was changed, and the rest of a spec may contradict it.
+        if verdict is not None and not verdict.breaking:
+            assert verdict.differing == []
+
+
+@pytest.mark.parametrize("mutation", CHECKED)
+def test_a_program_is_of_the_right_types_where_nothing_is_told(
+    mutation: str, tmp_path: Path
+) -> None:
+    made = after("busservo", [mutation])
+    assert made is not None
+    verdict = verdict_on(Pair(made.old, made.new))
+    assert verdict is not None
+    assert complaints(made, tmp_path, "old") == []
+    assert (complaints(made, tmp_path, "new") == []) is (verdict.breaking == [])
+
+
+def complaints(made: Editions, folder: Path, which: str) -> list[str]:
+    """Return what a type checker says of a program for the old library beside a library."""
+    files, old = files_of(made.new if which == "new" else made.old), files_of(made.old)
+    assert files is not None
+    assert old is not None
+    with library(old) as imported:
+        names = namespace(imported)
+        statements = [
+            each
+            for each in dict.fromkeys(program(imported))
+            # The helpers are not typed.
+            if not each.startswith(("isinstance(asked", "asked", "handled", "matched", "repr"))
+            and not each.startswith(("callable", "isinstance", "decode"))
+            and "==" not in each
+            and not fails(run(each, names))
+        ]
+    place = folder / which
+    write_files(files, place)
+    package = package_of(made.old.model)
+    lines = [f"from {package} import *", *(f"print({each})" for each in statements)]
+    (place / "program.py").write_text("\n".join([*lines, ""]), encoding="utf-8")
+    done = subprocess.run(
+        [sys.executable, "-m", "mypy", "--no-incremental", "program.py"],
+        cwd=place,
+        env={"MYPYPATH": str(place / "generated"), "PATH": ""},
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    return [line for line in done.stdout.splitlines() if line.startswith("program.py")]

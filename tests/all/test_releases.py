@@ -1,0 +1,51 @@
+"""Any change can be released: the spec then has the version that is due, and accepts its breaks."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import pytest
+from framegen.comparison.comparison import Comparison
+from framegen.comparison.due import due, version_finding
+from framegen.comparison.editions import edition_of
+from framegen.comparison.release import release
+from framegen.compile import compile_spec
+from framegen.reading.source import Source
+from framegen.reading.yamltext import block
+
+from tests.comparison.edits import EDITS
+
+if TYPE_CHECKING:
+    from tests.factories import Data
+
+# Both ways; not what contradicts itself, which is nothing to release.
+CASES = [
+    pytest.param(*(pair if way == "there" else pair[::-1]), id=f"{name}, {way}")
+    for name, pair in EDITS.items()
+    for way in ("there", "back")
+]
+
+
+def text_of(data: Data) -> str:
+    return "".join(f"{line}\n" for line in block(data))
+
+
+@pytest.mark.parametrize(("old", "new"), CASES)
+def test_a_released_spec_has_the_version_that_is_due(old: Data, new: Data) -> None:
+    compiled = compile_spec(Source("spec/made_up.yaml", text_of(new)))
+    before = compile_spec(Source("spec/released/made_up.yaml", text_of(old)))
+    if compiled.findings or before.findings:
+        pytest.skip("it contradicts itself")
+    older = edition_of(before.source)
+    comparison = Comparison(older, edition_of(compiled.source))
+    if due(comparison.effects, comparison.changes) is None:
+        pytest.skip("nothing but the version changed")
+    made = release(compiled, comparison, {older.version}, accept="It is so.")
+    released = compile_spec(Source("spec/made_up.yaml", made.text))
+    assert released.findings == []
+    again = Comparison(older, edition_of(released.source))
+    assert [each.path for each in again.effects if each.breaks and not each.accepted] == []
+    bump = due(again.effects, again.changes)
+    assert version_finding(older.version, made.version, bump) is None
+    assert released.spec.history[0].version == made.version
+    assert released.spec.history[0].changes

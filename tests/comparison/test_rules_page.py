@@ -1,0 +1,24 @@
+"""The page of the rules of change says what the rules say, and what their examples break."""
+
+from __future__ import annotations
+
+import pytest
+from framegen.comparison.changes import CHANGE_RULES
+
+from tests.comparison.rules_page import PAGE, section, verdicts
+
+TEXT = PAGE.read_text(encoding="utf-8")
+# What these break is tried out in every run; that of all rules, among the slow tests.
+SOME = ("field-type", "field-unit", "maybe-renamed")
+
+
+def test_the_page_describes_every_rule() -> None:
+    stale = [rule.id for rule in CHANGE_RULES if f"\n{section(rule)}\n" not in TEXT]
+    assert stale == [], "if this was meant to change: python -m tests.documents"
+    assert TEXT.count("\n### ") == len(CHANGE_RULES)
+
+
+@pytest.mark.parametrize("id_", SOME)
+def test_the_page_says_what_an_example_breaks(id_: str) -> None:
+    (rule,) = (rule for rule in CHANGE_RULES if rule.id == id_)
+    assert f"\n{section(rule)}\n\n{verdicts(rule)}\n" in TEXT
