@@ -175,11 +175,11 @@ def test_every_spec_of_a_project_is_compared_and_the_worst_gives_the_exit_code(
 def test_a_spec_that_contradicts_itself_too_much_is_an_error(
     written: Callable[..., list[str]], capsys: Capture
 ) -> None:
-    old, new = written(HOUSE, with_(HOUSE, *READ, "id", 10**9))
+    old, new = written(HOUSE, with_(HOUSE, *READ, "reply", "Nobody"))
     assert main(["diff", old, new]) == 2
     printed = capsys.readouterr()
     assert printed.err.startswith(f"framegen: error: {new} contradicts itself too much")
-    assert "id-range" in printed.err
+    assert "there is no message `Nobody`" in printed.err
 
 
 TEXT = yaml_of(WORDED)
