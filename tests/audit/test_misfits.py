@@ -208,6 +208,16 @@ def test_noise_that_a_recorder_judged_apart_stays_apart(
     assert sorted(found) == sorted(expected)
 
 
+@pytest.mark.parametrize(("between", "unknown"), [("", 1), ("# a note\n", 1), ("# quiet\n", 0)])
+def test_halves_of_a_frame_are_joined_unless_the_line_went_quiet(
+    between: str, unknown: int
+) -> None:
+    half = "{}  # 1 s, noise: unknown command\n"
+    text = half.format("55 55 02") + between + half.format("99")
+    kinds = [each.kind for each in audited(busservo(), text).misfits]
+    assert kinds.count("unknown command") == unknown
+
+
 def test_a_recording_with_noise_says_what_its_bytes_say() -> None:
     (lines, _), *_ = APART
     recorded = "".join(f"{data}  # {at} s, {who}\n" for at, who, data in lines)

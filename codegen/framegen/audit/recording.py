@@ -7,7 +7,9 @@ a doctor and a run of `framegen conform` alike. Hex as text and raw bytes are on
 from __future__ import annotations
 
 import re
+from bisect import bisect_right
 from dataclasses import dataclass, replace
+from itertools import accumulate
 from typing import TYPE_CHECKING, Literal, TypeAlias
 
 from framegen.cases.malformed import malformed_in
@@ -65,7 +67,8 @@ class Stretch:
         """Name the place of a byte of it."""
         if self.at is None:
             return f"byte {int(self.place.removeprefix('byte ')) + at}"
-        return next((place for begin, place in reversed(self.joined) if begin <= at), self.place)
+        after = bisect_right(self.joined, at, key=lambda piece: piece[0])
+        return self.joined[after - 1][1] if after else self.place
 
 
 @dataclass(frozen=True, slots=True)
@@ -210,30 +213,33 @@ def _joined(found: Iterator[Stretch | None]) -> Iterator[Stretch]:
 
     What came later than a recorder waits for the rest of a frame stays apart.
     """
-    held: Stretch | None = None
-    last = 0.0
+    held: list[Stretch] = []
     for each in found:
-        if held is not None and each is not None and _goes_on(held, each, last):
-            held = replace(
-                held,
-                data=held.data + each.data,
-                joined=(*held.joined, (len(held.data), each.place)),
-            )
-        else:
-            if held is not None and held.data:
-                yield held
-            held = each
-        last = 0.0 if each is None or each.at is None else each.at
-    if held is not None and held.data:
-        yield held
+        if held and (each is None or not _goes_on(held[-1], each)):
+            yield from _whole(held)
+            held.clear()
+        if each is not None:
+            held.append(each)
+    yield from _whole(held)
 
 
-def _goes_on(held: Stretch, each: Stretch, last: float) -> bool:
-    """Tell whether noise goes on in the next line; `last` is the time of the line before it."""
-    if not held.refused or held.malformed or each.malformed or each.at is None:
+def _whole(pieces: list[Stretch]) -> Iterator[Stretch]:
+    """Yield what pieces are together, unless that is nothing."""
+    data = b"".join(each.data for each in pieces)
+    if len(pieces) > 1 and data:
+        begins = accumulate((len(each.data) for each in pieces), initial=0)
+        joined = tuple(zip(begins, (each.place for each in pieces), strict=False))
+        yield replace(pieces[0], data=data, joined=joined)
+    elif data:
+        yield pieces[0]
+
+
+def _goes_on(held: Stretch, each: Stretch) -> bool:
+    """Tell whether noise goes on in the next line."""
+    if not held.refused or held.malformed or each.malformed or held.at is None or each.at is None:
         return False
     is_alike = (held.sender, held.refused) == (each.sender, each.refused)
-    return is_alike and 0 <= each.at - last <= _GAP + 1e-9
+    return is_alike and 0 <= each.at - held.at <= _GAP + 1e-9
 
 
 def _probed(found: list[Stretch], roles: Roles) -> Iterator[Stretch]:
