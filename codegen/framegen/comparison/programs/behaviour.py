@@ -64,20 +64,16 @@ def _preferred(pair: Pair, old: MessageLayout, new: MessageLayout) -> Iterator[t
         frame = _written(old, values)
         again = _written(new, _whole(fields, old, new, values, usual))
         if frame is not None and again is not None:
-            one = _first(pair.old.model, frame)
-            another = _first(pair.new.model, again)
+            one = _taken_for(pair.old.model, frame)
+            another = _taken_for(pair.new.model, again)
             if one and another:
                 yield one, another
 
 
-def _first(model: Model, frame: bytes) -> str:
-    """Return the message that a frame is taken for: the first in the spec that it may be."""
-    found = {
-        verdict.message.name
-        for way in model.directions
-        if (verdict := weigh_whole(model, [way], frame)).message is not None
-    }
-    return next((name for name in model.messages if name in found), "")
+def _taken_for(model: Model, frame: bytes) -> str:
+    """Return the message that a frame is taken for where no direction is given; "" for none."""
+    message = weigh_whole(model, model.directions, frame).message
+    return "" if message is None else message.name
 
 
 def _written(message: MessageLayout, values: Mapping[str, Any]) -> bytes | None:
