@@ -27,6 +27,9 @@ _PASSING = frozenset(
 )
 _MOST_VALUES = 24
 _HELPERS = """
+import inspect
+
+
 class Line:
     name = "line"
 
@@ -70,6 +73,10 @@ def handled(handler, message, reply):
     device = kind()
     device.accept(message.encode())
     return seen, device.take()
+
+
+def accepted(method, names):
+    inspect.signature(method).bind(None, **dict.fromkeys(names))
 
 
 def matched(message, *names):
@@ -223,10 +230,20 @@ def _of_ends(made: ModuleType) -> Iterator[str]:
         yield f"callable(AsyncController.{exchange.method})"
         yield f"handled({handler!r}, {call}, {reply})"
         yield f"callable(Device.{handler})"
+    methods = {exchange.method for exchange in exchanges.EXCHANGES.values()}
     for client in ("Controller", "AsyncController", "OneDevice", "AllDevices"):
-        for each in vars(getattr(made, client, object)):
+        for each, value in vars(getattr(made, client, object)).items():
             if not each.startswith("_"):
                 yield f"callable({client}.{each})"
+                if inspect.isfunction(value) and each not in methods:
+                    yield f"accepted({client}.{each}, {_needed(value)})"
+
+
+def _needed(function: Any) -> list[str]:
+    """Return the names of what a method must be given."""
+    empty, (_, *given) = inspect.Parameter.empty, inspect.signature(function).parameters.values()
+    named = (inspect.Parameter.POSITIONAL_OR_KEYWORD, inspect.Parameter.KEYWORD_ONLY)
+    return [each.name for each in given if each.default is empty and each.kind in named]
 
 
 def _limited(limits: Any, kind: Any, usual: Mapping[str, Any]) -> Iterator[dict[str, Any]]:
