@@ -249,3 +249,9 @@ EDITS: dict[str, tuple[Data, Data]] = {
     ),
     "nothing reserved": (HOUSE, with_(HOUSE, "reserved", [])),
 }
+
+
+def of_the_day(name: str, seed: int) -> tuple[Data, Data]:
+    """Return the editions of an edit, one way round or, for the next seed, the other."""
+    old, new = EDITS[name]
+    return (old, new) if (seed + [*EDITS].index(name)) % 2 else (new, old)

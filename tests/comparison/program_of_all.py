@@ -297,11 +297,15 @@ def made_by_name(name: str, values: Mapping[str, Any]) -> str:
 
 
 def usual_values(kind: Any) -> dict[str, Any]:
-    """Return a value for each argument of a message."""
-    return {
-        each: next(_values(kind, each, at))
-        for at, each in enumerate(inspect.signature(kind).parameters)
-    }
+    """Return a value for each argument of a message; None for what no frame of it has room for."""
+    given = inspect.signature(kind).parameters
+    values = {each: next(_values(kind, each, at)) for at, each in enumerate(given)}
+    for each in reversed(given):
+        if not fails(run("kind(**values)", {"kind": kind, "values": values})):
+            break
+        if given[each].default is None:
+            values[each] = None
+    return values
 
 
 def _attributes(kind: Any) -> list[str]:
