@@ -25,6 +25,8 @@ if TYPE_CHECKING:
 
 # A mutation is tried on so many of the specs in which it has a place.
 SOME = 2
+# Each of these has many frames, or long ones.
+LARGE = {"everything", "ubx", "modbus", "lxservo", "busservo"}
 
 
 def all_hold(editions: Editions) -> None:
@@ -37,9 +39,9 @@ def all_hold(editions: Editions) -> None:
 
 
 def places(name: str) -> Iterator[Editions]:
-    """Yield what a mutation makes of the specs in which it has a place, in an order by lot."""
+    """Yield what a mutation makes of the specs in which it has a place, by lot, large ones last."""
     chance = random.Random(name)  # noqa: S311 - no secret
-    for spec in chance.sample([*SPECS], len(SPECS)):
+    for spec in sorted(chance.sample([*SPECS], len(SPECS)), key=LARGE.__contains__):
         made = after(spec, [name], chance.randrange(100)) or after(spec, [name], 0)
         if made is not None:
             yield made

@@ -193,18 +193,6 @@ def _renamed_and_retyped(said: bool, desk: Desk) -> None:
     desk.rename_field(spot, desk.fresh("wide"), said=said)
 
 
-def names_handed_on(desk: Desk) -> None:
-    """A field takes the name of another, which has a new one; `was` tells of both."""
-    first = desk.number()
-    others = [
-        each for each in desk.spots() if each.fields is first.fields and each.name != first.name
-    ]
-    second = desk.pick(each for each in others if not is_counter(each))
-    name = second.name
-    desk.rename_field(second, desk.fresh("given"), said=True)
-    desk.rename_field(first, name, said=True)
-
-
 def replaced(desk: Desk) -> None:
     """Another field stands in the place of one that is gone."""
     spot = desk.number()
@@ -311,7 +299,6 @@ FIELD_MUTATIONS: dict[str, Callable[[Desk], None]] = {
     "a field became optional": became_optional,
     "an optional field became sure": optional_became_sure,
     "no field is optional": absence_ruled_out,
-    "names of fields handed on": names_handed_on,
     "a field replaced by another": replaced,
     "a field split in two": split_in_two,
     "two fields joined": joined,

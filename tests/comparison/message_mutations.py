@@ -107,24 +107,6 @@ def _renamed_and_renumbered(said: bool, desk: Desk) -> None:
     _rename(desk, name, said=said)
 
 
-def names_handed_on(desk: Desk) -> None:
-    """A message takes the name of another, which has a new one; `was` tells of both."""
-    first = desk.pick(desk.messages)
-    second = desk.pick(name for name in desk.messages if name != first)
-    one, other = desk.messages[first], desk.messages[second]
-    new = desk.fresh("Given")
-    messages = {
-        {first: second, second: new}.get(name, name): each for name, each in desk.messages.items()
-    }
-    desk.messages.clear()
-    desk.messages.update(messages)
-    for message, was in ((one, first), (other, second)):
-        message["was"] = was
-    for each in messages.values():
-        for key in ("reply", "refusal", "acknowledged", "reports", "echoed", "failure"):
-            each.pop(key, None)
-
-
 def replaced(desk: Desk) -> None:
     """Another message has the id of one that is gone."""
     name = desk.pick(desk.messages)
@@ -211,7 +193,6 @@ MESSAGE_MUTATIONS: dict[str, Callable[[Desk], None]] = {
     "a message renamed, unsaid": partial(_renamed, False),
     "a message renamed and renumbered, said": partial(_renamed_and_renumbered, True),
     "a message renamed and renumbered, unsaid": partial(_renamed_and_renumbered, False),
-    "names of messages handed on": names_handed_on,
     "a message replaced by another": replaced,
     "a message replaced by another like it": replaced_alike,
     "a message split in two": split,

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
-from tests.comparison.authors import Names, kinds_of, names_of
+from tests.comparison.authors import Names, kinds_of, names_of, parts_of
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -42,36 +42,40 @@ def match_messages(editions: Editions) -> Match:
     """Match the messages of two editions."""
     author = editions.author
     ends = author.ends.to_new
-    old = {
-        name: _looks(author.old, message, ends) for name, message in author.old["messages"].items()
-    }
     same = {name: name for name in author.new["endpoints"]}
-    new = {
-        name: _looks(author.new, message, same) for name, message in author.new["messages"].items()
-    }
+    only = len(kinds_of(author.old)) == len(kinds_of(author.new)) == 1
+    old, new = (
+        {name: _looks(spec, message, there, only) for name, message in spec["messages"].items()}
+        for spec, there in ((author.old, ends), (author.new, same))
+    )
     return match(author.messages, old, new)
 
 
-def _looks(spec: Data, message: Data, ends: Mapping[str, str]) -> Any:
+def _looks(spec: Data, message: Data, ends: Mapping[str, str], only: bool) -> Any:
     """Return what can be told of a message but for its name: ids, ends, kind and layout."""
     sender, _, receiver = message["direction"].partition(" -> ")
-    kinds = kinds_of(spec)
-    kind = message.get("frame") or next(iter(kinds))
     if sender not in ends or receiver not in ends:
         return None
     said = message.get("id")
     ids = tuple(said.values()) if isinstance(said, dict) else said
-    parts = [*kinds[kind].values()]
-    only = len(kinds) == 1
+    kind = only or _bare(parts_of(spec, message), spec["byte_order"])
     layout = _layout(message["fields"]).values()
-    return (ids, ends[sender], ends[receiver], only or _bare(parts), tuple(layout))
+    return (ids, ends[sender], ends[receiver], kind, tuple(layout))
 
 
-def _bare(parts: list[Data]) -> str:
-    return repr([{key: each for key, each in part.items() if key in _TOLD} for part in parts])
-
-
-_TOLD = ("is", "bytes", "type", "method")
+def _bare(parts: Data, order: str) -> str:
+    """Return what a kind of frame looks like without any name."""
+    names = [*parts]
+    return repr(
+        [
+            (
+                *(part.get(key) for key in ("is", "bytes", "type", "method", "sent")),
+                part.get("byte_order", order) if "type" in part else None,
+                [names.index(each) for each in part.get("counts", part.get("covers", ()))],
+            )
+            for part in parts.values()
+        ]
+    )
 
 
 def match_fields(old: Data, new: Data) -> Match:

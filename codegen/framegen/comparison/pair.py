@@ -81,19 +81,16 @@ class Pair:
     def messages(self) -> Pairing:
         """The messages: under a name that was changed, ids, direction and fields are the same."""
         old, new = self.old.model.messages, self.new.model.messages
+        alone = len(self.old.model.envelopes) == len(self.new.model.envelopes) == 1
         was, old_was = (
             {name: layout.message.was for name, layout in each.items()} for each in (new, old)
         )
         return paired(
             {
-                name: _identity(
-                    each,
-                    self.way_in_new(each.direction),
-                    self.frames.to_new.get(each.frame.name),
-                )
+                name: _identity(each, self.way_in_new(each.direction), alone)
                 for name, each in old.items()
             },
-            {name: _identity(each, each.direction, each.frame.name) for name, each in new.items()},
+            {name: _identity(each, each.direction, alone) for name, each in new.items()},
             was,
             old_was,
         )
@@ -158,9 +155,11 @@ def shape(slot: MessageSlot, start: int = 0) -> object:
             return at, slot.role, slot.number_type.name
 
 
-def _identity(layout: MessageLayout, way: Direction | None, frame: str | None) -> object:
-    if way is None or frame is None:
+def _identity(layout: MessageLayout, way: Direction | None, alone: bool) -> object:
+    """Return what can be told of a message but for its name; frames that are `alone` are alike."""
+    if way is None:
         return None
+    frame = None if alone else _parts(layout.frame)
     start = layout.frame.body_at
     return layout.ids, way, frame, tuple(shape(slot, start) for slot in layout.body)
 
