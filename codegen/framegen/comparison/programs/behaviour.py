@@ -36,7 +36,8 @@ _SHORT = 3
 def value_effects(pair: Pair) -> Iterator[Effect]:
     """Yield an effect for each field whose values are refused, or mean another thing."""
     for name, other in pair.messages.to_new.items():
-        if pair.old.model.messages[name].slots != pair.new.model.messages[other].slots:
+        old, new = pair.old.model.messages[name], pair.new.model.messages[other]
+        if (old.slots, old.counts) != (new.slots, new.counts):
             yield from _Values(pair, name, other).effects()
 
 
