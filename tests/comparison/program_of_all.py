@@ -235,7 +235,9 @@ def _of_ends(made: ModuleType) -> Iterator[str]:
         for each, value in vars(getattr(made, client, object)).items():
             if not each.startswith("_"):
                 yield f"callable({client}.{each})"
-                if inspect.isfunction(value) and each not in methods:
+                # What others of a client take is seen where they are called.
+                called = client.endswith("Controller") and each in methods
+                if inspect.isfunction(value) and not called:
                     yield f"accepted({client}.{each}, {_needed(value)})"
 
 
@@ -272,10 +274,13 @@ def _of_result(exchange: Any, call: str) -> Iterator[str]:
 
 
 def _reply(exchange: Any, asked: Mapping[str, Any]) -> str | None:
-    """Return an expression for a reply that repeats what it must."""
+    """Return an expression for a reply that repeats what it must, and tells of no failure."""
     if exchange.reply is None:
         return None
     usual = usual_values(exchange.reply)
+    failure = getattr(exchange.failures, "_field", "")
+    if failure:
+        usual[failure] = 0
     address = getattr(exchange.address, "field", "")
     if address in usual and address in asked:
         usual[address] = asked[address]

@@ -27,7 +27,7 @@ if TYPE_CHECKING:
 
 _INDEX = re.compile(r"\[\d+\]")
 # So many frames of a message are decoded without saying which way they went.
-_FEW = 12
+_FEW = 100
 # What is shown of a value, at most.
 _LONG = 60
 _SHORT = 3
@@ -50,7 +50,8 @@ def preference_effects(pair: Pair) -> Iterator[Effect]:
     for name, other in pair.messages.to_new.items():
         old, new = models[0].messages[name], models[1].messages[other]
         for one, another in _preferred(pair, old, new):
-            if pair.messages.to_new.get(one, one) != another:
+            # That a message is gone is told by itself.
+            if pair.messages.to_new.get(one, another) != another:
                 text = f"makes {another} of {other}; it made {one} of {name}"
                 paths = ("messages", name), ("messages", other)
                 yield Effect("programs", "order", *paths, f"`decode(frame, None)` {text}")
