@@ -45,8 +45,8 @@ class Desk:
     chance: random.Random
 
     def pick(self, things: Iterable[T]) -> T:
-        """Return one of some things."""
-        found = list(things)
+        """Return one of some things; of a set, whose order is that of the run, as if it were sorted."""
+        found = sorted(things, key=str) if isinstance(things, set) else list(things)
         if not found:
             raise Inapplicable
         return self.chance.choice(found)

@@ -11,6 +11,7 @@ from framegen.comparison.conversation import conversation_effects
 from framegen.comparison.conversation.client import Client
 from framegen.comparison.conversation.play import OTHER, Table
 from framegen.comparison.conversation.report_effects import acknowledges
+from framegen.reading.yamltree import dotted
 
 from tests.comparison.conversation_cases import CASES, HOUSE, SERVO, Said
 from tests.comparison.edits import pair_of, with_
@@ -38,7 +39,8 @@ def said_of(effects: list[Effect]) -> list[Said]:
     """Return what is said; of exchanges with the same outcome between the same ends, the first."""
     found: dict[Any, Said] = {}
     for effect in effects:
-        message = effect.text.partition(" ")[0]
+        on_a_message = effect.path[0] == "messages"
+        message = effect.text.partition(" ")[0] if on_a_message else dotted(effect.path)
         key = (effect.ends, effect.outcome, effect.breaks)
         found.setdefault(key, Said(effect.ends, effect.outcome, message, effect.breaks))
     return [*found.values()]
@@ -60,11 +62,12 @@ def test_each_effect_has_its_ends_its_place_and_its_frame(name: str) -> None:
     pair = pair_named(name)
     for effect in effects_named(name):
         assert effect.axis == "conversation"
-        assert effect.path[0] == "messages"
         old, new = effect.ends.split(", ")
         assert {old.split()[0], new.split()[0]} == {"old", "new"}
-        names = {path[1] for path in (effect.old, effect.new) if path is not None}
-        assert effect.text.partition(" ")[0] in names
+        assert old.split()[1] != new.split()[1]
+        if effect.path[0] == "messages":
+            names = {path[1] for path in (effect.old, effect.new) if path is not None}
+            assert effect.text.partition(" ")[0] in names
         if effect.witness is not None:
             sender = pair.edition(effect.witness.sender).model
             assert effect.witness.message in sender.messages

@@ -20,7 +20,7 @@ from framegen.model.stream import ReferenceDecoder
 from framegen.model.verdict import weigh_whole
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator, Mapping
+    from collections.abc import Iterable, Iterator, Mapping
 
     from framegen.comparison.effect import Outcome, Which
     from framegen.comparison.meaning import Difference
@@ -143,8 +143,12 @@ class Trial:
 
     def run(self) -> Trials:
         """Try out the message at its edges."""
+        return self.found_in(self.frames())
+
+    def found_in(self, frames: Iterable[tuple[Witness, bool]]) -> Trials:
+        """Return what became of these frames of the message."""
         found = Trials(self.sender, self.message, self.message.direction)
-        for witness, breaks in self.frames():
+        for witness, breaks in frames:
             found.add(witness, breaks=breaks)
         found.all_tried = not self.cut_short
         if self.other is not None and found.counts.keys() == {"refused"}:
