@@ -21,8 +21,10 @@ def test_generated_ends_see_what_is_said_after_a_mutation(
     mutation: str, pytestconfig: pytest.Config
 ) -> None:
     made = next(places(mutation, int(pytestconfig.option.seed)))
-    with ends_of(Pair(made.old, made.new)) as ends:
+    pair = Pair(made.old, made.new)
+    with ends_of(pair) as ends:
         assert differing(ends) == []
+    conversations.assert_mirrored(pair)
 
 
 @pytest.mark.parametrize("name", CASES)
@@ -30,6 +32,11 @@ def test_generated_ends_see_what_is_said_of_a_case(name: str) -> None:
     if name != "both ends ask":
         with ends_of(pair_of(CASES[name].old, CASES[name].new)) as ends:
             assert differing(ends) == []
+
+
+@pytest.mark.parametrize("name", CASES)
+def test_the_way_back_of_a_case_mirrors_the_way_there(name: str) -> None:
+    conversations.assert_mirrored(pair_of(CASES[name].old, CASES[name].new))
 
 
 @given(st.data())

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections import Counter
 from typing import TYPE_CHECKING, Any
 
@@ -16,12 +17,15 @@ from tests.protocols.specs import values_for
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
+    from framegen.comparison.conversation.device import Kind
     from framegen.comparison.conversation.play import Play
     from framegen.comparison.effect import Which
     from framegen.comparison.pair import Pair
     from framegen.model.exchanges import Exchange
 
 SIDES: tuple[Which, Which] = ("old", "new")
+# What is said whatever worked between two ends of the old edition.
+_TOLD_BOTH_WAYS = ("line", "echo", "not found", "no report")
 # Requests of so many exchanges are drawn for each client.
 _SOME = 4
 
@@ -37,7 +41,7 @@ def assert_mirrored(pair: Pair) -> None:
     there, back = Table(pair), Table(pair.turned)
     assert Counter(_played(there, "old")) == Counter(_played(back, "new"))
     assert Counter(_played(there, "new")) == Counter(_played(back, "old"))
-    assert _swapped(_said(pair)) == _said(pair.turned)
+    assert _said(pair, swapped=True) == _said(pair.turned)
 
 
 def _played(table: Table, client: Which) -> Iterator[tuple[Any, ...]]:
@@ -46,21 +50,17 @@ def _played(table: Table, client: Which) -> Iterator[tuple[Any, ...]]:
             yield name, play.data, play.kind, play.answered, play.ending, play.seen.rest
 
 
-def _said(pair: Pair) -> set[tuple[str, str, str]]:
+def _said(pair: Pair, *, swapped: bool = False) -> set[tuple[Any, ...]]:
     """Return what is said of the line, of who asks, and of reports."""
-    told = ("line", "echo", "not found", "no report")
+    other = {"old": "new", "new": "old"} if swapped else {}
     return {
-        (each.outcome, each.ends, str(each.path[1:2]))
+        (
+            each.outcome,
+            re.sub(r"\b(?:old|new)\b", lambda found: other.get(found[0], found[0]), each.ends),
+            (each.new, each.old) if swapped else (each.old, each.new),
+        )
         for each in conversation_effects(pair)
-        if each.outcome in told or each.path == ("endpoints",)
-    }
-
-
-def _swapped(said: set[tuple[str, str, str]]) -> set[tuple[str, str, str]]:
-    other = {"old": "new", "new": "old"}
-    return {
-        (outcome, " ".join(other.get(word, word) for word in ends.split(" ")), path)
-        for outcome, ends, path in ((o, e.replace(", ", " , "), p) for o, e, p in said)
+        if each.outcome in _TOLD_BOTH_WAYS or each.path == ("endpoints",)
     }
 
 
@@ -71,7 +71,7 @@ def assert_nothing_ends_worse(pair: Pair, data: st.DataObject) -> None:
         exchanges = [*table.clients[client].exchanges.values()]
         some = data.draw(st.permutations(exchanges))[:_SOME]
         for exchange in some:
-            worst = {}
+            worst: dict[Kind, int] = {}
             for play in table.plays(client, exchange):
                 worst[play.kind] = max(worst.get(play.kind, 0), _badness(table, play))
             for play in _drawn(table, client, exchange, data):
@@ -92,9 +92,7 @@ def _badness(table: Table, play: Play) -> int:
 _LOST = OUTCOMES.index("not recognized")
 
 
-def _drawn(
-    table: Table, client: Which, exchange: Exchange, data: st.DataObject
-) -> Iterator[Play]:
+def _drawn(table: Table, client: Which, exchange: Exchange, data: st.DataObject) -> Iterator[Play]:
     values = data.draw(values_for(exchange.request, few=True))
     counter = exchange.request.frame.counter
     numbered = values if counter is None else {**values, counter.name: 0}

@@ -45,7 +45,7 @@ class Desk:
     chance: random.Random
 
     def pick(self, things: Iterable[T]) -> T:
-        """Return one of some things; of a set, whose order is that of the run, as if it were sorted."""
+        """Return one of some things, the same in each run: a set has another order in each."""
         found = sorted(things, key=str) if isinstance(things, set) else list(things)
         if not found:
             raise Inapplicable

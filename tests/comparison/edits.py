@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import copy
 import json
+from functools import lru_cache
 from typing import Any
 
 from framegen.comparison.edition import Edition
@@ -54,7 +55,13 @@ def edition(data: Data, label: str = "made_up.yaml") -> Edition:
 
     Its text is not read again, so that nothing in it has a place.
     """
-    values = json.loads(json.dumps(data))
+    return _edition(json.dumps(data), label)
+
+
+# The specs that are edited are asked for again and again.
+@lru_cache(maxsize=32)
+def _edition(text: str, label: str) -> Edition:
+    values = json.loads(text)
     spec = Spec.model_validate(values)
     model = derive(spec)
     return Edition(label, Compiled(Source(label, ""), Tree(values), [], spec, model), spec, model)

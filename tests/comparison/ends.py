@@ -102,7 +102,10 @@ class Ends:
         handlers = self.part(device, "device")._HANDLERS
         for name in handlers.values():
             setattr(there, name, answer if name in self._asked(device) else _nothing)
-        with self.client(client, there) as controller:
+        # Who expects an echo is on a line that has one: what becomes of it is no matter of plays.
+        echoes = self.pair.edition(client).spec.link.local_echo
+        line = EchoLine(there) if echoes else DeviceLine(there)
+        with self.client(client, there, line=line) as controller:
             request = made_of(self.library(client), play.exchange.request, play.values)
             return self._ends(client, controller, request)
 

@@ -13,7 +13,8 @@ from framegen.comparison.conversation.play import OTHER, Table
 from framegen.comparison.conversation.report_effects import acknowledges
 from framegen.reading.yamltree import dotted
 
-from tests.comparison.conversation_cases import CASES, HOUSE, SERVO, Said
+from tests.comparison import conversations
+from tests.comparison.conversation_cases import BUS, CASES, HOUSE, LX, SERVO, Said
 from tests.comparison.edits import pair_of, with_
 from tests.comparison.ends import EchoLine, differing, ends_of
 from tests.comparison.uart import understood
@@ -21,6 +22,8 @@ from tests.comparison.uart import understood
 if TYPE_CHECKING:
     from framegen.comparison.effect import Effect, Which
     from framegen.comparison.pair import Pair
+
+    from tests.factories import Data
 
 WHICH: tuple[Which, Which] = ("old", "new")
 
@@ -51,10 +54,9 @@ def test_what_is_said_of_an_exchange(name: str) -> None:
     assert said_of(effects_named(name)) == CASES[name].said
 
 
-@pytest.mark.parametrize("name", CASES)
-def test_nothing_is_said_of_an_edition_and_itself(name: str) -> None:
-    case = CASES[name]
-    assert [*conversation_effects(pair_of(case.old, case.old))] == []
+@pytest.mark.parametrize("data", [SERVO, BUS, LX], ids=["busservo", "modbus", "lxservo"])
+def test_nothing_is_said_of_an_edition_and_itself(data: Data) -> None:
+    assert [*conversation_effects(pair_of(data, data))] == []
 
 
 @pytest.mark.parametrize("name", CASES)
@@ -73,8 +75,25 @@ def test_each_effect_has_its_ends_its_place_and_its_frame(name: str) -> None:
             assert effect.witness.message in sender.messages
 
 
+def test_a_reply_that_is_linked_first_is_told_as_what_programs_lose() -> None:
+    text = {each.outcome: each.text for each in effects_named("a reply is new")}
+    assert text["no reply"] == (
+        "BatteryVoltageRead gets no reply unless BatteryVoltage has always followed it, "
+        "which the old edition does not say"
+    )
+    assert text["no report"] == (
+        "BatteryVoltage is reported no longer: the new host takes it for the answer to "
+        "BatteryVoltageRead, returns it to a program that asks, and drops it where none does"
+    )
+
+
+@pytest.mark.parametrize("name", ["a reply is new", "a reply has room for fewer", "both ends ask"])
+def test_the_way_back_mirrors_the_way_there(name: str) -> None:
+    conversations.assert_mirrored(pair_named(name))
+
+
 @pytest.mark.parametrize(
-    "name", ["a reply is gone", "a refusal is gone", "a failure is not told", "nothing is repeated"]
+    "name", ["a reply is gone", "a reply has room for more", "a refusal is gone"]
 )
 def test_the_generated_ends_see_what_is_said(name: str) -> None:
     message = CASES[name].said[-1].message

@@ -97,7 +97,7 @@ class Edges:
         }
 
     def _whole(self, slot: Field, value: Any, count: int, varied: bool) -> Any:
-        """Return the value of an argument; of a list, so many elements, of which the value is one."""
+        """Return the value of an argument; of a list, so many elements, one of which it is."""
         match slot:
             case Items():
                 number = slot.low if slot.is_fixed else count

@@ -107,7 +107,9 @@ def _judged(table: Table, play: Play) -> Verdict | None:
 def _linked_first(exchange: Exchange) -> str:
     """Return what a question gets whose answer was known, and was said to answer nothing."""
     answer = "" if exchange.reply is None else exchange.reply.name
-    return f"gets no reply unless {answer} has always followed it, which the old edition does not say"
+    return (
+        f"gets no reply unless {answer} has always followed it, which the old edition does not say"
+    )
 
 
 def _mistaken(table: Table, play: Play) -> str:
@@ -151,7 +153,9 @@ def ends_of(table: Table, client: Which) -> str:
     The other end is the same one, whichever of them asks by its own edition.
     """
     roles = table.clients[client].model.roles
-    ends = table.pair.ends if client == "old" else {new: old for old, new in table.pair.ends.items()}
+    ends = (
+        table.pair.ends if client == "old" else {new: old for old, new in table.pair.ends.items()}
+    )
     device = OTHER[client]
     there = ends.get(roles.device, table.devices[device].model.roles.device)
     return f"{client} {roles.client}, {device} {there}"

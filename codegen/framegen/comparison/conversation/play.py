@@ -116,7 +116,9 @@ class Table:
         if exchange is not self.clients["new"].exchanges.get(exchange.request.name):
             return False
         other, old = self.other("new", exchange), self.clients["old"]
-        name = None if exchange.reply is None else self.pair.messages.to_old.get(exchange.reply.name)
+        name = (
+            None if exchange.reply is None else self.pair.messages.to_old.get(exchange.reply.name)
+        )
         if other is None or other.reply is not None or name is None:
             return False
         awaited = {each.acknowledged for each in old.exchanges.values()}
