@@ -195,7 +195,8 @@ class Trial:
         if verdict.message is None:
             inside = self._read_inside(self.way, data)
             if inside:
-                return witness("misread", f"is read as {inside}"), True
+                rest = ", with noise beside it" if self._is_other(inside) else ""
+                return witness("misread", f"is read as {inside}{rest}"), True
             return witness("refused", f"is refused, {verdict.refusal}"), self._was_understood(
                 values
             )
@@ -248,6 +249,9 @@ class Trial:
         events = ReferenceDecoder(self.theirs, [way]).decode(data)
         found = [each.message.name for each in events if each.message is not None]
         return ", ".join(dict.fromkeys(found))
+
+    def _is_other(self, name: str) -> bool:
+        return self.other is not None and self.other.name == name
 
     def _fields(self, other: MessageLayout) -> Any:
         if self.sender == "old":
